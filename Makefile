@@ -65,7 +65,7 @@ tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
 	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 4 -o build/demo.png
-	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=shares --set segments=18 --set shadow=depth -o build/demo.mp4
+	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=alpha --set segments=18 --set self_shadow=depth -o build/demo.mp4
 
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
@@ -227,7 +227,7 @@ install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFI
 	cp -P $(patsubst %.so,%.so*,$(filter %.so,$(LIBRARIES))) $(DESTDIR)$(PREFIX)/lib
 	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
-	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as solids, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
+	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
 format: ## clang-format everything
 	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')

@@ -5,7 +5,7 @@
 layout(std430, binding = HAIR_BIND_GUIDE) readonly buffer guide_buffer { hair_guide guide[]; };
 layout(std430, binding = HAIR_BIND_REST) readonly buffer rest_buffer { hair_rest rest[]; };
 layout(std430, binding = HAIR_BIND_STATE) buffer state_buffer { hair_state state[]; };
-layout(std430, binding = HAIR_BIND_HEALTH) buffer health_buffer { uint health[]; };
+layout(std430, binding = HAIR_BIND_SOLVER_STATS) buffer solver_stats_buffer { uint solver_stats[]; };
 layout(std430, binding = HAIR_BIND_POSITION) buffer position_buffer { vec4 smooth_position[]; };
 layout(std430, binding = HAIR_BIND_TANGENT) buffer tangent_buffer { vec4 smooth_tangent[]; };
 layout(std430, binding = HAIR_BIND_FRAME) buffer frame_buffer { vec4 smooth_frame[]; };

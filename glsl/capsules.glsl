@@ -7,26 +7,26 @@ struct capsule { // A collider at one moment.
 };
 
 // Return the collider at a fraction `share` of the step, enlarged by `margin`.
-capsule solid_at(hair_capsule solid, float share, float margin)
+capsule collider_at(hair_capsule collider, float share, float margin)
 {
-    vec4 a = mix(solid.start[0], solid.end[0], share);
-    vec4 b = mix(solid.start[1], solid.end[1], share);
+    vec4 a = mix(collider.start[0], collider.end[0], share);
+    vec4 b = mix(collider.start[1], collider.end[1], share);
     return capsule(a.xyz, b.xyz - a.xyz, a.w + margin);
 }
 
 // Return the vector from the nearest point on the collider's axis to the position.
-vec3 from_axis(vec3 position, capsule solid)
+vec3 from_axis(vec3 position, capsule collider)
 {
-    vec3  arm   = position - solid.start;
-    float along = clamp(dot(arm, solid.axis) / max(dot(solid.axis, solid.axis), 1e-12), 0.0, 1.0);
-    return arm - along * solid.axis;
+    vec3  arm   = position - collider.start;
+    float along = clamp(dot(arm, collider.axis) / max(dot(collider.axis, collider.axis), 1e-12), 0.0, 1.0);
+    return arm - along * collider.axis;
 }
 
 // Return the position pushed out of a collider by the shortest path.
-vec3 push_out(vec3 position, capsule solid)
+vec3 push_out(vec3 position, capsule collider)
 {
-    vec3  out_to = from_axis(position, solid);
+    vec3  out_to = from_axis(position, collider);
     float l      = length(out_to);
-    if (l >= solid.radius) return position;
-    return position + (l > 1e-9 ? out_to * (solid.radius / l - 1.0) : vec3(0.0, solid.radius, 0.0));
+    if (l >= collider.radius) return position;
+    return position + (l > 1e-9 ? out_to * (collider.radius / l - 1.0) : vec3(0.0, collider.radius, 0.0));
 }

@@ -43,23 +43,23 @@ void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
 
 // Return one bit per collider that the vertex can touch in this substep, because iterations need
 // not test the others.
-uvec2 find_solids(vec3 position, float share)
+uvec2 find_colliders(vec3 position, float share)
 {
     uvec2 found = uvec2(0u);
-    for (uint k = 0u; k < params.solids; ++k) {
-        capsule solid = solid_at(params.solid[k], share, params.margin + COLLISION_REACH);
-        if (length(from_axis(position, solid)) < solid.radius) found[k / 32u] |= 1u << (k % 32u);
+    for (uint k = 0u; k < params.colliders; ++k) {
+        capsule collider = collider_at(params.collider[k], share, params.collision_margin + COLLISION_REACH);
+        if (length(from_axis(position, collider)) < collider.radius) found[k / 32u] |= 1u << (k % 32u);
     }
     return found;
 }
 
 // Return the position pushed out of each of the given colliders in turn.
-vec3 collide(vec3 position, uvec2 solids, float share)
+vec3 collide(vec3 position, uvec2 colliders, float share)
 {
     for (int word = 0; word < 2; ++word)
-        for (uint bits = solids[word]; bits != 0u; bits &= bits - 1u) {
+        for (uint bits = colliders[word]; bits != 0u; bits &= bits - 1u) {
             uint k   = 32u * uint(word) + uint(findLSB(bits));
-            position = push_out(position, solid_at(params.solid[k], share, params.margin));
+            position = push_out(position, collider_at(params.collider[k], share, params.collision_margin));
         }
     return position;
 }

@@ -7,7 +7,7 @@
 #include "draw_params.glsl"
 #include "ordered.glsl"
 #include "rotation.glsl"
-#ifdef HAIR_SOLIDS
+#ifdef HAIR_COLLIDERS
 #include "field.glsl"
 #endif
 #include "workgroup.glsl"
@@ -23,7 +23,7 @@ layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer stra
 // Return whether a position is inside a collider.
 bool is_inside(vec3 from_origin)
 {
-#ifdef HAIR_SOLIDS
+#ifdef HAIR_COLLIDERS
     return field_distance(from_origin) < -0.5 * field.lower.w;
 #else
     return false;

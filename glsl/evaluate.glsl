@@ -23,7 +23,7 @@ hair_point evaluate(hair_follower follower, uint number, float t)
 {
     float hit = texelFetch(hit_texture, int(number)).x;
     if (hit > float(draw.segments)) return interpolate(follower, t, UNTOUCHED);
-    if (draw.collision == HAIR_COLLISION_IS_SWITCH) return switch_at(follower, t, hit / float(draw.segments));
+    if (draw.follower_collision == HAIR_COLLISION_IS_SINGLE_GUIDE) return switch_at(follower, t, hit / float(draw.segments));
     int   first = int(number) * HAIR_REPAIR_CONTROLS;
     float at    = t * (1.0 + draw.led * repair_control(first, 0).x);
     repair r    = repair_at(first, at);

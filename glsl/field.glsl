@@ -11,7 +11,7 @@
 #include "rotation.glsl"
 
 layout(binding = HAIR_UNIT_FIELD) uniform sampler3D field_texture;
-layout(binding = HAIR_UNIT_SOLID) uniform usampler3D field_solid_texture;
+layout(binding = HAIR_UNIT_COLLIDER) uniform usampler3D field_collider_texture;
 
 // Return a position as a fraction of the box along each of its sides.
 vec3 field_place(vec3 position)
@@ -44,13 +44,13 @@ vec3 field_gradient(vec3 position)
     return rotate(field.rotation, vec3(a + b - c - d, a - b + c - d, a - b - c + d)) / (2.0 * field.lower.w);
 }
 
-// Return the index of the nearest collider in hair_set_solids, or HAIR_NO_SOLID.
-uint field_solid(vec3 position)
+// Return the index of the nearest collider in hair_set_colliders, or HAIR_NO_COLLIDER.
+uint field_collider(vec3 position)
 {
     vec3 place = field_place(position);
-    if (!field_holds(place)) return HAIR_NO_SOLID;
-    ivec3 size = textureSize(field_solid_texture, 0);
-    return texelFetch(field_solid_texture, min(ivec3(place * vec3(size)), size - 1), 0).x;
+    if (!field_holds(place)) return HAIR_NO_COLLIDER;
+    ivec3 size = textureSize(field_collider_texture, 0);
+    return texelFetch(field_collider_texture, min(ivec3(place * vec3(size)), size - 1), 0).x;
 }
 
 #endif

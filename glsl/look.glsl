@@ -45,8 +45,8 @@ aside wander(uint seed, float t, float waves)
 aside stray(uint seed, float t, float length_)
 {
     vec2 own = random_pair(seed + 1u), by = vec2(0.0);
-    if (own.x < draw.strand.tip_strays) by += curve_at(HAIR_CURVE_TIP_STRAY, t);
-    if (own.y < draw.strand.strays) by += curve_at(HAIR_CURVE_STRAY, t);
+    if (own.x < draw.strand.tip_stray_fraction) by += curve_at(HAIR_CURVE_TIP_STRAY, t);
+    if (own.y < draw.strand.stray_fraction) by += curve_at(HAIR_CURVE_STRAY, t);
     if (by == vec2(0.0)) return aside(vec2(0.0), vec2(0.0));
     return scaled(wander(seed + 16u, t, STRAY_WAVES), length_ * by);
 }
@@ -66,11 +66,11 @@ aside curl(uint guide, uint seed, float t, float length_)
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
     float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / (1.0 + spread);
     float places = float(HAIR_TURN_PLACES);
-    float at = places * fract(t * turns + draw.strand.curl_lock_phase * lock.x + draw.strand.curl_phase * own.x);
+    float at = places * fract(t * turns + draw.strand.curl_guide_phase * lock.x + draw.strand.curl_strand_phase * own.x);
     int   k  = min(int(at), HAIR_TURN_PLACES - 1);
     float x  = at - float(k);
     mat2x4 c = mat2x4(draw.strand.loop[k], draw.strand.loop[HAIR_TURN_PLACES + k]);
-    if (lock.y < draw.strand.curl_left) c[1] = -c[1];
+    if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
     aside a = aside(vec4(1.0, x, x * x, x * x * x) * c, turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
     return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));
 }
@@ -79,7 +79,7 @@ aside curl(uint guide, uint seed, float t, float length_)
 // Casteljau's algorithm.
 void cut(inout hair_follower follower)
 {
-    float share = draw.strand.drawn * (1.0 - draw.strand.thinning * random(follower.seed + 3u));
+    float share = draw.strand.drawn * (1.0 - draw.strand.length_variation * random(follower.seed + 3u));
     vec3  a = follower.offset[0].xyz, b = follower.offset[1].xyz, c = follower.offset[2].xyz, d = follower.offset[3].xyz;
     vec3  ab = mix(a, b, share), bc = mix(b, c, share), cd = mix(c, d, share);
     vec3  abc = mix(ab, bc, share), bcd = mix(bc, cd, share);

@@ -8,7 +8,7 @@
 #include "draw_params.glsl"
 #include "maps.glsl"
 
-layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
+layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW_MAPS];
 layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
 
 #define SHADOW_TAPS 8
@@ -50,14 +50,14 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
     if (taps == 0) return vec4(1.0);
     vec3  at    = place_in_map(map, position);
-    vec2  texel = 1.0 / vec2(textureSize(shadow_texture[map], 0));
+    vec2  texel = 1.0 / vec2(textureSize(hair_shadow_map[map], 0));
     float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034), from_light = distance_to_light(number, position);
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
     vec4  sum   = vec4(0.0);
     for (int i = 0; i < taps; ++i) {
         // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
-        float depth = textureLod(shadow_texture[map], at.xy + r * arm, 0.0).r;
+        float depth = textureLod(hair_shadow_map[map], at.xy + r * arm, 0.0).r;
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
         sum += exp(-n * vec4(1.0, taken));
         met += n;
@@ -68,7 +68,7 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
 }
 
 #ifdef HAIR_BLOCKED
-layout(binding = HAIR_UNIT_BODY) uniform sampler2D body_texture[HAIR_SHADOW_MAPS];
+layout(binding = HAIR_UNIT_BODY) uniform sampler2D opaque_shadow_map[HAIR_SHADOW_MAPS];
 
 // Return the fraction of a light that passes opaque geometry, from 3 x 3 texels with the weights of
 // a quadratic B-spline. A point that is nearer to its occluder than the bias is lit. Texels are
@@ -81,12 +81,12 @@ float light_past_bodies(uint number, vec3 position)
     if (taps == 0) return 1.0;
     vec3  at    = place_in_map(map, position);
     float least = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)), sum = 0.0;
-    vec2  size  = vec2(textureSize(body_texture[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
+    vec2  size  = vec2(textureSize(opaque_shadow_map[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
     vec2  first = floor(place), part = place - first, rest = 1.0 - part;
     mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);
     for (int i = 0; i < taps; ++i) {
         ivec2 k = ivec2(i % 3, i / 3);
-        float depth = textureLod(body_texture[map], (first + vec2(k) - 0.5) / size, 0.0).r;
+        float depth = textureLod(opaque_shadow_map[map], (first + vec2(k) - 0.5) / size, 0.0).r;
         sum += least <= depth ? weight[k.x].x * weight[k.y].y : 0.0;
     }
     return sum;

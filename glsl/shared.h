@@ -47,9 +47,9 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HISTORY 4 // hair_history[] per guide vertex.
 // hair_vec4[] per guide vertex. Frame of its segment, unit quaternion, y along the segment.
 #define HAIR_BIND_MATERIAL 5
-// uint[] of every solver. It begins with HAIR_HEALTH_COUNT counters. For solvers that run as two
-// programs, the two headers and the numbers of HAIR_HEALTH_LISTS follow.
-#define HAIR_BIND_HEALTH 6
+// uint[] of every solver. It begins with HAIR_SOLVER_STATS_COUNT counters. For solvers that run as two
+// programs, the two headers and the numbers of HAIR_SOLVER_STATS_LISTS follow.
+#define HAIR_BIND_SOLVER_STATS 6
 // hair_vec4[] of the mixed scheme, in place of HAIR_BIND_REDUCTION. See bend_size() in
 // lib/sim/rods.c.
 #define HAIR_BIND_BEND 7
@@ -185,15 +185,15 @@ typedef uint32_t hair_uint;
 // Vectors in a row of the mixed scheme. See glsl/sim/mixed_rows.glsl.
 #define HAIR_MIXED_ROW_VECTORS 14u
 
-// Counters at HAIR_BIND_HEALTH. hair_health defines what they count.
-#define HAIR_HEALTH_EULER 0
-#define HAIR_HEALTH_FOLLOW 1
-#define HAIR_HEALTH_RESET 2
-#define HAIR_HEALTH_TAUT 3
-#define HAIR_HEALTH_PARTS 4
-#define HAIR_HEALTH_GAINING 5
-#define HAIR_HEALTH_COUNT 6
-// Results of motion.comp at HAIR_BIND_FOUND. hair_health defines them.
+// Counters at HAIR_BIND_SOLVER_STATS. hair_solver_stats defines what they count.
+#define HAIR_SOLVER_STATS_EULER_FALLBACKS 0
+#define HAIR_SOLVER_STATS_FOLLOW_FALLBACKS 1
+#define HAIR_SOLVER_STATS_RESET 2
+#define HAIR_SOLVER_STATS_OVEREXTENDED 3
+#define HAIR_SOLVER_STATS_PARTS 4
+#define HAIR_SOLVER_STATS_GAINING 5
+#define HAIR_SOLVER_STATS_COUNT 6
+// Results of motion.comp at HAIR_BIND_FOUND. hair_solver_stats defines them.
 #define HAIR_FOUND_RESTLESS 0
 #define HAIR_FOUND_OVERSTRETCHED 1
 #define HAIR_FOUND_FASTEST 2 // m/s, as bits of a float.
@@ -201,11 +201,11 @@ typedef uint32_t hair_uint;
 #define HAIR_FOUND_COUNT 4
 // Guides per work group in programs with HAIR_FIRST, one subgroup per guide.
 #define HAIR_FIRST_GUIDES 28
-// Two headers, used alternately, follow the counters at HAIR_HEALTH_COUNT. A header holds the work
+// Two headers, used alternately, follow the counters at HAIR_SOLVER_STATS_COUNT. A header holds the work
 // group counts x, y and z of an indirect dispatch over a list of guides, then the list's length.
-// The guide numbers of the current dispatch's list begin at HAIR_HEALTH_LISTS.
-#define HAIR_HEALTH_LIST 4 // Numbers in a header.
-#define HAIR_HEALTH_LISTS (HAIR_HEALTH_COUNT + 2 * HAIR_HEALTH_LIST)
+// The guide numbers of the current dispatch's list begin at HAIR_SOLVER_STATS_LISTS.
+#define HAIR_SOLVER_STATS_LIST 4 // Numbers in a header.
+#define HAIR_SOLVER_STATS_LISTS (HAIR_SOLVER_STATS_COUNT + 2 * HAIR_SOLVER_STATS_LIST)
 
 // Uniform buffers.
 #define HAIR_BIND_STEP 0         // hair_step_params.
@@ -244,7 +244,7 @@ typedef uint32_t hair_uint;
 // Textures of the rod solvers, whose storage slots are all taken.
 #define HAIR_UNIT_PUSH 0 // HAIR_BIND_PUSH.
 #define HAIR_UNIT_CONTACT 1  // hair_contact[], unsigned as followers are.
-#define HAIR_UNIT_TIE 2      // hair_held[], where guides are pinned.
+#define HAIR_UNIT_PIN 2      // hair_held[], where guides are pinned.
 // uint[]. For each grid cell, the index of its first member in this array. After the last cell, the
 // index at which its members end. Then the members.
 #define HAIR_UNIT_CELL 3
@@ -257,7 +257,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_SHADED 1           // vec4 per vertex, as at HAIR_BIND_SHADED.
 #define HAIR_UNIT_EXPANDED_TANGENT 7 // vec4 per vertex. xyz in [0, 1] stand for [-1, 1].
 #define HAIR_UNIT_FIELD 8    // Distance field: signed distance, m.
-#define HAIR_UNIT_SOLID 9    // Number of the nearest collider.
+#define HAIR_UNIT_COLLIDER 9    // Number of the nearest collider.
 #define HAIR_UNIT_FIBRE 10   // Table of lib/draw/fibre.h.
 #define HAIR_UNIT_AIR 11     // Velocity of the fluid at the centres of its cells, m/s.
 // Textures of the fluid passes. The others are bound as their slots say.
@@ -286,14 +286,14 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_HIDDEN 23  // The application's depth, for occlusion culling.
 // Gusts of standard deviation 1. For passes that evaluate the wind, in place of the distance field.
 #define HAIR_UNIT_GUST 8
-// The application's wind velocities, m/s. In place of HAIR_UNIT_SOLID.
+// The application's wind velocities, m/s. In place of HAIR_UNIT_COLLIDER.
 #define HAIR_UNIT_VOLUME 9
-// hair_field_solid[]. For the pass that writes the distance field, in place of HAIR_UNIT_POSITION.
+// hair_field_collider[]. For the pass that writes the distance field, in place of HAIR_UNIT_POSITION.
 #define HAIR_UNIT_WORK 0
 
 // Image units.
 #define HAIR_IMAGE_FIELD 0 // Signed distance, of the pass that writes the distance field.
-#define HAIR_IMAGE_SOLID 1 // Number of the nearest collider.
+#define HAIR_IMAGE_COLLIDER 1 // Number of the nearest collider.
 #define HAIR_IMAGE_AIR 0 // Texture at HAIR_UNIT_AIR, of the pass that writes it.
 
 #define HAIR_MOST_GROUPS 65535u      // Work groups in one dimension that OpenGL guarantees.
@@ -314,10 +314,10 @@ typedef uint32_t hair_uint;
 #define HAIR_NOBODY 0xffffffffu      // Value of a sample in which no ribbon is visible.
 #define HAIR_COUNT_THREADS 256       // Threads of the work group that counts the drawn strands.
 #define HAIR_STEP_SUBSTEPS 64        // Maximum per dispatch.
-#define HAIR_STEP_SOLIDS 64        // Maximum colliders in the parameters of a dispatch.
+#define HAIR_STEP_COLLIDERS 64        // Maximum colliders in the parameters of a dispatch.
 // Maximum colliders that the rod solvers test one by one. Grids are faster for more.
-#define HAIR_FEW_SOLIDS 16
-#define HAIR_CELL_SOLIDS 64        // Maximum colliders of a grid cell.
+#define HAIR_FEW_COLLIDERS 16
+#define HAIR_CELL_COLLIDERS 64        // Maximum colliders of a grid cell.
 // Loop iterations over the colliders of a cell in a substep, where a thread counts them. See
 // lib/sim/rounds.c.
 #define HAIR_CONTACT_ROUNDS 4000
@@ -333,13 +333,13 @@ typedef uint32_t hair_uint;
 #define HAIR_TURN_PLACES 16    // Samples of one turn of a curl.
 // Side of a brick, voxels. A work group writes one brick of the distance field.
 #define HAIR_BRICK 8
-#define HAIR_SHOWN_SOLIDS 96    // Colliders drawn at once.
-#define HAIR_SOLID_TEXELS 6 // Per hair_field_solid.
+#define HAIR_SHOWN_COLLIDERS 96    // Colliders drawn at once.
+#define HAIR_COLLIDER_TEXELS 6 // Per hair_field_collider.
 #define HAIR_WIND_BALLS 4    // Maximum spheres that shelter hair from the wind.
 #define HAIR_WIND_SOURCES 4  // Maximum local wind sources per instance.
 #define HAIR_GUST_NODES 32   // Texels of the gust texture along each axis.
 #define HAIR_GUST_LENGTHS 8  // Side of the gust texture, in integral length scales.
-#define HAIR_NO_SOLID 4294967295u // A collider's number that means that no collider is near.
+#define HAIR_NO_COLLIDER 4294967295u // A collider's number that means that no collider is near.
 #define HAIR_CROWD_NODES 32       // Maximum along an axis.
 // Integers per node of the hair-hair grid. Index 0 is the mass. The constants below are the other
 // indices. Positions are relative to the node, in cells.
@@ -387,7 +387,7 @@ typedef uint32_t hair_uint;
 #define HAIR_REPAIR_CONTROLS 10  // Control points stored per follower.
 #define HAIR_REPAIR_THREADS 32   // Threads of a work group.
 #define HAIR_REPAIR_SAMPLES 64   // Maximum segments of a follower that are tested.
-#define HAIR_COLLISION_IS_SWITCH 1 // HAIR_COLLISION_SWITCH of hair_collision.
+#define HAIR_COLLISION_IS_SINGLE_GUIDE 1 // HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -519,15 +519,15 @@ HAIR_SIZE(hair_substep, 32)
 struct hair_step_params {
     hair_vec4 gravity;   // xyz: m/s^2. w: length of a substep, s.
     float     keep;      // Fraction of the velocity left after a substep: exp(-damping dt).
-    float     pull_root; // Frequency of the pull to the rest pose at the root, 1/s.
-    float     pull_tip; // Frequency of the pull at the tip, 1/s.
+    float     shape_frequency_root; // Frequency of the pull to the rest pose at the root, 1/s.
+    float     shape_frequency_tip; // Frequency of the pull at the tip, 1/s.
     float     angular; // Square of the frequency of angular forces, 1/s^2.
     float     bend;    // Fraction of the bending error that an iteration corrects.
-    float     margin;  // m.
+    float     collision_margin;  // m.
     hair_uint iterations;
     hair_uint substeps;
     hair_uint guides;
-    hair_uint solids;
+    hair_uint colliders;
     hair_uint smooth_vertices; // Per guide.
     float     alpha;           // Current time within the last substep. 0 is its start, 1 its end.
     hair_vec4 rotation_before; // Head rotation at the start of the last substep.
@@ -548,7 +548,7 @@ struct hair_step_params {
     // Factor of displacements after a change of the substep's length. Otherwise 1.
     float     rescale;
     hair_uint vertices; // Vertices of all guides.
-    hair_uint bodies; // One bit per collider that is not a capsule, of HAIR_FEW_SOLIDS.
+    hair_uint bodies; // One bit per collider that is not a capsule, of HAIR_FEW_COLLIDERS.
     hair_uint rounds; // Rounds of implicit.glsl's cyclic reduction before its last.
     hair_uint list;   // 0 or 1. This dispatch's header in health[].
     hair_uint substep_first; // Index in `substep` at which this dispatch begins.
@@ -560,10 +560,10 @@ struct hair_step_params {
     // Half the length of a vertex's path on which the grid finds everything that it can touch, m.
     float     cells_give;
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
-    HAIR_STRUCT(hair_capsule) solid[HAIR_STEP_SOLIDS];
-    HAIR_STRUCT(hair_body) body[HAIR_STEP_SOLIDS];
+    HAIR_STRUCT(hair_capsule) collider[HAIR_STEP_COLLIDERS];
+    HAIR_STRUCT(hair_body) body[HAIR_STEP_COLLIDERS];
 };
-HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_SOLIDS * 160)
+HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_COLLIDERS * 160)
 
 // Wind parameters of the rod solvers.
 struct hair_wind_params {
@@ -614,7 +614,7 @@ struct hair_crowd_params {
     hair_uint nodes_x, nodes_y, nodes_z;
     hair_uint vertices;  // Vertices of all guides.
     float     cohesion;  // Rate at which relative velocities are removed, 1/s.
-    float     volume;    // Pressure coefficient, m^2/s^2.
+    float     pressure_stiffness;    // Pressure coefficient, m^2/s^2.
     // Cells travelled to the middle of a block at HAIR_CROWD_SPEED. 0 leaves positions as they are.
     float     ahead;
     // 1 / mass, in units, of a length of strand that never lies at one node.
@@ -804,7 +804,7 @@ struct hair_field_params {
 HAIR_SIZE(hair_field_params, 48)
 
 // A collider in the head's frame.
-struct hair_field_solid {
+struct hair_field_collider {
     hair_vec4 position; // xyz: m. w: rounding, m.
     hair_vec4 rotation; // Unit quaternion from its own axes to the head's.
     hair_vec4 size;     // xyz: as its shape says, m. w of a collision mesh: its scale.
@@ -815,15 +815,15 @@ struct hair_field_solid {
     hair_uint number; // Index among the instance's colliders.
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_field_solid, 96)
+HAIR_SIZE(hair_field_collider, 96)
 
 // A collider to be drawn, and its bounding box in its own axes.
-struct hair_shown_solid {
-    HAIR_STRUCT(hair_field_solid) solid;
+struct hair_shown_collider {
+    HAIR_STRUCT(hair_field_collider) collider;
     hair_vec4 lower; // xyz: m.
     hair_vec4 upper; // xyz: m.
 };
-HAIR_SIZE(hair_shown_solid, 128)
+HAIR_SIZE(hair_shown_collider, 128)
 
 // Parameters of colliders that are drawn for debugging, cut open at a slice of the distance field.
 struct hair_shown_params {
@@ -839,9 +839,9 @@ struct hair_shown_params {
     // Arrows of the wind. x, y: number along each side. z: spacing, m. w: speed that is drawn grey,
     // m/s.
     hair_vec4 air;
-    HAIR_STRUCT(hair_shown_solid) shown[HAIR_SHOWN_SOLIDS];
+    HAIR_STRUCT(hair_shown_collider) shown[HAIR_SHOWN_COLLIDERS];
 };
-HAIR_SIZE(hair_shown_params, 112 + HAIR_SHOWN_SOLIDS * 128)
+HAIR_SIZE(hair_shown_params, 112 + HAIR_SHOWN_COLLIDERS * 128)
 
 // HAIR_BRICK^3 voxels, and the colliders that reach into them.
 struct hair_field_brick {
@@ -862,7 +862,7 @@ struct hair_fluid_params {
     hair_vec4 rotation; // Head rotation, unit quaternion.
     hair_vec4 gust_turn, gust_from; // Fields of hair_wind_params, at the start of the step.
     hair_uint cells;    // Along each axis.
-    hair_uint solids;   // 0 if no collider is in reach.
+    hair_uint colliders;   // 0 if no collider is in reach.
     hair_uint open;     // 0 if the box is closed on all sides.
     hair_uint nodes;    // Nodes of the grid of hair along each axis.
     // Length of strands in a cubic metre per mass at a grid node, 1/m^2. 0 if there is no hair.
@@ -909,14 +909,14 @@ struct hair_strand_look {
     hair_vec4 curve[HAIR_CURVES * HAIR_CURVE_INTERVALS];
     // Cubics of one turn of a curl of radius 1, in the same form: those of x, then those of z.
     hair_vec4 loop[2 * HAIR_TURN_PLACES];
-    float tip_strays, strays;
+    float tip_stray_fraction, stray_fraction;
     float kinks; // 1/m.
     float drawn; // Fraction of the length.
-    float thinning;
+    float length_variation;
     float curl_radius; // m.
     float curl_waves;  // 1/m.
     float curl_turns;
-    float curl_lock_phase, curl_phase, curl_spread, curl_left;
+    float curl_guide_phase, curl_strand_phase, curl_spread, curl_left_fraction;
     // Bounds of how far the look moves a strand.
     float     most_stray; // Fraction of the length.
     float     most_aside; // m.
@@ -954,9 +954,9 @@ struct hair_tint {
     float     hue;           // Relative spread of red against blue between strands.
     float     roughness;     // Relative spread between strands.
     float     tilt;          // Relative spread between strands.
-    float     root_shade;    // Fraction of the light lost at the root.
+    float     root_darkening;    // Fraction of the light lost at the root.
     float     root_recovery; // 1 / fraction of the strand over which the loss at the root fades.
-    float     streak_locks;  // Fraction of strands that are streaks together with their lock.
+    float     streak_clumping;  // Fraction of strands that are streaks together with their lock.
     float     sparkle;
     float     paint;       // Blend factor of the groom's colours.
     float     paint_power; // Exponent that darkens the groom's colours.
@@ -998,9 +998,9 @@ struct hair_draw_params {
     hair_uint colored; // 0 if only depth is drawn and nothing is shaded.
     // Parameters of follower collision.
     hair_uint followers; // Number of all followers.
-    hair_uint collision; // hair_collision.
+    hair_uint follower_collision; // hair_follower_collision.
     hair_uint turn;      // 0 or 1. The count at HAIR_BIND_LIST that is current.
-    float     margin;    // Distance from a collider to which followers are pushed, m.
+    float     collision_margin;    // Distance from a collider to which followers are pushed, m.
     hair_uint lights;    // Number of lights.
     hair_uint textured;  // 1 if there is a colour texture.
     hair_uint lit;       // Numbers per vertex at HAIR_UNIT_LIGHT. 0 if there are none.

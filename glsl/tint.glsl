@@ -11,7 +11,7 @@ float spread(float by, float random_) { return 1.0 + by * (2.0 * random_ - 1.0);
 // decides by itself.
 bool is_streak(uint seed, uint lock)
 {
-    bool together = random(seed + 8u) < draw.tint.streak_locks;
+    bool together = random(seed + 8u) < draw.tint.streak_clumping;
     return random(together ? lock + 0x2c1b3c6du : seed + 9u) < draw.tint.streak.w;
 }
 
@@ -30,7 +30,7 @@ vec3 tint_of(uint seed, uint lock, float t, float bright, vec3 color)
     float red = draw.tint.hue * (2.0 * random(seed + 10u) - 1.0);
     color *= vec3(1.0 + red, 1.0, 1.0 - red);
     float back = clamp(t * draw.tint.root_recovery, 0.0, 1.0);
-    float lost = draw.tint.root_shade * (1.0 - back * back * (3.0 - 2.0 * back));
+    float lost = draw.tint.root_darkening * (1.0 - back * back * (3.0 - 2.0 * back));
     return color * ((1.0 - lost) * spread(draw.tint.brightness, bright));
 }
 

@@ -35,8 +35,8 @@ struct capture {
     hair_instance* hair;
     hair_shader* shader; // NULL uses the library's shading
     struct hair_world* world; // NULL if the scene has no Bullet objects
-    hair_solid* solids;
-    uint32_t solid_room;
+    hair_collider* colliders;
+    uint32_t collider_room;
     struct hair_render* render;
     struct hair_sink sink;
     struct hair_stats stats;
@@ -129,33 +129,34 @@ static int make_render(struct capture* capture)
     return code ? code : make_mesh(capture);
 }
 
-static bool reserve_solids(struct capture* capture, uint32_t count)
+static bool reserve_colliders(struct capture* capture, uint32_t count)
 {
-    if (count <= capture->solid_room) return true;
-    hair_solid* more = realloc(capture->solids, count * sizeof *more);
+    if (count <= capture->collider_room) return true;
+    hair_collider* more = realloc(capture->colliders, count * sizeof *more);
     if (!more) return false;
-    capture->solids = more;
-    capture->solid_room = count;
+    capture->colliders = more;
+    capture->collider_room = count;
     return true;
 }
 
 // Set the scene's colliders and those of Bullet objects that the hair can reach.
-static hair_result set_solids(struct capture* capture, float time, const float transform[16])
+static hair_result set_colliders(struct capture* capture, float time, const float transform[16])
 {
-    const hair_solid* others = NULL;
+    const hair_collider* others = NULL;
     uint32_t other_count = 0;
     float lower[3], upper[3];
-    hair_result result = hair_get_reach(capture->hair, lower, upper);
+    hair_result result = hair_get_bounds(capture->hair, lower, upper);
     if (!result)
-        result = hair_world_solids(capture->world, time, transform, lower, upper, &others, &other_count);
+        result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (!reserve_solids(capture, HAIR_RIG_SOLIDS + other_count)) {
-        hair_complain(TOOL, "out of memory for %u solids", other_count);
+    if (!reserve_colliders(capture, HAIR_RIG_COLLIDERS + other_count)) {
+        hair_complain(TOOL, "out of memory for %u colliders", other_count);
         return HAIR_ERROR_MEMORY;
     }
-    uint32_t count = hair_rig_solids(&capture->options.scene, time, transform, capture->solids);
-    if (other_count) memcpy(capture->solids + count, others, other_count * sizeof *others);
-    return hair_set_solids(capture->hair, capture->solids, count + other_count, sizeof *capture->solids);
+    uint32_t count = hair_rig_colliders(&capture->options.scene, time, transform, capture->colliders);
+    if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
+    return hair_set_colliders(capture->hair, capture->colliders, count + other_count,
+                              sizeof *capture->colliders);
 }
 
 static int make_shader(struct capture* capture)
@@ -191,7 +192,7 @@ static int make_hair(struct capture* capture)
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_set_wind(capture->hair, &wind);
-    if (!result) result = set_solids(capture, 0, desc.transform);
+    if (!result) result = set_colliders(capture, 0, desc.transform);
     return hair_exit_for(result);
 }
 
@@ -237,7 +238,7 @@ static hair_result step(struct capture* capture, uint32_t frame)
         float transform[16], time = time_of(capture, frame - 1 + (double)i / parts);
         hair_motion_at(&scene->motion, time, transform);
         result = hair_set_transform(capture->hair, transform);
-        if (!result) result = set_solids(capture, time, transform);
+        if (!result) result = set_colliders(capture, time, transform);
         if (!result) result = hair_step(capture->hair, 1 / (scene->fps * (float)parts));
     }
     return result;
@@ -246,7 +247,8 @@ static hair_result step(struct capture* capture, uint32_t frame)
 static hair_result hash(struct capture* capture, const struct hair_image* image)
 {
     uint32_t count, room = capture->stats.groom.guide_vertex_count;
-    hair_result result = hair_read(capture->hair, HAIR_READ_GUIDES, capture->vertices, room, &count);
+    hair_result result =
+        hair_read_positions(capture->hair, HAIR_READ_GUIDES, capture->vertices, room, &count);
     if (result) return result;
     XXH3_64bits_update(capture->strands, capture->vertices, (size_t)count * 3 * sizeof(float));
     XXH3_64bits_update(capture->pixels, image->encoded, (size_t)image->width * image->height * 3);
@@ -327,8 +329,8 @@ static int write_stats(struct capture* capture)
     capture->stats.height = options->scene.height;
     capture->stats.first = options->first;
     capture->stats.end = options->end;
-    capture->stats.health = hair_health_default();
-    hair_result result = hair_get_health(capture->hair, &capture->stats.health);
+    capture->stats.solver_stats = hair_solver_stats_default();
+    hair_result result = hair_get_solver_stats(capture->hair, &capture->stats.solver_stats);
     if (result) return hair_exit_for(result);
     bool ok = hair_stats_write(TOOL, options->stats, &capture->stats, capture->context, capture->hair);
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
@@ -373,7 +375,7 @@ static void destroy(struct capture* capture)
     XXH3_freeState(capture->strands);
     XXH3_freeState(capture->pixels);
     free(capture->vertices);
-    free(capture->solids);
+    free(capture->colliders);
     hair_scene_free(&capture->options.scene);
     free(capture);
 }

@@ -1,14 +1,14 @@
 // gallery.inl - Contents of `make gallery`, as rows of pictures. hair-capture makes each picture
 // with the arguments beside its caption. Paths are relative to the folder that make runs in.
-ROW("Followers and solids: a ball comes into hair that follows three guides at once")
-PICTURE("Guides collide; no follower does (collision=none)",
-        "tools/scenes/ball.json --show hair,head,solids --set collision=none")
-PICTURE("Single strand below the first vertex inside (collision=switch)",
-        "tools/scenes/ball.json --show hair,head,solids --set collision=switch")
-PICTURE("Pushed out, smoothly (collision=push, the default)",
-        "tools/scenes/ball.json --show hair,head,solids --set collision=push")
+ROW("Followers and colliders: a ball comes into hair that follows three guides at once")
+PICTURE("Guides collide; no follower does (follower_collision=none)",
+        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=none")
+PICTURE("Single strand below the first vertex inside (follower_collision=single_guide)",
+        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=single_guide")
+PICTURE("Pushed out, smoothly (follower_collision=push_out, the default)",
+        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=push_out")
 PICTURE("The guides, and a slice of the field: blue outside, red inside",
-        "tools/scenes/ball.json --show guides,solids --set slice=x --set slice_at=0.72")
+        "tools/scenes/ball.json --show guides,colliders --set slice=x --set slice_at=0.72")
 
 ROW("Maps on the scalp: where hair grows, and how thick it is, in sets that are blended")
 PICTURE("The first set: all of it", "tools/scenes/maps.json")
@@ -16,9 +16,9 @@ PICTURE("On the way to the second (map_set=0.6)", "tools/scenes/maps.json --set 
 PICTURE("The second: a middle, a few on the sides, none between", "tools/scenes/maps.json --set map_set=1")
 PICTURE("The third: strands of a third and of twice the thickness", "tools/scenes/maps.json --set map_set=2")
 
-ROW("Solids from a Bullet world")
+ROW("Colliders from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
-        "tools/scenes/bullet.json --show hair,head,solids")
+        "tools/scenes/bullet.json --show hair,head,colliders")
 
 ROW("Wind as a fluid around the head, whose gusts travel through it; of its air, blue is lee and red faster than the wind")
 PICTURE("Wind of 3 m/s from the left", "--scene wind --frames 24:25")
@@ -33,7 +33,7 @@ PICTURE("Multi strand: between three guides (interpolation=multi)", "--scene dem
 PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
 
 ROW("Random variation")
-PICTURE("None", "--scene demo --set tip_strays=0 --set strays=0")
+PICTURE("None", "--scene demo --set tip_stray_fraction=0 --set stray_fraction=0")
 PICTURE("30 % stray near their tips, 10 % all along (the default)", "--scene demo")
 PICTURE("Every strand kinks as well (look=frizzy)", "--scene demo --set look=frizzy")
 
@@ -69,13 +69,13 @@ PICTURE("color=blue", "--scene demo --set color=blue")
 
 ROW("Variety: what chance, water, dye and light make of one colour")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
-PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_shade=0.6")
+PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_darkening=0.6")
 PICTURE("A share of grey hairs (streaks by strand)",
-        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_locks=0 --set streak_color.r=0.6 --set "
+        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_clumping=0 --set streak_color.r=0.6 --set "
         "streak_color.g=0.6 --set streak_color.b=0.6")
 PICTURE("Dyed tips: a ramp of eight colours",
-        "--scene demo --set color=blond --set red=1,1,1,1,0.8,0.35,0.1,0.05 --set green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
-        "blue=1,1,1,1,1.5,2.2,2.5,2.5")
+        "--scene demo --set color=blond --set tint_red=1,1,1,1,0.8,0.35,0.1,0.05 --set tint_green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
+        "tint_blue=1,1,1,1,1.5,2.2,2.5,2.5")
 PICTURE("Lines with a highlight that glitters (sparkle=1)", "--scene demo --set shading=lines --set sparkle=1")
 
 ROW("Shading of the host's own, and ours in it")
@@ -86,21 +86,21 @@ PICTURE("Locks by number, darker from root to tip (--shader strands.glsl)",
 ROW("Thin strands: one sample a pixel, four, and one that shows shares")
 PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1 --supersample 1")
 PICTURE("Opaque, four samples", "tools/scenes/far.json --supersample 1")
-PICTURE("Shares of pixels, sorted and blended (coverage=shares), one sample", "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=shares")
+PICTURE("Shares of pixels, sorted and blended (coverage=alpha), one sample", "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=alpha")
 PICTURE("Opaque, 64 samples, as all pictures of this sheet", "tools/scenes/far.json")
 
 ROW("Level of detail: fewer strands, as much wider, of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")
 PICTURE("A lower one: 15 % of the strands, half the segments",
-        "tools/scenes/far.json --set lod=on --set lod.dynamic=0 --set lod.strands=0.15 --set lod.segments=0.5")
+        "tools/scenes/far.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set lod.segment_fraction=0.5")
 PICTURE("The lower one, zoomed in",
-        "tools/scenes/near.json --set lod=on --set lod.dynamic=0 --set lod.strands=0.15 --set lod.segments=0.5")
+        "tools/scenes/near.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set lod.segment_fraction=0.5")
 PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
         "tools/scenes/near.json --set lod=on")
 
 ROW("Light that hair leaves to itself, with a lamp behind it")
-PICTURE("By depth behind a shadow map (shadow=depth)", "--scene demo --set shadow=depth")
-PICTURE("By its strands: along them, and through a grid of how much hair there is (shadow=strands)", "--scene demo")
+PICTURE("By depth behind a shadow map (self_shadow=depth)", "--scene demo --set self_shadow=depth")
+PICTURE("By its strands: along them, and through a grid of how much hair there is (self_shadow=strands)", "--scene demo")
 PICTURE("The same on blond hair", "--scene demo --set color=blond")
 
 ROW("Lights")

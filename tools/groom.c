@@ -38,7 +38,7 @@ static const struct row {
     {"scale", SCALE, INFO | CONVERT, "X", "metres per unit of the file; 1"},
     {"up", UP, INFO | CONVERT, "AXIS", "of the file that points up: y, z or x; turned to y"},
     {"tip-first", TIP_FIRST, INFO | CONVERT, NULL, "strands of the file run from tip to root"},
-    {"share", SHARE, INFO | CONVERT, "X", "of the strands to keep; 1"},
+    {"keep-fraction", SHARE, INFO | CONVERT, "X", "of the strands to keep; 1"},
     {"vertices", VERTICES, INFO | CONVERT | GENERATE, "N", "of every strand, resampled; as they are"},
     {"guides", GUIDES, GENERATE, "N", "strands to make; 166"},
     {"length", LENGTH, GENERATE, "X", "times the style's own lengths; 1"},
@@ -161,7 +161,7 @@ static bool take_option(const struct row* row, const char* text, struct said* sa
     case SCALE: return parse_number(row->name, text, &said->import.scale);
     case UP: return parse_up(text, &said->import.up);
     case TIP_FIRST: said->import.tip_first = 1; return true;
-    case SHARE: return parse_number(row->name, text, &said->import.share);
+    case SHARE: return parse_number(row->name, text, &said->import.keep_fraction);
     case VERTICES:
         if (!parse_count(row->name, text, &said->import.strand_vertices)) return false;
         said->style.strand_vertices = said->import.strand_vertices;
@@ -298,7 +298,7 @@ static int write_asset(const hair_asset* asset, const struct said* said)
 
 // Commands ----------------------------------------------------------------------------------------
 
-static void print_repairs(const hair_repairs* repairs)
+static void print_repairs(const hair_import_stats* repairs)
 {
     const struct {
         uint32_t count;
@@ -331,7 +331,7 @@ static void print_asset(const hair_asset_info* info)
     printf("%-10s %s\n", "format:", abouts[info->format]);
     printf("%-10s %u, of %u in the file\n", "strands:", info->strand_count, info->file_strands);
     printf("%-10s %u, of %u in the file; fewest %u, most %u to a strand\n", "vertices:", info->vertex_count,
-           info->file_vertices, info->fewest, info->most);
+           info->file_vertices, info->min_vertices, info->max_vertices);
     printf("%-10s least %.6g, mean %.6g, greatest %.6g m\n", "length:", (double)info->length[0],
            (double)info->length[1], (double)info->length[2]);
     // Adding 0 turns the -0 of a rotated axis into 0.
@@ -339,7 +339,7 @@ static void print_asset(const hair_asset_info* info)
            l[1] + 0.0, u[1] + 0.0, l[2] + 0.0, u[2] + 0.0);
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
     printf("%-10s %s\n", "colours:", info->strand_colors ? "of every strand" : "none");
-    print_repairs(&info->repairs);
+    print_repairs(&info->import_stats);
 }
 
 static hair_result print_groom(const hair_asset* asset)
@@ -348,7 +348,7 @@ static hair_result print_groom(const hair_asset* asset)
     hair_groom_info info = hair_groom_info_default();
     hair_groom* groom = NULL;
     desc.host = &host;
-    hair_result result = hair_asset_fill(asset, &desc);
+    hair_result result = hair_asset_to_groom_desc(asset, &desc);
     if (!result) result = hair_groom_create(&desc, &groom);
     if (!result) result = hair_groom_describe(groom, &info);
     hair_groom_destroy(groom);

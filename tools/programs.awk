@@ -8,7 +8,7 @@
 
 function exists(mixture) # return whether some scene needs the combination
 {
-    if (mixture ~ / (ANY|BODIES) / && mixture !~ / SOLIDS /) return 0
+    if (mixture ~ / (ANY|BODIES) / && mixture !~ / COLLIDERS /) return 0
     if (mixture ~ / FEW / && (mixture !~ / ANY / || mixture ~ / THREAD /)) return 0
     return 1
 }
@@ -62,9 +62,9 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     count = split(all, has, " ")
     print_program(" ", stages)
     print_program(mixed, stages)
-    if (all ~ / ANY /) print_program(" SOLIDS ANY ", stages)
-    if (all ~ / FEW /) print_program(" SOLIDS ANY FEW ", stages)
-    if (all ~ / FEW /) print_program(" SOLIDS ANY BODIES FEW ", stages)
+    if (all ~ / ANY /) print_program(" COLLIDERS ANY ", stages)
+    if (all ~ / FEW /) print_program(" COLLIDERS ANY FEW ", stages)
+    if (all ~ / FEW /) print_program(" COLLIDERS ANY BODIES FEW ", stages)
     if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity pass
     for (i = 1; i <= count; i++) {
         print_program(" " has[i] " ", stages)

@@ -3,7 +3,7 @@
 #version 450 core
 #include "hide.glsl"
 
-layout(binding = HAIR_UNIT_HIDDEN) uniform sampler2D depth_texture;
+layout(binding = HAIR_UNIT_HIDDEN) uniform sampler2D occluder_depth;
 
 void main()
 {
@@ -14,6 +14,6 @@ void main()
     ivec2 to   = min(from + HAIR_HIDE_FIRST, ivec2(hide.width, hide.height));
     float far  = -NOWHERE;
     for (int y = from.y; y < to.y; ++y)
-        for (int x = from.x; x < to.x; ++x) far = max(far, hide.sign * texelFetch(depth_texture, ivec2(x, y), 0).x);
+        for (int x = from.x; x < to.x; ++x) far = max(far, hide.sign * texelFetch(occluder_depth, ivec2(x, y), 0).x);
     farthest[i] = far;
 }

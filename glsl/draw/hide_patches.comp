@@ -32,7 +32,7 @@ vec3 find_repair(uint number)
 #ifdef HAIR_HITS
     if (texelFetch(hit_texture, int(number)).x > float(draw.segments)) return most;
     most.z = 1.0;
-    if (draw.collision == HAIR_COLLISION_IS_SWITCH) return most;
+    if (draw.follower_collision == HAIR_COLLISION_IS_SINGLE_GUIDE) return most;
     int first = int(number) * HAIR_REPAIR_CONTROLS;
     most.y    = max(texelFetch(repair_texture, first).x, 0.0);
     for (int i = 1; i < HAIR_REPAIR_CONTROLS; ++i) most.x = max(most.x, length(texelFetch(repair_texture, first + i).xyz));
@@ -56,8 +56,8 @@ float find_beside(hair_follower f, float length_, float freed, float from, float
     for (int i = 0; i < 4; ++i) offset = max(offset, length(f.offset[i].xyz));
     vec2  own    = random_pair(f.seed + 1u); // See stray() in look.glsl.
     float strays = 0.0;
-    if (own.x < draw.strand.tip_strays) strays += most_of(HAIR_CURVE_TIP_STRAY, from, to);
-    if (own.y < draw.strand.strays) strays += most_of(HAIR_CURVE_STRAY, from, to);
+    if (own.x < draw.strand.tip_stray_fraction) strays += most_of(HAIR_CURVE_TIP_STRAY, from, to);
+    if (own.y < draw.strand.stray_fraction) strays += most_of(HAIR_CURVE_STRAY, from, to);
     offset *= (1.0 - f.multi * (1.0 - clump)) * most_of(HAIR_CURVE_CLUMP_WIDTH, from, to);
     if (f.multi > 0.0) offset += length(vec3(f.offset[1].w, f.offset[2].w, f.offset[3].w));
     return offset + DIAGONAL * strays * length_ + draw.strand.most_aside;

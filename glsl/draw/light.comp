@@ -21,7 +21,7 @@
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer { float light_of_node[]; };
 layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer { uint light_of_vertex[]; };
-layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D shadow_texture[HAIR_SHADOW_MAPS];
+layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW_MAPS];
 
 #define TAPS 12
 #define NEAR_STEPS 2
@@ -88,7 +88,7 @@ float met_towards(density_grid grid, vec3 position, uint light, vec3 to, float r
 // Return the fraction of sample points around a vertex that nothing occludes in a shadow map.
 float open_in(uint map, uint light, vec3 to, strand_bit s)
 {
-    vec2  size  = vec2(textureSize(shadow_texture[map], 0));
+    vec2  size  = vec2(textureSize(hair_shadow_map[map], 0));
     vec3  along = place_in_map(map, s.after) - place_in_map(map, s.before);
     vec2  texels = along.xy * size;
     float slope = along.z / max(dot(texels, texels), 1.0); // Slope of depth along the strand.
@@ -104,7 +104,7 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
         // Depth of the strand itself at the centre of the texel.
         float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
         bool  there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size)));
-        open += !there || depth - own <= texelFetch(shadow_texture[map], texel, 0).r ? 1.0 : 0.0;
+        open += !there || depth - own <= texelFetch(hair_shadow_map[map], texel, 0).r ? 1.0 : 0.0;
     }
     return open / float(TAPS);
 }

@@ -1,9 +1,9 @@
 // shape.glsl - signed distance to a collider's surface, below 0 inside. With HAIR_FORMS colliders
 // may be collision meshes.
 #include "rotation.glsl"
-#include "solid_distance.glsl"
+#include "collider_distance.glsl"
 
-#define SHAPE_FORM 6u // Value of hair_shape.
+#define SHAPE_MESH 6u // Value of hair_shape.
 
 #ifdef HAIR_FORMS
 layout(std430, binding = HAIR_BIND_NODE) readonly buffer node_buffer { float node[]; };
@@ -12,15 +12,15 @@ layout(std430, binding = HAIR_BIND_NODE) readonly buffer node_buffer { float nod
 #include "form_distance.glsl"
 #endif
 
-float solid_distance(hair_field_solid solid, vec3 position)
+float collider_distance(hair_field_collider collider, vec3 position)
 {
-    vec3 p = rotate(quat_conjugate(solid.rotation), position - solid.position.xyz);
+    vec3 p = rotate(quat_conjugate(collider.rotation), position - collider.position.xyz);
 #ifdef HAIR_FORMS
-    if (solid.shape == SHAPE_FORM) {
+    if (collider.shape == SHAPE_MESH) {
         vec3      gradient;
-        form_grid form = form_grid(solid.grid, uvec3(solid.nodes_x, solid.nodes_y, solid.nodes_z), solid.first);
-        return solid.size.w * form_distance(form, p / solid.size.w, gradient) - solid.position.w;
+        form_grid form = form_grid(collider.grid, uvec3(collider.nodes_x, collider.nodes_y, collider.nodes_z), collider.first);
+        return collider.size.w * form_distance(form, p / collider.size.w, gradient) - collider.position.w;
     }
 #endif
-    return shape_distance(solid.shape, solid.size.xyz, p) - solid.position.w;
+    return shape_distance(collider.shape, collider.size.xyz, p) - collider.position.w;
 }

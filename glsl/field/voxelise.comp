@@ -12,25 +12,25 @@ layout(local_size_x = HAIR_BRICK, local_size_y = HAIR_BRICK, local_size_z = HAIR
 layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_field_brick brick[]; };
 layout(std430, binding = HAIR_BIND_MEMBER) readonly buffer member_buffer { uint member[]; };
 // A texture, because one driver reads storage buffers many times as slowly.
-layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer solid_texture;
+layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer collider_texture;
 layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
-layout(binding = HAIR_IMAGE_SOLID, r32ui) writeonly uniform uimage3D solid_image;
+layout(binding = HAIR_IMAGE_COLLIDER, r32ui) writeonly uniform uimage3D collider_image;
 
-hair_field_solid fetch_solid(uint i)
+hair_field_collider fetch_collider(uint i)
 {
-    int              at = int(i) * HAIR_SOLID_TEXELS;
-    hair_field_solid solid;
-    uvec4            last = texelFetch(solid_texture, at + 5);
-    solid.position = uintBitsToFloat(texelFetch(solid_texture, at));
-    solid.rotation = uintBitsToFloat(texelFetch(solid_texture, at + 1));
-    solid.size     = uintBitsToFloat(texelFetch(solid_texture, at + 2));
-    solid.shape = last.x, solid.number = last.y;
+    int              at = int(i) * HAIR_COLLIDER_TEXELS;
+    hair_field_collider collider;
+    uvec4            last = texelFetch(collider_texture, at + 5);
+    collider.position = uintBitsToFloat(texelFetch(collider_texture, at));
+    collider.rotation = uintBitsToFloat(texelFetch(collider_texture, at + 1));
+    collider.size     = uintBitsToFloat(texelFetch(collider_texture, at + 2));
+    collider.shape = last.x, collider.number = last.y;
 #ifdef HAIR_FORMS
-    uvec4 nodes = texelFetch(solid_texture, at + 4);
-    solid.grid  = uintBitsToFloat(texelFetch(solid_texture, at + 3));
-    solid.nodes_x = nodes.x, solid.nodes_y = nodes.y, solid.nodes_z = nodes.z, solid.first = nodes.w;
+    uvec4 nodes = texelFetch(collider_texture, at + 4);
+    collider.grid  = uintBitsToFloat(texelFetch(collider_texture, at + 3));
+    collider.nodes_x = nodes.x, collider.nodes_y = nodes.y, collider.nodes_z = nodes.z, collider.first = nodes.w;
 #endif
-    return solid;
+    return collider;
 }
 
 void main()
@@ -40,15 +40,15 @@ void main()
     ivec3            voxel    = corner + ivec3(gl_LocalInvocationID);
     vec3             position = field.lower.xyz + (vec3(voxel) + 0.5) * field.lower.w;
     float            nearest  = field.inverse.w;
-    uint             number   = HAIR_NO_SOLID;
+    uint             number   = HAIR_NO_COLLIDER;
     for (uint i = own.first; i < own.first + own.count; ++i) {
-        hair_field_solid other    = fetch_solid(member[i]);
-        float            distance = solid_distance(other, position);
+        hair_field_collider other    = fetch_collider(member[i]);
+        float            distance = collider_distance(other, position);
         if (distance < nearest) {
             nearest = distance;
             number  = other.number;
         }
     }
     imageStore(field_image, voxel, vec4(max(nearest, -DEEPEST)));
-    imageStore(solid_image, voxel, uvec4(number));
+    imageStore(collider_image, voxel, uvec4(number));
 }

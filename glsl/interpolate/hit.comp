@@ -64,7 +64,7 @@ void main()
     uint number = hair_group() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (number == 0u) list[1u - draw.turn] = 0u; // Cleared for the next run.
     hair_follower follower = fetch_follower(min(number, draw.followers - 1u));
-    bool          switches = draw.collision == HAIR_COLLISION_IS_SWITCH;
+    bool          switches = draw.follower_collision == HAIR_COLLISION_IS_SINGLE_GUIDE;
     bool          minds    = !switches || follower.multi > 0.0;
     float         first    = least_of_all(minds ? find_first(number, follower) : HAIR_NO_HIT);
     if (number >= draw.followers || gl_LocalInvocationID.y > 0u) return;

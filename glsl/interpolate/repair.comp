@@ -128,7 +128,7 @@ void main()
 
     float deepest;
     float wanted = look(own, follower, samples, deepest);
-    float margin = draw.margin * smoothstep(0.0, SHALLOW, deepest);
+    float margin = draw.collision_margin * smoothstep(0.0, SHALLOW, deepest);
     float slide  = 1.0;
     for (uint i = 0u; i < LENGTHS; ++i) {
         place(own, follower, samples, slide);

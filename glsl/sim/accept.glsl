@@ -30,15 +30,15 @@ bool accept(int method, bool waits, vec3 head_moved)
 #if defined(HAIR_FIRST) && defined(WATCHES_TURNS)
         // The second program splits the substep, unless a vertex touched a collider.
         turns  = turns || turns_at(i, MIN_COSINE);
-        struck = struck || (SOLIDS && own(met) != BITS(0u));
-        lost   = lost || (!SOLIDS && turns);
+        struck = struck || (COLLIDERS && own(met) != BITS(0u));
+        lost   = lost || (!COLLIDERS && turns);
 #endif
         // Limit the speed that follow-the-leader added.
         if (IS_LEADER(method)) {
             float fastest  = length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
             vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
             float speed    = length(relative);
-            float keeps    = (heavy && i + 1u == guide_count) || (TIED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
+            float keeps    = (heavy && i + 1u == guide_count) || (PINNED && own(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Round as store() and load() do, so that the number of substeps per dispatch does not
@@ -61,7 +61,7 @@ bool accept(int method, bool waits, vec3 head_moved)
     if (own_method == SHAKE) known = IS_SHAKE(method) ? leap_part : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
 #ifdef HAIR_FIRST
-    if (HAIR_SOLVER == SHAKE && SOLIDS && !found.y) return !any_of(bvec2(turns || found.x, false)).x;
+    if (HAIR_SOLVER == SHAKE && COLLIDERS && !found.y) return !any_of(bvec2(turns || found.x, false)).x;
     return !found.x;
 #else
     if (!found.x) return true;
@@ -83,7 +83,7 @@ bool accept(int method, bool waits, vec3 head_moved)
 #endif
     }
     known       = 1.0;
-    count_in(HAIR_HEALTH_RESET);
+    count_in(HAIR_SOLVER_STATS_RESET);
     return true;
 #endif
 }

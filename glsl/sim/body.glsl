@@ -1,6 +1,6 @@
 // body.glsl - colliders that are not capsules. Compute the depth of a vertex by the exact distance
 // to the shape.
-#include "solid_distance.glsl"
+#include "collider_distance.glsl"
 
 #define BODY_STEPS 10u // Maximum number of distance evaluations: at both ends, and on the way
 #define BODY_NEAR 1e-4 // Distance at which a vertex counts as on the surface, m
@@ -17,7 +17,7 @@ vec3 body_place(uint k, float share)
 
 #ifdef HAIR_ANY
 #include "form_distance.glsl"
-#define SHAPE_FORM 6u // Value of hair_shape for a collision mesh
+#define SHAPE_MESH 6u // Value of hair_shape for a collision mesh
 
 form_grid form_of(uint k)
 {
@@ -33,7 +33,7 @@ form_grid form_of(uint k)
 float body_distance(vec4 size, form_grid form, vec3 at, out vec3 gradient)
 {
 #ifdef HAIR_ANY
-    if (uint(size.w) == SHAPE_FORM) return size.x * form_distance(form, at / size.x, gradient);
+    if (uint(size.w) == SHAPE_MESH) return size.x * form_distance(form, at / size.x, gradient);
 #endif
     return shape_distance(uint(size.w), size.xyz, at, gradient);
 }
@@ -41,7 +41,7 @@ float body_distance(vec4 size, form_grid form, vec3 at, out vec3 gradient)
 float depth_of_place(uint k, vec3 place)
 {
     vec3 gradient, at = rotate(quat_conjugate(body_turn(k, share_now)), place - body_place(k, share_now));
-    return BODY_POSITION(k, 0).w + params.margin - body_distance(BODY_SIZE(k), form_of(k), at, gradient);
+    return BODY_POSITION(k, 0).w + params.collision_margin - body_distance(BODY_SIZE(k), form_of(k), at, gradient);
 }
 
 // Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. If the vertex
@@ -56,7 +56,7 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
     vec3  b = rotate(quat_conjugate(turn_after), end - place_after), outwards = vec3(0.0, 1.0, 0.0);
     vec4  size = BODY_SIZE(k);
     form_grid form = form_of(k);
-    float around = BODY_POSITION(k, 0).w + params.margin, way = length(b - a), t = 1.0, depth = 0.0, was = 0.0;
+    float around = BODY_POSITION(k, 0).w + params.collision_margin, way = length(b - a), t = 1.0, depth = 0.0, was = 0.0;
     for (uint i = 0u; i < BODY_STEPS && t <= 1.0; ++i) {
         vec3  gradient, at = mix(a, b, t);
         float distance = body_distance(size, form, at, gradient) - around;

@@ -88,7 +88,7 @@ vec2 granted_to(uint i)
 // enters.
 float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out vec3 normal)
 {
-    capsule now = solid_now(k), then = solid_then(k);
+    capsule now = collider_now(k), then = collider_then(k);
     vec3    end = start + d - head_moved;
     vec3    out_a = from_axis(start, then), out_b = from_axis(end, now), pass = out_b - out_a;
     float   away  = length(out_b);
@@ -108,10 +108,10 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out v
 // Return the displacement of the surface at `end` over the substep.
 vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
 {
-    capsule now = solid_now(k), then = solid_then(k);
+    capsule now = collider_now(k), then = collider_then(k);
     float along = nearest_share(end, now);
     return head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
-           cross(SOLID_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
+           cross(COLLIDER_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
 }
 
 // Return the freedom that remains after a further contact of this normal.
@@ -132,8 +132,8 @@ float root_depth_in(uint k, bool is_body)
 #ifdef HAIR_BODIES
     if (is_body) return depth_of_place(k, root_now);
 #endif
-    capsule solid = solid_now(k);
-    return solid.radius - length(from_axis(root_now, solid));
+    capsule collider = collider_now(k);
+    return collider.radius - length(from_axis(root_now, collider));
 }
 
 #ifdef HAIR_MIXED
@@ -171,10 +171,10 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 
 // Return the displacement that colliders allow for the wanted one, and the freedom that they leave.
 // Colliders in `kept` hold the vertex even where they have to pull.
-outcome allowed(uint i, vec3 want, BITS solids, BITS kept, vec3 head_moved, inout BITS met)
+outcome allowed(uint i, vec3 want, BITS colliders, BITS kept, vec3 head_moved, inout BITS met)
 {
     outcome made = untouched(want);
-    get_out(i, root_now - root_moved + head_moved + GET(place), solids, kept, head_moved, made, met);
+    get_out(i, root_now - root_moved + head_moved + GET(place), colliders, kept, head_moved, made, met);
     return made;
 }
 

@@ -25,9 +25,9 @@ bool is_around(uint k, vec3 end, float way)
 }
 
 // Push a displacement out of the deepest collider, and return the number of pushes. Colliders in
-// `owed` hold the vertex and have not pushed yet. They come first. `solids` is reduced to the
+// `owed` hold the vertex and have not pushed yet. They come first. `colliders` is reduced to the
 // colliders nearby. `is_out` is set if no collider can push the vertex again.
-uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, float enough_depth, vec3 head_moved,
+uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, float enough_depth, vec3 head_moved,
                    vec2 granted, inout outcome made, inout uvec2 met, out bool is_out)
 {
     vec3  end  = start + made.d - head_moved, normal, surface;
@@ -36,11 +36,11 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     vec4  deepest = vec4(vec3(0.0), -FARTHEST), second = deepest; // xyz: normal. w: depth.
     // Maximum depth in all other colliders, and the distance by which the way misses all spheres.
     float third = -FARTHEST, clears = FARTHEST;
-    uvec2 around = uvec2(0u), left = solids, from = uvec2(0u);
+    uvec2 around = uvec2(0u), left = colliders, from = uvec2(0u);
     is_out = false;
-    if (solids == uvec2(0u)) return 0u;
+    if (colliders == uvec2(0u)) return 0u;
     take_rounds(uint(bitCount(left.x) + bitCount(left.y)) + 2u);
-    left &= ~look_at_cached(i, solids, owed, end, way, most, was_most, depth, from, around);
+    left &= ~look_at_cached(i, colliders, owed, end, way, most, was_most, depth, from, around);
     bool  cached = from != uvec2(0u), all_cached = left == uvec2(0u);
     uvec2 at = first_of(left), after;
     // Read the next member while this one is tested.
@@ -81,7 +81,7 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
             cached  = false;
         }
     }
-    solids = around;
+    colliders = around;
     depth -= max(was_most - granted.y, granted.x);
     if (from == uvec2(0u) || !(depth > enough_depth || most > 0.5 * FARTHEST)) return 0u;
     float friction;
@@ -96,9 +96,9 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     push_by(friction, depth, normal, surface, made);
     met |= from;
     owed &= ~from;
-    if ((owed & solids) != uvec2(0u)) return 1u;
+    if ((owed & colliders) != uvec2(0u)) return 1u;
     if (all_cached) {
-        is_out = is_out_of_cached(solids, start + made.d - head_moved, length(made.d - head_moved), granted.x);
+        is_out = is_out_of_cached(colliders, start + made.d - head_moved, length(made.d - head_moved), granted.x);
     // A push increases the distance from a ball by at least its component along the normal.
     } else if (!HAS_CACHE) {
         vec3  pushed = made.d - before;
@@ -109,7 +109,7 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 solids, inout uvec2 owed, flo
     return 1u;
 }
 
-void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
+void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
 {
     vec2  granted = granted_to(i);
     uvec2 owed = kept, tried;
@@ -119,11 +119,11 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
     for (uint n = 0u; n < ROUNDS && pushed > 0u && (n == 0u || has_rounds()); ++n) {
         vec3 end = start + made.d - head_moved;
         tried    = enough(i, start, end);
-        if (n == 0u) solids = tried | kept;
-        uvec2 around = solids;
+        if (n == 0u) colliders = tried | kept;
+        uvec2 around = colliders;
 #ifdef HAIR_BODIES
         around &= ~own(walked);
-        uvec2 bodies = n < 2u ? solids & own(walked) : uvec2(0u);
+        uvec2 bodies = n < 2u ? colliders & own(walked) : uvec2(0u);
 #endif
         pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, is_out);
 #ifdef HAIR_BODIES
@@ -145,7 +145,7 @@ void get_out(uint i, vec3 start, uvec2 solids, uvec2 kept, vec3 head_moved, inou
 #endif
         // The pushes led to other colliders.
         bool led = tried != enough(i, start, start + made.d - head_moved);
-        solids   = led ? own(reachable) : around;
-        if (!led && (is_out || bitCount(solids.x) + bitCount(solids.y) < 2)) break;
+        colliders   = led ? own(reachable) : around;
+        if (!led && (is_out || bitCount(colliders.x) + bitCount(colliders.y) < 2)) break;
     }
 }

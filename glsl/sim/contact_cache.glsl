@@ -9,9 +9,9 @@
 #define HAS_CACHE false
 
 void  cache_close(uint i) {}
-bool  is_out_of_cached(uvec2 solids, vec3 end, float way, float granted) { return false; }
+bool  is_out_of_cached(uvec2 colliders, vec3 end, float way, float granted) { return false; }
 void  touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float friction) {}
-uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
                      inout float depth, inout uvec2 from, inout uvec2 around)
 {
     return uvec2(0u);
@@ -33,20 +33,20 @@ PARKED(vec4, cached_turn[CACHED]);
 #define CACHED_END(a) cached_end[a][lane]
 #define CACHED_TURN(a) cached_turn[a][lane]
 #else
-uint cached_solid[CACHED];
-#define CACHED_START(a) SOLID_START(cached_solid[a], 0)
-#define CACHED_END(a) SOLID_END(cached_solid[a], 0)
-#define CACHED_TURN(a) vec4(SOLID_SPIN(cached_solid[a]).xyz, BODY_POSITION(cached_solid[a], 1).w)
+uint cached_collider[CACHED];
+#define CACHED_START(a) COLLIDER_START(cached_collider[a], 0)
+#define CACHED_END(a) COLLIDER_END(cached_collider[a], 0)
+#define CACHED_TURN(a) vec4(COLLIDER_SPIN(cached_collider[a]).xyz, BODY_POSITION(cached_collider[a], 1).w)
 #endif
 
 void cache(uint a, uint k)
 {
 #ifdef HAIR_SUBGROUP
-    CACHED_START(a) = SOLID_START(k, 0);
-    CACHED_END(a)   = SOLID_END(k, 0);
-    CACHED_TURN(a)  = vec4(SOLID_SPIN(k).xyz, BODY_POSITION(k, 1).w);
+    CACHED_START(a) = COLLIDER_START(k, 0);
+    CACHED_END(a)   = COLLIDER_END(k, 0);
+    CACHED_TURN(a)  = vec4(COLLIDER_SPIN(k).xyz, BODY_POSITION(k, 1).w);
 #else
-    cached_solid[a] = k;
+    cached_collider[a] = k;
 #endif
 }
 
@@ -82,7 +82,7 @@ float cached_was[CACHED];
 
 void advance_cached(vec3 start)
 {
-    vec4 margin = vec4(0.0, 0.0, 0.0, params.margin);
+    vec4 margin = vec4(0.0, 0.0, 0.0, params.collision_margin);
     for (uint a = 0u; a < CACHED; ++a) {
         vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a), then = mix(begins, ends, share_then) + margin;
         cached_now[a]  = mix(begins, ends, share_now) + margin;
@@ -99,20 +99,20 @@ vec4 deepest_out, deepest_way, deepest_spin;
 
 // Cached variant of the search in leave_deepest(). Return a bit mask of the members tested. Return
 // no bits if the vertex may pass through a sphere.
-uvec2 look_at_cached(uint i, uvec2 solids, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
                      inout float depth, inout uvec2 from, inout uvec2 around)
 {
-    if ((solids & ~own(close)) != uvec2(0u)) return uvec2(0u);
+    if ((colliders & ~own(close)) != uvec2(0u)) return uvec2(0u);
     bool  whole = false;
     uvec2 all   = uvec2(0u);
     float away[CACHED];
     for (uint a = 0u; a < CACHED; ++a) {
         away[a] = length(end - cached_now[a].xyz);
-        whole   = whole || ((solids & cached_bit[a]) != uvec2(0u) && away[a] <= way + cached_way[a].w);
+        whole   = whole || ((colliders & cached_bit[a]) != uvec2(0u) && away[a] <= way + cached_way[a].w);
     }
     if (whole) return uvec2(0u);
     for (uint a = 0u; a < CACHED; ++a) {
-        bool  looked = (solids & cached_bit[a]) != uvec2(0u), first = (owed & cached_bit[a]) != uvec2(0u);
+        bool  looked = (colliders & cached_bit[a]) != uvec2(0u), first = (owed & cached_bit[a]) != uvec2(0u);
         float deep   = cached_now[a].w - away[a], rank = !looked ? -FARTHEST : first ? deep + FARTHEST : deep;
         was_most     = looked ? max(was_most, cached_was[a]) : was_most;
         all |= cached_bit[a];
@@ -137,13 +137,13 @@ void touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float 
 }
 
 // Return whether no cached sphere would push the vertex at `end` any more.
-bool is_out_of_cached(uvec2 solids, vec3 end, float way, float granted)
+bool is_out_of_cached(uvec2 colliders, vec3 end, float way, float granted)
 {
     bool is_out = true;
     for (uint a = 0u; a < CACHED; ++a) {
         float away   = length(end - cached_now[a].xyz);
         bool  out_of = cached_now[a].w - away - granted <= AGAIN && away > way + cached_way[a].w;
-        is_out       = is_out && (out_of || (solids & cached_bit[a]) == uvec2(0u));
+        is_out       = is_out && (out_of || (colliders & cached_bit[a]) == uvec2(0u));
     }
     return is_out;
 }

@@ -1,6 +1,6 @@
 // contact_capsules.glsl - colliders as capsules, or as their bounding capsules, at times of a
 // substep.
-#include "sim/solids.glsl"
+#include "sim/colliders.glsl"
 
 // Fractions of the step that are done at the start and end of the substep.
 float share_then, share_now;
@@ -10,62 +10,62 @@ struct capsule { // A collider at one moment, with the margin
     float radius, square; // `square` is the squared length of the axis, m^2
 };
 
-capsule solid_at(uint k, float share)
+capsule collider_at(uint k, float share)
 {
-    vec4 a = mix(SOLID_START(k, 0), SOLID_END(k, 0), share);
-    vec4 b = mix(SOLID_START(k, 1), SOLID_END(k, 1), share);
+    vec4 a = mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), share);
+    vec4 b = mix(COLLIDER_START(k, 1), COLLIDER_END(k, 1), share);
     vec3 axis = b.xyz - a.xyz;
-    return capsule(a.xyz, axis, a.w + params.margin, max(dot(axis, axis), 1e-12));
+    return capsule(a.xyz, axis, a.w + params.collision_margin, max(dot(axis, axis), 1e-12));
 }
 
-float nearest_share(vec3 position, capsule solid)
+float nearest_share(vec3 position, capsule collider)
 {
-    return clamp(dot(position - solid.start, solid.axis) / solid.square, 0.0, 1.0);
+    return clamp(dot(position - collider.start, collider.axis) / collider.square, 0.0, 1.0);
 }
 
-vec3 from_axis(vec3 position, capsule solid)
+vec3 from_axis(vec3 position, capsule collider)
 {
-    return position - solid.start - nearest_share(position, solid) * solid.axis;
+    return position - collider.start - nearest_share(position, collider) * collider.axis;
 }
 
 // Return an upper bound of how far collider k moves in the substep.
-float moves_of(uint k) { return SOLID_SPIN(k).w * (share_now - share_then); }
+float moves_of(uint k) { return COLLIDER_SPIN(k).w * (share_now - share_then); }
 
-// solid_then() and solid_now() return a capsule at the start and end of the substep. If a guide has
+// collider_then() and collider_now() return a capsule at the start and end of the substep. If a guide has
 // several threads, each of them computes other capsules, once per moment. A capsule written by
-// share_solid() is visible after SOLIDS_MEET, and in the next substep by solid_then().
+// share_collider() is visible after COLLIDERS_MEET, and in the next substep by collider_then().
 #if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
-#define SOLIDS_MEET
-void    begin_solids() {}
-void    next_solids() {}
-void    share_solid(uint k, capsule now) {}
-capsule solid_then(uint k) { return solid_at(k, share_then); }
-capsule solid_now(uint k) { return solid_at(k, share_now); }
+#define COLLIDERS_MEET
+void    begin_colliders() {}
+void    next_colliders() {}
+void    share_collider(uint k, capsule now) {}
+capsule collider_then(uint k) { return collider_at(k, share_then); }
+capsule collider_now(uint k) { return collider_at(k, share_now); }
 #else
-// find_solids() votes before it reads the capsules.
-#define SOLIDS_MEET MEET_TO_VOTE
-#define MOMENTS uint(2 * HAIR_FEW_SOLIDS)
+// find_colliders() votes before it reads the capsules.
+#define COLLIDERS_MEET MEET_TO_VOTE
+#define MOMENTS uint(2 * HAIR_FEW_COLLIDERS)
 // Capsules of each guide at two moments, in alternating halves.
 shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GUIDES];
 // Index of the first capsule at the end of the substep.
 uint moment;
 
-void share_solid(uint k, capsule now)
+void share_collider(uint k, capsule now)
 {
     shared_start[moment + k] = vec4(now.start, now.radius);
     shared_axis[moment + k]  = vec4(now.axis, now.square);
 }
 
 // Write the capsules that the first substep starts from.
-void begin_solids()
+void begin_colliders()
 {
     moment = MOMENTS * guide_of_group;
-    for (uint k = lane; k < params.solids; k += lanes) share_solid(k, solid_at(k, share_now));
+    for (uint k = lane; k < params.colliders; k += lanes) share_collider(k, collider_at(k, share_now));
 }
-uint moment_before() { return 2u * MOMENTS * guide_of_group + uint(HAIR_FEW_SOLIDS) - moment; }
-void next_solids() { moment = moment_before(); }
+uint moment_before() { return 2u * MOMENTS * guide_of_group + uint(HAIR_FEW_COLLIDERS) - moment; }
+void next_colliders() { moment = moment_before(); }
 
-capsule shared_solid(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
-capsule solid_then(uint k) { return shared_solid(moment_before() + k); }
-capsule solid_now(uint k) { return shared_solid(moment + k); }
+capsule shared_collider(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
+capsule collider_then(uint k) { return shared_collider(moment_before() + k); }
+capsule collider_now(uint k) { return shared_collider(moment + k); }
 #endif

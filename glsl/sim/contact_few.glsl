@@ -1,4 +1,4 @@
-// contact_few.glsl - contact with at most HAIR_FEW_SOLIDS colliders, which the step's parameters
+// contact_few.glsl - contact with at most HAIR_FEW_COLLIDERS colliders, which the step's parameters
 // hold. Find the colliders that a guide can touch, and push vertices out of them one after the
 // other.
 
@@ -19,22 +19,22 @@ uint bodies()
 // Find the colliders that the guide can touch in this substep, and for each vertex those that it
 // can touch. Later tests use only these. Fitting lengths is assumed to move a vertex at most 2 cm
 // farther than its free motion.
-void find_solids(vec3 head_moved)
+void find_colliders(vec3 head_moved)
 {
-    if (!SOLIDS) return;
+    if (!COLLIDERS) return;
     uint  near    = 0u;
     float longest = guide_length + length(root_moved - head_moved) + 0.02;
     // A guide with a free root or with pins may be anywhere.
-    if (root_is_free || TIED) longest = 2.0 * FARTHEST;
+    if (root_is_free || PINNED) longest = 2.0 * FARTHEST;
     sunk = 0.0;
-    for (uint k = lane; k < params.solids; k += lanes) {
-        capsule now = solid_at(k, share_now);
+    for (uint k = lane; k < params.colliders; k += lanes) {
+        capsule now = collider_at(k, share_now);
         float   off = length(from_axis(root_now, now)) - now.radius;
-        share_solid(k, now);
+        share_collider(k, now);
         if (off < longest + moves_of(k)) near |= 1u << k;
         if ((1u << k & bodies()) == 0u) sunk = max(sunk, -off);
     }
-    SOLIDS_MEET;
+    COLLIDERS_MEET;
     near = bits_of_lanes(near);
     if (any_of(bvec2(sunk > 0.0, false)).x) sunk = most_of(sunk);
 #ifdef HAIR_BODIES
@@ -47,9 +47,9 @@ void find_solids(vec3 head_moved)
             vec3  position = root_now + GET(place) + own(wanted) - root_moved;
             float reach    = 0.02 + length(own(wanted) - head_moved);
             EACH_BIT(near) {
-                capsule solid = solid_now(k);
-                vec3    off   = from_axis(position, solid);
-                float   far   = solid.radius + reach + moves_of(k);
+                capsule collider = collider_now(k);
+                vec3    off   = from_axis(position, collider);
+                float   far   = collider.radius + reach + moves_of(k);
                 if (dot(off, off) < far * far) own(reachable) |= bit;
             }
         }
@@ -58,7 +58,7 @@ void find_solids(vec3 head_moved)
 
 // Push a vertex out of one collider after the other, capsules first. A push out of a second
 // collider may lead into the first. Then all are tested once more.
-void get_out(uint i, vec3 start, uint solids, uint kept, vec3 head_moved, inout outcome made, inout uint met)
+void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, inout outcome made, inout uint met)
 {
     vec2 granted  = granted_to(i);
     uint contacts = 2u;
@@ -66,7 +66,7 @@ void get_out(uint i, vec3 start, uint solids, uint kept, vec3 head_moved, inout 
     for (uint n = 0u; n < 2u && contacts > 1u; ++n) {
         vec3 normal, surface;
         contacts = 0u;
-        EACH_BIT(solids & ~bodies()) {
+        EACH_BIT(colliders & ~bodies()) {
             float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
             // The displacement of the surface matters only in contact.
             if (depth > 0.0 || (kept & bit) != 0u) {
@@ -77,7 +77,7 @@ void get_out(uint i, vec3 start, uint solids, uint kept, vec3 head_moved, inout 
             }
         }
 #ifdef HAIR_BODIES
-        EACH_BIT(solids & bodies()) {
+        EACH_BIT(colliders & bodies()) {
             float depth = depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
             if (depth > 0.0 || (kept & bit) != 0u) {
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);

@@ -7,10 +7,10 @@ void find_root()
     uvec2 list = cell_members(root_now);
     sunk       = 0.0;
     if (root_is_free) return;
-    for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_SOLIDS)); n += lanes) {
+    for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_COLLIDERS)); n += lanes) {
         uint member = cell_entry(n), k = member & HAIR_MEMBER_NUMBER;
         vec4 ball   = BALL(k);
-        if (length(root_now - ball.xyz) < ball.w + params.margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
+        if (length(root_now - ball.xyz) < ball.w + params.collision_margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_MEMBER_WALKED) != 0u));
     }
     sunk = most_of(sunk);
 }
@@ -23,7 +23,7 @@ bool has_listed(uint i, vec3 middle, float far)
     return has_lists && off <= max(own(listed_near).w, min(own(clear), params.cells_give));
 }
 
-void find_solids(vec3 head_moved)
+void find_colliders(vec3 head_moved)
 {
     bool lacks = false;
     EACH(guide_count) {
@@ -39,7 +39,7 @@ void find_solids(vec3 head_moved)
             float far = length(way);
             if (!has_lists) own(reachable) = uvec2(0u);
             if (own(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far)) {
-                list_solids(i, halfway(position, way, far), far);
+                list_colliders(i, halfway(position, way, far), far);
                 cache_close(i);
             }
         }

@@ -42,7 +42,7 @@ uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32
 uvec2 mask_of(uvec2 at) { return at.x == 0u ? uvec2(at.y, 0u) : uvec2(0u, at.y); }
 
 // Return a sphere with the margin, at a fraction of the step.
-vec4 sphere_at(uint k, float share) { return mix(SOLID_START(k, 0), SOLID_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.margin); }
+vec4 sphere_at(uint k, float share) { return mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), share) + vec4(0.0, 0.0, 0.0, params.collision_margin); }
 
 struct sphere {
     // The sphere at the end of the step, and its displacement from the time when the list is made.
@@ -66,8 +66,8 @@ float off_long(vec3 place, uint k, float reach)
     float off  = length(place - ball.xyz) - ball.w;
     // The ball around a long collider is much larger than the collider.
     if (off >= reach) return off;
-    capsule end = solid_at(k, 1.0);
-    return length(from_axis(place, end)) - end.radius - (1.0 - share_then) * SOLID_SPIN(k).w;
+    capsule end = collider_at(k, 1.0);
+    return length(from_axis(place, end)) - end.radius - (1.0 - share_then) * COLLIDER_SPIN(k).w;
 }
 
 // Return whether sphere a, and whether sphere b, is covered by the other one. A covered sphere is
@@ -117,12 +117,12 @@ uvec2 find_close(vec3 place, uint first, uvec2 near, float about, float reach)
 
 // List the colliders near vertex i for the rest of the step. The balls around colliders exclude
 // most members of the cell.
-void list_solids(uint i, vec3 middle, float far)
+void list_colliders(uint i, vec3 middle, float far)
 {
     uvec2 list  = cell_members(middle), all = uvec2(0u), near = uvec2(0u), others = uvec2(0u);
     float about = min(ABOUT + 1.5 * far, params.cells_give);
     float reach = FIT + max(0.5 * far, params.cells_give), nearest = reach;
-    uint  count = min(list.y - list.x, uint(HAIR_CELL_SOLIDS));
+    uint  count = min(list.y - list.x, uint(HAIR_CELL_COLLIDERS));
     uint  member[AT_ONCE], next[AT_ONCE], end = list.x + count;
     for (uint a = 0u; a < AT_ONCE; ++a) next[a] = cell_entry(min(list.x + a, end - 1u));
     for (uint first = 0u; first < count; first += AT_ONCE) {

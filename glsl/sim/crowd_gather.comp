@@ -54,7 +54,7 @@ vec3 drawn_at(vec3 v)
 vec3 pressed()
 {
     vec3 sum = vec3(0.0);
-    for (uint k = 0u, end = params.volume > 0.0 ? 8u : 0u; k < end; ++k) {
+    for (uint k = 0u, end = params.pressure_stiffness > 0.0 ? 8u : 0u; k < end; ++k) {
         uvec3 corner = corner_of(k);
         vec3  s      = shares_of(corner);
         uint  node   = node_of(corner);
@@ -77,6 +77,6 @@ void main()
     vec3 v = speed_of(i), at = spot_of(i, v);
     if (!is_inside(at)) return;
     find_spot(at);
-    vec3 a  = params.cohesion * HAIR_CROWD_SPEED * drawn_at(v) + 6.0 * params.volume / params.lower.w * pressed();
+    vec3 a  = params.cohesion * HAIR_CROWD_SPEED * drawn_at(v) + 6.0 * params.pressure_stiffness / params.lower.w * pressed();
     push[i] = vec4(rotate(params.rotation, a), 0.0);
 }

@@ -87,7 +87,7 @@ vec4 next_window(vec4 window, float total, float kinetic)
     window.w = max(window.w, kinetic);
     if (watch.ends == 0u) return window;
     bool grows = window.y > window.x + (GROWTH * window.w + grain);
-    if (grows) atomicAdd(health[HAIR_HEALTH_GAINING], 1u);
+    if (grows) atomicAdd(solver_stats[HAIR_SOLVER_STATS_GAINING], 1u);
     float bound = (grows ? window.y : min(window.x, window.y)) - window.z;
     return vec4(bound, -NONE, 0.0, 0.5 * window.w);
 }

@@ -84,8 +84,8 @@ vec3 bend_to_rest(uint i, vec4 head)
 vec3 collide(uint i, float share)
 {
     vec3 position = vertex(i);
-    for (uint k = 0u; k < params.solids && i >= 2u; ++k)
-        position = push_out(position, solid_at(params.solid[k], share, params.margin));
+    for (uint k = 0u; k < params.colliders && i >= 2u; ++k)
+        position = push_out(position, collider_at(params.collider[k], share, params.collision_margin));
     return position;
 }
 
@@ -111,7 +111,7 @@ void main()
     uint i = uint(gl_VertexID) - first;
     vec3 x = vertex(i), kept = beside(i), target = rotate(rotation, rest_position(i).xyz);
 #if HAIR_PHASE == 0
-    float dt = params.gravity.w, frequency = mix(params.pull_root, params.pull_tip, float(i) / float(count - 1u));
+    float dt = params.gravity.w, frequency = mix(params.shape_frequency_root, params.shape_frequency_tip, float(i) / float(count - 1u));
     vec3  p = pull(x - head + params.keep * kept + params.gravity.xyz * (dt * dt), target, frequency * frequency, dt);
     kept = x;
     x    = i < 2u ? target : p;

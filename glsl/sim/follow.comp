@@ -39,8 +39,8 @@ layout(local_size_x = GROUP_THREADS) in;
 #ifdef HAIR_WIND
 #include "sim/drag.glsl"
 #endif
-#ifdef HAIR_TIED
-#include "sim/tie.glsl"
+#ifdef HAIR_PINNED
+#include "sim/pin.glsl"
 #include "sim/leader.glsl"
 #endif
 #include "sim/follow_state.glsl"
@@ -54,7 +54,7 @@ OWN(vec3, pushed); // Displacement by colliders in the last round
 
 // Find the planes above which colliders keep vertices. Return false if no vertex touches a
 // collider.
-bool meet_solids(vec3 head_moved)
+bool meet_colliders(vec3 head_moved)
 {
     bool touches = false;
     EACH(guide_count) { own(touch) = own(slip) = vec4(0.0); }
@@ -81,17 +81,17 @@ void attempt_all(vec3 head_moved)
 {
     predict();
     draw(false);
-    if (SOLIDS) {
+    if (COLLIDERS) {
         EACH(guide_count) { own(wanted) = GET(handed); }
-        find_solids(head_moved);
+        find_colliders(head_moved);
         list_reaching();
-        for (uint n = 0u; n < CONTACT_ROUNDS && meet_solids(head_moved); ++n) {
+        for (uint n = 0u; n < CONTACT_ROUNDS && meet_colliders(head_moved); ++n) {
             draw(true);
             EACH(guide_count) { own(wanted) = GET(handed); }
         }
     }
-#ifdef HAIR_TIED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_HEALTH_TAUT);
+#ifdef HAIR_PINNED
+    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
     finish(head_moved);
 }

@@ -44,7 +44,7 @@ vec3 kept_above(uint k, vec3 d, bool met)
 {
     vec3  normal = GET_AT(edge, k), on = GET_AT(handed, k);
     float depth  = dot(on - d, normal);
-    if (!SOLIDS || depth <= 0.0) return d;
+    if (!COLLIDERS || depth <= 0.0) return d;
     return met ? on : d + depth * normal;
 }
 
@@ -54,7 +54,7 @@ vec3 direction_above(uint k, vec3 leader, vec3 between, vec3 way, float len, boo
 {
     vec3 normal = GET_AT(edge, k), d = leader + len * way - between, to = between + kept_above(k, d, met) - leader;
     PUT_AT(handed, k, d);
-    if (!SOLIDS) return way;
+    if (!COLLIDERS) return way;
     float up = dot(to, normal), across = length(to - up * normal);
     if (dot(normal, normal) > 0.0 && abs(up) < len && across > 1e-3 * len)
         to = up * normal + sqrt(len * len - up * up) / across * (to - up * normal);
@@ -98,7 +98,7 @@ void draw(bool met)
     MEET;
     RENEW(moved)
     RENEW(handed)
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
     EACH(guide_count) {
         if (own(slack) == 0.0) PUT(moved, held_move(i));
     }

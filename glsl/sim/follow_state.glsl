@@ -7,12 +7,12 @@ OWN(vec3, plane); // Normal of the contact at the end of the last substep, or 0
 
 void load()
 {
-    bool pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
+    bool pulled  = params.shape_frequency_root > 0.0 || params.shape_frequency_tip > 0.0;
     root_is_free = rod[guide_first].segment.y > 0.0;
     EACH(guide_count) {
         uint       at      = guide_first + min(i, guide_count - 1u);
         hair_state was     = state[at];
-        vec4       segment = rod[at].segment, contact = SOLIDS ? material[at] : vec4(0.0);
+        vec4       segment = rod[at].segment, contact = COLLIDERS ? material[at] : vec4(0.0);
         own(plane) = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
         load_vertex(i, was, segment, pulled);
     }
@@ -38,7 +38,7 @@ void finish(vec3 head_moved)
     vec3  root_d  = GET_AT(moved, 0u);
     EACH(guide_count) {
         vec3  d = GET(moved), from_head = rounded(root_now + (GET(place) + (d - root_moved)));
-        if (SOLIDS) {
+        if (COLLIDERS) {
             vec3 n = own(touch).xyz;
             own(plane) = GET(edge);
             if (own(touch).w == SLIDES || own(touch).w == STICKS) d -= max(dot(d - root_moved, n), 0.0) * n;
@@ -56,5 +56,5 @@ void finish(vec3 head_moved)
         own(displacement) = still;
         own(plane)        = vec3(0.0);
     }
-    count_in(HAIR_HEALTH_RESET);
+    count_in(HAIR_SOLVER_STATS_RESET);
 }

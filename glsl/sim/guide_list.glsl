@@ -2,21 +2,21 @@
 
 // Return the index of a list's length in health[]. The work groups of an indirect dispatch come
 // before it.
-uint length_of_list(uint list) { return uint(HAIR_HEALTH_COUNT) + uint(HAIR_HEALTH_LIST) * list + 3u; }
+uint length_of_list(uint list) { return uint(HAIR_SOLVER_STATS_COUNT) + uint(HAIR_SOLVER_STATS_LIST) * list + 3u; }
 
 void clear_list(uint list)
 {
-    for (uint k = 0u; k < uint(HAIR_HEALTH_LIST); ++k) health[length_of_list(list) - k] = 0u;
+    for (uint k = 0u; k < uint(HAIR_SOLVER_STATS_LIST); ++k) solver_stats[length_of_list(list) - k] = 0u;
 }
 
 // Add a guide to the list of this dispatch, and count the work groups that the list needs. Direct
 // dispatches ignore the groups.
 void add_to_list(uint number)
 {
-    uint at     = length_of_list(params.list), n = atomicAdd(health[at], 1u);
+    uint at     = length_of_list(params.list), n = atomicAdd(solver_stats[at], 1u);
     uint groups = n / GUIDES_IN_GROUP + 1u;
-    health[uint(HAIR_HEALTH_LISTS) + n] = number;
-    atomicMax(health[at - 3u], min(groups, HAIR_MOST_GROUPS));
-    atomicMax(health[at - 2u], (groups + HAIR_MOST_GROUPS - 1u) / HAIR_MOST_GROUPS);
-    health[at - 1u] = 1u;
+    solver_stats[uint(HAIR_SOLVER_STATS_LISTS) + n] = number;
+    atomicMax(solver_stats[at - 3u], min(groups, HAIR_MOST_GROUPS));
+    atomicMax(solver_stats[at - 2u], (groups + HAIR_MOST_GROUPS - 1u) / HAIR_MOST_GROUPS);
+    solver_stats[at - 1u] = 1u;
 }

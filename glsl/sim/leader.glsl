@@ -1,6 +1,6 @@
 // leader.glsl - follow-the-leader. It always restores lengths, but not by the laws of motion.
 #define HEAVY_ROUNDS 6u
-#define TIED_ROUNDS 8u
+#define PINNED_ROUNDS 8u
 
 // Place vertex k at its length from its leader, in its present direction from there. If that
 // direction is undefined, use the last one.
@@ -27,7 +27,7 @@ void draw_back(uint from, uint to, float more, inout vec3 last)
     for (uint k = from; k-- > to;) draw_along(k, k + 1u, more * length_of(k), last);
 }
 
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
 
 // Draw a span between two held vertices from both ends in turn (Aristidou and Lasenby 2011).
 // Distribute the remaining error of the far end along the span.
@@ -36,7 +36,7 @@ void draw_span(vec4 span, inout vec3 last)
     uint  from = uint(span.x), to = uint(span.y);
     vec3  goal = GET_AT(moved, to);
     float more = given(span, (GET_AT(place, to) - GET_AT(place, from)) + (goal - GET_AT(moved, from))), done = 0.0;
-    for (uint n = 0u; n < TIED_ROUNDS; ++n) {
+    for (uint n = 0u; n < PINNED_ROUNDS; ++n) {
         draw_on(from, to, more, last);
         PUT_AT(moved, to, goal);
         draw_back(to, from + 1u, more, last);
@@ -56,7 +56,7 @@ void draw_strand()
     vec3  last   = clamp_way;
     uint  from   = 0u;
     for (bool more = number > 0.0; more; number += 1.0) {
-        vec4 span = tie_span(number);
+        vec4 span = pin_span(number);
         if (span.z > 0.0) draw_span(span, last);
         else draw_back(uint(span.y), 0u, 1.0, last); // The root is free.
         from = uint(span.y);
@@ -87,7 +87,7 @@ void draw_strand()
 void follow_leader()
 {
     EACH(guide_count) {
-        if (SOLIDS) own(touch) = vec4(0.0);
+        if (COLLIDERS) own(touch) = vec4(0.0);
     }
     MEET;
     ONCE { draw_strand(); }

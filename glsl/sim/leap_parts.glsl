@@ -11,7 +11,7 @@
 #define MAX_LOOPS (params.part_rounds / 3u)
 #endif
 // Rounds of one test against few colliders.
-#define LOOPS_OF_LOOK (SOLIDS ? params.solids + 10u + 12u * uint(bitCount(params.bodies)) : 0u)
+#define LOOPS_OF_LOOK (COLLIDERS ? params.colliders + 10u + 12u * uint(bitCount(params.bodies)) : 0u)
 // Rounds of a part, without those of each step of lengths.
 #define LOOPS_OF_PART (15u + 2u * LOOPS_OF_LOOK)
 #define LOOPS_OF_STEP (9u + LOOPS_OF_LOOK)
@@ -34,7 +34,7 @@ bool turns_far(int method)
     rounds_spent += LOOPS_OF_PART + LOOPS_OF_STEP * length_steps;
     EACH(guide_count) {
         far     = far || turns_at(i, min_cosine);
-        touches = touches || (SOLIDS && own(met) != BITS(0u));
+        touches = touches || (COLLIDERS && own(met) != BITS(0u));
     }
     bvec2 found = any_of(bvec2(far, touches));
     touching    = found.y;
@@ -85,7 +85,7 @@ void do_substep(vec3 head_moved)
     for (; done < 1.0; done += leap_part) {
         if (done > 0.0) {
             begin_part();
-            if (SOLIDS) next_solids();
+            if (COLLIDERS) next_colliders();
         }
         place_part(size, done + size, head_moved);
         attempt_all(head_moved);

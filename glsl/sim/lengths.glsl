@@ -9,8 +9,8 @@
 // M^-1, which converges faster.
 #include "sim/contact_try.glsl"
 #include "sim/past.glsl"
-#ifdef HAIR_TIED
-#include "sim/tie.glsl"
+#ifdef HAIR_PINNED
+#include "sim/pin.glsl"
 #endif
 #include "sim/leader.glsl"
 
@@ -60,7 +60,7 @@ void correct_lengths(int method, uint n)
 {
     bool of_start = IS_SHAKE(method), stiffly = n < STIFFLY && IS_BACK(method);
     uint segments = guide_count - 1u;
-    if (SOLIDS && LEAPS(method) && n == 0u) {
+    if (COLLIDERS && LEAPS(method) && n == 0u) {
         EACH(segments) { PUT(edge, normalize(AFTER_VEC3(place) - GET(place))); }
         MEET;
     }
@@ -72,8 +72,8 @@ void correct_lengths(int method, uint n)
             along_before = of_start ? first : before;
             along        = of_start ? GET(lever) : along;
         }
-        vec3 by_own    = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), GET(edge)) : GET(edge));
-        vec3 by_before = own(slack) * (SOLIDS ? pass_back(own(touch), own(slip), before) : before);
+        vec3 by_own    = own(slack) * (COLLIDERS ? pass_back(own(touch), own(slip), GET(edge)) : GET(edge));
+        vec3 by_before = own(slack) * (COLLIDERS ? pass_back(own(touch), own(slip), before) : before);
         own(row)       = vec4(i > 0u ? -dot(by_own, along_before) : 0.0, dot(by_own, along), 0.0, -own(excess));
         // Hand the terms of this vertex to the rows of the neighbours.
         PUT(handed, vec3(dot(by_before, along_before), -dot(by_before, along), -own(excess) / own(rest_length)));
@@ -85,7 +85,7 @@ void correct_lengths(int method, uint n)
         own(hinge_along) = own(strain).w * max(params.ratio.x, params.ratio.z) * turned;
         own(row).y += after.x;
         own(row).z = i + 1u < segments ? after.y : 0.0;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
         own(row).y *= 1.0 + own(gives);
 #endif
         // Both ends are held.
@@ -98,9 +98,9 @@ void correct_lengths(int method, uint n)
     EACH(guide_count) {
         vec3 force = by_segments(i);
         if (stiffly) {
-            vec3 by_solids = n == 0u ? pressed(i, method) : vec3(0.0);
-            own(wanted) -= by_solids;
-            PUT(moved, own(slack) > 0.0 ? force + by_solids / own(slack) : vec3(0.0));
+            vec3 by_colliders = n == 0u ? pressed(i, method) : vec3(0.0);
+            own(wanted) -= by_colliders;
+            PUT(moved, own(slack) > 0.0 ? force + by_colliders / own(slack) : vec3(0.0));
         } else {
             own(wanted) += own(slack) * force;
             FIND_TENSION(1.0);
@@ -119,7 +119,7 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
         // Vertices that are drawn into colliders are pushed out once.
         if (IS_LEADER(method)) {
             follow_leader();
-            if (n == (SOLIDS ? 1u : 0u)) return true;
+            if (n == (COLLIDERS ? 1u : 0u)) return true;
         } else {
             measure(tolerance);
             // Do at least one step. Skipped errors would add up over substeps, and then leave at

@@ -29,15 +29,15 @@
 
 // Features of a program as constants. Constants remove code, while software rasterisers execute
 // both sides of a branch.
-#ifdef HAIR_SOLIDS
-#define SOLIDS true
+#ifdef HAIR_COLLIDERS
+#define COLLIDERS true
 #else
-#define SOLIDS false
+#define COLLIDERS false
 #endif
-#ifdef HAIR_TIED
-#define TIED true
+#ifdef HAIR_PINNED
+#define PINNED true
 #else
-#define TIED false
+#define PINNED false
 #endif
 
 // Programs that many guides go through first have few registers per guide. The program of SHAKE has

@@ -20,8 +20,8 @@ layout(local_size_x = GROUP_THREADS) in;
 #endif
 #include "sim/contact.glsl"
 #include "sim/past.glsl"
-#ifdef HAIR_TIED
-#include "sim/tie.glsl"
+#ifdef HAIR_PINNED
+#include "sim/pin.glsl"
 #endif
 #include "sim/leader.glsl"
 #include "sim/mixed.glsl"

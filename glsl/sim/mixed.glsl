@@ -140,7 +140,7 @@ void predict(int method)
     MEET;
     EACH(guide_count) { PUT(edge, along_of(seen(section))); }
     MEET;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
     EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
     MEET;
     give_length();

@@ -46,7 +46,7 @@ vec3 find_chain()
     EACH(guide_count) {
         vec3 then  = along_of(seen(section));
         own(chain) = own(rest_length) * change_by(own(turn), then);
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
         vec3 between = BETWEEN;
         own(chain) += i + 1u < guide_count ? own(rest_length) * then - between : vec3(0.0);
 #endif
@@ -60,7 +60,7 @@ vec3 find_chain()
     return start;
 }
 
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
 // Distribute the remaining errors of held vertices along their spans.
 void close_spans()
 {
@@ -88,7 +88,7 @@ void place_vertices()
     sum_along(root_place + (start - root_moved));
     EACH(guide_count) { PUT(place, own(chain) - (GET(moved) - root_moved)); }
     MEET;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
     close_spans();
 #endif
 }

@@ -136,20 +136,20 @@ void hold_vertices(bool first)
 {
     EACH(guide_count) {
         PUT(moved, own(wanted));
-        if (!SOLIDS) continue;
+        if (!COLLIDERS) continue;
         own(touch) = vec4(0.0);
         if (own(reachable) == BITS(0u)) own(reaction_found) = vec3(0.0);
         else if (!LISTS_REACHING) hold_vertex(i, first);
     }
-    if (SOLIDS && LISTS_REACHING) {
+    if (COLLIDERS && LISTS_REACHING) {
         EACH_REACHING { hold_vertex(i, first); }
     }
 }
 
 // Find the displacements that colliders allow in a Newton step.
-void meet_solids(uint n, bool leads, vec3 head_moved)
+void meet_colliders(uint n, bool leads, vec3 head_moved)
 {
-    if (SOLIDS && touching) {
+    if (COLLIDERS && touching) {
         if (leads) EACH(guide_count) { own(chain) = own(wanted); }
         else if (n > 0u && n < PLANES_UNTIL) find_chain();
         if (leads || n < PLANES_UNTIL) find_planes(head_moved);

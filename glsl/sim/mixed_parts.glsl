@@ -44,7 +44,7 @@ void place_part(float from, float to, vec3 head_moved)
     share_then = fraction_from;
     place_root(head_to, fraction_to);
     root_moved = root_now - root_then + (to - from) * head_moved;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
     head_then = head_from;
     head_now  = head_to;
 #endif
@@ -66,13 +66,13 @@ void attempt_all(vec3 head_moved)
         bool fits = attempt(method, moves);
         bool last = part <= SMALLEST_PART || rounds_in_all >= MAX_ROUNDS_IN_ALL;
         if (!fits && !last) {
-            if (part == 1.0) count_in(HAIR_HEALTH_PARTS);
+            if (part == 1.0) count_in(HAIR_SOLVER_STATS_PARTS);
             rescale_past(0.25);
             part *= 0.25;
             place_part(done, done + part, head_moved);
             continue;
         }
-        if (!fits) count_in(HAIR_HEALTH_FOLLOW);
+        if (!fits) count_in(HAIR_SOLVER_STATS_FOLLOW_FALLBACKS);
         // Wrong forces make the result of contact meaningless.
         if (!fits && (touching || any_of(bvec2(!finite, false)).x)) {
             leads = true;
@@ -90,12 +90,12 @@ void attempt_all(vec3 head_moved)
                 part = 1.0 - done;
             }
             place_part(done, done + part, head_moved);
-            if (SOLIDS) next_solids();
+            if (COLLIDERS) next_colliders();
         }
         leads = false;
     }
     if (part < 1.0) rescale_past(1.0 / part);
-#ifdef HAIR_TIED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_HEALTH_TAUT);
+#ifdef HAIR_PINNED
+    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
 }

@@ -27,17 +27,17 @@ bool finite;        // The result of the last attempt is finite, even if the att
 void find_reachable(bool leads, vec3 head_moved)
 {
     EACH(guide_count) { own(reaction_found) = own(reaction); }
-    if (SOLIDS && !leads) {
+    if (COLLIDERS && !leads) {
         find_chain();
         EACH(guide_count) { own(wanted) = own(chain); }
     }
-    find_solids(head_moved);
+    find_colliders(head_moved);
     list_reaching();
-    touching = TIED;
-    if (!SOLIDS) return;
+    touching = PINNED;
+    if (!COLLIDERS) return;
     bool any = false;
     EACH(guide_count) { any = any || (i < guide_count && own(reachable) != BITS(0u)); }
-    touching = any_of(bvec2(any, false)).x || TIED;
+    touching = any_of(bvec2(any, false)).x || PINNED;
 }
 
 // Apply the solution, and turn no segment by more than MAX_TURN. `far` means that the whole
@@ -90,12 +90,12 @@ bool attempt(int method, vec3 head_moved)
     for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
         if (!leads) find_wanted();
-        meet_solids(n, leads, head_moved);
+        meet_colliders(n, leads, head_moved);
         MEET;
         // Vertices that are drawn into colliders are pushed out once.
         if (leads) {
             follow_leader();
-            if (n == (SOLIDS ? 1u : 0u)) return true;
+            if (n == (COLLIDERS ? 1u : 0u)) return true;
             continue;
         }
         bool loose = put_rows(exact, n < LOOSE_FROM ? 1.0 : LOOSER);
@@ -114,5 +114,5 @@ bool attempt(int method, vec3 head_moved)
     }
     finite = most_turn < 0x7f800000u;
     // A solution that does not fit would stretch the strand between held vertices.
-    return !judged.x && (!TIED || fits);
+    return !judged.x && (!PINNED || fits);
 }

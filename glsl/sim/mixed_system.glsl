@@ -4,7 +4,7 @@
 // Fraction of the mobility that a contact leaves across it. A block between two contacts then has
 // an inverse.
 #define HELD 1e-3
-#if defined(HAIR_SOLIDS) || defined(HAIR_WIND) || defined(HAIR_TIED)
+#if defined(HAIR_COLLIDERS) || defined(HAIR_WIND) || defined(HAIR_PINNED)
 #define MOBILITY_IS_MATRIX
 #endif
 
@@ -34,7 +34,7 @@ void put_mobility(uint i)
     w *= own(mobilities).x;
     w += own(mobility) * (own(mobilities).y - own(mobilities).x) * outerProduct(own(flow), own(flow));
 #endif
-    if (SOLIDS && own(touch).w != FREE) {
+    if (COLLIDERS && own(touch).w != FREE) {
         w = full(own(freedom));
 #ifdef HAIR_WIND
         w *= own(mobilities).x;
@@ -42,7 +42,7 @@ void put_mobility(uint i)
         w *= own(mobility);
     }
     // Two held neighbours would leave the force between them nothing to act on.
-    if (TIED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
+    if (PINNED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
     symmetric half_w = half_of(w);
     PUT_ROW(mobility_diagonal, i, half_w.diagonal);
     PUT_ROW(mobility_beside, i, half_w.beside);
@@ -56,7 +56,7 @@ void put_mobility(uint i)
 // no stiffness. The result is relative to the stiffness that inertia gives to other turns.
 float twist_hold(float l, float twist)
 {
-    float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (SOLIDS || TIED ? 0.5 / HELD : 1.0);
+    float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (COLLIDERS || PINNED ? 0.5 / HELD : 1.0);
     return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
@@ -88,7 +88,7 @@ bool put_rows(bool exact, float looser)
         else c = plus(c, minus(multiple_of_one(max(pull, 0.0)), times(max(pull, 0.0), outer(t))));
         c      = plus(c, times(twist_hold(l, dot(t, times(c, t))), outer(t)));
         vec3 e = l * change_by(own(turn), then) - to;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
         e += l * then - between;
 #endif
         if (i + 1u < guide_count) {

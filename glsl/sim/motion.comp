@@ -2,7 +2,7 @@
 // substep.
 //
 // A thread loops over the vertices of a guide. A guide is restless if it moves although damping has
-// had the time to calm it. lib/sim/health.c explains this.
+// had the time to calm it. lib/sim/solver_stats.c explains this.
 #version 450 core
 #include "shared.h"
 #include "workgroup.glsl"

@@ -14,7 +14,7 @@ uint  length_steps;
 
 // Contact and pins may leave lengths broken in parts of any size. Guides that touch a collider,
 // have pins, or look up colliders in lists therefore take whole substeps.
-#if HAIR_SOLVER == SHAKE && !defined(HAIR_ANY) && !defined(HAIR_TIED)
+#if HAIR_SOLVER == SHAKE && !defined(HAIR_ANY) && !defined(HAIR_PINNED)
 #if defined(HAIR_FIRST) || defined(HAIR_LISTED)
 #define WATCHES_TURNS
 #endif

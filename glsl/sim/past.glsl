@@ -19,7 +19,7 @@
 bool is_struck(uint i, vec3 d)
 {
     vec3 lost = own(displacement) - d;
-    return SOLIDS && i < guide_count && own(touch).w != FREE &&
+    return COLLIDERS && i < guide_count && own(touch).w != FREE &&
            length(lost - pass_on(own(touch), lost)) > STRUCK * SUBSTEP;
 }
 
@@ -32,7 +32,7 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
     bool leapt = LEAPS(method);
     own(rate)        = IS_BACK(method) ? 1.5 * d - 0.5 * last : kept;
     parked(rate_before) = IS_LEADER(method) ? kept : leapt ? 0.5 * (d + last) : before;
-    if (!SOLIDS) return;
+    if (!COLLIDERS) return;
     // A vertex that begins to touch loses its past across the surface. A vertex that sticks loses
     // all of its past. A vertex that continues to slide keeps it. Only then does a curved surface
     // turn the motion by as much as other forces do, and not by 9/4 of that.
@@ -54,7 +54,7 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
 // again. Among many small colliders this would lead into others, and the result is 0.
 vec3 pressed(uint i, int method)
 {
-#if defined(HAIR_SOLIDS) && defined(KEEPS_RATES) && !defined(HAIR_ANY)
+#if defined(HAIR_COLLIDERS) && defined(KEEPS_RATES) && !defined(HAIR_ANY)
     vec3 taken = GET(moved) - own(wanted);
     if (LEAPS(method) || own(touched) == 0.0) return min(PRESSED, MOST_PRESSED / max(length(taken), 1e-9)) * taken;
 #endif

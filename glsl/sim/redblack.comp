@@ -53,7 +53,7 @@ void main()
     vec3      displacement = state[own].displacement.xyz;
     float     dt           = params.gravity.w;
     float     share        = float(i) / float(count - 1u);
-    float     frequency    = mix(params.pull_root, params.pull_tip, share);
+    float     frequency    = mix(params.shape_frequency_root, params.shape_frequency_tip, share);
     // Rest links before vertex i and before vertex i-1.
     vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz, next = at_rest.position.xyz - before;
     vec3 link   = before - rest[first + max(min(i, count - 1u), 2u) - 2u].position.xyz;
@@ -95,7 +95,7 @@ void main()
         synchronise();
 
         float time   = params.substep[s].displacement.w;
-        uvec2 solids = here && !pinned ? find_solids(vertex[i], time) : uvec2(0u);
+        uvec2 colliders = here && !pinned ? find_colliders(vertex[i], time) : uvec2(0u);
         for (uint n = 0u; n < params.iterations; ++n) {
             relax_distance(i, count, 0u, first);
             synchronise();
@@ -107,8 +107,8 @@ void main()
                 relax_bend(i, count, 1u, first, params.bend);
                 synchronise();
             }
-            if (params.solids > 0u) {
-                if (here && !pinned) vertex[i] = collide(vertex[i], solids, time);
+            if (params.colliders > 0u) {
+                if (here && !pinned) vertex[i] = collide(vertex[i], colliders, time);
                 synchronise();
             }
         }
@@ -126,7 +126,7 @@ void main()
         }
         synchronise();
         if (i == 0u && broken != 0u) {
-            atomicAdd(health[HAIR_HEALTH_RESET], 1u);
+            atomicAdd(solver_stats[HAIR_SOLVER_STATS_RESET], 1u);
             broken = 0u;
         }
     }

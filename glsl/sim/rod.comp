@@ -33,7 +33,7 @@ bool turns_far(int method);
 bool attempt(int method, vec3 head_moved)
 {
     predict(method);
-    find_solids(head_moved);
+    find_colliders(head_moved);
     list_reaching();
     bool fits = fit_lengths(method, HAIR_SOLVER == SHAKE ? 3e-4 : 9e-4, head_moved);
 #ifdef SPLITS
@@ -69,10 +69,10 @@ void attempt_all(vec3 head_moved)
 #endif
         // Skip BDF2, which needs a past that SHAKE does not keep.
         if (IS_SHAKE(method)) ++method;
-        count_in(method >= EULER ? HAIR_HEALTH_FOLLOW : HAIR_HEALTH_EULER);
+        count_in(method >= EULER ? HAIR_SOLVER_STATS_FOLLOW_FALLBACKS : HAIR_SOLVER_STATS_EULER_FALLBACKS);
     }
-#ifdef HAIR_TIED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_HEALTH_TAUT);
+#ifdef HAIR_PINNED
+    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
     accept(method, waits, head_moved);
 }
@@ -94,9 +94,9 @@ void main()
         MEET;
     }
 #elif defined(HAIR_LISTED)
-    uint count = health[length_of_list(params.list)];
+    uint count = solver_stats[length_of_list(params.list)];
     for (uint n = first; n < count; n += guides_at_once) {
-        guide_number = health[HAIR_HEALTH_LISTS + n];
+        guide_number = solver_stats[HAIR_SOLVER_STATS_LISTS + n];
         solve();
         MEET;
     }

@@ -14,8 +14,8 @@ SHARED_VEC3(edge);       // unit, of segment i, where `moved` leads
 SHARED_VEC3(lever);      // bending: what a hinge does; then: directions in which lengths are corrected
 SHARED_VEC3(handed);     // to the neighbours, of forces: see there
 OWN(float, rest_length); // of segment i; 0 for the tip
-OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a tie
-OWN(vec3, wanted);       // displacement if no solid were in the way
+OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a pin
+OWN(vec3, wanted);       // displacement if no collider were in the way
 OWN(vec3, displacement); // over the last substep
 OWN(float, excess);      // of length, of segment i
 OWN(vec4, aim);          // rest position from the root, in groom space; squared frequency of the pull to it
@@ -51,7 +51,7 @@ float part_length;
 #define SUBSTEP params.gravity.w
 #endif
 
-#ifdef HAIR_TIED // See tie.glsl; without ties nothing but the root is held.
+#ifdef HAIR_PINNED // See pin.glsl; without pins nothing but the root is held.
 vec3 held_move(uint i);
 void give_length();
 #else
@@ -99,7 +99,7 @@ void find_edges()
 float granted_error(uint i, float tolerance)
 {
     float grant = tolerance * own(rest_length);
-#ifdef HAIR_SOLIDS
+#ifdef HAIR_COLLIDERS
     grant = clamp(SLOW_GRANT * length(own(displacement) - root_moved), MIN_GRANT * guide_length, grant);
 #endif
     return grant;
@@ -124,7 +124,7 @@ void measure(float tolerance)
 
 void count_in(uint what)
 {
-    if (lane == 0u) atomicAdd(health[what], 1u);
+    if (lane == 0u) atomicAdd(solver_stats[what], 1u);
 }
 
 // Return v rounded by a sum whose parts no compiler takes away again. `precise` says so too, but of all that leads there:

@@ -4,7 +4,7 @@
 void load()
 {
     float rescale = params.substep_first == 0u ? params.rescale : 1.0;
-    bool  pulled  = params.pull_root > 0.0 || params.pull_tip > 0.0;
+    bool  pulled  = params.shape_frequency_root > 0.0 || params.shape_frequency_tip > 0.0;
     known         = rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
     root_is_free  = rod[guide_first].segment.y > 0.0;
     float tip     = rod[guide_first + guide_count - 1u].segment.y;

@@ -44,11 +44,11 @@ bool solve()
     }
     place_root(head, share);
     root_then = root_now;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
     head_now  = head;
 #endif
     load();
-    if (SOLIDS) begin_solids();
+    if (COLLIDERS) begin_colliders();
 #ifdef HAIR_FIRST
     if (HAIR_SOLVER == SHAKE ? known != 0.0 && known != 1.0 : known < LEAPS_NEXT) return false;
 #endif
@@ -61,7 +61,7 @@ bool solve()
         turn_then       = turn_now;
         root_then       = root_now;
         share_then      = share_now;
-#ifdef HAIR_TIED
+#ifdef HAIR_PINNED
         head_then       = head_now;
         head_now        = params.substep[s].rotation;
 #endif
@@ -75,7 +75,7 @@ bool solve()
 #endif
 
         grant_rounds();
-        if (SOLIDS) next_solids();
+        if (COLLIDERS) next_colliders();
 #ifdef HAIR_FIRST
         if (!attempt(HAIR_SOLVER, head_moved) || !accept(HAIR_SOLVER, false, head_moved)) return false;
 #elif defined(SPLITS)

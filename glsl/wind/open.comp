@@ -1,5 +1,5 @@
 // open.comp - the open fraction of each face, and the velocity of what closes it along the axis of
-// the face. The method is that of Ng, Min and Gibou 2009, "An efficient fluid-solid coupling
+// the face. The method is that of Ng, Min and Gibou 2009, "An efficient fluid-collider coupling
 // algorithm for single-phase flows". The open part lies outside all colliders by the distance
 // field. It is measured in sixteenths of the face, and in fractions of them where a surface passes
 // through one. One thread per slot.
@@ -52,8 +52,8 @@ vec3 wall_velocity(vec3 place)
 {
     vec3 in_field = box_place(place);
     if (!field_holds(in_field)) return vec3(0.0);
-    ivec3 size   = textureSize(field_solid_texture, 0);
-    uint  number = texelFetch(field_solid_texture, min(ivec3(in_field * vec3(size)), size - 1), 0).x;
+    ivec3 size   = textureSize(field_collider_texture, 0);
+    uint  number = texelFetch(field_collider_texture, min(ivec3(in_field * vec3(size)), size - 1), 0).x;
     if (number >= uint(motion.length())) return vec3(0.0);
     return motion[number].velocity.xyz + cross(motion[number].spin.xyz, position_of(place));
 }
@@ -69,7 +69,7 @@ void main()
         bool  border = at[axis] == 0 || at[axis] == int(fluid.cells);
         float share  = border && fluid.open == 0u ? 0.0 : 1.0;
         if (any(greaterThanEqual(at, ivec3(fluid.cells) + axis_of(axis)))) share = 0.0;
-        if (fluid.solids != 0u && share > 0.0) {
+        if (fluid.colliders != 0u && share > 0.0) {
             share = open_part(middle, vec3(axis_of((axis + 1) % 3)), vec3(axis_of((axis + 2) % 3)));
             if (share < 1.0) velocity = wall_velocity(middle);
         }

@@ -18,7 +18,7 @@ typedef enum hair_format {
 } hair_format;
 
 typedef struct hair_asset_desc {
-    hair_made made;
+    hair_struct_header header;
     const hair_host* host; ///< NULL: the C library's allocator, no log.
     const hair_import* import; ///< NULL: the defaults.
 } hair_asset_desc;
@@ -48,7 +48,7 @@ typedef enum hair_style {
 } hair_style;
 
 typedef struct hair_style_desc {
-    hair_made made;
+    hair_struct_header header;
     const hair_host* host; ///< NULL: the C library's allocator, no log.
     hair_style style; ///< Default HAIR_STYLE_LONG.
     uint32_t guide_count; ///< Guides, spread evenly over the scalp. [16, 4096]. Default 166.
@@ -67,25 +67,25 @@ HAIR_API const char* hair_style_name(hair_style style); ///< "long", "bob", … 
 HAIR_API const char* hair_format_name(hair_format format); ///< "hair", "tfx4", … NULL beyond the last.
 
 typedef struct hair_asset_info {
-    hair_made made;
+    hair_struct_header header;
     hair_format format;
-    hair_strands_are strands_are; ///< .tfx and the built-in haircuts hold guides; .hair holds all.
+    hair_strand_set strand_set; ///< .tfx and the built-in haircuts hold guides; .hair holds all.
     uint32_t strand_count; ///< After the repairs.
     uint32_t vertex_count;
-    uint32_t fewest, most; ///< Vertices of a strand.
+    uint32_t min_vertices, max_vertices; ///< Vertices of a strand.
     float length[3]; ///< Least, mean, greatest. m.
     float lower[3], upper[3]; ///< Bounds. m.
     uint32_t file_strands; ///< Before the repairs and `share`.
     uint32_t file_vertices;
-    hair_repairs repairs;
+    hair_import_stats import_stats;
     const float* positions; ///< xyz per vertex. Lives as long as the asset, as do the following.
     const uint32_t* strand_vertices; ///< Per strand.
     const float* strand_radii; ///< Per strand, at the root. m. NULL: the file has none.
     const float* scalp_positions; ///< xyz per vertex. NULL: no scalp.
     const uint32_t* scalp_triangles;
     uint32_t scalp_vertex_count, scalp_triangle_count;
-    const float*
-        strand_colors; ///< Per strand, linear rgb at 8 even places from root to tip. NULL: the file has none.
+    /// Per strand, linear rgb at 8 even places from root to tip. NULL: the file has none.
+    const float* strand_colors;
 } hair_asset_info;
 HAIR_DESC(hair_asset_info)
 
@@ -93,6 +93,6 @@ HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_inf
 
 /// Point `desc` at the asset's strands, their radii and colours, scalp and what they are; the rest of `desc` stays. The asset must
 /// live until hair_groom_create has returned.
-HAIR_API hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc);
+HAIR_API hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* desc);
 
 #endif

@@ -23,8 +23,7 @@ struct hair_asked {
     int asleep;
     // Number of views in colour, in depth only and of opacity. `unseen` counts those that show no
     // hair.
-    uint32_t views[3],
-        unseen[3];
+    uint32_t views[3], unseen[3];
     int listed, expanded; // 1 if a view needs the strand list, or the vertex cache
     int hides; // 1 if a view uses occlusion culling
 };
@@ -41,7 +40,7 @@ struct hair_instance {
     struct hair_sim sim;
     struct hair_smooth smooth;
     struct hair_draw draw;
-    struct hair_solid_field field;
+    struct hair_collider_field field;
     struct hair_gl_ledger ledger;
     struct hair_asked asked[HAIR_GL_FRAMES]; // per frame of the ledger
 };

@@ -89,8 +89,8 @@ static void measure(const struct hair_strands* strands, hair_asset_info* info)
         sum += length;
         info->length[0] = s ? fminf(info->length[0], (float)length) : (float)length;
         info->length[2] = fmaxf(info->length[2], (float)length);
-        info->fewest = s && info->fewest < count ? info->fewest : count;
-        info->most = info->most > count ? info->most : count;
+        info->min_vertices = s && info->min_vertices < count ? info->min_vertices : count;
+        info->max_vertices = info->max_vertices > count ? info->max_vertices : count;
     }
     if (strands->strand_count) info->length[1] = (float)(sum / strands->strand_count);
 }
@@ -100,12 +100,12 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
     if (!asset) return HAIR_ERROR_ARGUMENT;
     hair_asset_info info = {
         .format = asset->format,
-        .strands_are = asset->strands_are,
+        .strand_set = asset->strand_set,
         .strand_count = asset->strands.strand_count,
         .vertex_count = asset->strands.vertex_count,
         .file_strands = asset->file_strands,
         .file_vertices = asset->file_vertices,
-        .repairs = asset->repairs,
+        .import_stats = asset->repairs,
         .positions = asset->strands.positions,
         .strand_vertices = asset->strands.vertices,
         .strand_radii = asset->strands.radii,
@@ -119,16 +119,16 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
     return HAIR_GIVE(&asset->host, hair_asset_info, &info, out);
 }
 
-hair_result hair_asset_fill(const hair_asset* asset, hair_groom_desc* desc)
+hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* desc)
 {
     if (!asset) return HAIR_ERROR_ARGUMENT;
     if (!desc) return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc is NULL");
-    hair_result result = hair_made_check(&asset->host, "hair_groom_desc", desc->made);
+    hair_result result = hair_check_header(&asset->host, "hair_groom_desc", desc->header);
     if (result) return result;
     desc->positions = asset->strands.positions;
     desc->strand_vertices = asset->strands.vertices;
     desc->strand_count = asset->strands.strand_count;
-    desc->strands_are = asset->strands_are;
+    desc->strand_set = asset->strand_set;
     desc->scalp_positions = asset->scalp_positions;
     desc->scalp_triangles = asset->scalp_triangles;
     desc->scalp_vertex_count = asset->scalp_vertex_count;

@@ -56,7 +56,7 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
     const struct hair_gl_memory* memory = &context->gl.memory;
     hair_memory own = hair_memory_default();
     own.bytes = memory->bytes;
-    own.most = memory->most;
+    own.peak = memory->most;
     own.limit = memory->limit;
     return HAIR_GIVE(&context->host, hair_memory, &own, out);
 }
@@ -68,7 +68,7 @@ hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
     return HAIR_OK;
 }
 
-uint32_t hair_timings(hair_context* context, hair_timing* out, uint32_t capacity)
+uint32_t hair_get_timings(hair_context* context, hair_timing* out, uint32_t capacity)
 {
     if (!context) return 0;
     for (uint32_t i = 0; out && i < capacity && i < context->gl.programs; ++i) {

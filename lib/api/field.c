@@ -24,8 +24,8 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
 
 hair_result hair_update_field(hair_instance* hair)
 {
-    const struct hair_solids* solids = &hair->sim.solids;
-    return hair_field_update(&hair->field, solids->now.solid, solids->now.count, &hair->sim.at_step);
+    const struct hair_colliders* colliders = &hair->sim.colliders;
+    return hair_field_update(&hair->field, colliders->now.collider, colliders->now.count, &hair->sim.at_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
@@ -44,7 +44,7 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     const struct hair_field_box* box = &hair->field.box;
     if (hair_field_is_near(&hair->field)) {
         own.distance_texture = hair->field.distance;
-        own.solid_texture = hair->field.number;
+        own.collider_texture = hair->field.number;
     }
     for (int i = 0; i < 3; ++i) own.size[i] = HAIR_BRICK * box->bricks[i];
     own.voxel = box->voxel;

@@ -23,20 +23,20 @@
     ;                                                                                                        \
     struct hair_fields hair_fields_of_##S(void) {                                                            \
         return (struct hair_fields){S##_rows, sizeof S##_rows / sizeof *S##_rows - 1, sizeof(S)};            \
-    } void S##_init(S* desc, hair_made made)                                                                 \
+    } void S##_init(S* desc, hair_struct_header header)                                                      \
     {                                                                                                        \
-        hair_fields_init(desc, made, hair_fields_of_##S());                                                  \
+        hair_fields_init(desc, header, hair_fields_of_##S());                                                \
     }
 #include "lib/api/fields.inl"
 
 hair_result hair_fields_give(const hair_host* host, const char* name, const void* own, size_t size, void* out)
 {
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
-    hair_made made;
-    memcpy(&made, out, sizeof made);
-    hair_result result = hair_made_check(host, name, made);
+    hair_struct_header header;
+    memcpy(&header, out, sizeof header);
+    hair_result result = hair_check_header(host, name, header);
     if (result) return result;
-    memcpy(out, own, made.size < size ? made.size : size);
-    memcpy(out, &made, sizeof made);
+    memcpy(out, own, header.size < size ? header.size : size);
+    memcpy(out, &header, sizeof header);
     return HAIR_OK;
 }

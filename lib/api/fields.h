@@ -30,10 +30,11 @@ hair_result hair_fields_give(const hair_host* host, const char* name, const void
                              void* out);
 
 // The host of a desc, taken before the rest is checked, so that the check has a log. Every desc
-// with a host has it right after `made`. A desc that no default function has filled in is not
+// with a host has it right after `header`. A desc that no default function has filled in is not
 // trusted.
 #define HAIR_HOST_OF(desc)                                                                                   \
-    hair_host_take((desc) && (desc)->made.version && (desc)->made.size >= 16 && (desc)->made.size <= 4096    \
+    hair_host_take((desc) && (desc)->header.version && (desc)->header.size >= 16 &&                          \
+                           (desc)->header.size <= 4096                                                       \
                        ? (desc)->host                                                                        \
                        : NULL)
 

@@ -60,20 +60,22 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.asked_substep = (double)desc->substep;
     hair->sim.contacts.forms = &context->forms;
     hair->sim.solver = desc->solver;
-    hair->draw.hits.prepass = desc->first_hit == HAIR_FIRST_HIT_PREPASS;
-    hair->sim.by_thread =
-        desc->solver != HAIR_SOLVER_REDBLACK &&
-        (desc->mapping == HAIR_MAPPING_AUTO ? context->gl.software : desc->mapping == HAIR_MAPPING_THREAD);
+    hair->draw.hits.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
+    hair->sim.by_thread = desc->solver != HAIR_SOLVER_REDBLACK &&
+                          (desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
+                               ? context->gl.software
+                               : desc->thread_mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
     hair->sim.diagnosis.wanted = desc->diagnose != 0;
-    hair->sim.feedback.wanted = desc->mapping == HAIR_MAPPING_FEEDBACK;
+    hair->sim.feedback.wanted = desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK;
     hair->sim.wind = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
                          hair->label, (double)desc->substep, (double)SHORTEST);
-    if (desc->mapping == HAIR_MAPPING_FEEDBACK && desc->solver != HAIR_SOLVER_REDBLACK)
+    if (desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK && desc->solver != HAIR_SOLVER_REDBLACK)
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "%s: hair_desc.mapping is HAIR_MAPPING_FEEDBACK, which only the solver redblack has",
+                         "%s: hair_desc.thread_mapping is HAIR_THREAD_MAPPING_FEEDBACK, which only the "
+                         "solver redblack has",
                          hair->label);
     hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
     if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
@@ -137,7 +139,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     hair_physics own;
     hair_result result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    if (own.margin != hair->sim.physics.margin) hair->draw.hits.fresh = 0;
+    if (own.collision_margin != hair->sim.physics.collision_margin) hair->draw.hits.fresh = 0;
     hair->sim.physics = own;
     return HAIR_OK;
 }
@@ -163,18 +165,20 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
     return result;
 }
 
-hair_result hair_set_solids(hair_instance* hair, const hair_solid* solids, uint32_t count, size_t stride)
+hair_result hair_set_colliders(hair_instance* hair, const hair_collider* colliders, uint32_t count,
+                               size_t stride)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
-    hair_result result = hair_solids_set(host, &hair->sim.solids, solids, count, stride);
+    hair_result result = hair_colliders_set(host, &hair->sim.colliders, colliders, count, stride);
     uint32_t contacts = hair_sim_contacts(&hair->sim);
-    if (hair->sim.solids.changed) hair->draw.hits.fresh = 0;
+    if (hair->sim.colliders.changed) hair->draw.hits.fresh = 0;
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
-        hair_log(host, HAIR_LOG_WARNING,
-                 "%s: of %u solids guides collide with %u: the nearest %d, and none but spheres and capsules",
-                 hair->label, count, contacts, HAIR_STEP_SOLIDS);
+        hair_log(
+            host, HAIR_LOG_WARNING,
+            "%s: of %u colliders guides collide with %u: the nearest %d, and none but spheres and capsules",
+            hair->label, count, contacts, HAIR_STEP_COLLIDERS);
     }
     return result;
 }
@@ -213,8 +217,8 @@ hair_result hair_step(hair_instance* hair, float dt)
     hair_begin_frame(hair);
     if (hair_blow_is_on(&hair->sim)) {
         // The field is that at the end of the step, because it moves along with the head.
-        const struct hair_solid_list* solids = &hair->sim.solids.now;
-        result = hair_field_update(&hair->field, solids->solid, solids->count, &hair->sim.head);
+        const struct hair_collider_list* colliders = &hair->sim.colliders.now;
+        result = hair_field_update(&hair->field, colliders->collider, colliders->count, &hair->sim.head);
     }
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) {

@@ -26,8 +26,8 @@ static hair_result check_maps(const hair_instance* hair, const hair_view* view)
 {
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
-        result = check_map(hair, view->lights[i].shadow_texture, i, "shadow_texture");
-        if (!result) result = check_map(hair, view->lights[i].body_texture, i, "body_texture");
+        result = check_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map");
+        if (!result) result = check_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map");
     }
     return result;
 }
@@ -55,11 +55,11 @@ static int is_depth(const struct hair_gl* gl, GLuint texture)
 static hair_result check_depth(const hair_instance* hair, const hair_view* view)
 {
     const struct hair_gl* gl = &hair->context->gl;
-    GLuint texture = view->depth_texture;
+    GLuint texture = view->occluder_depth;
     if (!hair_draw_hides(view)) return HAIR_OK;
     if (find_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
-                     "%s: hair_view.depth_texture is %u, not a 2D texture of depth", hair->label, texture);
+                     "%s: hair_view.occluder_depth is %u, not a 2D texture of depth", hair->label, texture);
 }
 
 hair_result hair_check_lent(const hair_instance* hair, const hair_view* view)

@@ -11,7 +11,7 @@ static const char* const kinds[] = {
     [HAIR_LOOK_SHORT] = "short",
 };
 
-const char* hair_look_name(hair_look_kind kind)
+const char* hair_look_name(hair_look_preset kind)
 {
     return (unsigned)kind < HAIR_LOOK_COUNT ? kinds[kind] : NULL;
 }
@@ -23,10 +23,10 @@ static void wave(hair_look* look)
     look->curl_profile = (hair_curve){{0, 0.15f, 0.45f, 0.8f, 1, 1.1f, 1.1f, 1}};
     look->curl_wavelength = 0.085f;
     look->curl_flatness = 0.4f;
-    look->curl_lock_phase = 0.5f;
-    look->curl_phase = 0.06f;
+    look->curl_guide_phase = 0.5f;
+    look->curl_strand_phase = 0.06f;
     look->curl_spread = 0.08f;
-    look->curl_left = 0.5f;
+    look->curl_left_fraction = 0.5f;
 }
 
 static void curl(hair_look* look)
@@ -36,10 +36,10 @@ static void curl(hair_look* look)
     look->curl_radius = 0.012f;
     look->curl_profile = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
     look->curl_wavelength = 0.05f;
-    look->curl_phase = 0.08f;
+    look->curl_strand_phase = 0.08f;
     look->curl_spread = 0.05f;
-    look->curl_left = 0.5f;
-    look->tip_strays = 0.4f;
+    look->curl_left_fraction = 0.5f;
+    look->tip_stray_fraction = 0.4f;
 }
 
 static void coil(hair_look* look)
@@ -48,24 +48,24 @@ static void coil(hair_look* look)
     look->curl_radius = 0.0045f;
     look->curl_profile = (hair_curve){{0, 0.8f, 1, 1, 1, 1, 1, 0.9f}};
     look->curl_wavelength = 0.018f;
-    look->curl_phase = 0.2f;
+    look->curl_strand_phase = 0.2f;
     look->curl_spread = 0.15f;
-    look->curl_left = 0.5f;
-    look->strays = 0.25f;
+    look->curl_left_fraction = 0.5f;
+    look->stray_fraction = 0.25f;
 }
 
 static void frizz(hair_look* look)
 {
     look->clump = (hair_curve){{0, 0, 0.03f, 0.08f, 0.14f, 0.2f, 0.25f, 0.3f}};
-    look->tip_strays = 0.5f;
-    look->tip_stray = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
-    look->strays = 0.35f;
-    look->stray = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
+    look->tip_stray_fraction = 0.5f;
+    look->tip_stray_distance = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
+    look->stray_fraction = 0.35f;
+    look->stray_distance = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
     look->frizz = (hair_curve){{0, 0.0012f, 0.0022f, 0.003f, 0.0035f, 0.004f, 0.0045f, 0.005f}};
-    look->kink = 0.012f;
+    look->frizz_wavelength = 0.012f;
 }
 
-hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
+hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
 {
     // Segments of 0.4 m of hair, at eight per turn.
     static const uint32_t segments[] = {[HAIR_LOOK_WAVY] = 64,
@@ -82,8 +82,8 @@ hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
     size_t first = offsetof(hair_look, taper), end = offsetof(hair_look, absorption);
     memcpy((char*)&own + first, (char*)&fresh + first, end - first);
     if (kind == HAIR_LOOK_STRAIGHT) {
-        own.tip_strays = 0.1f;
-        own.strays = 0;
+        own.tip_stray_fraction = 0.1f;
+        own.stray_fraction = 0;
         own.clump = hair_curve_line(0, 0.4f);
     }
     if (kind == HAIR_LOOK_WAVY) wave(&own);
@@ -92,9 +92,9 @@ hair_result hair_look_preset(hair_look* look, hair_look_kind kind)
     if (kind == HAIR_LOOK_FRIZZY) frizz(&own);
     if (kind == HAIR_LOOK_SHORT) {
         own.length = 0.32f;
-        own.thinning = 0.3f;
+        own.length_variation = 0.3f;
         own.clump = hair_curve_line(0, 0.25f);
-        own.tip_strays = 0.5f;
+        own.tip_stray_fraction = 0.5f;
     }
     if (own.segments < segments[kind]) own.segments = segments[kind];
     return HAIR_GIVE(&silent, hair_look, &own, look);
@@ -192,7 +192,7 @@ static int is_usable(const float* positions, uint32_t vertices)
     return 1;
 }
 
-hair_result hair_look_curl_like(hair_look* look, const float* positions, uint32_t vertex_count)
+hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t vertex_count)
 {
     if (!look || !is_usable(positions, vertex_count)) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
@@ -213,10 +213,10 @@ hair_result hair_look_curl_like(hair_look* look, const float* positions, uint32_
     if (!(own.curl_radius <= 0.1f)) return HAIR_ERROR_ARGUMENT;
     float unit = fmaxf(own.curl_radius, 1e-9f);
     for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
-        own.curl_x[i] = turn[0][i] / unit;
-        own.curl_z[i] = turn[1][i] / unit;
+        own.curl_profile_x[i] = turn[0][i] / unit;
+        own.curl_profile_z[i] = turn[1][i] / unit;
     }
-    own.curls = HAIR_CURLS_EXAMPLE;
+    own.curl_shape = HAIR_CURL_SHAPE_EXAMPLE;
     own.curl_wavelength = axis;
     own.curl_turns = 0;
     return HAIR_GIVE(&silent, hair_look, &own, look);

@@ -28,7 +28,7 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
     hair_result result = HAIR_TAKE(&silent, hair_physics, physics, &own);
     if (result) return result;
     own.fiber_radius = presets[preset].radius;
-    own.young = presets[preset].young;
+    own.youngs_modulus = presets[preset].young;
     own.fiber_density = presets[preset].density;
     own.flatness = presets[preset].flatness;
     own.stiffness_root = own.stiffness_tip = presets[preset].stiffness;

@@ -26,17 +26,17 @@ float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2])
 }
 
 // Include the positions of pins to the world or to the head, and the hair that hangs from them.
-static void include_ties(const hair_instance* hair, int world, hair_vec3 bounds[2])
+static void include_pins(const hair_instance* hair, int world, hair_vec3 bounds[2])
 {
-    for (uint32_t i = 0; i < hair->sim.ties.count; ++i) {
-        const struct hair_knot* knot = &hair->sim.ties.knot[i];
+    for (uint32_t i = 0; i < hair->sim.pins.count; ++i) {
+        const struct hair_knot* knot = &hair->sim.pins.knot[i];
         const double* at = knot->place;
         if (knot->world == world)
             include(hair_v3((float)at[0], (float)at[1], (float)at[2]), hair->longest, bounds);
     }
 }
 
-hair_result hair_get_reach(const hair_instance* hair, float lower[3], float upper[3])
+hair_result hair_get_bounds(const hair_instance* hair, float lower[3], float upper[3])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     if (!lower || !upper)
@@ -46,7 +46,7 @@ hair_result hair_get_reach(const hair_instance* hair, float lower[3], float uppe
     hair_quat a = from->rotation, b = to->rotation;
     hair_vec3 box[2] = {hair->reach[0], hair->reach[1]};
     float far = 0;
-    include_ties(hair, 0, box);
+    include_pins(hair, 0, box);
     for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
     for (int i = 0; i < 16; ++i) { // The corners at both ends of the step.
         const struct hair_pose* head = i < 8 ? from : to;
@@ -64,7 +64,7 @@ hair_result hair_get_reach(const hair_instance* hair, float lower[3], float uppe
     float bulge = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
     hair_vec3 whole[2] = {hair_sub(hair_load3(lower), hair_v3(bulge, bulge, bulge)),
                           hair_add(hair_load3(upper), hair_v3(bulge, bulge, bulge))};
-    include_ties(hair, 1, whole);
+    include_pins(hair, 1, whole);
     hair_store3(lower, whole[0]);
     hair_store3(upper, whole[1]);
     return HAIR_OK;

@@ -7,13 +7,13 @@
 #define MOST_BUFFERS 17 // Maximum for one kind of work.
 #define MOST_TEXTURES 2 // Maximum for one kind of work, without buffer textures.
 
-const char* hair_why_string(hair_why why)
+const char* hair_skip_reason_string(hair_skip_reason why)
 {
     static const char* const names[] = {
-        [HAIR_WHY_DONE] = "done",           [HAIR_WHY_ASLEEP] = "asleep",
-        [HAIR_WHY_UNCHANGED] = "unchanged", [HAIR_WHY_OUT_OF_VIEW] = "out of view",
-        [HAIR_WHY_NONE_NEAR] = "none near", [HAIR_WHY_NOT_WANTED] = "not wanted",
-        [HAIR_WHY_NOT_DUE] = "not due",     [HAIR_WHY_NOT_CALLED] = "not called",
+        [HAIR_SKIP_REASON_NONE] = "done",           [HAIR_SKIP_REASON_ASLEEP] = "asleep",
+        [HAIR_SKIP_REASON_UNCHANGED] = "unchanged", [HAIR_SKIP_REASON_OUT_OF_VIEW] = "out of view",
+        [HAIR_SKIP_REASON_NONE_NEAR] = "none near", [HAIR_SKIP_REASON_NOT_WANTED] = "not wanted",
+        [HAIR_SKIP_REASON_NOT_DUE] = "not due",     [HAIR_SKIP_REASON_NOT_CALLED] = "not called",
     };
     return (unsigned)why < sizeof names / sizeof *names ? names[why] : NULL;
 }
@@ -38,76 +38,80 @@ void hair_begin_frame(hair_instance* hair)
 // Reasons -----------------------------------------------------------------------------------------
 
 // Return the reason why work for views has not run.
-static hair_why why_not_shown(const struct hair_asked* asked)
+static hair_skip_reason why_not_shown(const struct hair_asked* asked)
 {
     uint32_t views = 0, unseen = 0;
     for (int i = 0; i < 3; ++i) views += asked->views[i], unseen += asked->unseen[i];
-    if (views == 0) return HAIR_WHY_NOT_CALLED;
-    if (views == unseen) return HAIR_WHY_OUT_OF_VIEW;
-    return HAIR_WHY_UNCHANGED;
+    if (views == 0) return HAIR_SKIP_REASON_NOT_CALLED;
+    if (views == unseen) return HAIR_SKIP_REASON_OUT_OF_VIEW;
+    return HAIR_SKIP_REASON_UNCHANGED;
 }
 
-static hair_why why_not_met(const hair_instance* hair, const struct hair_asked* asked, int pushes)
+static hair_skip_reason why_not_met(const hair_instance* hair, const struct hair_asked* asked, int pushes)
 {
     const hair_look* look = &hair->draw.look;
-    int off = look->collision == HAIR_COLLISION_NONE || look->density <= 0 || !hair->draw.followers;
-    if (off || (pushes && look->collision != HAIR_COLLISION_PUSH)) return HAIR_WHY_NOT_WANTED;
-    if (!hair->sim.solids.now.count) return HAIR_WHY_NONE_NEAR;
-    hair_why why = why_not_shown(asked);
-    return why == HAIR_WHY_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_WHY_NONE_NEAR : why;
+    int off = look->follower_collision == HAIR_FOLLOWER_COLLISION_NONE || look->density <= 0 ||
+              !hair->draw.followers;
+    if (off || (pushes && look->follower_collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
+        return HAIR_SKIP_REASON_NOT_WANTED;
+    if (!hair->sim.colliders.now.count) return HAIR_SKIP_REASON_NONE_NEAR;
+    hair_skip_reason why = why_not_shown(asked);
+    return why == HAIR_SKIP_REASON_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_SKIP_REASON_NONE_NEAR
+                                                                                  : why;
 }
 
-static hair_why why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int kind)
+static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int kind)
 {
-    if (asked->views[kind] == 0) return HAIR_WHY_NOT_CALLED;
-    if (hair->draw.look.density <= 0) return HAIR_WHY_NOT_WANTED;
-    return HAIR_WHY_OUT_OF_VIEW;
+    if (asked->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
+    if (hair->draw.look.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
+    return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
 // Return the reason why occlusion culling has not run. If a view uses it, hair is in no depth
 // image, or the depth test does not tell near from far.
-static hair_why why_not_hidden(const struct hair_asked* asked)
+static hair_skip_reason why_not_hidden(const struct hair_asked* asked)
 {
-    hair_why shown = why_not_shown(asked);
-    if (shown != HAIR_WHY_UNCHANGED) return shown;
-    return asked->hides ? HAIR_WHY_OUT_OF_VIEW : HAIR_WHY_NOT_WANTED;
+    hair_skip_reason shown = why_not_shown(asked);
+    if (shown != HAIR_SKIP_REASON_UNCHANGED) return shown;
+    return asked->hides ? HAIR_SKIP_REASON_OUT_OF_VIEW : HAIR_SKIP_REASON_NOT_WANTED;
 }
 
-static hair_why why_not_simulated(const struct hair_asked* asked, int wanted)
+static hair_skip_reason why_not_simulated(const struct hair_asked* asked, int wanted)
 {
-    if (!wanted) return HAIR_WHY_NOT_WANTED;
-    return asked->asleep ? HAIR_WHY_ASLEEP : HAIR_WHY_NOT_DUE;
+    if (!wanted) return HAIR_SKIP_REASON_NOT_WANTED;
+    return asked->asleep ? HAIR_SKIP_REASON_ASLEEP : HAIR_SKIP_REASON_NOT_DUE;
 }
 
-static hair_why why_not(const hair_instance* hair, const struct hair_asked* asked, hair_gl_work work)
+static hair_skip_reason why_not(const hair_instance* hair, const struct hair_asked* asked, hair_gl_work work)
 {
     const struct hair_sim* sim = &hair->sim;
-    hair_why shown = why_not_shown(asked);
+    hair_skip_reason shown = why_not_shown(asked);
     int skin = hair_skin_is_on(sim);
     switch (work) {
-    case HAIR_GL_WORK_SCALP: return skin ? HAIR_WHY_NOT_CALLED : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_SCALP: return skin ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_WORK_RIDE: return why_not_simulated(asked, skin);
     case HAIR_GL_WORK_WIND: return why_not_simulated(asked, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_WORK_CROWD: return why_not_simulated(asked, hair_crowd_is_on(sim));
     case HAIR_GL_WORK_DIAGNOSE: return why_not_simulated(asked, sim->diagnosis.wanted);
-    case HAIR_GL_WORK_STIR: return why_not_simulated(asked, sim->physics.sleep > 0);
+    case HAIR_GL_WORK_STIR: return why_not_simulated(asked, sim->physics.sleep_threshold > 0);
     case HAIR_GL_WORK_SOLVE: return why_not_simulated(asked, 1);
     case HAIR_GL_WORK_SMOOTH: return shown;
-    case HAIR_GL_WORK_SEAT: return skin ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_SEAT: return skin ? shown : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_WORK_FIELD:
     case HAIR_GL_WORK_HIT: return why_not_met(hair, asked, 0);
     case HAIR_GL_WORK_REPAIR: return why_not_met(hair, asked, 1);
     case HAIR_GL_WORK_EXPAND:
-        return asked->expanded || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
+        return asked->expanded || shown != HAIR_SKIP_REASON_UNCHANGED ? shown : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_WORK_LIGHT:
-        return hair->draw.look.shadow != HAIR_SHADOW_STRANDS ? HAIR_WHY_NOT_WANTED : shown;
+        return hair->draw.look.self_shadow != HAIR_SELF_SHADOW_STRANDS ? HAIR_SKIP_REASON_NOT_WANTED : shown;
     case HAIR_GL_WORK_HIDE: return why_not_hidden(asked);
     case HAIR_GL_WORK_COUNT_STRANDS:
-    case HAIR_GL_WORK_LIST: return asked->listed || shown != HAIR_WHY_UNCHANGED ? shown : HAIR_WHY_NOT_WANTED;
+    case HAIR_GL_WORK_LIST:
+        return asked->listed || shown != HAIR_SKIP_REASON_UNCHANGED ? shown : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
     case HAIR_GL_WORK_OPACITY: return why_not_drawn(hair, asked, 2);
     case HAIR_GL_WORK_COLOR: return why_not_drawn(hair, asked, 0);
-    default: return HAIR_WHY_NOT_CALLED;
+    default: return HAIR_SKIP_REASON_NOT_CALLED;
     }
 }
 
@@ -134,11 +138,11 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
         [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
         [HAIR_GL_WORK_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params, sim->diagnosis.found,
                                    sim->diagnosis.motion_params},
-        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->health, sim->step, sim->rod,
-                                sim->history, sim->material, sim->reduction, sim->bend, sim->ties.buffer,
+        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->solver_stats, sim->step, sim->rod,
+                                sim->history, sim->material, sim->reduction, sim->bend, sim->pins.buffer,
                                 sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
         [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
-        [HAIR_GL_WORK_FIELD] = {hair->field.params, hair->field.work, sim->contacts.solid,
+        [HAIR_GL_WORK_FIELD] = {hair->field.params, hair->field.work, sim->contacts.collider,
                                 sim->contacts.cell},
         [HAIR_GL_WORK_HIT] = {draw->hits.hit, draw->hits.list},
         [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
@@ -182,10 +186,12 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
                               float ms)
 {
     const struct hair_asked* asked = &hair->asked[frame->number % HAIR_GL_FRAMES];
-    hair_report_row row = {
-        .work = hair_gl_work_label(work), .runs = frame->runs[work], .ms = ms, .bytes = bytes_of(hair, work)};
+    hair_report_row row = {.stage = hair_gl_work_label(work),
+                           .runs = frame->runs[work],
+                           .ms = ms,
+                           .bytes = bytes_of(hair, work)};
     if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;
-    row.why = row.runs ? HAIR_WHY_DONE : why_not(hair, asked, work);
+    row.skip_reason = row.runs ? HAIR_SKIP_REASON_NONE : why_not(hair, asked, work);
     return row;
 }
 

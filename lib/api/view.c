@@ -26,14 +26,14 @@ static int is_seen_from_light(const hair_light* light)
 static hair_result check_light(const hair_instance* hair, const hair_light* light, uint32_t i)
 {
     const hair_host* host = &hair->context->host;
-    if (light->kind != HAIR_LIGHT_POINT && !(hair_length(hair_load3(light->to)) > 1e-12f))
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].to has no direction",
+    if (light->kind != HAIR_LIGHT_POINT && !(hair_length(hair_load3(light->direction)) > 1e-12f))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].direction has no direction",
                          hair->label, i);
-    if (light->kind == HAIR_LIGHT_SPOT && !(light->inner < light->outer))
+    if (light->kind == HAIR_LIGHT_SPOT && !(light->inner_angle < light->outer_angle))
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "%s: hair_view.lights[%u].inner is %g, not below its outer, %g", hair->label, i,
-                         (double)light->inner, (double)light->outer);
-    if (!(light->shadow_texture || light->body_texture) || is_seen_from_light(light)) return HAIR_OK;
+                         "%s: hair_view.lights[%u].inner_angle is %g, not below its outer_angle, %g",
+                         hair->label, i, (double)light->inner_angle, (double)light->outer_angle);
+    if (!(light->hair_shadow_map || light->opaque_shadow_map) || is_seen_from_light(light)) return HAIR_OK;
     return hair_fail(
         host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].shadow_matrix is %s", hair->label, i,
         light->kind == HAIR_LIGHT_DIRECTIONAL
@@ -53,19 +53,20 @@ static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_
     const hair_host* host = &hair->context->host;
     hair_light usual = hair_light_default();
     const char* at = (const char*)view->lights;
-    size_t stride = at ? view->lights->made.size : 0;
+    size_t stride = at ? view->lights->header.size : 0;
     uint32_t shadows = 0;
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < view->light_count && !result; ++i) {
         result = HAIR_TAKE(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
         if (!result) result = check_light(hair, &light[i], i);
-        if (!result) shadows += light[i].shadow_texture || light[i].body_texture;
+        if (!result) shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
     }
     view->lights = light;
     if (!result && shadows > HAIR_SHADOW_MAPS)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "%s: %u of hair_view.lights have a shadow_texture or a body_texture, not at most %d",
-                         hair->label, shadows, HAIR_SHADOW_MAPS);
+        return hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "%s: %u of hair_view.lights have a hair_shadow_map or a opaque_shadow_map, not at most %d",
+            hair->label, shadows, HAIR_SHADOW_MAPS);
     return result;
 }
 
@@ -91,8 +92,8 @@ static hair_result take_view(const hair_instance* hair, const hair_view* view, h
     if (!result && own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
-    if (!result && own->shader && own->shader->gl.pixels && own->path == HAIR_PATH_COMPUTED)
-        own->path = HAIR_PATH_EXPANDED; // Shading of pixels needs rasterisation.
+    if (!result && own->shader && own->shader->gl.pixels && own->render_path == HAIR_RENDER_PATH_COMPUTE)
+        own->render_path = HAIR_RENDER_PATH_CACHED; // Shading of pixels needs rasterisation.
     if (!result) result = take_lights(hair, own, loan->light);
     return result ? result : check_sky(hair, own->sky);
 }
@@ -110,15 +111,15 @@ static hair_result check_framebuffer(const hair_instance* hair)
 
 // Draw the colliders. Only a slice needs the field, and collision meshes, which shaders read from
 // the field's copy.
-static hair_result draw_solids(hair_instance* hair, const hair_view* view)
+static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_solid_list* list = &hair->sim.solids.now;
+    const struct hair_collider_list* list = &hair->sim.colliders.now;
     int needed = view->slice != HAIR_SLICE_NONE;
-    for (uint32_t i = 0; i < list->count; ++i) needed |= list->solid[i].form != NULL;
+    for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
     hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
     if (!result)
-        result =
-            hair_draw_solids(&hair->draw, &hair->field, list->solid, list->count, &hair->sim.at_step, view);
+        result = hair_draw_colliders(&hair->draw, &hair->field, list->collider, list->count,
+                                     &hair->sim.at_step, view);
     return result;
 }
 
@@ -132,21 +133,23 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
 
 // Find followers inside colliders and push them out before they are drawn, unless nobody can see
 // this. Colliders still block light in that case.
-static hair_result meet_solids(hair_instance* hair)
+static hair_result meet_colliders(hair_instance* hair)
 {
     struct hair_draw* draw = &hair->draw;
-    if (hair_draw_has_met_solids(draw, &hair->smooth)) return HAIR_OK;
+    if (hair_draw_has_met_colliders(draw, &hair->smooth)) return HAIR_OK;
     if (draw->led <= 0) {
-        hair_result result = draw->look.shadow == HAIR_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
+        hair_result result =
+            draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
         draw->hits.field = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
         return result;
     }
-    int wanted = draw->look.collision != HAIR_COLLISION_NONE && draw->followers;
+    int wanted = draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE && draw->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair->sim.solids.now.count) hair_draw_free_hits(draw);
-    return hair_draw_meet_solids(draw, &hair->smooth, near ? &hair->field : NULL, hair->sim.physics.margin);
+    if (!hair->sim.colliders.now.count) hair_draw_free_hits(draw);
+    return hair_draw_meet_colliders(draw, &hair->smooth, near ? &hair->field : NULL,
+                                    hair->sim.physics.collision_margin);
 }
 
 static void make_ready(hair_instance* hair)
@@ -159,12 +162,12 @@ static void make_ready(hair_instance* hair)
 // root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
 static int is_held(const struct hair_sim* sim)
 {
-    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
+    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_skin_is_on(sim);
 }
 
 static int is_of_surroundings(const hair_view* view)
 {
-    return view->pass == HAIR_PASS_SOLIDS || view->pass == HAIR_PASS_WIND;
+    return view->pass == HAIR_PASS_COLLIDERS || view->pass == HAIR_PASS_WIND;
 }
 
 // Return whether a view shows no hair and may be skipped. Velocities must be drawn in every frame.
@@ -183,7 +186,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     int unseen = is_out_of_view(hair, view);
     ++asked->views[kind];
     asked->unseen[kind] += (uint32_t)unseen;
-    asked->listed |= !unseen && view->path != HAIR_PATH_TESSELLATION;
+    asked->listed |= !unseen && view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     asked->expanded |= !unseen && hair_draw_expands(view);
     asked->hides |= !unseen && hair_draw_hides(view);
     return !unseen && hair->draw.look.density > 0;
@@ -199,16 +202,16 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = hair_check_lent(hair, &own);
     if (!result) result = check_framebuffer(hair);
-    if (!result) own.path = hair_draw_path(&hair->draw, &own);
+    if (!result) own.render_path = hair_draw_path(&hair->draw, &own);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
     hair_draw_tidy(&hair->draw, hair->ledger.number);
     if (is_of_surroundings(&own)) {
-        result = own.pass == HAIR_PASS_SOLIDS ? draw_solids(hair, &own) : draw_air(hair, &own);
+        result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
         hair_draw_look(&hair->draw, &hair->sim.at_step, &own);
-        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_solids(hair);
+        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_colliders(hair);
         hair->draw.bounded =
             (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
         hair->draw.held = is_held(&hair->sim);
@@ -225,20 +228,20 @@ static hair_result need_programs(hair_instance* hair, const hair_view* view)
 {
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
-    int solids = sim->solids.now.count > 0, shows = view->pass == HAIR_PASS_SOLIDS;
+    int colliders = sim->colliders.now.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
     hair_result result = HAIR_OK;
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_need(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND) return sim->air.params ? hair_gl_need(gl, HAIR_GL_AIR) : HAIR_OK;
-    if (solids && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
-    if (!result && sim->solids.forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
-    if (!result && shows) result = hair_gl_need(gl, HAIR_GL_SOLIDS);
+    if (colliders && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
+    if (!result && sim->colliders.forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
+    if (!result && shows) result = hair_gl_need(gl, HAIR_GL_COLLIDERS);
     if (!result && shows && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
     if (result || shows) return result;
     struct hair_gl_shader* shader = view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL;
-    return hair_draw_need_programs(&hair->draw, view, shader, solids);
+    return hair_draw_need_programs(&hair->draw, view, shader, colliders);
 }
 
-hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* ready)
+hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready)
 {
     if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
@@ -247,7 +250,7 @@ hair_result hair_prepare(hair_instance* hair, const hair_view* view, uint32_t* r
     hair_result result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
-    if (view) own.path = hair_draw_path(&hair->draw, &own);
+    if (view) own.render_path = hair_draw_path(&hair->draw, &own);
     hair_gl_enter(gl);
     hair_gl_begin_ahead(gl);
     result = hair_sim_need_programs(&hair->sim);
@@ -285,7 +288,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
     hair_draw_look(&hair->draw, &hair->sim.at_step, NULL);
-    hair_result result = meet_solids(hair);
+    hair_result result = meet_colliders(hair);
     if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
@@ -302,8 +305,8 @@ static hair_result read_smooth(hair_instance* hair, uint32_t count, float* posit
     return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.at_step, positions);
 }
 
-hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions, uint32_t capacity,
-                      uint32_t* count)
+hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
+                                uint32_t capacity, uint32_t* count)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
@@ -321,8 +324,8 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
     case HAIR_READ_SMOOTH: all = hair->smooth.vertices; break;
     case HAIR_READ_FOLLOWERS: all = (uint64_t)hair->draw.followers * (hair->draw.look.segments + 1); break;
     default:
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: what is %d, not in [0, %d]", hair->label, (int)what,
-                         HAIR_READ_FOLLOWERS);
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: source is %d, not in [0, %d]", hair->label,
+                         (int)what, HAIR_READ_FOLLOWERS);
     }
     if (all > UINT32_MAX)
         return hair_fail(host, HAIR_ERROR_MEMORY, "%s: %llu vertices are too many to read", hair->label,
@@ -337,15 +340,15 @@ hair_result hair_read(hair_instance* hair, hair_read_what what, float* positions
                        positions);
 }
 
-hair_result hair_get_health(hair_instance* hair, hair_health* out)
+hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_result result = hair_check_current(hair->context);
     if (result) return result;
-    hair_health own = hair_health_default();
+    hair_solver_stats own = hair_solver_stats_default();
     hair_gl_enter(&hair->context->gl);
-    result = hair_sim_health(&hair->sim, &own);
+    result = hair_sim_solver_stats(&hair->sim, &own);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
-    return HAIR_GIVE(&hair->context->host, hair_health, &own, out);
+    return HAIR_GIVE(&hair->context->host, hair_solver_stats, &own, out);
 }

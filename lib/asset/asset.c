@@ -108,7 +108,7 @@ static hair_result decode_raw(const struct hair_source* source, hair_asset* asse
 
 static hair_result check_cleaned(const struct hair_source* source, const hair_asset* asset)
 {
-    const hair_repairs* repairs = &asset->repairs;
+    const hair_import_stats* repairs = &asset->repairs;
     if (asset->strands.strand_count == 0)
         return hair_fail(
             source->host, HAIR_ERROR_FILE,
@@ -116,10 +116,10 @@ static hair_result check_cleaned(const struct hair_source* source, const hair_as
             "good vertices, %u are shorter than 10 micrometres",
             asset->file_strands, source->size, repairs->dropped_single, repairs->dropped_short);
     if (asset->strands.strand_count > MOST_STRANDS)
-        return hair_fail(
-            source->host, HAIR_ERROR_FILE,
-            "%u strands are left between byte 0 and byte %zu, more than %u: keep fewer by hair_import.share",
-            asset->strands.strand_count, source->size, MOST_STRANDS);
+        return hair_fail(source->host, HAIR_ERROR_FILE,
+                         "%u strands are left between byte 0 and byte %zu, more than %u: keep fewer by "
+                         "hair_import.keep_fraction",
+                         asset->strands.strand_count, source->size, MOST_STRANDS);
     return HAIR_OK;
 }
 

@@ -8,13 +8,13 @@
 struct hair_asset {
     hair_host host;
     hair_format format;
-    hair_strands_are strands_are;
+    hair_strand_set strand_set;
     struct hair_strands strands;
     float* scalp_positions; // xyz per vertex. NULL without a scalp.
     uint32_t* scalp_triangles;
     uint32_t scalp_vertex_count, scalp_triangle_count;
     uint32_t file_strands, file_vertices;
-    hair_repairs repairs;
+    hair_import_stats repairs;
 };
 
 // Decode a file. `import` has been checked. On failure *out is untouched.

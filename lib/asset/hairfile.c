@@ -148,7 +148,7 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
     if (result) return result;
 
     asset->format = HAIR_FORMAT_HAIR;
-    asset->strands_are = HAIR_STRANDS_ALL;
+    asset->strand_set = HAIR_STRAND_SET_FULL;
     for (uint32_t i = 0; i < header.strands; ++i) strands->vertices[i] = count_vertices(source, &header, i);
     const unsigned char* points = source->bytes + header.points_at;
     for (size_t i = 0; i < 3 * (size_t)header.vertices; ++i)

@@ -96,7 +96,7 @@ static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* ra
 static void thin_out(const hair_import* import, struct hair_strands* strands)
 {
     uint32_t count = strands->strand_count;
-    uint32_t wanted = (uint32_t)((double)import->share * count + 0.5);
+    uint32_t wanted = (uint32_t)((double)import->keep_fraction * count + 0.5);
     if (wanted >= count) return;
     if (wanted == 0) wanted = 1;
 
@@ -129,7 +129,8 @@ static uint32_t remove_nonfinite(float* p, uint32_t vertices)
 // Sample a strand at `count` points, out of place. Samples of a strand that folds back on itself
 // may coincide. They are merged, and segments are split instead. Return the vertices left: `count`,
 // or 0 if the strand is dropped.
-static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t count, hair_repairs* repairs)
+static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t count,
+                       hair_import_stats* repairs)
 {
     hair_strand_resample(p, vertices, out, count);
     uint32_t left = hair_strand_merge(out, count);
@@ -144,7 +145,7 @@ static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t c
     return 0;
 }
 
-static uint32_t bring_down(float* p, uint32_t vertices, hair_repairs* repairs)
+static uint32_t bring_down(float* p, uint32_t vertices, hair_import_stats* repairs)
 {
     float sampled[3 * HAIR_STRAND_MAX_VERTICES];
     ++repairs->resampled;
@@ -154,7 +155,7 @@ static uint32_t bring_down(float* p, uint32_t vertices, hair_repairs* repairs)
 }
 
 // Repair a strand. Return the vertices left, or 0 if the strand is dropped.
-static uint32_t repair_strand(float* p, uint32_t vertices, hair_repairs* repairs)
+static uint32_t repair_strand(float* p, uint32_t vertices, hair_import_stats* repairs)
 {
     uint32_t finite = remove_nonfinite(p, vertices);
     repairs->removed_nonfinite += vertices - finite;
@@ -171,7 +172,7 @@ static uint32_t repair_strand(float* p, uint32_t vertices, hair_repairs* repairs
     return left;
 }
 
-static void repair_all(const hair_import* import, struct hair_strands* strands, hair_repairs* repairs)
+static void repair_all(const hair_import* import, struct hair_strands* strands, hair_import_stats* repairs)
 {
     struct kept kept = {0};
     size_t first = 0;
@@ -188,7 +189,7 @@ static void repair_all(const hair_import* import, struct hair_strands* strands, 
 }
 
 static hair_result resample_all(const hair_host* host, uint32_t count, struct hair_strands* strands,
-                                hair_repairs* repairs)
+                                hair_import_stats* repairs)
 {
     float* sampled = hair_alloc(host, strands->strand_count, 3 * (size_t)count * sizeof *sampled);
     if (!sampled) return hair_fail_memory(host, "resampled strands");
@@ -241,10 +242,10 @@ static hair_result shrink_all(const hair_host* host, struct hair_strands* strand
 }
 
 hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
-                               hair_repairs* repairs)
+                               hair_import_stats* repairs)
 {
     uint32_t vertices = strands->vertex_count;
-    *repairs = (hair_repairs){0};
+    *repairs = (hair_import_stats){0};
     place(import, strands);
     if (import->tip_first) reverse_all(strands);
     thin_out(import, strands);

@@ -39,7 +39,7 @@ static inline hair_vec3 hair_import_point(const hair_import* import, hair_vec3 p
 // and a length of at least 10 micrometres. A value of 1 of import->strand_vertices counts as 2. A
 // strand_count of 0 means that no strand is left.
 hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
-                               hair_repairs* repairs);
+                               hair_import_stats* repairs);
 void hair_strands_free(const hair_host* host, struct hair_strands* strands);
 
 // Sample a polyline at `count` points at equal distances along it. The ends are kept. Requires

@@ -115,7 +115,7 @@ static hair_result decode(const struct hair_source* source, const struct layout*
     if (result) return result;
 
     asset->format = layout->format;
-    asset->strands_are = HAIR_STRANDS_GUIDES;
+    asset->strand_set = HAIR_STRAND_SET_GUIDES;
     for (uint32_t i = 0; i < count; ++i) strands->vertices[i] = each;
     const unsigned char* at = source->bytes + hair_read_u32(source->bytes + layout->sections[0].at);
     for (size_t i = 0; i < strands->vertex_count; ++i, at += 4 * (size_t)layout->floats)

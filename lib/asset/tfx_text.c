@@ -220,7 +220,7 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
     if (result) return result;
 
     asset->format = HAIR_FORMAT_TFX2;
-    asset->strands_are = HAIR_STRANDS_GUIDES;
+    asset->strand_set = HAIR_STRAND_SET_GUIDES;
     reader.warned = true;
     rewind_to_start(&reader, &asset->strands);
     return read_all(&reader);

@@ -28,28 +28,29 @@ static void write_default(void* desc, const struct hair_field* field)
     }
 }
 
-static void write_defaults(void* desc, uint32_t size, hair_made made, struct hair_fields fields)
+static void write_defaults(void* desc, uint32_t size, hair_struct_header header, struct hair_fields fields)
 {
     memset(desc, 0, size);
-    memcpy(desc, &made, sizeof made);
+    memcpy(desc, &header, sizeof header);
     for (uint32_t i = 0; i < fields.count; ++i)
         if (fields.field[i].offset + 4 <= size) write_default(desc, &fields.field[i]);
 }
 
-void hair_fields_init(void* desc, hair_made made, struct hair_fields fields)
+void hair_fields_init(void* desc, hair_struct_header header, struct hair_fields fields)
 {
-    if (!desc || made.size < sizeof made) return;
-    write_defaults(desc, made.size, made, fields);
+    if (!desc || header.size < sizeof header) return;
+    write_defaults(desc, header.size, header, fields);
 }
 
-hair_result hair_made_check(const hair_host* host, const char* name, hair_made made)
+hair_result hair_check_header(const hair_host* host, const char* name, hair_struct_header header)
 {
-    if (made.size < sizeof made || made.size > 4096 || made.version == 0)
-        return hair_fail(host, HAIR_ERROR_VERSION, "%s.made is (%u, %u), not from %s_default()", name,
-                         made.size, made.version, name);
-    if (made.version / 10000 != HAIR_VERSION_MAJOR)
-        return hair_fail(host, HAIR_ERROR_VERSION, "%s.made.version is %u, of another major version than %u",
-                         name, made.version, HAIR_VERSION);
+    if (header.size < sizeof header || header.size > 4096 || header.version == 0)
+        return hair_fail(host, HAIR_ERROR_VERSION, "%s.header is (%u, %u), not from %s_default()", name,
+                         header.size, header.version, name);
+    if (header.version / 10000 != HAIR_VERSION_MAJOR)
+        return hair_fail(host, HAIR_ERROR_VERSION,
+                         "%s.header.version is %u, of another major version than %u", name, header.version,
+                         HAIR_VERSION);
     return HAIR_OK;
 }
 
@@ -57,13 +58,13 @@ hair_result hair_fields_take(const hair_host* host, const char* name, const void
                              struct hair_fields fields)
 {
     if (!desc) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
-    hair_made made;
-    memcpy(&made, desc, sizeof made);
-    hair_result result = hair_made_check(host, name, made);
+    hair_struct_header header;
+    memcpy(&header, desc, sizeof header);
+    hair_result result = hair_check_header(host, name, header);
     if (result) return result;
 
-    write_defaults(own, fields.size, made, fields);
-    memcpy(own, desc, made.size < fields.size ? made.size : fields.size);
+    write_defaults(own, fields.size, header, fields);
+    memcpy(own, desc, header.size < fields.size ? header.size : fields.size);
     for (uint32_t i = 0; i < fields.count; ++i) {
         const struct hair_field* field = &fields.field[i];
         double value = read_field(own, field);

@@ -10,7 +10,7 @@ typedef enum hair_field_type { HAIR_FIELD_FLOAT = 0, HAIR_FIELD_UINT } hair_fiel
 // One number of a desc. Enums are unsigned here. The table has no pointers, so it is read-only
 // without relocation.
 struct hair_field {
-    char name[40]; // "hair_physics.damping"
+    char name[48]; // "hair_physics.damping"
     uint32_t offset;
     hair_field_type type;
     double value, min, max; // `value` is the default.
@@ -22,16 +22,16 @@ struct hair_fields {
     uint32_t size; // sizeof the struct in this library
 };
 
-// Fill in the part of the struct that the caller knows with zeros, `made` and the defaults. An
+// Fill in the part of the struct that the caller knows with zeros, `header` and the defaults. An
 // older caller may know a shorter struct.
-void hair_fields_init(void* desc, hair_made made, struct hair_fields fields);
+void hair_fields_init(void* desc, hair_struct_header header, struct hair_fields fields);
 
-// Return HAIR_ERROR_VERSION unless a default function of this major version has filled in `made`.
-hair_result hair_made_check(const hair_host* host, const char* name, hair_made made);
+// Return HAIR_ERROR_VERSION unless a default function of this major version has filled in `header`.
+hair_result hair_check_header(const hair_host* host, const char* name, hair_struct_header header);
 
 // Copy a caller's desc into `own`. Fields that the caller's desc is too short for get their
 // defaults. Return HAIR_ERROR_VERSION unless a default function of this major version has filled in
-// `made`. Return HAIR_ERROR_ARGUMENT if a number is outside its range. `name` is the name of the
+// `header`. Return HAIR_ERROR_ARGUMENT if a number is outside its range. `name` is the name of the
 // struct.
 hair_result hair_fields_take(const hair_host* host, const char* name, const void* desc, void* own,
                              struct hair_fields fields);

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#define ROUNDS 600 // as hair_bullet_begin() promises
+#define ROUNDS 600 // as hair_bullet_clear() promises
 
 hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_bullet** out)
 {
@@ -18,7 +18,7 @@ hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_b
             scalar_size, sizeof(btScalar));
     if (!out) return hair_fail(&own, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_bullet* bullet = static_cast<hair_bullet*>(hair_alloc(&own, 1, sizeof *bullet));
-    if (!bullet) return hair_fail_memory(&own, "Bullet's solids");
+    if (!bullet) return hair_fail_memory(&own, "Bullet's colliders");
     bullet->host = own;
     bullet->resolution = 64;
     *out = bullet;
@@ -29,9 +29,9 @@ void hair_bullet_destroy(hair_bullet* bullet)
 {
     if (!bullet) return;
     const hair_host host = bullet->host;
-    for (uint32_t i = 0; i < bullet->met_capacity; ++i) hair_form_destroy(bullet->met[i].form);
+    for (uint32_t i = 0; i < bullet->met_capacity; ++i) hair_collision_mesh_destroy(bullet->met[i].form);
     hair_free(&host, bullet->met);
-    hair_free(&host, bullet->solids);
+    hair_free(&host, bullet->colliders);
     hair_free(&host, bullet->hits);
     hair_free(&host, bullet);
 }
@@ -42,7 +42,7 @@ hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* c
     if (count <= *capacity) return HAIR_OK;
     const uint32_t most = count < 32 ? 32 : count + count / 2;
     void* grown = hair_alloc(host, most, size);
-    if (!grown) return hair_fail_memory(host, "Bullet's solids");
+    if (!grown) return hair_fail_memory(host, "Bullet's colliders");
     if (*array) std::memcpy(grown, *array, *capacity * size);
     hair_free(host, *array);
     *array = grown;
@@ -59,7 +59,7 @@ hair_result hair_bullet_set_resolution(hair_bullet* bullet, uint32_t resolution)
     return HAIR_OK;
 }
 
-hair_result hair_bullet_begin(hair_bullet* bullet)
+hair_result hair_bullet_clear(hair_bullet* bullet)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     bullet->count = 0;
@@ -67,7 +67,7 @@ hair_result hair_bullet_begin(hair_bullet* bullet)
     return HAIR_OK;
 }
 
-hair_result hair_bullet_forget(hair_bullet* bullet, const btCollisionShape* shape)
+hair_result hair_bullet_invalidate(hair_bullet* bullet, const btCollisionShape* shape)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     for (uint32_t i = 0; i < bullet->met_capacity && !shape; ++i) bullet->met[i].print = 0;
@@ -75,10 +75,10 @@ hair_result hair_bullet_forget(hair_bullet* bullet, const btCollisionShape* shap
     return HAIR_OK;
 }
 
-const hair_solid* hair_bullet_solids(const hair_bullet* bullet, uint32_t* count)
+const hair_collider* hair_bullet_colliders(const hair_bullet* bullet, uint32_t* count)
 {
     if (count) *count = bullet ? bullet->count : 0;
-    return bullet ? bullet->solids : nullptr;
+    return bullet ? bullet->colliders : nullptr;
 }
 
 // Take a shape. On failure nothing of it stays in the list, unless failures are only warned about.
@@ -91,8 +91,8 @@ static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, cons
     return result;
 }
 
-hair_result hair_bullet_take_shape(hair_bullet* bullet, const btCollisionShape* shape,
-                                   const float transform[16])
+hair_result hair_bullet_add_shape(hair_bullet* bullet, const btCollisionShape* shape,
+                                  const float transform[16])
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "shape is NULL");
@@ -124,7 +124,7 @@ static hair_result take_object(hair_bullet* bullet, const btCollisionObject* obj
     return take(bullet, shape, taking);
 }
 
-hair_result hair_bullet_take_object(hair_bullet* bullet, const btCollisionObject* object)
+hair_result hair_bullet_add_object(hair_bullet* bullet, const btCollisionObject* object)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!object) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "object is NULL");
@@ -169,8 +169,8 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-hair_result hair_bullet_take_world(hair_bullet* bullet, const btCollisionWorld* world, const float lower[3],
-                                   const float upper[3], int groups)
+hair_result hair_bullet_add_world(hair_bullet* bullet, const btCollisionWorld* world, const float lower[3],
+                                  const float upper[3], int groups)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!world) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "world is NULL");

@@ -14,8 +14,8 @@ extern "C" {
 struct hair_met {
     const btCollisionShape* shape;
     uint64_t print; // hash of its numbers. Another hash means another shape at the same address.
-    hair_form* form; // NULL if the shape can have none, which the log has said.
-    uint32_t round; // number of the hair_bullet_begin() round in which the shape was last met
+    hair_collision_mesh* form; // NULL if the shape can have none, which the log has said.
+    uint32_t round; // number of the hair_bullet_clear() round in which the shape was last met
 };
 
 struct hair_bullet {
@@ -23,7 +23,7 @@ struct hair_bullet {
     uint32_t resolution;
     uint32_t round;
     uint32_t visits; // number of shapes visited while one object is taken
-    hair_solid* solids;
+    hair_collider* colliders;
     uint32_t count, capacity;
     hair_met* met; // hash table. Empty slots have no shape.
     uint32_t met_count, met_capacity;
@@ -61,33 +61,35 @@ struct hair_taking {
 
 // Functions of shape.cpp.
 hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking);
-hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* shape,
-                                  const hair_taking& taking, hair_solid solid, const btQuaternion& turn);
+hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape* shape,
+                                     const hair_taking& taking, hair_collider collider,
+                                     const btQuaternion& turn);
 
 // Functions of hull.cpp and mesh.cpp. They add a shape's collider and make its collision mesh if
 // there is none yet. A hull whose points are on one line needs none.
 hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking);
 hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking);
 
-// Functions of forms.cpp.
+// Functions of collision_meshes.cpp.
 // Return the entry of a shape, or NULL if the shape has not been met with this print.
 hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print);
 // Store the collision mesh of a shape and take ownership. NULL stands for a shape that can have
 // none.
 hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                             hair_form* form);
+                             hair_collision_mesh* form);
 // Free the entries that have not been met for more than `rounds` rounds, and the entry of `shape`.
 void hair_bullet_free_old(hair_bullet* bullet, uint32_t rounds, const btCollisionShape* shape);
 // Functions of mesh.cpp.
 // Add the collider of a shape with its collision mesh, rounded by a margin.
-hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* shape,
-                                 const hair_taking& taking, const hair_form* form, float rounding,
-                                 float scale);
+hair_result hair_bullet_add_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
+                                           const hair_taking& taking, const hair_collision_mesh* form,
+                                           float rounding, float scale);
 // Make and store the collision mesh of a shape. A shape that can have none is stored as well, so
 // that it is not tried again.
-hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                                  const struct hair_mesh& mesh, float room, const hair_form** out);
-// Continue the FNV-1a hash `print` with `bytes`. Defined in forms.cpp.
+hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
+                                            uint64_t print, const struct hair_mesh& mesh, float room,
+                                            const hair_collision_mesh** out);
+// Continue the FNV-1a hash `print` with `bytes`. Defined in collision_meshes.cpp.
 uint64_t hair_bullet_print(uint64_t print, const void* bytes, size_t size);
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,

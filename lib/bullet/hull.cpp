@@ -111,7 +111,7 @@ static btVector3 vertex(const hair_mesh& mesh, uint32_t i)
 
 // Make a sphere or a capsule of points that coincide or are on one line. Return false for other
 // points.
-static bool as_capsule(const hair_mesh& points, hair_solid* solid, btQuaternion* turn)
+static bool as_capsule(const hair_mesh& points, hair_collider* collider, btQuaternion* turn)
 {
     uint32_t a = 0, b = 0;
     for (int round = 0; round < 3;
@@ -128,10 +128,10 @@ static bool as_capsule(const hair_mesh& points, hair_solid* solid, btQuaternion*
     for (uint32_t i = 0; i < points.vertex_count && length > 0; ++i)
         if ((vertex(points, i) - start).cross(axis / length).length() > close) return false;
     const btVector3 middle = start + axis / 2;
-    for (int k = 0; k < 3; ++k) solid->position[k] = static_cast<float>(middle[k]);
-    solid->shape = length > 0 ? HAIR_SHAPE_CAPSULE : HAIR_SHAPE_SPHERE;
-    solid->size[0] = 0;
-    solid->size[1] = static_cast<float>(length / 2);
+    for (int k = 0; k < 3; ++k) collider->position[k] = static_cast<float>(middle[k]);
+    collider->shape = length > 0 ? HAIR_SHAPE_CAPSULE : HAIR_SHAPE_SPHERE;
+    collider->size[0] = 0;
+    collider->size[1] = static_cast<float>(length / 2);
     *turn = length > 0 ? shortestArcQuat(btVector3(0, 1, 0), axis / length) : btQuaternion::getIdentity();
     return true;
 }
@@ -170,26 +170,26 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
     for (uint32_t i = 0; i < 3 * points.mesh.vertex_count; ++i)
         if (!(std::fabs(points.mesh.positions[i]) <= 1e6f))
             return hair_bullet_wrong(bullet, shape, taking, "has a point that is not within 1e6 m");
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     btQuaternion turn;
-    if (as_capsule(points.mesh, &solid, &turn)) {
-        solid.size[0] = points.rounding; // All of the rounding is the radius.
-        return hair_bullet_add_solid(bullet, shape, taking, solid, turn);
+    if (as_capsule(points.mesh, &collider, &turn)) {
+        collider.size[0] = points.rounding; // All of the rounding is the radius.
+        return hair_bullet_add_collider(bullet, shape, taking, collider, turn);
     }
     const uint64_t print = print_of(points);
     const hair_met* met = hair_bullet_find(bullet, shape, print);
-    const hair_form* form = met ? met->form : nullptr;
+    const hair_collision_mesh* form = met ? met->form : nullptr;
     if (!met) {
         hair_mesh hull = {};
         hull.host = &bullet->host;
         close_hull(points.mesh, &hull);
-        hair_result result = hull.result
-                                 ? hull.result
-                                 : hair_bullet_make_form(bullet, shape, print, hull, points.rounding, &form);
+        hair_result result =
+            hull.result ? hull.result
+                        : hair_bullet_make_collision_mesh(bullet, shape, print, hull, points.rounding, &form);
         hull.release();
         if (result) return result;
     }
-    return hair_bullet_add_form(bullet, shape, taking, form, points.rounding, 1);
+    return hair_bullet_add_collision_mesh(bullet, shape, taking, form, points.rounding, 1);
 }
 
 hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking)

@@ -47,40 +47,42 @@ void hair_mesh::release()
     triangles = nullptr;
 }
 
-hair_result hair_bullet_make_form(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                                  const hair_mesh& mesh, float room, const hair_form** out)
+hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
+                                            uint64_t print, const hair_mesh& mesh, float room,
+                                            const hair_collision_mesh** out)
 {
-    hair_form_desc desc = hair_form_desc_default();
-    hair_form* form = nullptr;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+    hair_collision_mesh* form = nullptr;
     desc.host = &bullet->host;
     desc.positions = mesh.positions;
     desc.triangles = mesh.triangles;
     desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution = bullet->resolution;
-    desc.room = room;
+    desc.padding = room;
     hair_result result = HAIR_OK;
-    if (mesh.triangle_count && mesh.positions) result = hair_form_create(&desc, &form);
+    if (mesh.triangle_count && mesh.positions) result = hair_collision_mesh_create(&desc, &form);
     if (result && result != HAIR_ERROR_ARGUMENT) return result;
     result = hair_bullet_keep(bullet, shape, print, form);
-    if (result) hair_form_destroy(form);
+    if (result) hair_collision_mesh_destroy(form);
     *out = result ? nullptr : form;
     return result;
 }
 
-hair_result hair_bullet_add_form(hair_bullet* bullet, const btCollisionShape* shape,
-                                 const hair_taking& taking, const hair_form* form, float rounding,
-                                 float scale)
+hair_result hair_bullet_add_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
+                                           const hair_taking& taking, const hair_collision_mesh* form,
+                                           float rounding, float scale)
 {
     if (!form)
-        return taking.is_quiet ? HAIR_ERROR_ARGUMENT
-                               : hair_bullet_wrong(bullet, shape, taking, "has triangles that make no form");
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_FORM;
-    solid.form = form;
-    solid.rounding = rounding;
-    solid.scale = scale;
-    return hair_bullet_add_solid(bullet, shape, taking, solid, btQuaternion::getIdentity());
+        return taking.is_quiet
+                   ? HAIR_ERROR_ARGUMENT
+                   : hair_bullet_wrong(bullet, shape, taking, "has triangles that make no collision mesh");
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_MESH;
+    collider.mesh = form;
+    collider.rounding = rounding;
+    collider.scale = scale;
+    return hair_bullet_add_collider(bullet, shape, taking, collider, btQuaternion::getIdentity());
 }
 
 namespace
@@ -176,7 +178,8 @@ static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, cons
 }
 
 static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
-                        uint64_t print, const btVector3& lower, const btVector3& upper, const hair_form** out)
+                        uint64_t print, const btVector3& lower, const btVector3& upper,
+                        const hair_collision_mesh** out)
 {
     counter triangles;
     shape->processAllTriangles(&triangles, lower, upper);
@@ -190,8 +193,8 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
         close_below(static_cast<const btHeightfieldTerrainShape*>(shape), &mesh);
     hair_result result = mesh.result;
     if (!result)
-        result = hair_bullet_make_form(bullet, shape, print, mesh, 2 * static_cast<float>(shape->getMargin()),
-                                       out);
+        result = hair_bullet_make_collision_mesh(bullet, shape, print, mesh,
+                                                 2 * static_cast<float>(shape->getMargin()), out);
     mesh.release();
     return result;
 }
@@ -216,10 +219,11 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
             return hair_bullet_wrong(bullet, shape, taking, "has bounds that are not within 1e6 m");
     const uint64_t print = print_of(own, lower, upper);
     const hair_met* met = hair_bullet_find(bullet, own, print);
-    const hair_form* form = met ? met->form : nullptr;
+    const hair_collision_mesh* form = met ? met->form : nullptr;
     if (!met) {
         hair_result result = make(bullet, own, taking, print, lower, upper, &form);
         if (result) return result;
     }
-    return hair_bullet_add_form(bullet, shape, taking, form, static_cast<float>(shape->getMargin()), scale);
+    return hair_bullet_add_collision_mesh(bullet, shape, taking, form, static_cast<float>(shape->getMargin()),
+                                          scale);
 }

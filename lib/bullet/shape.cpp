@@ -30,44 +30,45 @@ static bool is_finite(const btVector3& v)
 }
 
 // Add a collider to the list. `turn` is its rotation within the shape.
-hair_result hair_bullet_add_solid(hair_bullet* bullet, const btCollisionShape* shape,
-                                  const hair_taking& taking, hair_solid solid, const btQuaternion& turn)
+hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape* shape,
+                                     const hair_taking& taking, hair_collider collider,
+                                     const btQuaternion& turn)
 {
     const btVector3 at =
-        taking.transform * btVector3(solid.position[0], solid.position[1], solid.position[2]);
+        taking.transform * btVector3(collider.position[0], collider.position[1], collider.position[2]);
     btQuaternion q = taking.transform.getRotation() * turn;
     if (!is_finite(at) || !std::isfinite(q.length2()) || !(q.length2() > btScalar(0.5)))
         return hair_bullet_wrong(bullet, shape, taking, "has no place that is finite");
     q.normalize();
     for (int k = 0; k < 3; ++k) {
-        solid.position[k] = at[k];
+        collider.position[k] = at[k];
         if (!(std::fabs(at[k]) <= 1e9f))
             return hair_bullet_wrong(bullet, shape, taking, "is farther than 1e9 m");
-        if (!(solid.size[k] >= 0 && solid.size[k] <= 1e6f))
+        if (!(collider.size[k] >= 0 && collider.size[k] <= 1e6f))
             return hair_bullet_wrong(bullet, shape, taking, "has a size that is not in [0, 1e6] m");
     }
-    if (!(solid.rounding >= 0 && solid.rounding <= 1e6f))
+    if (!(collider.rounding >= 0 && collider.rounding <= 1e6f))
         return hair_bullet_wrong(bullet, shape, taking, "has a margin that is not in [0, 1e6] m");
-    if (!(solid.scale >= 1e-6f && solid.scale <= 1e6f))
+    if (!(collider.scale >= 1e-6f && collider.scale <= 1e6f))
         return hair_bullet_wrong(bullet, shape, taking, "has a scale that is not in [1e-6, 1e6]");
-    const int sizes = solid.shape == HAIR_SHAPE_BOX       ? 3
-                      : solid.shape <= HAIR_SHAPE_CAPSULE ? 1
-                      : solid.shape < HAIR_SHAPE_PLANE    ? 2
-                                                          : 0;
+    const int sizes = collider.shape == HAIR_SHAPE_BOX       ? 3
+                      : collider.shape <= HAIR_SHAPE_CAPSULE ? 1
+                      : collider.shape < HAIR_SHAPE_PLANE    ? 2
+                                                             : 0;
     for (int k = 0; k < sizes; ++k)
-        if (solid.size[k] == 0 && solid.rounding == 0)
+        if (collider.size[k] == 0 && collider.rounding == 0)
             return hair_bullet_wrong(bullet, shape, taking, "has no size");
-    solid.rotation[0] = q.x(), solid.rotation[1] = q.y(), solid.rotation[2] = q.z(),
-    solid.rotation[3] = q.w();
-    solid.friction = taking.friction;
-    uint64_t key = hair_bullet_print(taking.key, &solid.shape, sizeof solid.shape);
-    solid.key = key ? key : 1;
+    collider.rotation[0] = q.x(), collider.rotation[1] = q.y(), collider.rotation[2] = q.z(),
+    collider.rotation[3] = q.w();
+    collider.friction = taking.friction;
+    uint64_t key = hair_bullet_print(taking.key, &collider.shape, sizeof collider.shape);
+    collider.key = key ? key : 1;
 
-    void* solids = bullet->solids;
+    void* colliders = bullet->colliders;
     hair_result result =
-        hair_bullet_reserve(&bullet->host, &solids, &bullet->capacity, bullet->count + 1, sizeof solid);
-    bullet->solids = static_cast<hair_solid*>(solids);
-    if (!result) bullet->solids[bullet->count++] = solid;
+        hair_bullet_reserve(&bullet->host, &colliders, &bullet->capacity, bullet->count + 1, sizeof collider);
+    bullet->colliders = static_cast<hair_collider*>(colliders);
+    if (!result) bullet->colliders[bullet->count++] = collider;
     return result;
 }
 
@@ -90,20 +91,20 @@ static float size_of(btScalar without_margin)
 
 static hair_result add_box(hair_bullet* bullet, const btBoxShape* box, const hair_taking& taking)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_BOX;
-    for (int k = 0; k < 3; ++k) solid.size[k] = size_of(box->getHalfExtentsWithoutMargin()[k]);
-    solid.rounding = box->getMargin();
-    return hair_bullet_add_solid(bullet, box, taking, solid, btQuaternion::getIdentity());
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_BOX;
+    for (int k = 0; k < 3; ++k) collider.size[k] = size_of(box->getHalfExtentsWithoutMargin()[k]);
+    collider.rounding = box->getMargin();
+    return hair_bullet_add_collider(bullet, box, taking, collider, btQuaternion::getIdentity());
 }
 
 static hair_result add_capsule(hair_bullet* bullet, const btCapsuleShape* capsule, const hair_taking& taking)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_CAPSULE;
-    solid.size[0] = capsule->getRadius();
-    solid.size[1] = capsule->getHalfHeight();
-    return hair_bullet_add_solid(bullet, capsule, taking, solid, turn_to(capsule->getUpAxis()));
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_CAPSULE;
+    collider.size[0] = capsule->getRadius();
+    collider.size[1] = capsule->getHalfHeight();
+    return hair_bullet_add_collider(bullet, capsule, taking, collider, turn_to(capsule->getUpAxis()));
 }
 
 // Add a cylinder. Bullet takes the radius along one axis, even if the other radius is larger.
@@ -112,31 +113,31 @@ static hair_result add_cylinder(hair_bullet* bullet, const btCylinderShape* cyli
 {
     const btVector3& half = cylinder->getHalfExtentsWithoutMargin();
     const int up = cylinder->getUpAxis();
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_CYLINDER;
-    solid.size[0] = size_of(half[up == 0 ? 1 : 0]);
-    solid.size[1] = size_of(half[up]);
-    solid.rounding = cylinder->getMargin();
-    return hair_bullet_add_solid(bullet, cylinder, taking, solid, turn_to(up));
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_CYLINDER;
+    collider.size[0] = size_of(half[up == 0 ? 1 : 0]);
+    collider.size[1] = size_of(half[up]);
+    collider.rounding = cylinder->getMargin();
+    return hair_bullet_add_collider(bullet, cylinder, taking, collider, turn_to(up));
 }
 
 // Add a cone. Bullet adds the margin to a cone, but subtracts the margin from other shapes
 // beforehand.
 static hair_result add_cone(hair_bullet* bullet, const btConeShape* cone, const hair_taking& taking)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_CONE;
-    solid.size[0] = cone->getRadius();
-    solid.size[1] = cone->getHeight() / 2;
-    solid.rounding = cone->getMargin();
-    return hair_bullet_add_solid(bullet, cone, taking, solid, turn_to(cone->getConeUpIndex()));
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_CONE;
+    collider.size[0] = cone->getRadius();
+    collider.size[1] = cone->getHeight() / 2;
+    collider.rounding = cone->getMargin();
+    return hair_bullet_add_collider(bullet, cone, taking, collider, turn_to(cone->getConeUpIndex()));
 }
 
 static hair_result add_sphere(hair_bullet* bullet, const btSphereShape* sphere, const hair_taking& taking)
 {
-    hair_solid solid = hair_solid_default();
-    solid.size[0] = sphere->getRadius();
-    return hair_bullet_add_solid(bullet, sphere, taking, solid, btQuaternion::getIdentity());
+    hair_collider collider = hair_collider_default();
+    collider.size[0] = sphere->getRadius();
+    return hair_bullet_add_collider(bullet, sphere, taking, collider, btQuaternion::getIdentity());
 }
 
 static hair_result add_plane(hair_bullet* bullet, const btStaticPlaneShape* plane, const hair_taking& taking)
@@ -144,11 +145,11 @@ static hair_result add_plane(hair_bullet* bullet, const btStaticPlaneShape* plan
     const btVector3& normal = plane->getPlaneNormal();
     if (!(std::fabs(normal.length2() - 1) < btScalar(1e-3)))
         return hair_bullet_wrong(bullet, plane, taking, "has a normal that is not of length 1");
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_PLANE;
-    for (int k = 0; k < 3; ++k) solid.position[k] = normal[k] * plane->getPlaneConstant();
-    return hair_bullet_add_solid(bullet, plane, taking, solid,
-                                 shortestArcQuat(btVector3(0, 1, 0), normal.normalized()));
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_PLANE;
+    for (int k = 0; k < 3; ++k) collider.position[k] = normal[k] * plane->getPlaneConstant();
+    return hair_bullet_add_collider(bullet, plane, taking, collider,
+                                    shortestArcQuat(btVector3(0, 1, 0), normal.normalized()));
 }
 
 // Add a compound. Its scale is already part of the children and their transforms.
@@ -194,5 +195,5 @@ hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, 
         if (shape->isConcave())
             return hair_bullet_add_mesh(bullet, static_cast<const btConcaveShape*>(shape), taking);
     }
-    return hair_bullet_wrong(bullet, shape, taking, "cannot be a solid");
+    return hair_bullet_wrong(bullet, shape, taking, "cannot be a collider");
 }

@@ -15,14 +15,14 @@ static hair_result make_room(const hair_host* host, struct hair_cells* cells, ui
     if (count <= cells->room) return HAIR_OK;
     uint32_t room = count + count / 2;
     hair_free(host, cells->contact);
-    hair_free(host, cells->solid);
+    hair_free(host, cells->collider);
     hair_free(host, cells->bounds);
     hair_free(host, cells->member);
     cells->contact = hair_alloc(host, room, sizeof *cells->contact);
-    cells->solid = hair_alloc(host, room, sizeof *cells->solid);
+    cells->collider = hair_alloc(host, room, sizeof *cells->collider);
     cells->bounds = hair_alloc(host, room, sizeof *cells->bounds);
     cells->member = hair_alloc(host, room, sizeof *cells->member);
-    int whole = cells->contact && cells->solid && cells->bounds && cells->member;
+    int whole = cells->contact && cells->collider && cells->bounds && cells->member;
     cells->room = whole ? room : 0;
     return whole ? HAIR_OK : hair_fail_memory(host, "what guides collide with");
 }
@@ -30,7 +30,7 @@ static hair_result make_room(const hair_host* host, struct hair_cells* cells, ui
 void hair_cells_free(const hair_host* host, struct hair_cells* cells)
 {
     hair_free(host, cells->contact);
-    hair_free(host, cells->solid);
+    hair_free(host, cells->collider);
     hair_free(host, cells->bounds);
     hair_free(host, cells->member);
     hair_free(host, cells->entry);
@@ -41,21 +41,21 @@ void hair_cells_free(const hair_host* host, struct hair_cells* cells)
 // Contacts ----------------------------------------------------------------------------------------
 
 // Return the bounding box at the start or the end of the step, without rounding.
-static struct hair_cell_bounds box_around(const struct hair_contact* contact, const hair_solid* solid,
+static struct hair_cell_bounds box_around(const struct hair_contact* contact, const hair_collider* collider,
                                           int end)
 {
     const hair_vec4 *at = &contact->body.position[end], *q = &contact->body.rotation[end];
     hair_quat turn = {q->x, q->y, q->z, q->w};
     hair_vec3 middle, half;
-    if (solid->shape <= HAIR_SHAPE_CAPSULE) {
+    if (collider->shape <= HAIR_SHAPE_CAPSULE) {
         const hair_vec4* ends = end ? contact->around.end : contact->around.start;
         return (struct hair_cell_bounds){
-            {fminf(ends[0].x, ends[1].x) - solid->size[0], fminf(ends[0].y, ends[1].y) - solid->size[0],
-             fminf(ends[0].z, ends[1].z) - solid->size[0]},
-            {fmaxf(ends[0].x, ends[1].x) + solid->size[0], fmaxf(ends[0].y, ends[1].y) + solid->size[0],
-             fmaxf(ends[0].z, ends[1].z) + solid->size[0]}};
+            {fminf(ends[0].x, ends[1].x) - collider->size[0], fminf(ends[0].y, ends[1].y) - collider->size[0],
+             fminf(ends[0].z, ends[1].z) - collider->size[0]},
+            {fmaxf(ends[0].x, ends[1].x) + collider->size[0], fmaxf(ends[0].y, ends[1].y) + collider->size[0],
+             fmaxf(ends[0].z, ends[1].z) + collider->size[0]}};
     }
-    hair_solid_extent(solid, &middle, &half);
+    hair_collider_extent(collider, &middle, &half);
     hair_vec3 x = hair_rotate(turn, hair_v3(half.x, 0, 0)), y = hair_rotate(turn, hair_v3(0, half.y, 0)),
               z = hair_rotate(turn, hair_v3(0, 0, half.z)), m = hair_rotate(turn, middle);
     const float c[3] = {at->x + m.x, at->y + m.y, at->z + m.z};
@@ -66,21 +66,21 @@ static struct hair_cell_bounds box_around(const struct hair_contact* contact, co
 }
 
 // Return the maximum deviation of a turning collider from the straight path between its ends.
-static float bulge_of(const struct hair_contact* contact, const hair_solid* solid)
+static float bulge_of(const struct hair_contact* contact, const hair_collider* collider)
 {
     const hair_vec4 *a = &contact->body.rotation[0], *b = &contact->body.rotation[1];
     float x = b->x - a->x, y = b->y - a->y, z = b->z - a->z, w = b->w - a->w;
     hair_vec3 middle, half;
-    hair_solid_extent(solid, &middle, &half);
+    hair_collider_extent(collider, &middle, &half);
     return (hair_length(middle) + hair_length(half)) * fminf(4 * (x * x + y * y + z * z + w * w), 2);
 }
 
 // Return the bounds of everything that hair in reach can touch in the step.
-static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, const hair_solid* solid,
+static struct hair_cell_bounds bounds_of(const struct hair_contact* contact, const hair_collider* collider,
                                          const struct hair_cells_desc* desc)
 {
-    struct hair_cell_bounds a = box_around(contact, solid, 0), b = box_around(contact, solid, 1);
-    float around = bulge_of(contact, solid) + contact->body.position[0].w + desc->margin + desc->give;
+    struct hair_cell_bounds a = box_around(contact, collider, 0), b = box_around(contact, collider, 1);
+    float around = bulge_of(contact, collider) + contact->body.position[0].w + desc->margin + desc->give;
     for (int k = 0; k < 3; ++k) {
         float lower = a.lower[k] + desc->share_start * (b.lower[k] - a.lower[k]);
         float upper = a.upper[k] + desc->share_start * (b.upper[k] - a.upper[k]);
@@ -109,17 +109,17 @@ static hair_vec4 ball_of(const struct hair_capsule* around, const struct hair_ce
 }
 
 hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
-                              const struct hair_solids* solids, const struct hair_pose* head_before,
+                              const struct hair_colliders* colliders, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, const struct hair_cells_desc* desc)
 {
     cells->contacts = 0;
     cells->bodies = 0;
-    hair_result result = make_room(host, cells, solids->now.count);
-    for (uint32_t i = 0; i < solids->now.count && !result; ++i) {
-        const hair_solid* solid = &solids->now.solid[i];
-        if (solid->shape == HAIR_SHAPE_FORM && !solid->form) continue;
-        struct hair_contact contact = hair_solids_contact(solids, i, head_before, head_now);
-        struct hair_cell_bounds bounds = bounds_of(&contact, solid, desc);
+    hair_result result = make_room(host, cells, colliders->now.count);
+    for (uint32_t i = 0; i < colliders->now.count && !result; ++i) {
+        const hair_collider* collider = &colliders->now.collider[i];
+        if (collider->shape == HAIR_SHAPE_MESH && !collider->mesh) continue;
+        struct hair_contact contact = hair_colliders_contact(colliders, i, head_before, head_now);
+        struct hair_cell_bounds bounds = bounds_of(&contact, collider, desc);
         int far = 0;
         for (int k = 0; k < 3; ++k)
             far |= !(bounds.lower[k] <= desc->reach && bounds.upper[k] >= -desc->reach);
@@ -127,8 +127,8 @@ hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
         contact.ball = ball_of(&contact.around, desc);
         cells->contact[cells->contacts] = contact;
         cells->bounds[cells->contacts] = bounds;
-        cells->solid[cells->contacts] = i;
-        int walked = solid->shape > HAIR_SHAPE_CAPSULE, is_long = solid->shape > HAIR_SHAPE_SPHERE;
+        cells->collider[cells->contacts] = i;
+        int walked = collider->shape > HAIR_SHAPE_CAPSULE, is_long = collider->shape > HAIR_SHAPE_SPHERE;
         cells->member[cells->contacts] =
             cells->contacts | (walked ? HAIR_MEMBER_WALKED : 0) | (is_long ? HAIR_MEMBER_LONG : 0);
         cells->bodies += (uint32_t)walked;

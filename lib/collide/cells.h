@@ -7,7 +7,7 @@
 #ifndef HAIR_COLLIDE_CELLS_H
 #define HAIR_COLLIDE_CELLS_H
 
-#include "lib/collide/solid.h"
+#include "lib/collide/collider.h"
 
 struct hair_cells_desc {
     float reach; // maximum distance of hair from the head's origin along any axis, m
@@ -25,7 +25,7 @@ struct hair_cell_bounds {
 
 struct hair_cells {
     struct hair_contact* contact; // colliders in reach, in the order of the application
-    uint32_t* solid; // number of each contact's collider
+    uint32_t* collider; // number of each contact's collider
     uint32_t* member; // entry of each contact in lists
     struct hair_cell_bounds* bounds; // of each contact
     uint32_t contacts, room;
@@ -44,7 +44,7 @@ struct hair_cells {
 
 // Gather the contacts, without the offsets of collision meshes' nodes. On failure there are none.
 hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
-                              const struct hair_solids* solids, const struct hair_pose* head_before,
+                              const struct hair_colliders* colliders, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, const struct hair_cells_desc* desc);
 
 // Make the lists of the contacts. `changed` becomes 0 if lists and contacts are the same as in the

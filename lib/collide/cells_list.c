@@ -222,11 +222,11 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
         const hair_vec4* ends = cells->contact[contact[i]].around.end;
         candidate[i] = (struct candidate){from_axis(middle, ends) - ends[0].w, contact[i]};
     }
-    if (count > HAIR_CELL_SOLIDS) {
+    if (count > HAIR_CELL_COLLIDERS) {
         memcpy(sorted, candidate, count * sizeof *sorted);
-        select_nearest(sorted, count, HAIR_CELL_SOLIDS);
+        select_nearest(sorted, count, HAIR_CELL_COLLIDERS);
         struct candidate farthest = sorted[0];
-        for (uint32_t i = 1; i < HAIR_CELL_SOLIDS; ++i)
+        for (uint32_t i = 1; i < HAIR_CELL_COLLIDERS; ++i)
             if (by_distance(&sorted[i], &farthest) > 0) farthest = sorted[i];
         count = keep_to(candidate, count, farthest);
     }
@@ -262,7 +262,7 @@ static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* 
         uint32_t begin = cell ? end[cell - 1] : 0, count = end[cell] - begin, first = cells->entries,
                  rounds = 0;
         for (uint32_t i = 0; i < count; ++i) rounds += hair_member_rounds(cells->member[sorted[begin + i]]);
-        if (count > HAIR_CELL_SOLIDS || rounds > desc->most_rounds) {
+        if (count > HAIR_CELL_COLLIDERS || rounds > desc->most_rounds) {
             uint32_t kept =
                 choose(cells, desc->most_rounds, cell, sorted + begin, count, candidate, candidate + longest);
             for (uint32_t i = 0; i < kept; ++i)

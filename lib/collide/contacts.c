@@ -1,50 +1,50 @@
 // contacts.c - colliders between two poses of the head, for guides: all of them or the nearest
 // ones.
-#include "lib/collide/form.h"
-#include "lib/collide/solid.h"
+#include "lib/collide/collision_mesh.h"
+#include "lib/collide/collider.h"
 
 #define EVERYWHERE 1e7f // Radius of the sphere around a half-space, m.
 
-static hair_vec3 from_head(const hair_solid* solid, const struct hair_pose* head)
+static hair_vec3 from_head(const hair_collider* collider, const struct hair_pose* head)
 {
-    return (hair_vec3){(float)((double)solid->position[0] - head->position[0]),
-                       (float)((double)solid->position[1] - head->position[1]),
-                       (float)((double)solid->position[2] - head->position[2])};
+    return (hair_vec3){(float)((double)collider->position[0] - head->position[0]),
+                       (float)((double)collider->position[1] - head->position[1]),
+                       (float)((double)collider->position[2] - head->position[2])};
 }
 
-static hair_quat turn_of(const hair_solid* solid)
+static hair_quat turn_of(const hair_collider* collider)
 {
-    return hair_quat_normalize(
-        (hair_quat){solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]});
+    return hair_quat_normalize((hair_quat){collider->rotation[0], collider->rotation[1],
+                                           collider->rotation[2], collider->rotation[3]});
 }
 
 // Compute the centre of a collider in its own axes, and half its sides.
-void hair_solid_extent(const hair_solid* solid, hair_vec3* middle, hair_vec3* half)
+void hair_collider_extent(const hair_collider* collider, hair_vec3* middle, hair_vec3* half)
 {
-    const float* size = solid->size;
+    const float* size = collider->size;
     *middle = hair_v3(0, 0, 0);
-    switch (solid->shape) {
+    switch (collider->shape) {
     case HAIR_SHAPE_CAPSULE: *half = hair_v3(size[0], size[0] + size[1], size[0]); return;
     case HAIR_SHAPE_BOX: *half = hair_load3(size); return;
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: *half = hair_v3(size[0], size[1], size[0]); return;
     case HAIR_SHAPE_PLANE: *half = hair_v3(EVERYWHERE, EVERYWHERE, EVERYWHERE); return;
-    case HAIR_SHAPE_FORM: break;
+    case HAIR_SHAPE_MESH: break;
     default: *half = hair_v3(size[0], size[0], size[0]); return;
     }
-    hair_vec3 lower = hair_load3(solid->form->info.lower), upper = hair_load3(solid->form->info.upper);
-    *middle = hair_scale(hair_lerp(lower, upper, 0.5f), solid->scale);
-    *half = hair_scale(hair_sub(upper, lower), 0.5f * solid->scale);
+    hair_vec3 lower = hair_load3(collider->mesh->info.lower), upper = hair_load3(collider->mesh->info.upper);
+    *middle = hair_scale(hair_lerp(lower, upper, 0.5f), collider->scale);
+    *half = hair_scale(hair_sub(upper, lower), 0.5f * collider->scale);
 }
 
 // Return the radius of a sphere or capsule, or of a sphere around another collider, without
 // rounding.
-static float radius_around(const hair_solid* solid)
+static float radius_around(const hair_collider* collider)
 {
-    const float* size = solid->size;
+    const float* size = collider->size;
     hair_vec3 middle, half;
-    switch (solid->shape) {
-    case HAIR_SHAPE_FORM: hair_solid_extent(solid, &middle, &half); return hair_length(half);
+    switch (collider->shape) {
+    case HAIR_SHAPE_MESH: hair_collider_extent(collider, &middle, &half); return hair_length(half);
     case HAIR_SHAPE_BOX: return hair_length(hair_load3(size));
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: return hypotf(size[0], size[1]);
@@ -54,15 +54,15 @@ static float radius_around(const hair_solid* solid)
 }
 
 // Compute the axis and radius of a sphere or capsule, or of a sphere around another collider.
-static void place(const hair_solid* solid, const struct hair_pose* head, hair_vec4 ends[2])
+static void place(const hair_collider* collider, const struct hair_pose* head, hair_vec4 ends[2])
 {
-    hair_vec3 center = from_head(solid, head), middle, sides;
-    float half = solid->shape == HAIR_SHAPE_CAPSULE ? solid->size[1] : 0;
-    float radius = radius_around(solid) + solid->rounding;
-    hair_vec3 axis = hair_rotate(turn_of(solid), hair_v3(0, half, 0));
-    if (solid->shape == HAIR_SHAPE_FORM) {
-        hair_solid_extent(solid, &middle, &sides);
-        center = hair_add(center, hair_rotate(turn_of(solid), middle));
+    hair_vec3 center = from_head(collider, head), middle, sides;
+    float half = collider->shape == HAIR_SHAPE_CAPSULE ? collider->size[1] : 0;
+    float radius = radius_around(collider) + collider->rounding;
+    hair_vec3 axis = hair_rotate(turn_of(collider), hair_v3(0, half, 0));
+    if (collider->shape == HAIR_SHAPE_MESH) {
+        hair_collider_extent(collider, &middle, &sides);
+        center = hair_add(center, hair_rotate(turn_of(collider), middle));
     }
     hair_vec3 a = hair_sub(center, axis), b = hair_add(center, axis);
     ends[0] = (hair_vec4){a.x, a.y, a.z, radius};
@@ -71,7 +71,7 @@ static void place(const hair_solid* solid, const struct hair_pose* head, hair_ve
 
 // Return the rotation from one pose of a collider to the next, except the part that a capsule's
 // ends show.
-static hair_vec4 spin_between(const hair_solid* from, const hair_solid* to)
+static hair_vec4 spin_between(const hair_collider* from, const hair_collider* to)
 {
     hair_quat a = turn_of(from), b = turn_of(to);
     hair_quat turn = hair_quat_multiply(b, hair_quat_conjugate(a));
@@ -92,7 +92,7 @@ static float way_of(hair_vec4 from, hair_vec4 to)
     return hair_length(hair_v3(to.x - from.x, to.y - from.y, to.z - from.z));
 }
 
-static struct hair_capsule capsule_of(const hair_solid* before, const hair_solid* now,
+static struct hair_capsule capsule_of(const hair_collider* before, const hair_collider* now,
                                       const struct hair_pose* head_before, const struct hair_pose* head_now)
 {
     struct hair_capsule around = {.spin = spin_between(before, now)};
@@ -103,10 +103,10 @@ static struct hair_capsule capsule_of(const hair_solid* before, const hair_solid
 }
 
 // Return the distance from the head to the surface.
-static float distance_of(const hair_solid* solid, const struct hair_pose* head)
+static float distance_of(const hair_collider* collider, const struct hair_pose* head)
 {
     hair_vec4 end[2];
-    place(solid, head, end);
+    place(collider, head, end);
     hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
     float t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
     return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
@@ -114,16 +114,16 @@ static float distance_of(const hair_solid* solid, const struct hair_pose* head)
 
 // Choose the nearest colliders of the shapes up to `last`, preserving order. At equal distances the
 // first one stays.
-static uint32_t choose(const struct hair_solids* solids, const struct hair_pose* head, hair_shape last,
-                       uint32_t chosen[HAIR_STEP_SOLIDS])
+static uint32_t choose(const struct hair_colliders* colliders, const struct hair_pose* head, hair_shape last,
+                       uint32_t chosen[HAIR_STEP_COLLIDERS])
 {
-    float distance[HAIR_STEP_SOLIDS];
+    float distance[HAIR_STEP_COLLIDERS];
     uint32_t count = 0, farthest = 0;
-    for (uint32_t i = 0; i < solids->now.count; ++i) {
-        const hair_solid* solid = &solids->now.solid[i];
-        if (solid->shape > last) continue;
-        float far = distance_of(solid, head);
-        if (count == HAIR_STEP_SOLIDS) {
+    for (uint32_t i = 0; i < colliders->now.count; ++i) {
+        const hair_collider* collider = &colliders->now.collider[i];
+        if (collider->shape > last) continue;
+        float far = distance_of(collider, head);
+        if (count == HAIR_STEP_COLLIDERS) {
             if (far >= distance[farthest]) continue;
             for (uint32_t k = farthest; k + 1 < count; ++k)
                 chosen[k] = chosen[k + 1], distance[k] = distance[k + 1];
@@ -131,13 +131,13 @@ static uint32_t choose(const struct hair_solids* solids, const struct hair_pose*
         }
         chosen[count] = i, distance[count++] = far;
         farthest = 0;
-        for (uint32_t k = 1; k < count && count == HAIR_STEP_SOLIDS; ++k)
+        for (uint32_t k = 1; k < count && count == HAIR_STEP_COLLIDERS; ++k)
             if (distance[k] >= distance[farthest]) farthest = k;
     }
     return count;
 }
 
-static struct hair_body body_of(const hair_solid* before, const hair_solid* now,
+static struct hair_body body_of(const hair_collider* before, const hair_collider* now,
                                 const struct hair_pose* head_before, const struct hair_pose* head_now)
 {
     hair_vec3 a = from_head(before, head_before), b = from_head(now, head_now);
@@ -149,44 +149,47 @@ static struct hair_body body_of(const hair_solid* before, const hair_solid* now,
         .size = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
 }
 
-static uint32_t fill(const struct hair_solids* solids, const struct hair_pose* head_before,
+static uint32_t fill(const struct hair_colliders* colliders, const struct hair_pose* head_before,
                      const struct hair_pose* head_now, hair_shape last, struct hair_capsule* around,
                      struct hair_body* out)
 {
-    uint32_t chosen[HAIR_STEP_SOLIDS], count = choose(solids, head_now, last, chosen);
+    uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose(colliders, head_now, last, chosen);
     for (uint32_t i = 0; i < count; ++i) {
-        const hair_solid *now = &solids->now.solid[chosen[i]],
-                         *before = hair_solids_before(solids, chosen[i]);
+        const hair_collider *now = &colliders->now.collider[chosen[i]],
+                            *before = hair_colliders_before(colliders, chosen[i]);
         around[i] = capsule_of(before, now, head_before, head_now);
         if (out) out[i] = body_of(before, now, head_before, head_now);
     }
     return count;
 }
 
-uint32_t hair_solids_capsules(const struct hair_solids* solids, const struct hair_pose* head_before,
-                              const struct hair_pose* head_now, struct hair_capsule out[HAIR_STEP_SOLIDS])
+uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const struct hair_pose* head_before,
+                                 const struct hair_pose* head_now,
+                                 struct hair_capsule out[HAIR_STEP_COLLIDERS])
 {
-    return fill(solids, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
+    return fill(colliders, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
 }
 
-uint32_t hair_solids_bodies(const struct hair_solids* solids, const struct hair_pose* head_before,
-                            const struct hair_pose* head_now, struct hair_capsule around[HAIR_STEP_SOLIDS],
-                            struct hair_body out[HAIR_STEP_SOLIDS])
+uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const struct hair_pose* head_before,
+                               const struct hair_pose* head_now,
+                               struct hair_capsule around[HAIR_STEP_COLLIDERS],
+                               struct hair_body out[HAIR_STEP_COLLIDERS])
 {
-    return fill(solids, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
+    return fill(colliders, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
 }
 
-struct hair_contact hair_solids_contact(const struct hair_solids* solids, uint32_t i,
-                                        const struct hair_pose* head_before, const struct hair_pose* head_now)
+struct hair_contact hair_colliders_contact(const struct hair_colliders* colliders, uint32_t i,
+                                           const struct hair_pose* head_before,
+                                           const struct hair_pose* head_now)
 {
-    const hair_solid* now = &solids->now.solid[i];
-    hair_solid before = *hair_solids_before(solids, i);
-    before.form = now->form, before.scale = now->scale; // The collision mesh may have been another.
+    const hair_collider* now = &colliders->now.collider[i];
+    hair_collider before = *hair_colliders_before(colliders, i);
+    before.mesh = now->mesh, before.scale = now->scale; // The collision mesh may have been another.
     struct hair_contact contact = {.around = capsule_of(&before, now, head_before, head_now),
                                    .body = body_of(&before, now, head_before, head_now)};
-    if (now->shape != HAIR_SHAPE_FORM) return contact;
-    const hair_form* form = now->form;
-    contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_FORM};
+    if (now->shape != HAIR_SHAPE_MESH) return contact;
+    const hair_collision_mesh* form = now->mesh;
+    contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_MESH};
     contact.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
     contact.nodes_x = form->size[0];
     contact.nodes_y = form->size[1];

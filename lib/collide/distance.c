@@ -1,4 +1,4 @@
-// distance.c - the exact signed distance to colliders. glsl/solid_distance.glsl is the GPU version.
+// distance.c - the exact signed distance to colliders. glsl/collider_distance.glsl is the GPU version.
 #include "lib/collide/distance.h"
 
 #include <math.h>
@@ -44,7 +44,7 @@ static double to_box(const float size[3], const double p[3], double gradient[3])
     return direction(out, inside, gradient) + fmin(deepest, 0);
 }
 
-// Nearest point of a profile so far. A solid of revolution about the y axis is described by its
+// Nearest point of a profile so far. A collider of revolution about the y axis is described by its
 // profile, a polygon in the half-plane of (distance from the axis, height).
 struct profile {
     double distance, out[2]; // `out` is the vector from the nearest point of the profile.
@@ -60,7 +60,7 @@ static void edge(const double p[2], const double a[2], const double b[2], struct
     if (far < nearest->distance) *nearest = (struct profile){far, {out[0], out[1]}};
 }
 
-// Return the signed distance to a solid of revolution. `flank` is the normal of its side, for
+// Return the signed distance to a collider of revolution. `flank` is the normal of its side, for
 // points on the surface.
 static double revolve(struct profile nearest, int inside, const double flank[2], const double p[3],
                       double gradient[3])
@@ -117,7 +117,7 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
 // Forms -------------------------------------------------------------------------------------------
 
 // Interpolate the distances within the grid. `slope` receives the gradient per voxel.
-static double interpolate(const hair_form* form, const double at[3], double slope[3])
+static double interpolate(const hair_collision_mesh* form, const double at[3], double slope[3])
 {
     size_t node = 0, step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     double t[3];
@@ -141,7 +141,7 @@ static double interpolate(const hair_form* form, const double at[3], double slop
     return value;
 }
 
-double hair_distance_to_form(const hair_form* form, const double point[3], double gradient[3])
+double hair_distance_to_mesh(const hair_collision_mesh* form, const double point[3], double gradient[3])
 {
     double own[3], inside[3], slope[3], beyond = 0;
     double* out = gradient ? gradient : own;
@@ -174,20 +174,20 @@ static void rotate(const float q[4], double sign, const double v[3], double out[
     for (int k = 0; k < 3; ++k) out[k] = r[k];
 }
 
-double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3])
+double hair_distance_to_collider(const hair_collider* collider, const double point[3], double gradient[3])
 {
-    double local[3], normal[3], distance, scale = (double)solid->scale;
-    for (int k = 0; k < 3; ++k) local[k] = point[k] - (double)solid->position[k];
-    rotate(solid->rotation, -1, local, local);
-    if (solid->shape != HAIR_SHAPE_FORM) {
-        distance = hair_distance_to_shape(solid->shape, solid->size, local, normal);
-    } else if (solid->form) {
+    double local[3], normal[3], distance, scale = (double)collider->scale;
+    for (int k = 0; k < 3; ++k) local[k] = point[k] - (double)collider->position[k];
+    rotate(collider->rotation, -1, local, local);
+    if (collider->shape != HAIR_SHAPE_MESH) {
+        distance = hair_distance_to_shape(collider->shape, collider->size, local, normal);
+    } else if (collider->mesh) {
         for (int k = 0; k < 3; ++k) local[k] /= scale;
-        distance = scale * hair_distance_to_form(solid->form, local, normal);
+        distance = scale * hair_distance_to_mesh(collider->mesh, local, normal);
     } else {
         for (int k = 0; k < 3; ++k) normal[k] = up[k];
         distance = INFINITY;
     }
-    if (gradient) rotate(solid->rotation, 1, normal, gradient);
-    return distance - (double)solid->rounding;
+    if (gradient) rotate(collider->rotation, 1, normal, gradient);
+    return distance - (double)collider->rounding;
 }

@@ -3,7 +3,7 @@
 #ifndef HAIR_COLLIDE_DISTANCE_H
 #define HAIR_COLLIDE_DISTANCE_H
 
-#include "lib/collide/form.h"
+#include "lib/collide/collision_mesh.h"
 
 // All functions return the distance from `point` to the surface, m. It is negative inside.
 // `gradient` receives the unit vector along which the distance grows, or one of several such
@@ -11,7 +11,7 @@
 
 // Return the distance to a collider, with both in the world. A collision mesh without its data is
 // infinitely far.
-double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3]);
+double hair_distance_to_collider(const hair_collider* collider, const double point[3], double gradient[3]);
 
 // Return the distance to any shape except a collision mesh, in the shape's own space and without
 // rounding.
@@ -21,6 +21,6 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
 // Return the distance to a collision mesh in its own space, trilinear between the nodes. Outside
 // the grid, the distance is measured from the surface point nearest to the grid's edge, which is
 // slightly too far.
-double hair_distance_to_form(const hair_form* form, const double point[3], double gradient[3]);
+double hair_distance_to_mesh(const hair_collision_mesh* form, const double point[3], double gradient[3]);
 
 #endif

@@ -17,16 +17,16 @@ static int compare(const void* a, const void* b)
     return by_key ? by_key : (x->index > y->index) - (x->index < y->index);
 }
 
-static uint64_t key_of(const hair_solid* solids, uint32_t i, size_t stride)
+static uint64_t key_of(const hair_collider* colliders, uint32_t i, size_t stride)
 {
-    hair_solid solid;
-    memcpy(&solid, (const unsigned char*)solids + i * stride, sizeof solid);
-    return solid.key;
+    hair_collider collider;
+    memcpy(&collider, (const unsigned char*)colliders + i * stride, sizeof collider);
+    return collider.key;
 }
 
-static void sort(const hair_solid* solids, uint32_t count, size_t stride, struct place* out)
+static void sort(const hair_collider* colliders, uint32_t count, size_t stride, struct place* out)
 {
-    for (uint32_t i = 0; i < count; ++i) out[i] = (struct place){key_of(solids, i, stride), i};
+    for (uint32_t i = 0; i < count; ++i) out[i] = (struct place){key_of(colliders, i, stride), i};
     if (count) qsort(out, count, sizeof *out, compare);
 }
 
@@ -43,8 +43,9 @@ static void merge(const struct place* now, uint32_t count, const struct place* b
             ++k;
 }
 
-hair_result hair_pair_solids(const hair_host* host, const hair_solid* now, uint32_t count, size_t stride,
-                             const hair_solid* before, uint32_t count_before, uint32_t* pair)
+hair_result hair_pair_colliders(const hair_host* host, const hair_collider* now, uint32_t count,
+                                size_t stride, const hair_collider* before, uint32_t count_before,
+                                uint32_t* pair)
 {
     uint32_t both = count < count_before ? count : count_before, same = 0;
     while (same < both && key_of(now, same, stride) == before[same].key) ++same;
@@ -53,7 +54,7 @@ hair_result hair_pair_solids(const hair_host* host, const hair_solid* now, uint3
         return HAIR_OK;
     }
     struct place* places = hair_alloc(host, (size_t)count + count_before, sizeof *places);
-    if (!places) return hair_fail_memory(host, "the order of solids");
+    if (!places) return hair_fail_memory(host, "the order of colliders");
     sort(now, count, stride, places);
     sort(before, count_before, sizeof *before, places + count);
     for (uint32_t i = 0; i < count; ++i) pair[i] = UINT32_MAX;

@@ -7,7 +7,8 @@
 // Write to `pair`, for each collider of `now`, its index in `before` or UINT32_MAX. Colliders are
 // paired by key. Among equal keys, including 0, the n-th is paired with the n-th. `stride` applies
 // to `now`. On failure nothing is written.
-hair_result hair_pair_solids(const hair_host* host, const hair_solid* now, uint32_t count, size_t stride,
-                             const hair_solid* before, uint32_t count_before, uint32_t* pair);
+hair_result hair_pair_colliders(const hair_host* host, const hair_collider* now, uint32_t count,
+                                size_t stride, const hair_collider* before, uint32_t count_before,
+                                uint32_t* pair);
 
 #endif

@@ -80,14 +80,13 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
     if (!keys || !sorted) {
         hair_free(host, keys);
         hair_free(host, sorted);
-        return hair_fail_memory(host, "the order of a form's triangles");
+        return hair_fail_memory(host, "the order of a collision mesh's triangles");
     }
     uint64_t* other = keys + t->count;
     for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | i;
     sort(keys, other, t->count);
     // After an odd number of rounds, they are in the other half.
-    for (uint32_t i = 0; i < t->count; ++i)
-        memcpy(sorted[i], t->indices[(uint32_t)other[i]], sizeof *sorted);
+    for (uint32_t i = 0; i < t->count; ++i) memcpy(sorted[i], t->indices[(uint32_t)other[i]], sizeof *sorted);
     hair_free(host, keys);
     hair_free(host, t->indices);
     t->indices = sorted;
@@ -170,7 +169,7 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
     struct hair_triangles t = {.positions = positions};
     hair_result result;
     t.indices = hair_alloc(host, count, sizeof *t.indices);
-    if (!t.indices) return hair_fail_memory(host, "a form's triangles");
+    if (!t.indices) return hair_fail_memory(host, "a collision mesh's triangles");
     for (uint32_t i = 0; i < count; ++i) {
         memcpy(t.indices[t.count], indices + 3 * (size_t)i, sizeof *t.indices);
         hair_vec3 a = corner(&t, t.count, 0), b = corner(&t, t.count, 1), c = corner(&t, t.count, 2);
@@ -182,7 +181,8 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
         for (t.lowest = 1; 2 * t.lowest <= 2 * t.leaves - 1;) t.lowest *= 2;
         t.box = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
         t.dipole = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.dipole);
-        result = t.box && t.dipole ? put_in_order(host, &t) : hair_fail_memory(host, "a form's triangles");
+        result = t.box && t.dipole ? put_in_order(host, &t)
+                                   : hair_fail_memory(host, "a collision mesh's triangles");
         if (result) {
             hair_triangles_free(host, &t);
             return result;

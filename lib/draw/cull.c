@@ -36,7 +36,8 @@ double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
     double width = (double)(draw->look.radius * hair_curve_most(&draw->look.taper));
     if (!lod) return width;
     return width *
-           pow(fmax((double)(lod->strands * (lod->dynamic ? lod->least : 1)), 1e-6), -(double)lod->width);
+           pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
+               -(double)lod->width_exponent);
 }
 
 // Return how far hair reaches beyond the box of roots, in metres.

@@ -67,14 +67,15 @@ void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const 
     const hair_lod* lod = view ? view->lod : NULL;
     draw->pixels = 0;
     draw->led = 1;
-    if (!lod || !lod->dynamic || hair_draw_expands(view)) return;
+    if (!lod || !lod->per_patch || hair_draw_expands(view)) return;
     draw->pixels = fmaxf(lod->importance * pixels_of(draw, head, view), 1e-6f);
     draw->led = fminf(fmaxf(LED * draw->pixels - 1, 0), 1);
 }
 
 float hair_draw_cell(const struct hair_draw* draw, const hair_view* view)
 {
-    return view->lod && draw->pixels > 0 ? fmaxf(draw->look.voxel, CELL / draw->pixels) : draw->look.voxel;
+    return view->lod && draw->pixels > 0 ? fmaxf(draw->look.self_shadow_cell, CELL / draw->pixels)
+                                         : draw->look.self_shadow_cell;
 }
 
 // Return about which fraction of all strands is drawn.
@@ -82,8 +83,9 @@ static double find_share(const struct hair_draw* draw, const hair_lod* lod)
 {
     float width = 2 * draw->look.radius * draw->pixels;
     if (!lod) return 1;
-    return (double)(lod->strands *
-                    (draw->pixels > 0 ? fminf(fmaxf(width / lod->strand_pixels, lod->least), 1) : 1));
+    return (double)(lod->strand_fraction *
+                    (draw->pixels > 0 ? fminf(fmaxf(width / lod->strand_pixels, lod->min_strand_fraction), 1)
+                                      : 1));
 }
 
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
@@ -91,18 +93,18 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
 {
     const hair_lod* lod = view ? view->lod : NULL;
     out->chunks = hair_draw_chunks(draw, find_share(draw, lod));
-    out->strand_share = lod ? lod->strands : 1;
-    out->segment_share = lod ? lod->segments : 1;
-    out->width_power = lod ? lod->width : 0;
-    if (!lod || !lod->dynamic) return;
+    out->strand_share = lod ? lod->strand_fraction : 1;
+    out->segment_share = lod ? lod->segment_fraction : 1;
+    out->width_power = lod ? lod->width_exponent : 0;
+    if (!lod || !lod->per_patch) return;
     out->pixels_per_unit = find_scale(draw, view->projection);
     out->strand_pixels = lod->strand_pixels / fmaxf(lod->importance, 1e-6f);
     out->segment_pixels = lod->segment_pixels / fmaxf(lod->importance, 1e-6f);
-    out->least_share = lod->least;
-    out->hidden_share = lod->hidden;
+    out->least_share = lod->min_strand_fraction;
+    out->hidden_share = lod->occluded_importance;
     // Only where roots are attached does every strand stay within the reach of its patch.
     if (draw->bounded) write_sides(draw, view, out);
-    if (lod->hidden < 1 && draw->bounded) {
+    if (lod->occluded_importance < 1 && draw->bounded) {
         hair_vec3 at = hair_rotate(head->rotation, hair_v3(draw->skull.x, draw->skull.y, draw->skull.z));
         out->skull = (hair_vec4){at.x, at.y, at.z, draw->skull.w};
     }

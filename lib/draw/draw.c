@@ -136,10 +136,10 @@ struct drawn {
     int nowhere;
 };
 
-static const hair_gl_pass row_of_path[] = {[HAIR_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
-                                           [HAIR_PATH_INSTANCED] = HAIR_GL_INSTANCED,
-                                           [HAIR_PATH_EXPANDED] = HAIR_GL_EXPANDED,
-                                           [HAIR_PATH_COMPUTED] = HAIR_GL_COMPOSE};
+static const hair_gl_pass row_of_path[] = {[HAIR_RENDER_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
+                                           [HAIR_RENDER_PATH_INSTANCED] = HAIR_GL_INSTANCED,
+                                           [HAIR_RENDER_PATH_CACHED] = HAIR_GL_EXPANDED,
+                                           [HAIR_RENDER_PATH_COMPUTE] = HAIR_GL_COMPOSE};
 
 static int is_textured(const struct hair_draw* draw, const hair_view* view)
 {
@@ -168,7 +168,7 @@ static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* v
         features |= HAIR_GL_WITH(FIBRES);
     if (hair_draw_covers(view))
         features |= HAIR_GL_WITH(SHARES);
-    else if (view->primitive == HAIR_LINES)
+    else if (view->primitive == HAIR_PRIMITIVE_LINES)
         features |= HAIR_GL_WITH(LINES);
     if (view->lod) features |= HAIR_GL_WITH(WIDENED);
     if (hair_draw_is_blocked(view)) features |= HAIR_GL_WITH(BLOCKED);
@@ -198,7 +198,7 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
-    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->path];
+    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->render_path];
     if (hair_draw_is_paired(view)) row = HAIR_GL_PAIRED;
     *shade = 0;
     if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
@@ -226,23 +226,23 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
                                     struct hair_gl_shader* shader, int may_meet)
 {
     struct hair_gl* gl = draw->gl;
-    int meets = may_meet && draw->look.collision != HAIR_COLLISION_NONE;
+    int meets = may_meet && draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE;
     int lit = hair_draw_lit(draw, view) > 0;
     hair_gl_pass hides = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
     hair_gl_pass expand = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
     hair_gl_pass strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
     hair_result result = HAIR_OK;
     GLuint program;
-    if (view->path != HAIR_PATH_TESSELLATION)
+    if (view->render_path != HAIR_RENDER_PATH_TESSELLATION)
         result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
     if (!result && hair_draw_is_shared(view))
         result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
-    if (!result && view->path == HAIR_PATH_COMPUTED)
+    if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE)
         result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
     if (!result && meets) result = hair_draw_need_hit_programs(draw);
     // Compile the variants without follower collision, then those with it.
     for (int i = 0; i <= meets && !result; ++i) {
-        hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(SOLIDS) : 0;
+        hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS) : 0;
         if (shade)
             result = need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader, &program);
         if (!result)
@@ -268,8 +268,8 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
                            const struct hair_draw_params* params, struct drawn* with)
 {
     struct hair_gl* gl = draw->gl;
-    int listed = view->path != HAIR_PATH_TESSELLATION;
-    int computed = view->path == HAIR_PATH_COMPUTED;
+    int listed = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
+    int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
@@ -316,12 +316,14 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
         result = hair_draw_need_fibres(draw);
-    if (!result && view->path != HAIR_PATH_TESSELLATION) result = hair_draw_make_listed(draw, out->hides);
-    if (!result && view->path != HAIR_PATH_TESSELLATION && view->path != HAIR_PATH_COMPUTED)
+    if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION)
+        result = hair_draw_make_listed(draw, out->hides);
+    if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION &&
+        view->render_path != HAIR_RENDER_PATH_COMPUTE)
         result = hair_draw_make_indices(draw, hair_draw_is_paired(view));
     if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
     if (!result && hair_draw_expands(view)) result = hair_draw_need_expanded(draw, smooth, NULL);
-    if (!result && view->path == HAIR_PATH_COMPUTED) result = need_raster(draw, head, view, out);
+    if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE) result = need_raster(draw, head, view, out);
     if (!result && hair_draw_stages(view))
         result = hair_draw_need_staged(draw, view);
     else if (!result && out->shade_pass)
@@ -329,7 +331,7 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
     if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
-    if (!result && motion) hair_draw_begin_motion(draw, head, view->frame);
+    if (!result && motion) hair_draw_begin_motion(draw, head, view->frame_index);
     return result;
 }
 
@@ -346,7 +348,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
 
     struct hair_draw_params params;
     hair_draw_write_params(draw, head, view, &params);
-    if (!guides && view->path == HAIR_PATH_TESSELLATION) hair_draw_cull_patches(draw, view, &params);
+    if (!guides && view->render_path == HAIR_RENDER_PATH_TESSELLATION)
+        hair_draw_cull_patches(draw, view, &params);
     params.textured = (uint32_t)is_textured(draw, view);
     params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);

@@ -78,7 +78,7 @@ struct hair_draw {
     struct hair_sorted sorted;
     struct hair_raster raster;
     struct hair_staged staged;
-    struct hair_self_shadow self_shadow;
+    struct hair_self_shadow_state self_shadow;
     struct hair_hidden hidden;
     struct hair_seats* seats; // Root bindings to the scalp. NULL if there is no scalp.
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
@@ -100,13 +100,12 @@ void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, st
 // Find the followers inside colliders and push them out. Call this before followers are drawn or
 // written. NULL `field` means that no collider is near. `margin` is the distance that guides keep
 // from colliders, in metres. Defined in hits.c.
-hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                  const struct hair_solid_field* field, float margin);
+hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                     const struct hair_collider_field* field, float margin);
 // Compile the programs of follower collision.
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
 // Return nonzero if follower collision is up to date with the guides and colliders.
-int hair_draw_has_met_solids(const struct hair_draw* draw,
-                             const struct hair_smooth* smooth);
+int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_free_hits(struct hair_draw* draw);
 // Create the image and the framebuffer of the prepass. Defined in prepass.c.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
@@ -168,7 +167,7 @@ void hair_draw_listed(struct hair_draw* draw, int paired);
 void hair_draw_find_fastest(struct hair_draw* draw);
 // Return the render path of `view`. Call this once per view, because it may query the viewport. All
 // other code reads the path from view->path.
-hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
+hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
 // Return nonzero if the path reads the vertex cache of all followers.
 int hair_draw_expands(const hair_view* view);
 // Return nonzero if the path reads per-view vertices.
@@ -209,9 +208,9 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
 
 // Draw the colliders, and a slice of the field if `view` requests it. A slice needs an up-to-date
 // field.
-hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
-                             const hair_solid* solids, uint32_t count, const struct hair_pose* head,
-                             const hair_view* view);
+hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collider_field* field,
+                                const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
+                                const hair_view* view);
 
 // Draw the wind as of the last step, in and around the field's box. NULL `fluid` means that there
 // is no fluid. Defined in air.c.

@@ -55,7 +55,7 @@ void hair_draw_free_expanded(struct hair_draw* draw)
 static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     const struct hair_expanded* expanded = &draw->expanded;
-    return expanded->there && hair_draw_has_met_solids(draw, smooth) && expanded->met == draw->hits.met &&
+    return expanded->there && hair_draw_has_met_colliders(draw, smooth) && expanded->met == draw->hits.met &&
            expanded->made == draw->gl->made;
 }
 

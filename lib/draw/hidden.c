@@ -10,7 +10,7 @@
 
 int hair_draw_hides(const hair_view* view)
 {
-    return view->depth_texture && view->pass != HAIR_PASS_GUIDES;
+    return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
 }
 
 void hair_draw_free_hidden(struct hair_draw* draw)
@@ -46,10 +46,10 @@ static void find_clip(const struct hair_draw* draw, const struct hair_pose* head
                       const hair_mat4* own, float clip[16])
 {
     float projection[16], placed[16];
-    hair_mat4 given = hair_mat4_from_head(view->depth_matrix, head);
+    hair_mat4 given = hair_mat4_from_head(view->occluder_matrix, head);
     memcpy(placed, own, sizeof placed);
     hair_draw_project(draw, view, projection);
-    if (is_given(view->depth_matrix))
+    if (is_given(view->occluder_matrix))
         memcpy(clip, &given, sizeof given);
     else
         hair_mat4_multiply(projection, placed, clip);
@@ -103,7 +103,7 @@ int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* 
     memset(out, 0, sizeof *out);
     if (!hair_draw_hides(view)) return 0;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    find_size(gl, view->depth_texture, out);
+    find_size(gl, view->occluder_depth, out);
     find_clip(draw, head, view, &own, clip);
     write_texture(gl, to_texture, range);
     hair_mat4_multiply(to_texture, clip, matrix);
@@ -114,7 +114,7 @@ int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* 
     out->thick = (float)hair_draw_thickest(draw, view->lod);
     out->beside_x = BESIDE / fmaxf(viewport[2], 1) + 1 / (float)out->width;
     out->beside_y = BESIDE / fmaxf(viewport[3], 1) + 1 / (float)out->height;
-    out->clips = !is_given(view->depth_matrix);
+    out->clips = !is_given(view->occluder_matrix);
     out->guides = draw->guides;
     return out->sign != 0 && find_texels(draw, head, view, out);
 }
@@ -156,7 +156,7 @@ void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_h
     if (draw->hits.active) patches = hair_gl_with(patches, HAIR_GL_WITH(HITS));
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HIDE, 1, &hidden->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIDE_DEPTH, 3, buffers);
-    gl->BindTextureUnit(HAIR_UNIT_HIDDEN, view->depth_texture);
+    gl->BindTextureUnit(HAIR_UNIT_HIDDEN, view->occluder_depth);
     gl->BindSampler(HAIR_UNIT_HIDDEN, gl->shadow_sampler);
     hair_pyramid_run(gl, hidden->params, params);
     hair_gl_run(gl, HAIR_GL_HIDE_GUIDES, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);

@@ -20,7 +20,7 @@ hair_result hair_draw_need_hit_programs(struct hair_draw* draw)
     struct hair_gl* gl = draw->gl;
     hair_result result = hair_gl_need(gl, pass_of(draw));
     if (!result && draw->hits.prepass) result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_PREPASS));
-    if (!result && draw->look.collision == HAIR_COLLISION_PUSH)
+    if (!result && draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
         result = hair_gl_need(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
     return result;
 }
@@ -31,7 +31,7 @@ static hair_result make(struct hair_draw* draw)
     struct hair_hits* hits = &draw->hits;
     hair_result result = HAIR_OK;
     size_t count = draw->followers;
-    int pushes = draw->look.collision == HAIR_COLLISION_PUSH;
+    int pushes = draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT;
     if (!hits->hit) result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &hits->hit);
     if (!result && !hits->hit_texture)
         result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, hits->hit, &hits->hit_texture);
@@ -59,7 +59,7 @@ void hair_draw_free_hits(struct hair_draw* draw)
 }
 
 static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
-                const struct hair_solid_field* field, float margin)
+                const struct hair_collider_field* field, float margin)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_hits* hits = &draw->hits;
@@ -67,7 +67,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     hair_draw_write_params(draw, NULL, NULL, &params);
     hits->turn = 1 - hits->turn;
     params.turn = hits->turn;
-    params.margin = margin + OUTSIDE;
+    params.collision_margin = margin + OUTSIDE;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     hair_field_bind(field);
@@ -82,18 +82,18 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     }
     hair_gl_run(gl, pass_of(draw), (draw->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.
-    if (draw->look.collision == HAIR_COLLISION_PUSH)
+    if (draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
         hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }
 
-int hair_draw_has_met_solids(const struct hair_draw* draw, const struct hair_smooth* smooth)
+int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->hits.fresh && draw->hits.smoothed == smooth->runs;
 }
 
-hair_result hair_draw_meet_solids(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                  const struct hair_solid_field* field, float margin)
+hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                     const struct hair_collider_field* field, float margin)
 {
     struct hair_hits* hits = &draw->hits;
     hits->active = field != NULL;

@@ -12,7 +12,7 @@ struct hair_hits {
     GLuint image, frame; // Image with a texel per follower and its framebuffer, for a prepass.
     int prepass; // Nonzero if a prepass finds the hits.
     int active; // Nonzero if colliders are near.
-    const struct hair_solid_field* field; // Field of the colliders. NULL if none are near.
+    const struct hair_collider_field* field; // Field of the colliders. NULL if none are near.
     int fresh; // Nonzero if the result is valid. Changes to followers or colliders clear it.
     uint32_t smoothed; // Run of smooth.comp that the result is for.
     uint32_t met; // Number of updates so far.

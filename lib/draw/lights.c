@@ -30,20 +30,20 @@ static void write_map(const struct hair_draw* draw, const struct hair_pose* head
 static void write_light(const hair_light* light, const struct hair_pose* head,
                         hair_vec4 out[HAIR_LIGHT_VECTORS])
 {
-    hair_vec3 to = hair_normalize(hair_load3(light->to), hair_v3(0, 1, 0));
+    hair_vec3 to = hair_normalize(hair_load3(light->direction), hair_v3(0, 1, 0));
     int spot = light->kind == HAIR_LIGHT_SPOT;
-    float edges = cosf(light->inner) - cosf(light->outer);
+    float edges = cosf(light->inner_angle) - cosf(light->outer_angle);
     out[HAIR_LIGHT_TO] = (hair_vec4){to.x, to.y, to.z, 0};
     out[HAIR_LIGHT_COLOR] = (hair_vec4){light->color[0], light->color[1], light->color[2], 1};
     out[HAIR_LIGHT_AXIS] =
-        spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer)} : (hair_vec4){0, 0, 0, -1};
+        spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer_angle)} : (hair_vec4){0, 0, 0, -1};
     out[HAIR_LIGHT_MORE] = (hair_vec4){spot ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
-    out[HAIR_LIGHT_MAP] = (hair_vec4){HAIR_SHADOW_MAPS, light->body_bias, 0, 0};
+    out[HAIR_LIGHT_MAP] = (hair_vec4){HAIR_SHADOW_MAPS, light->opaque_bias, 0, 0};
     if (light->kind == HAIR_LIGHT_DIRECTIONAL) return;
     float at[3];
     for (int i = 0; i < 3; ++i) at[i] = (float)((double)light->position[i] - head->position[i]);
     out[HAIR_LIGHT_TO] = (hair_vec4){at[0], at[1], at[2], 1};
-    out[HAIR_LIGHT_COLOR].w = light->size * light->size;
+    out[HAIR_LIGHT_COLOR].w = light->source_radius * light->source_radius;
     out[HAIR_LIGHT_MORE].y = light->range > 0 ? 1 / (light->range * light->range) : 0;
 }
 
@@ -66,8 +66,8 @@ uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_S
     uint32_t maps = 0;
     for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
         const hair_light* light = &view->lights[i];
-        if (light->shadow_texture || light->body_texture)
-            out[maps++] = (struct hair_light_maps){i, light->shadow_texture, light->body_texture};
+        if (light->hair_shadow_map || light->opaque_shadow_map)
+            out[maps++] = (struct hair_light_maps){i, light->hair_shadow_map, light->opaque_shadow_map};
     }
     return maps;
 }

@@ -80,10 +80,10 @@ static void write_motion(const struct hair_motion* motion, const hair_view* view
     for (int i = 0; i < 3; ++i)
         hair_store3(turn + 4 * i, hair_rotate(motion->before.turn, hair_v3(i == 0, i == 1, i == 2)));
     memcpy(was.position, motion->before.position, sizeof was.position);
-    hair_mat4 before = hair_mat4_from_head(view->before_view, &was);
+    hair_mat4 before = hair_mat4_from_head(view->prev_view, &was);
     memcpy(matrix, &before, sizeof matrix);
     hair_mat4_multiply(matrix, turn, placed);
-    hair_mat4_multiply(view->before_projection, placed, clip);
+    hair_mat4_multiply(view->prev_projection, placed, clip);
     memcpy(&out->before_to_clip, clip, sizeof clip);
     memcpy(matrix, &out->view, sizeof matrix);
     hair_mat4_multiply(view->projection, matrix, clip);
@@ -122,7 +122,7 @@ static void write_fibre(const hair_look* look, hair_vec4* out)
     float variance[3], b = look->roughness[1];
     hair_fibre_variances(look->roughness[0], variance);
     float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
-    *out = (hair_vec4){variance[0], 1 / (d * d), look->tilt, look->scattering};
+    *out = (hair_vec4){variance[0], 1 / (d * d), look->cuticle_tilt, look->scattering};
 }
 
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
@@ -139,7 +139,7 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->colored = view && view->pass == HAIR_PASS_COLOR;
     out->smooth_vertices = draw->smooth_vertices;
     out->followers = draw->followers;
-    out->collision = look->collision;
+    out->follower_collision = look->follower_collision;
     out->led = view ? draw->led : 1;
     out->map_weights = weigh_sets(look->map_set, draw->map_sets);
     hair_draw_write_detail(draw, head, view, out);

@@ -45,7 +45,7 @@ void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose
 void hair_draw_cull_patches(const struct hair_draw* draw, const hair_view* view,
                             struct hair_draw_params* out);
 
-// Write the plane of a slice, `place` of the way through the box. Defined in solids.c.
+// Write the plane of a slice, `place` of the way through the box. Defined in colliders.c.
 void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, float place,
                            struct hair_shown_params* params);
 

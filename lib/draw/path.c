@@ -12,13 +12,12 @@
 static const struct {
     const char* renderer; // Part of the renderer's name.
     // Paths of ribbons and lines, then of both with level of detail, then of depth without it.
-    uint8_t
-        path[5];
+    uint8_t path[5];
 } fastest[] = {
 #define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth)                                     \
     {renderer,                                                                                               \
-     {HAIR_PATH_##ribbons, HAIR_PATH_##lines, HAIR_PATH_##lod_ribbons, HAIR_PATH_##lod_lines,                \
-      HAIR_PATH_##depth}},
+     {HAIR_RENDER_PATH_##ribbons, HAIR_RENDER_PATH_##lines, HAIR_RENDER_PATH_##lod_ribbons,                  \
+      HAIR_RENDER_PATH_##lod_lines, HAIR_RENDER_PATH_##depth}},
 #include "lib/draw/paths.inl"
 #undef FASTEST
 };
@@ -33,7 +32,7 @@ void hair_draw_find_fastest(struct hair_draw* draw)
 
 int hair_draw_is_shared(const hair_view* view)
 {
-    return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_SHARES;
+    return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA;
 }
 
 int hair_draw_covers(const hair_view* view)
@@ -43,7 +42,7 @@ int hair_draw_covers(const hair_view* view)
 
 static int is_of_lines(const hair_view* view)
 {
-    return view->primitive == HAIR_LINES && !hair_draw_covers(view);
+    return view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_covers(view);
 }
 
 static int has_few_samples(const struct hair_gl* gl)
@@ -61,19 +60,20 @@ static int has_few_samples(const struct hair_gl* gl)
 static int is_computable(const hair_view* view)
 {
     int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
-    return shown && view->primitive == HAIR_RIBBONS;
+    return shown && view->primitive == HAIR_PRIMITIVE_RIBBONS;
 }
 
-static hair_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
+static hair_render_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
-    hair_path path = fastest[draw->driver].path[column];
+    hair_render_path path = fastest[draw->driver].path[column];
     size_t vertices = hair_draw_count_vertices(draw);
-    if ((path == HAIR_PATH_EXPANDED || path == HAIR_PATH_COMPUTED) && vertices > MOST_EXPANDED)
-        return HAIR_PATH_TESSELLATION;
-    if (path != HAIR_PATH_COMPUTED || (is_computable(view) && !view->shader && has_few_samples(draw->gl)))
+    if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MOST_EXPANDED)
+        return HAIR_RENDER_PATH_TESSELLATION;
+    if (path != HAIR_RENDER_PATH_COMPUTE ||
+        (is_computable(view) && !view->shader && has_few_samples(draw->gl)))
         return path;
-    return view->pass == HAIR_PASS_COLOR ? HAIR_PATH_EXPANDED : HAIR_PATH_TESSELLATION;
+    return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
 }
 
 // Return nonzero if the view needs the vertex cache. Motion vectors compare its vertices, and
@@ -88,22 +88,24 @@ static int keeps_vertices(const hair_view* view)
 int hair_draw_stages(const hair_view* view)
 {
     return view->lod && !keeps_vertices(view) &&
-           (view->path == HAIR_PATH_EXPANDED || view->path == HAIR_PATH_COMPUTED);
+           (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE);
 }
 
 int hair_draw_expands(const hair_view* view)
 {
-    return (view->path == HAIR_PATH_EXPANDED || view->path == HAIR_PATH_COMPUTED) && !hair_draw_stages(view);
+    return (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE) &&
+           !hair_draw_stages(view);
 }
 
 int hair_draw_stages_sides(const hair_view* view)
 {
-    return view->path == HAIR_PATH_EXPANDED && hair_draw_stages(view);
+    return view->render_path == HAIR_RENDER_PATH_CACHED && hair_draw_stages(view);
 }
 
 int hair_draw_is_paired(const hair_view* view)
 {
-    return view->primitive == HAIR_RIBBONS && !hair_draw_covers(view) && view->path == HAIR_PATH_EXPANDED;
+    return view->primitive == HAIR_PRIMITIVE_RIBBONS && !hair_draw_covers(view) &&
+           view->render_path == HAIR_RENDER_PATH_CACHED;
 }
 
 // Return nonzero if per-view vertices suffice. They hold a position, a width and a colour.
@@ -112,10 +114,12 @@ static int is_stageable(const hair_view* view)
     return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
 }
 
-hair_path hair_draw_path(const struct hair_draw* draw, const hair_view* view)
+hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view)
 {
-    if (keeps_vertices(view)) return HAIR_PATH_EXPANDED;
-    hair_path path = view->path == HAIR_PATH_AUTO ? find_fastest_for(draw, view) : view->path;
-    if (path == HAIR_PATH_COMPUTED && !is_computable(view)) path = HAIR_PATH_EXPANDED;
-    return path == HAIR_PATH_EXPANDED && view->lod && !is_stageable(view) ? HAIR_PATH_INSTANCED : path;
+    if (keeps_vertices(view)) return HAIR_RENDER_PATH_CACHED;
+    hair_render_path path =
+        view->render_path == HAIR_RENDER_PATH_AUTO ? find_fastest_for(draw, view) : view->render_path;
+    if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
+    return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_stageable(view) ? HAIR_RENDER_PATH_INSTANCED
+                                                                               : path;
 }

@@ -131,7 +131,7 @@ hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
     hair_result result = HAIR_OK;
     if (params->samples > HAIR_RASTER_SAMPLES)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                         "HAIR_PATH_COMPUTED draws into pixels of up to %d samples, not of %u",
+                         "HAIR_RENDER_PATH_COMPUTE draws into pixels of up to %d samples, not of %u",
                          HAIR_RASTER_SAMPLES, params->samples);
     if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
     if (!result) result = need_tiles(gl, raster, params->tiles);

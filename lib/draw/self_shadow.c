@@ -9,7 +9,7 @@
 
 static int is_wanted(const struct hair_draw* draw, const hair_view* view)
 {
-    return view->pass == HAIR_PASS_COLOR && draw->look.shadow == HAIR_SHADOW_STRANDS;
+    return view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
 }
 
 uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
@@ -19,7 +19,7 @@ uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
 
 void hair_draw_free_self_shadow(struct hair_draw* draw)
 {
-    struct hair_self_shadow* own = &draw->self_shadow;
+    struct hair_self_shadow_state* own = &draw->self_shadow;
     hair_gl_free_buffer_texture(draw->gl, &own->texture);
     hair_gl_free_buffer(draw->gl, &own->density);
     hair_gl_free_buffer(draw->gl, &own->box);
@@ -31,7 +31,7 @@ void hair_draw_free_self_shadow(struct hair_draw* draw)
 static hair_result make_light(struct hair_draw* draw, uint32_t each)
 {
     struct hair_gl* gl = draw->gl;
-    struct hair_self_shadow* own = &draw->self_shadow;
+    struct hair_self_shadow_state* own = &draw->self_shadow;
     size_t numbers = draw->expanded.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &own->texture);
@@ -46,15 +46,15 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
     return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
 }
 
-static hair_gl_pass past_solids(const struct hair_draw* draw, hair_gl_pass pass)
+static hair_gl_pass past_colliders(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    return draw->hits.field ? pass | HAIR_GL_WITH(SOLIDS) : pass;
+    return draw->hits.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
 }
 
 static hair_result make(struct hair_draw* draw, uint32_t each)
 {
     struct hair_gl* gl = draw->gl;
-    struct hair_self_shadow* own = &draw->self_shadow;
+    struct hair_self_shadow_state* own = &draw->self_shadow;
     hair_result result = HAIR_OK;
     if (!own->density)
         result =
@@ -64,14 +64,14 @@ static hair_result make(struct hair_draw* draw, uint32_t each)
     if (!result) result = make_light(draw, each);
     if (result) return result;
     return hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT,
-                             draw->hits.field ? HAIR_GL_WITH(SOLIDS) : 0);
+                             draw->hits.field ? HAIR_GL_WITH(COLLIDERS) : 0);
 }
 
 static void fill(struct hair_draw* draw, uint32_t groups)
 {
     static const GLuint none = 0, outermost = UINT32_MAX;
     struct hair_gl* gl = draw->gl;
-    struct hair_self_shadow* own = &draw->self_shadow;
+    struct hair_self_shadow_state* own = &draw->self_shadow;
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
     hair_gl_run(gl, HAIR_GL_LIGHT_BOX, groups);
@@ -84,11 +84,11 @@ static void fill(struct hair_draw* draw, uint32_t groups)
 // The contents of shadow maps belong to the application, and may change between frames.
 static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
 {
-    struct hair_self_shadow* own = &draw->self_shadow;
-    int same = view->frame && view->frame == own->frame && own->count == params->lights &&
+    struct hair_self_shadow_state* own = &draw->self_shadow;
+    int same = view->frame_index && view->frame_index == own->frame && own->count == params->lights &&
                memcmp(own->lights, params->light, sizeof own->lights) == 0 &&
                memcmp(own->maps, params->shadow, sizeof own->maps) == 0;
-    own->frame = view->frame;
+    own->frame = view->frame_index;
     own->count = params->lights;
     memcpy(own->lights, params->light, sizeof own->lights);
     memcpy(own->maps, params->shadow, sizeof own->maps);
@@ -107,8 +107,8 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
                                  const struct hair_pose* head, const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
-    struct hair_self_shadow* own = &draw->self_shadow;
-    if (own->density && draw->look.shadow != HAIR_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
+    struct hair_self_shadow_state* own = &draw->self_shadow;
+    if (own->density && draw->look.self_shadow != HAIR_SELF_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
     if (!is_wanted(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
     struct hair_draw_params params;
@@ -134,7 +134,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     if (is_found(draw, view, &params)) return HAIR_OK;
     if (part) own->frame = 0; // Another view draws other vertices.
     if (draw->hits.field) hair_field_bind(draw->hits.field);
-    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT_NODES), NODE_GROUPS);
-    hair_gl_run(gl, past_solids(draw, HAIR_GL_LIGHT), groups);
+    hair_gl_run(gl, past_colliders(draw, HAIR_GL_LIGHT_NODES), NODE_GROUPS);
+    hair_gl_run(gl, past_colliders(draw, HAIR_GL_LIGHT), groups);
     return HAIR_OK;
 }

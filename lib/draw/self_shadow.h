@@ -5,7 +5,7 @@
 
 #include "lib/gl/gl.h"
 
-struct hair_self_shadow {
+struct hair_self_shadow_state {
     GLuint density, box, nodes, light; // Buffers, as in shared.h. 0 until needed.
     GLuint texture; // Buffer texture of `light`.
     uint32_t each; // Number of values of each node and of each vertex.

@@ -60,9 +60,10 @@ static void write_turns(const hair_look* look, struct hair_strand_look* out)
         circle[0][i] = cosf(6.2831853f * (float)i / HAIR_TURN_PLACES);
         circle[1][i] = sinf(6.2831853f * (float)i / HAIR_TURN_PLACES);
     }
-    int like = look->curls == HAIR_CURLS_EXAMPLE;
-    write_turn(like ? look->curl_x : circle[0], 1, out->loop);
-    write_turn(like ? look->curl_z : circle[1], 1 - look->curl_flatness, out->loop + HAIR_TURN_PLACES);
+    int like = look->curl_shape == HAIR_CURL_SHAPE_EXAMPLE;
+    write_turn(like ? look->curl_profile_x : circle[0], 1, out->loop);
+    write_turn(like ? look->curl_profile_z : circle[1], 1 - look->curl_flatness,
+               out->loop + HAIR_TURN_PLACES);
 }
 
 // Return the clump curve. Single and multi interpolation are its limits 1 and 0.
@@ -85,8 +86,8 @@ float hair_curve_most(const hair_curve* curve)
 
 float hair_look_most_stray(const hair_look* look)
 {
-    float tip = look->tip_strays > 0 ? hair_curve_most(&look->tip_stray) : 0;
-    float all = look->strays > 0 ? hair_curve_most(&look->stray) : 0;
+    float tip = look->tip_stray_fraction > 0 ? hair_curve_most(&look->tip_stray_distance) : 0;
+    float all = look->stray_fraction > 0 ? hair_curve_most(&look->stray_distance) : 0;
     return DIAGONAL * (tip + all);
 }
 
@@ -101,23 +102,23 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
     write_curve(look->taper, out, HAIR_CURVE_TAPER);
     write_curve(clump_of(look), out, HAIR_CURVE_CLUMP);
     write_curve(look->clump_width, out, HAIR_CURVE_CLUMP_WIDTH);
-    write_curve(look->tip_stray, out, HAIR_CURVE_TIP_STRAY);
-    write_curve(look->stray, out, HAIR_CURVE_STRAY);
+    write_curve(look->tip_stray_distance, out, HAIR_CURVE_TIP_STRAY);
+    write_curve(look->stray_distance, out, HAIR_CURVE_STRAY);
     write_curve(look->frizz, out, HAIR_CURVE_FRIZZ);
     write_curve(look->curl_profile, out, HAIR_CURVE_CURL);
     write_turns(look, out);
-    out->tip_strays = look->tip_strays;
-    out->strays = look->strays;
-    out->kinks = 1 / look->kink;
+    out->tip_stray_fraction = look->tip_stray_fraction;
+    out->stray_fraction = look->stray_fraction;
+    out->kinks = 1 / look->frizz_wavelength;
     out->drawn = look->length;
-    out->thinning = look->thinning;
+    out->length_variation = look->length_variation;
     out->curl_radius = look->curl_radius;
     out->curl_waves = 1 / look->curl_wavelength;
     out->curl_turns = look->curl_turns;
-    out->curl_lock_phase = look->curl_lock_phase;
-    out->curl_phase = look->curl_phase;
+    out->curl_guide_phase = look->curl_guide_phase;
+    out->curl_strand_phase = look->curl_strand_phase;
     out->curl_spread = look->curl_spread;
-    out->curl_left = look->curl_left;
+    out->curl_left_fraction = look->curl_left_fraction;
     out->most_stray = hair_look_most_stray(look);
     out->most_aside = hair_look_most_aside(look);
     out->most_width = fmaxf(hair_curve_most(&look->clump_width), 1);
@@ -125,6 +126,6 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
 
 int hair_look_is_styled(const hair_look* look)
 {
-    return look->length < 1 || look->thinning > 0 || hair_curve_most(&look->frizz) > 0 ||
+    return look->length < 1 || look->length_variation > 0 || hair_curve_most(&look->frizz) > 0 ||
            look->curl_radius * hair_curve_most(&look->curl_profile) > 0;
 }

@@ -7,7 +7,7 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
 {
     for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
         float t = (float)i / HAIR_CURVE_INTERVALS, c[3];
-        float by[3] = {look->red.at[i], look->green.at[i], look->blue.at[i]};
+        float by[3] = {look->tint_red.at[i], look->tint_green.at[i], look->tint_blue.at[i]};
         for (int k = 0; k < 3; ++k)
             c[k] = fminf(by[k] * (look->root_color[k] + t * (look->tip_color[k] - look->root_color[k])), 1);
         out->ramp[i] = (hair_vec4){c[0], c[1], c[2], 0};
@@ -17,10 +17,10 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
     out->brightness = look->color_spread;
     out->hue = look->hue_spread;
     out->roughness = look->roughness_spread;
-    out->tilt = look->tilt_spread;
-    out->root_shade = look->root_shade;
-    out->root_recovery = 1 / look->root_shade_length;
-    out->streak_locks = look->streak_locks;
+    out->tilt = look->cuticle_tilt_spread;
+    out->root_darkening = look->root_darkening;
+    out->root_recovery = 1 / look->root_darkening_length;
+    out->streak_clumping = look->streak_clumping;
     out->sparkle = look->sparkle;
     out->paint = look->groom_colors;
     out->paint_power = WET_POWER(look->wetness);
@@ -42,8 +42,8 @@ static void draw_together(hair_look* look, float wet)
         look->clump_width.at[i] *= 1 + wet * (width - 1);
         look->frizz.at[i] *= 1 - 0.8f * wet;
     }
-    look->tip_strays *= 1 - 0.8f * wet;
-    look->strays *= 1 - 0.8f * wet;
+    look->tip_stray_fraction *= 1 - 0.8f * wet;
+    look->stray_fraction *= 1 - 0.8f * wet;
 }
 
 void hair_look_soak(hair_look* look)

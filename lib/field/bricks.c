@@ -43,7 +43,7 @@ static struct range all_of(const struct hair_field_box* box)
 
 // Mark the bricks that a collider changes. If others are nearer everywhere in a brick, the collider
 // does not change it. When those move, they mark the brick themselves.
-void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed)
+void hair_field_mark(struct hair_collider_field* field, const struct hair_placed* placed)
 {
     const struct hair_field_box* box = &field->box;
     struct range all = all_of(box);
@@ -57,7 +57,7 @@ void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* p
 }
 
 // Find the bounds of all marked bricks. Return the number of marked bricks.
-static uint32_t find_dirty(const struct hair_solid_field* field, struct range* out)
+static uint32_t find_dirty(const struct hair_collider_field* field, struct range* out)
 {
     const struct hair_field_box* box = &field->box;
     struct range all = all_of(box);
@@ -76,7 +76,7 @@ static uint32_t find_dirty(const struct hair_solid_field* field, struct range* o
     return count;
 }
 
-void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job)
+void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* job)
 {
     const struct hair_field_box* box = &field->box;
     struct range dirty;
@@ -93,12 +93,12 @@ void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job
 
 // Collider that may reach into a brick.
 struct pair {
-    uint32_t brick, solid;
+    uint32_t brick, collider;
     float least; // Lower bound of its distance to any voxel.
 };
 
 // Add marked bricks from job->next on, while their pairs fit. Return the first brick that is left.
-static uint32_t take_bricks(const struct hair_solid_field* field, const struct hair_field_job* job,
+static uint32_t take_bricks(const struct hair_collider_field* field, const struct hair_field_job* job,
                             uint32_t* bricks, size_t* pairs)
 {
     uint32_t end = job->next;
@@ -112,7 +112,7 @@ static uint32_t take_bricks(const struct hair_solid_field* field, const struct h
 }
 
 // List the pairs by collider, then by brick. Return their number.
-static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_field_job* job, uint32_t end,
+static uint32_t find_pairs(struct hair_collider_field* field, const struct hair_field_job* job, uint32_t end,
                            struct pair* pairs)
 {
     const struct hair_field_box* box = &field->box;
@@ -141,17 +141,17 @@ static uint32_t find_pairs(struct hair_solid_field* field, const struct hair_fie
 
 // Turn pairs into members, in the order of colliders in every brick. Bricks that collision meshes
 // reach into come last.
-static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* job, uint32_t end,
+static void sort_pairs(struct hair_collider_field* field, struct hair_field_job* job, uint32_t end,
                        const struct pair* pairs, uint32_t count)
 {
     const struct hair_field_box* box = &field->box;
-    uint32_t first = 0, plain = 0, last = HAIR_NO_SOLID;
+    uint32_t first = 0, plain = 0, last = HAIR_NO_COLLIDER;
     for (uint32_t b = job->next; b < end; ++b) field->members[b] = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t b = pairs[i].brick;
         if (!(pairs[i].least <= field->best[b])) continue;
         field->members[b]++;
-        if (field->placed[pairs[i].solid].form) field->dirty[b] = HAS_FORM;
+        if (field->placed[pairs[i].collider].form) field->dirty[b] = HAS_FORM;
     }
     job->with_forms = 0;
     for (uint32_t b = job->next; b < end; ++b) {
@@ -166,34 +166,34 @@ static void sort_pairs(struct hair_solid_field* field, struct hair_field_job* jo
         field->dirty[b] = 0;
     }
     for (uint32_t i = 0; i < count; ++i) {
-        const struct hair_placed* placed = &field->placed[pairs[i].solid];
+        const struct hair_placed* placed = &field->placed[pairs[i].collider];
         if (!(pairs[i].least <= field->best[pairs[i].brick])) continue;
-        if (pairs[i].solid != last) {
-            job->solid[job->solids] = placed->solid;
-            if (placed->form) job->solid[job->solids].first = field->forms->pooled[placed->place].first;
-            ++job->solids;
+        if (pairs[i].collider != last) {
+            job->collider[job->colliders] = placed->collider;
+            if (placed->form) job->collider[job->colliders].first = field->forms->pooled[placed->place].first;
+            ++job->colliders;
         }
-        last = pairs[i].solid;
-        job->member[field->members[pairs[i].brick]++] = job->solids - 1;
+        last = pairs[i].collider;
+        job->member[field->members[pairs[i].brick]++] = job->colliders - 1;
     }
     job->members = first;
 }
 
-hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_job* job)
+hair_result hair_field_next(struct hair_collider_field* field, struct hair_field_job* job)
 {
     const hair_host* host = &field->gl->host;
     uint32_t bricks = 0;
     size_t most = 0;
     hair_field_end(field, job);
-    job->bricks = job->members = job->solids = 0;
+    job->bricks = job->members = job->colliders = 0;
     uint32_t end = take_bricks(field, job, &bricks, &most);
     if (!bricks) return HAIR_OK;
     struct pair* pairs = hair_alloc(host, most, sizeof *pairs);
     uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
     job->brick = hair_alloc(host, bricks, sizeof *job->brick);
     job->member = hair_alloc(host, count, sizeof *job->member);
-    job->solid = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->solid);
-    int failed = !pairs || !job->brick || !job->member || !job->solid;
+    job->collider = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->collider);
+    int failed = !pairs || !job->brick || !job->member || !job->collider;
     job->bricks = bricks;
     if (!failed) sort_pairs(field, job, end, pairs, count);
     hair_free(host, pairs);
@@ -201,12 +201,12 @@ hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_jo
     return failed ? hair_fail_memory(host, "what is to be written of the field") : HAIR_OK;
 }
 
-void hair_field_end(struct hair_solid_field* field, struct hair_field_job* job)
+void hair_field_end(struct hair_collider_field* field, struct hair_field_job* job)
 {
     hair_free(&field->gl->host, job->brick);
     hair_free(&field->gl->host, job->member);
-    hair_free(&field->gl->host, job->solid);
+    hair_free(&field->gl->host, job->collider);
     job->brick = NULL;
     job->member = NULL;
-    job->solid = NULL;
+    job->collider = NULL;
 }

@@ -9,21 +9,21 @@
 struct hair_field_job {
     struct hair_field_brick* brick;
     uint32_t* member;
-    struct hair_field_solid* solid;
-    uint32_t bricks, members, solids;
+    struct hair_field_collider* collider;
+    uint32_t bricks, members, colliders;
     uint32_t with_forms; // Number of bricks with collision meshes, which come last.
     // First brick of the field that has not been examined, and the number of all bricks.
     uint32_t next, end;
 };
 
 // Mark the bricks that the band around a collider touches.
-void hair_field_mark(struct hair_solid_field* field, const struct hair_placed* placed);
+void hair_field_mark(struct hair_collider_field* field, const struct hair_placed* placed);
 
 // Begin the dispatches for all marked bricks.
-void hair_field_begin(struct hair_solid_field* field, struct hair_field_job* job);
+void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* job);
 // Free the last dispatch and prepare the next. job->bricks is 0 after the last one.
-hair_result hair_field_next(struct hair_solid_field* field, struct hair_field_job* job);
+hair_result hair_field_next(struct hair_collider_field* field, struct hair_field_job* job);
 // Free a job. Call this in any case.
-void hair_field_end(struct hair_solid_field* field, struct hair_field_job* job);
+void hair_field_end(struct hair_collider_field* field, struct hair_field_job* job);
 
 #endif

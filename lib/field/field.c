@@ -6,7 +6,7 @@
 // Alignment of ranges in storage buffers, the maximum that a driver may require.
 #define ALIGNMENT 256
 
-void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
+void hair_field_create(struct hair_collider_field* field, struct hair_forms* forms,
                        const struct hair_groom* groom, float voxel)
 {
     memset(field, 0, sizeof *field);
@@ -16,7 +16,7 @@ void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
 }
 
 // Free everything and return to the state after hair_field_create().
-static void clear(struct hair_solid_field* field)
+static void clear(struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
     for (uint32_t i = 0; i < field->count; ++i)
@@ -30,16 +30,16 @@ static void clear(struct hair_solid_field* field)
     hair_free(&gl->host, field->dirty);
     hair_free(&gl->host, field->members);
     hair_free(&gl->host, field->best);
-    *field = (struct hair_solid_field){
+    *field = (struct hair_collider_field){
         .gl = gl, .forms = field->forms, .box = field->box, .writes = field->writes + 1};
 }
 
-void hair_field_destroy(struct hair_solid_field* field)
+void hair_field_destroy(struct hair_collider_field* field)
 {
     if (field->gl) clear(field);
 }
 
-static hair_result make(struct hair_solid_field* field)
+static hair_result make(struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
     const struct hair_field_box* box = &field->box;
@@ -47,7 +47,7 @@ static hair_result make(struct hair_solid_field* field)
     for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
     hair_result result = hair_gl_texture_3d(gl, "hair field", GL_R16F, size, GL_LINEAR, &field->distance);
     if (!result)
-        result = hair_gl_texture_3d(gl, "hair field solid", GL_R32UI, size, GL_NEAREST, &field->number);
+        result = hair_gl_texture_3d(gl, "hair field collider", GL_R32UI, size, GL_NEAREST, &field->number);
     if (!result) result = hair_gl_uniform(gl, "hair field", sizeof(struct hair_field_params), &field->params);
     if (!result) result = hair_gl_uniform(gl, "hair field work", ALIGNMENT, &field->work);
     if (!result)
@@ -64,13 +64,13 @@ static hair_result make(struct hair_solid_field* field)
 
 // Placing -----------------------------------------------------------------------------------------
 
-static hair_result make_room(struct hair_solid_field* field, uint32_t count)
+static hair_result make_room(struct hair_collider_field* field, uint32_t count)
 {
     if (count <= field->room) return HAIR_OK;
     const hair_host* host = &field->gl->host;
     uint32_t room = count < 16 ? 16 : count + count / 2;
     struct hair_placed* placed = hair_alloc(host, room, sizeof *placed);
-    if (!placed) return hair_fail_memory(host, "solids in the field");
+    if (!placed) return hair_fail_memory(host, "colliders in the field");
     if (field->count) memcpy(placed, field->placed, field->count * sizeof *placed);
     hair_free(host, field->placed);
     field->placed = placed;
@@ -79,7 +79,7 @@ static hair_result make_room(struct hair_solid_field* field, uint32_t count)
 }
 
 // Replace a placed collider by `now`. Keep the reference if both have the same collision mesh.
-static hair_result replace(struct hair_solid_field* field, struct hair_placed* placed,
+static hair_result replace(struct hair_collider_field* field, struct hair_placed* placed,
                            struct hair_placed* now)
 {
     hair_result result = HAIR_OK;
@@ -97,8 +97,8 @@ static hair_result replace(struct hair_solid_field* field, struct hair_placed* p
 
 // Place all colliders at their current transforms. Mark the bricks that they leave and enter, if
 // the field exists.
-static hair_result place_all(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
-                             const struct hair_pose* head)
+static hair_result place_all(struct hair_collider_field* field, const hair_collider* colliders,
+                             uint32_t count, const struct hair_pose* head)
 {
     hair_result result = HAIR_OK;
     uint32_t most = count > field->count ? count : field->count, near = 0;
@@ -107,7 +107,7 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
         struct hair_placed* placed = &field->placed[i];
         int was = i < field->count, is = i < count;
         struct hair_placed now = {0};
-        if (is) now = hair_field_place(&field->box, &solids[i], i, head);
+        if (is) now = hair_field_place(&field->box, &colliders[i], i, head);
         if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
             if (was && field->dirty) hair_field_mark(field, placed);
             if (is && field->dirty) hair_field_mark(field, &now);
@@ -122,7 +122,7 @@ static hair_result place_all(struct hair_solid_field* field, const hair_solid* s
 
 // Writing -----------------------------------------------------------------------------------------
 
-static void write_params(struct hair_solid_field* field, hair_quat rotation)
+static void write_params(struct hair_collider_field* field, hair_quat rotation)
 {
     const struct hair_field_box* box = &field->box;
     float brick = HAIR_BRICK * box->voxel;
@@ -144,7 +144,7 @@ static size_t aligned(size_t size)
 // collision meshes.
 #define PARTS 4
 
-static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bricks, int part,
+static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t bricks, int part,
                 const GLintptr* at, const GLsizeiptr* length)
 {
     const GLuint buffers[] = {field->work, field->work};
@@ -155,13 +155,13 @@ static void run(struct hair_solid_field* field, hair_gl_pass pass, uint32_t bric
     hair_gl_run(field->gl, pass, bricks);
 }
 
-static hair_result dispatch(struct hair_solid_field* field, const struct hair_field_job* job)
+static hair_result dispatch(struct hair_collider_field* field, const struct hair_field_job* job)
 {
     struct hair_gl* gl = field->gl;
     uint32_t plain = job->bricks - job->with_forms;
-    const size_t sizes[PARTS] = {job->solids * sizeof *job->solid, job->members * sizeof *job->member,
+    const size_t sizes[PARTS] = {job->colliders * sizeof *job->collider, job->members * sizeof *job->member,
                                  plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
-    const void* parts[PARTS] = {job->solid, job->member, job->brick, job->brick + plain};
+    const void* parts[PARTS] = {job->collider, job->member, job->brick, job->brick + plain};
     GLintptr at[PARTS];
     GLsizeiptr length[PARTS];
     size_t all = 0;
@@ -174,8 +174,8 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     if (sizes[0] / 16 > (size_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                         "the field's %u solids at once take more than the driver's %d texels", job->solids,
-                         most);
+                         "the field's %u colliders at once take more than the driver's %d texels",
+                         job->colliders, most);
     unsigned char* bytes = hair_alloc(&gl->host, all, 1);
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
     for (int i = 0; i < PARTS; ++i)
@@ -193,7 +193,7 @@ static hair_result dispatch(struct hair_solid_field* field, const struct hair_fi
     return HAIR_OK;
 }
 
-static hair_result write_marked(struct hair_solid_field* field)
+static hair_result write_marked(struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
     struct hair_field_job job;
@@ -204,7 +204,7 @@ static hair_result write_marked(struct hair_solid_field* field)
         if (!ran) {
             gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
             gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
-            gl->BindImageTexture(HAIR_IMAGE_SOLID, field->number, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32UI);
+            gl->BindImageTexture(HAIR_IMAGE_COLLIDER, field->number, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32UI);
         }
         ran = 1;
         result = dispatch(field, &job);
@@ -222,15 +222,15 @@ static int is_same(hair_quat a, hair_quat b)
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
-hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
-                              const struct hair_pose* head)
+hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
+                              uint32_t count, const struct hair_pose* head)
 {
     if (!count) {
         if (field->placed) clear(field);
         return HAIR_OK;
     }
     hair_result result = make_room(field, count);
-    if (!result) result = place_all(field, solids, count, head);
+    if (!result) result = place_all(field, colliders, count, head);
     if (!result && field->near && !field->distance) {
         result = make(field);
         if (!result) write_params(field, head->rotation);
@@ -243,31 +243,31 @@ hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* 
     return result;
 }
 
-struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, const hair_solid* solid,
-                                         uint32_t i, const struct hair_pose* head, hair_vec3* lower,
-                                         hair_vec3* upper)
+struct hair_field_collider hair_field_shown(const struct hair_collider_field* field,
+                                            const hair_collider* collider, uint32_t i,
+                                            const struct hair_pose* head, hair_vec3* lower, hair_vec3* upper)
 {
-    struct hair_placed placed = hair_field_place(&field->box, solid, i, head);
+    struct hair_placed placed = hair_field_place(&field->box, collider, i, head);
     const struct hair_placed* known = i < field->count ? &field->placed[i] : NULL;
     hair_field_shown_extent(&placed, lower, upper);
     if (known && placed.form && known->form == placed.form)
-        placed.solid.first = field->forms->pooled[known->place].first;
-    else if (solid->shape == HAIR_SHAPE_FORM)
+        placed.collider.first = field->forms->pooled[known->place].first;
+    else if (collider->shape == HAIR_SHAPE_MESH)
         *lower = *upper = hair_v3(0, 0, 0); // The mesh has no distance grid to read.
-    return placed.solid;
+    return placed.collider;
 }
 
-int hair_field_is_near(const struct hair_solid_field* field)
+int hair_field_is_near(const struct hair_collider_field* field)
 {
     return field->distance && field->near;
 }
 
-void hair_field_bind(const struct hair_solid_field* field)
+void hair_field_bind(const struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
     gl->BindTextureUnit(HAIR_UNIT_FIELD, field->distance);
-    gl->BindTextureUnit(HAIR_UNIT_SOLID, field->number);
+    gl->BindTextureUnit(HAIR_UNIT_COLLIDER, field->number);
     gl->BindSampler(HAIR_UNIT_FIELD, 0);
-    gl->BindSampler(HAIR_UNIT_SOLID, 0);
+    gl->BindSampler(HAIR_UNIT_COLLIDER, 0);
 }

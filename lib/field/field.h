@@ -11,12 +11,12 @@
 #include "lib/field/place.h"
 #include "lib/gl/gl.h"
 
-struct hair_solid_field {
+struct hair_collider_field {
     struct hair_gl* gl;
     struct hair_forms* forms; // Pool of the context.
     struct hair_field_box box;
     GLuint distance; // 3D texture, R16F, in metres. 0 if there is none.
-    GLuint number; // 3D texture, R32UI. HAIR_NO_SOLID where no collider is near.
+    GLuint number; // 3D texture, R32UI. HAIR_NO_COLLIDER where no collider is near.
     GLuint params; // Uniform buffer.
     GLuint work; // Inputs of the last dispatch.
     GLuint work_texture; // Buffer texture of `work`.
@@ -32,24 +32,24 @@ struct hair_solid_field {
 };
 
 // Set up the field of a groom, without memory or OpenGL.
-void hair_field_create(struct hair_solid_field* field, struct hair_forms* forms,
+void hair_field_create(struct hair_collider_field* field, struct hair_forms* forms,
                        const struct hair_groom* groom, float voxel);
-void hair_field_destroy(struct hair_solid_field* field);
+void hair_field_destroy(struct hair_collider_field* field);
 
 // Write what has changed since the last update. On failure there is no field. There may be none
 // while no collider is near.
-hair_result hair_field_update(struct hair_solid_field* field, const hair_solid* solids, uint32_t count,
-                              const struct hair_pose* head);
+hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
+                              uint32_t count, const struct hair_pose* head);
 
 // Return collider i as shaders read it, and its extent. A collision mesh that differs from the last
 // update has an empty extent.
-struct hair_field_solid hair_field_shown(const struct hair_solid_field* field, const hair_solid* solid,
-                                         uint32_t i, const struct hair_pose* head, hair_vec3* lower,
-                                         hair_vec3* upper);
+struct hair_field_collider hair_field_shown(const struct hair_collider_field* field,
+                                            const hair_collider* collider, uint32_t i,
+                                            const struct hair_pose* head, hair_vec3* lower, hair_vec3* upper);
 
 // Return nonzero if a strand can meet a collider. Only then may hair_field_bind() be called and
 // glsl/field.glsl read the field.
-int hair_field_is_near(const struct hair_solid_field* field);
-void hair_field_bind(const struct hair_solid_field* field);
+int hair_field_is_near(const struct hair_collider_field* field);
+void hair_field_bind(const struct hair_collider_field* field);
 
 #endif

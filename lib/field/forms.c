@@ -6,7 +6,7 @@
 
 #define LEAST_ROOM 65536 // Minimum capacity, in nodes.
 
-static size_t count_nodes(const hair_form* form)
+static size_t count_nodes(const hair_collision_mesh* form)
 {
     return (size_t)form->size[0] * form->size[1] * form->size[2];
 }
@@ -30,7 +30,8 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
         if (forms->pooled[i].form) used += count_nodes(forms->pooled[i].form);
     size_t room = used + more + (used + more) / 2;
     if (room < LEAST_ROOM) room = LEAST_ROOM;
-    hair_result result = hair_gl_storage(forms->gl, "hair forms", room * sizeof(float), NULL, &buffer);
+    hair_result result =
+        hair_gl_storage(forms->gl, "hair collision meshes", room * sizeof(float), NULL, &buffer);
     if (result) return result;
     hair_gl_free_buffer_texture(forms->gl, &forms->texture);
     hair_gl_free_buffer(forms->gl, &forms->nodes);
@@ -51,7 +52,7 @@ static hair_result find_place(struct hair_forms* forms, uint32_t* place)
         const hair_host* host = &forms->gl->host;
         uint32_t capacity = 2 * forms->capacity + 8;
         struct hair_pooled_form* pooled = hair_alloc(host, capacity, sizeof *pooled);
-        if (!pooled) return hair_fail_memory(host, "the forms of solids");
+        if (!pooled) return hair_fail_memory(host, "the collision meshes of colliders");
         if (forms->count) memcpy(pooled, forms->pooled, forms->count * sizeof *pooled);
         hair_free(host, forms->pooled);
         forms->pooled = pooled;
@@ -71,7 +72,7 @@ static void free_if_empty(struct hair_forms* forms)
     *forms = (struct hair_forms){.gl = forms->gl};
 }
 
-hair_result hair_forms_take(struct hair_forms* forms, const hair_form* form, uint32_t* place)
+hair_result hair_forms_take(struct hair_forms* forms, const hair_collision_mesh* form, uint32_t* place)
 {
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form == form) {
@@ -85,7 +86,7 @@ hair_result hair_forms_take(struct hair_forms* forms, const hair_form* form, uin
         free_if_empty(forms);
         return result;
     }
-    hair_form_hold(form);
+    hair_collision_mesh_hold(form);
     forms->pooled[*place] = (struct hair_pooled_form){.form = form, .users = 1};
     upload(forms, forms->nodes, &forms->pooled[*place]);
     return HAIR_OK;
@@ -95,7 +96,7 @@ void hair_forms_drop(struct hair_forms* forms, uint32_t place)
 {
     struct hair_pooled_form* pooled = &forms->pooled[place];
     if (--pooled->users) return;
-    hair_form_release(pooled->form);
+    hair_collision_mesh_release(pooled->form);
     pooled->form = NULL;
     free_if_empty(forms);
 }
@@ -103,5 +104,5 @@ void hair_forms_drop(struct hair_forms* forms, uint32_t place)
 hair_result hair_forms_need_texture(struct hair_forms* forms)
 {
     if (forms->texture || !forms->nodes) return HAIR_OK;
-    return hair_gl_buffer_texture(forms->gl, "hair forms", GL_R32F, forms->nodes, &forms->texture);
+    return hair_gl_buffer_texture(forms->gl, "hair collision meshes", GL_R32F, forms->nodes, &forms->texture);
 }

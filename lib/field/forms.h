@@ -3,11 +3,11 @@
 #ifndef HAIR_FIELD_FORMS_H
 #define HAIR_FIELD_FORMS_H
 
-#include "lib/collide/form.h"
+#include "lib/collide/collision_mesh.h"
 #include "lib/gl/gl.h"
 
 struct hair_pooled_form {
-    const hair_form* form; // Referenced mesh. NULL if the place is free.
+    const hair_collision_mesh* form; // Referenced mesh. NULL if the place is free.
     uint32_t users; // Number of colliders that use it.
     uint32_t first; // First of its nodes.
 };
@@ -22,7 +22,7 @@ struct hair_forms {
 };
 
 // Add a user of `form`. Its place stays `place` until hair_forms_drop().
-hair_result hair_forms_take(struct hair_forms* forms, const hair_form* form, uint32_t* place);
+hair_result hair_forms_take(struct hair_forms* forms, const hair_collision_mesh* form, uint32_t* place);
 // Remove a user.
 void hair_forms_drop(struct hair_forms* forms, uint32_t place);
 

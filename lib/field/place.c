@@ -78,14 +78,14 @@ static hair_quat quat_of(hair_vec4 q)
 // sphere is its centre with its radius as the margin, so that no rotation enlarges it.
 static void find_extent(const struct hair_placed* placed, hair_vec3* lower, hair_vec3* upper, float* around)
 {
-    const struct hair_field_solid* solid = &placed->solid;
-    hair_vec4 size = solid->size;
-    *around = solid->position.w;
+    const struct hair_field_collider* collider = &placed->collider;
+    hair_vec4 size = collider->size;
+    *around = collider->position.w;
     *upper = hair_v3(size.x, size.y, size.z);
-    switch ((hair_shape)solid->shape) {
+    switch ((hair_shape)collider->shape) {
     case HAIR_SHAPE_SPHERE:
     case HAIR_SHAPE_CAPSULE:
-        *upper = hair_v3(0, solid->shape == HAIR_SHAPE_CAPSULE ? size.y : 0, 0);
+        *upper = hair_v3(0, collider->shape == HAIR_SHAPE_CAPSULE ? size.y : 0, 0);
         *around += size.x;
         break;
     case HAIR_SHAPE_CYLINDER:
@@ -103,15 +103,16 @@ void hair_field_shown_extent(const struct hair_placed* placed, hair_vec3* lower,
 {
     float around;
     find_extent(placed, lower, upper, &around);
-    if (placed->solid.shape == HAIR_SHAPE_PLANE) *upper = hair_v3(1, 0, 1), *lower = hair_v3(-1, -0.05f, -1);
+    if (placed->collider.shape == HAIR_SHAPE_PLANE)
+        *upper = hair_v3(1, 0, 1), *lower = hair_v3(-1, -0.05f, -1);
     *upper = hair_add(*upper, hair_v3(around, around, around));
     *lower = hair_sub(*lower, hair_v3(around, around, around));
 }
 
 static void find_bricks(const struct hair_field_box* box, struct hair_placed* placed)
 {
-    const struct hair_field_solid* solid = &placed->solid;
-    hair_quat turn = quat_of(solid->rotation);
+    const struct hair_field_collider* collider = &placed->collider;
+    hair_quat turn = quat_of(collider->rotation);
     hair_vec3 lower, upper;
     float around;
     find_extent(placed, &lower, &upper, &around);
@@ -121,11 +122,11 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
               z = hair_rotate(turn, hair_v3(0, 0, half.z));
     const float extent[] = {fabsf(x.x) + fabsf(y.x) + fabsf(z.x), fabsf(x.y) + fabsf(y.y) + fabsf(z.y),
                             fabsf(x.z) + fabsf(y.z) + fabsf(z.z)};
-    const float at[] = {solid->position.x + middle.x - box->lower.x,
-                        solid->position.y + middle.y - box->lower.y,
-                        solid->position.z + middle.z - box->lower.z};
+    const float at[] = {collider->position.x + middle.x - box->lower.x,
+                        collider->position.y + middle.y - box->lower.y,
+                        collider->position.z + middle.z - box->lower.z};
     float brick = HAIR_BRICK * box->voxel;
-    int outside = solid->shape == HAIR_SHAPE_FORM && !placed->form;
+    int outside = collider->shape == HAIR_SHAPE_MESH && !placed->form;
     for (int i = 0; i < 3; ++i) {
         float first = (at[i] - extent[i] - around - box->far) / brick;
         float end = (at[i] + extent[i] + around + box->far) / brick;
@@ -137,30 +138,32 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
     if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
 }
 
-struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_solid* solid,
+struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_collider* collider,
                                     uint32_t number, const struct hair_pose* head)
 {
     hair_quat back = hair_quat_conjugate(head->rotation);
-    hair_vec3 from = {(float)((double)solid->position[0] - head->position[0]),
-                      (float)((double)solid->position[1] - head->position[1]),
-                      (float)((double)solid->position[2] - head->position[2])};
+    hair_vec3 from = {(float)((double)collider->position[0] - head->position[0]),
+                      (float)((double)collider->position[1] - head->position[1]),
+                      (float)((double)collider->position[2] - head->position[2])};
     hair_vec3 at = hair_rotate(back, from);
-    hair_quat own = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
+    hair_quat own = {collider->rotation[0], collider->rotation[1], collider->rotation[2],
+                     collider->rotation[3]};
     hair_quat turn = hair_quat_multiply(back, hair_quat_normalize(own));
 
-    struct hair_placed placed = {.solid = {.position = {at.x, at.y, at.z, solid->rounding},
-                                           .rotation = {turn.x, turn.y, turn.z, turn.w},
-                                           .size = {solid->size[0], solid->size[1], solid->size[2], 0},
-                                           .shape = (hair_uint)solid->shape,
-                                           .number = number}};
-    if (solid->shape == HAIR_SHAPE_FORM && solid->form) {
-        const hair_form* form = solid->form;
+    struct hair_placed placed = {
+        .collider = {.position = {at.x, at.y, at.z, collider->rounding},
+                     .rotation = {turn.x, turn.y, turn.z, turn.w},
+                     .size = {collider->size[0], collider->size[1], collider->size[2], 0},
+                     .shape = (hair_uint)collider->shape,
+                     .number = number}};
+    if (collider->shape == HAIR_SHAPE_MESH && collider->mesh) {
+        const hair_collision_mesh* form = collider->mesh;
         placed.form = form;
-        placed.solid.size = (hair_vec4){0, 0, 0, solid->scale};
-        placed.solid.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
-        placed.solid.nodes_x = form->size[0];
-        placed.solid.nodes_y = form->size[1];
-        placed.solid.nodes_z = form->size[2];
+        placed.collider.size = (hair_vec4){0, 0, 0, collider->scale};
+        placed.collider.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
+        placed.collider.nodes_x = form->size[0];
+        placed.collider.nodes_y = form->size[1];
+        placed.collider.nodes_z = form->size[2];
     }
     find_bricks(box, &placed);
     return placed;
@@ -169,7 +172,7 @@ struct hair_placed hair_field_place(const struct hair_field_box* box, const hair
 int hair_field_has_moved(const struct hair_field_box* box, const struct hair_placed* from,
                          const struct hair_placed* to)
 {
-    const struct hair_field_solid *a = &from->solid, *b = &to->solid;
+    const struct hair_field_collider *a = &from->collider, *b = &to->collider;
     if (from->form != to->form || a->shape != b->shape || a->number != b->number ||
         a->position.w != b->position.w || memcmp(&a->size, &b->size, sizeof a->size))
         return 1;
@@ -204,23 +207,23 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
 struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
                                           uint32_t x, uint32_t y, uint32_t z)
 {
-    const struct hair_field_solid* solid = &placed->solid;
+    const struct hair_field_collider* collider = &placed->collider;
     float brick = HAIR_BRICK * box->voxel;
     float radius = 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;
     hair_vec3 middle =
         hair_add(box->lower, hair_scale(hair_v3((float)x + 0.5f, (float)y + 0.5f, (float)z + 0.5f), brick));
-    hair_vec3 p = hair_sub(middle, hair_v3(solid->position.x, solid->position.y, solid->position.z));
-    p = hair_rotate(hair_quat_conjugate(quat_of(solid->rotation)), p);
+    hair_vec3 p = hair_sub(middle, hair_v3(collider->position.x, collider->position.y, collider->position.z));
+    p = hair_rotate(hair_quat_conjugate(quat_of(collider->rotation)), p);
     double own[] = {(double)p.x, (double)p.y, (double)p.z}, distance;
-    const float size[] = {solid->size.x, solid->size.y, solid->size.z};
+    const float size[] = {collider->size.x, collider->size.y, collider->size.z};
     if (placed->form) {
-        double scale = (double)solid->size.w;
+        double scale = (double)collider->size.w;
         for (int k = 0; k < 3; ++k) own[k] /= scale;
-        distance = scale * hair_distance_to_form(placed->form, own, NULL);
-        radius = 1.25f * radius + 2 * solid->size.w * solid->grid.w;
+        distance = scale * hair_distance_to_mesh(placed->form, own, NULL);
+        radius = 1.25f * radius + 2 * collider->size.w * collider->grid.w;
     } else {
-        distance = hair_distance_to_shape((hair_shape)solid->shape, size, own, NULL);
+        distance = hair_distance_to_shape((hair_shape)collider->shape, size, own, NULL);
     }
-    float from = (float)distance - solid->position.w;
+    float from = (float)distance - collider->position.w;
     return (struct hair_field_span){from - radius, from + radius};
 }

@@ -3,7 +3,7 @@
 #define HAIR_FIELD_PLACE_H
 
 #include "lib/base/pose.h"
-#include "lib/collide/form.h"
+#include "lib/collide/collision_mesh.h"
 #include "lib/groom/groom.h"
 
 #define HAIR_FIELD_BAND 4 // Voxels around a collider that hold its distance.
@@ -30,13 +30,13 @@ static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
 // Collider in the head's frame. The band around it touches the bricks from `first` up to, not
 // including, `end`. Equal bounds mean no bricks.
 struct hair_placed {
-    struct hair_field_solid solid;
-    const hair_form* form; // NULL if the collider is no collision mesh, or one without data.
+    struct hair_field_collider collider;
+    const hair_collision_mesh* form; // NULL if the collider is no collision mesh, or one without data.
     uint32_t place; // Place of the mesh in hair_forms.
     uint16_t first[3], end[3];
 };
 
-struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_solid* solid,
+struct hair_placed hair_field_place(const struct hair_field_box* box, const hair_collider* collider,
                                     uint32_t number, const struct hair_pose* head);
 
 // Return nonzero if a collider has moved or changed by more than the field can resolve.

@@ -49,7 +49,7 @@ struct hair_gl_saved {
     GLint draw_indirect, dispatch_indirect;
     GLint texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
     // Name, level, layered, layer, access and format of each image unit.
-    GLint image[HAIR_IMAGE_SOLID + 1][6];
+    GLint image[HAIR_IMAGE_COLLIDER + 1][6];
     GLuint storage[HAIR_BIND_REDUCTION + 1], uniform[HAIR_BIND_FIELD + 1];
     GLintptr storage_first[HAIR_BIND_REDUCTION + 1], uniform_first[HAIR_BIND_FIELD + 1];
     GLsizeiptr storage_size[HAIR_BIND_REDUCTION + 1], uniform_size[HAIR_BIND_FIELD + 1];
@@ -281,8 +281,7 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 // returns the number of a group.
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
 // Run a compute pass by a program with the application's shading.
-void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
-                      uint32_t groups);
+void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups);
 // Run a compute pass with the group counts from three numbers at the byte offset `at` of a buffer.
 void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
 // Return the duration of the last finished run of a pass, in ms.

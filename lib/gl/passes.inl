@@ -13,7 +13,7 @@
 // Programs are made when first needed, with any combination of features.
 FEATURE(ROD, "HAIR_ROD")                 // Guides are rods, with frames.
 FEATURE(WIND, "HAIR_WIND") // Wind blows.
-FEATURE(TIED, "HAIR_TIED")               // Vertices are pinned.
+FEATURE(PINNED, "HAIR_PINNED")               // Vertices are pinned.
 FEATURE(SKINNED, "HAIR_SKINNED")         // Roots move with a skinned scalp.
 FEATURE(CROWD, "HAIR_CROWD")             // The hair-hair grid acts on guides.
 // One thread per guide. Otherwise one work group per guide.
@@ -21,7 +21,7 @@ FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE")
 FEATURE(FIRST, "HAIR_FIRST")             // Only the solver's own method.
 FEATURE(LISTED, "HAIR_LISTED")           // Only guides at which FIRST failed.
 FEATURE(MIXED, "HAIR_MIXED") // Rotations and forces of segments are the unknowns of guides.
-FEATURE(SOLIDS, "HAIR_SOLIDS")           // Colliders are near. Without ANY there are few.
+FEATURE(COLLIDERS, "HAIR_COLLIDERS")           // Colliders are near. Without ANY there are few.
 FEATURE(ANY, "HAIR_ANY")                 // Any number of colliders.
 
 // Few guides, which have registers to cache what they read, since they wait for memory.
@@ -48,7 +48,7 @@ FEATURE(HIDDEN, "HAIR_HIDDEN")           // Occlusion culling may have hidden pa
 #define SIZES HAIR_GL_SIZES
 #define WITH(name) HAIR_GL_WITH(name)
 #define STRAND_FEATURES \
-    SIZES | WITH(WIND) | WITH(TIED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(SOLIDS) | WITH(ANY) | WITH(BODIES) | \
+    SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(COLLIDERS) | WITH(ANY) | WITH(BODIES) | \
         WITH(FEW)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
@@ -129,10 +129,10 @@ PASS(BUCKETS, "draw/buckets", 0, "HAIR_LISTED=1 draw/buckets.comp")
 PASS(PLACE, "draw/place", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PLACES=1 draw/bucket.comp")
 PASS(LIGHT_BOX, "draw/light_box", 0, "draw/light_box.comp")
 PASS(LIGHT_FILL, "draw/light_fill", 0, "draw/light_fill.comp")
-PASS(LIGHT_NODES, "draw/light_nodes", WITH(SOLIDS), "draw/light_nodes.comp")
-PASS(LIGHT, "draw/light", WITH(SOLIDS), "draw/light.comp")
-PASS(SOLIDS, "draw/solids", 0, "HAIR_FORMS=1 draw/solids.vert draw/solids.frag")
-PASS(SLICE, "draw/solids_slice", 0, "draw/slice.vert draw/slice.frag")
+PASS(LIGHT_NODES, "draw/light_nodes", WITH(COLLIDERS), "draw/light_nodes.comp")
+PASS(LIGHT, "draw/light", WITH(COLLIDERS), "draw/light.comp")
+PASS(COLLIDERS, "draw/colliders", 0, "HAIR_FORMS=1 draw/colliders.vert draw/colliders.frag")
+PASS(SLICE, "draw/colliders_slice", 0, "draw/slice.vert draw/slice.frag")
 PASS(AIR, "draw/air", 0, "draw/air.vert draw/guides.frag")
 PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
 

@@ -50,7 +50,7 @@ static void save_units(struct hair_gl* gl)
     }
     static const GLenum parts[] = {GL_IMAGE_BINDING_NAME,  GL_IMAGE_BINDING_LEVEL,  GL_IMAGE_BINDING_LAYERED,
                                    GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
-    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit)
         for (int i = 0; i < 6; ++i) gl->GetIntegeri_v(parts[i], unit, &saved->image[unit][i]);
 }
 
@@ -65,7 +65,7 @@ static void restore_units(struct hair_gl* gl)
         if (target_of(unit) != GL_TEXTURE_BUFFER) gl->BindSampler(unit, (GLuint)saved->sampler[unit]);
     }
     gl->ActiveTexture((GLenum)saved->active_texture);
-    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit) {
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit) {
         const GLint* i = saved->image[unit];
         gl->BindImageTexture(unit, (GLuint)i[0], i[1], (GLboolean)i[2], i[3], (GLenum)i[4], (GLenum)i[5]);
     }
@@ -73,7 +73,7 @@ static void restore_units(struct hair_gl* gl)
 
 void hair_gl_enter(struct hair_gl* gl)
 {
-    if (gl->promise == HAIR_GL_CLOBBER) return;
+    if (gl->promise == HAIR_GL_STATE_CLOBBER) return;
     struct hair_gl_saved* saved = &gl->saved;
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
@@ -100,14 +100,14 @@ static void unbind(struct hair_gl* gl)
     gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1, NULL);
-    for (GLuint unit = 0; unit <= HAIR_IMAGE_SOLID; ++unit)
+    for (GLuint unit = 0; unit <= HAIR_IMAGE_COLLIDER; ++unit)
         gl->BindImageTexture(unit, 0, 0, GL_FALSE, 0, GL_READ_ONLY, GL_R8);
 }
 
 void hair_gl_leave(struct hair_gl* gl)
 {
     gl->ledger = NULL;
-    if (gl->promise == HAIR_GL_CLOBBER) {
+    if (gl->promise == HAIR_GL_STATE_CLOBBER) {
         unbind(gl);
         return;
     }

@@ -8,7 +8,7 @@ enum source { FROM_STRANDS, FROM_GUIDES, FROM_SCALP };
 
 static enum source find_source(const hair_groom_desc* desc)
 {
-    if (desc->strands_are == HAIR_STRANDS_ALL) return FROM_STRANDS;
+    if (desc->strand_set == HAIR_STRAND_SET_FULL) return FROM_STRANDS;
     return desc->scalp_positions && desc->follower_count ? FROM_SCALP : FROM_GUIDES;
 }
 

@@ -30,7 +30,7 @@ struct hair_draft {
     float* density; // mean over each triangle
 
     uint32_t* chosen; // strand of each guide
-    uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRANDS_ALL
+    uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
 
     // A candidate is a follower before its place in the draw order is known. It grows on a root
     // bin, which is a scalp triangle or a guide. The candidates of a root bin are neighbours.
@@ -42,7 +42,7 @@ struct hair_draft {
     uint32_t sprout_count;
     // True if root bins are triangles and any run of candidates of one is spread evenly over it.
     bool is_scattered;
-    uint32_t* strand_of; // strand of each candidate, only with HAIR_STRANDS_ALL
+    uint32_t* strand_of; // strand of each candidate, only with HAIR_STRAND_SET_FULL
     uint32_t* place; // follower of each candidate
 
     // Closest point on the scalp of each candidate. NULL without a scalp that has a usable
@@ -66,8 +66,7 @@ hair_result hair_guide_sprouts(struct hair_draft* draft);
 hair_result hair_scalp_sprouts(struct hair_draft* draft);
 // Find the closest point on the scalp of all candidates. The candidates of scalp.c have theirs
 // already.
-hair_result
-hair_draft_spots(struct hair_draft* draft);
+hair_result hair_draft_spots(struct hair_draft* draft);
 hair_result hair_draft_maps(struct hair_draft* draft); // Read the maps for all candidates.
 void hair_thicken(struct hair_draft* draft); // Scale the radii of followers by the maps.
 hair_result hair_draft_patches(struct hair_draft* draft);

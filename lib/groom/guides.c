@@ -132,7 +132,7 @@ static uint32_t count_guides(const struct hair_draft* draft)
 {
     uint32_t strands = draft->strands.strand_count;
     uint32_t wanted = draft->desc->guide_count;
-    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES) return strands;
+    if (draft->desc->strand_set == HAIR_STRAND_SET_GUIDES) return strands;
     if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
     if (wanted > HAIR_MAX_GUIDES) wanted = HAIR_MAX_GUIDES;
     return wanted < strands ? wanted : strands;
@@ -161,7 +161,7 @@ hair_result hair_draft_guides(struct hair_draft* draft)
     draft->groom->info.guide_count = guides;
     draft->chosen = hair_alloc(draft->host, guides, sizeof *draft->chosen);
     if (!draft->chosen) return hair_fail_memory(draft->host, "the choice of guides");
-    if (draft->desc->strands_are == HAIR_STRANDS_ALL) return choose_all(draft, guides);
+    if (draft->desc->strand_set == HAIR_STRAND_SET_FULL) return choose_all(draft, guides);
     for (uint32_t i = 0; i < guides; ++i) draft->chosen[i] = i;
     return HAIR_OK;
 }

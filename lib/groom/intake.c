@@ -78,7 +78,7 @@ static hair_result copy_strands(struct hair_draft* draft)
 
 static hair_result clean(struct hair_draft* draft)
 {
-    hair_repairs* repairs = &draft->groom->info.repairs;
+    hair_import_stats* repairs = &draft->groom->info.import_stats;
     hair_result result = hair_strands_clean(draft->host, draft->import, &draft->strands, repairs);
     if (result) return result;
     if (draft->strands.strand_count == 0)
@@ -88,7 +88,7 @@ static hair_result clean(struct hair_draft* draft)
             "left, %u are too short; %u vertices were not finite, %u repeated",
             draft->desc->strand_count, repairs->dropped_single, repairs->dropped_short,
             repairs->removed_nonfinite, repairs->removed_repeated);
-    if (draft->desc->strands_are == HAIR_STRANDS_GUIDES && draft->strands.strand_count > HAIR_MAX_GUIDES)
+    if (draft->desc->strand_set == HAIR_STRAND_SET_GUIDES && draft->strands.strand_count > HAIR_MAX_GUIDES)
         return hair_fail(draft->host, HAIR_ERROR_ARGUMENT,
                          "hair_groom_desc.strand_count: %u guides, not in [1, %u]",
                          draft->strands.strand_count, HAIR_MAX_GUIDES);

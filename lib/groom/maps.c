@@ -15,11 +15,11 @@ static uint32_t count_sets(const hair_groom_desc* desc)
 
 static uint64_t count_values(const hair_groom_desc* desc, const hair_map* map)
 {
-    switch (map->of) {
-    case HAIR_MAP_NONE: break;
-    case HAIR_MAP_IMAGE: return (uint64_t)map->width * map->height;
-    case HAIR_MAP_VERTICES: return desc->scalp_vertex_count;
-    case HAIR_MAP_TRIANGLES: return desc->scalp_triangle_count;
+    switch (map->source) {
+    case HAIR_MAP_SOURCE_NONE: break;
+    case HAIR_MAP_SOURCE_IMAGE: return (uint64_t)map->width * map->height;
+    case HAIR_MAP_SOURCE_VERTICES: return desc->scalp_vertex_count;
+    case HAIR_MAP_SOURCE_TRIANGLES: return desc->scalp_triangle_count;
     }
     return 0;
 }
@@ -29,15 +29,15 @@ static hair_result check_map(const struct hair_draft* draft, uint32_t set, const
 {
     const hair_host* host = draft->host;
     const hair_groom_desc* desc = draft->desc;
-    if ((uint32_t)map->of > HAIR_MAP_TRIANGLES)
+    if ((uint32_t)map->source > HAIR_MAP_SOURCE_TRIANGLES)
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "hair_groom_desc.map_sets[%u]->%s.of is %d, not in [0, %d]", set, name, (int)map->of,
-                         HAIR_MAP_TRIANGLES);
-    if (map->of == HAIR_MAP_NONE) return HAIR_OK;
+                         "hair_groom_desc.map_sets[%u]->%s.source is %d, not in [0, %d]", set, name,
+                         (int)map->source, HAIR_MAP_SOURCE_TRIANGLES);
+    if (map->source == HAIR_MAP_SOURCE_NONE) return HAIR_OK;
     if (!map->values)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.map_sets[%u]->%s.values is NULL", set,
                          name);
-    if (map->of == HAIR_MAP_IMAGE) {
+    if (map->source == HAIR_MAP_SOURCE_IMAGE) {
         if (map->width - 1 >= LARGEST || map->height - 1 >= LARGEST)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.map_sets[%u]->%s is an image of %u by %u, not of [1, %u] each",
@@ -99,16 +99,16 @@ static float value_at(const struct hair_draft* draft, const hair_map* map, const
 {
     const hair_groom_desc* desc = draft->desc;
     const uint32_t* corner = desc->scalp_triangles + 3 * (size_t)spot->triangle;
-    if (map->of == HAIR_MAP_NONE) return 1;
-    if (map->of == HAIR_MAP_TRIANGLES) return map->values[spot->triangle];
+    if (map->source == HAIR_MAP_SOURCE_NONE) return 1;
+    if (map->source == HAIR_MAP_SOURCE_TRIANGLES) return map->values[spot->triangle];
     float sum[2] = {0};
     for (int i = 0; i < 3; ++i) {
-        const float* values =
-            map->of == HAIR_MAP_IMAGE ? desc->scalp_uvs + 2 * (size_t)corner[i] : map->values + corner[i];
+        const float* values = map->source == HAIR_MAP_SOURCE_IMAGE ? desc->scalp_uvs + 2 * (size_t)corner[i]
+                                                                   : map->values + corner[i];
         sum[0] += spot->weight[i] * values[0];
-        if (map->of == HAIR_MAP_IMAGE) sum[1] += spot->weight[i] * values[1];
+        if (map->source == HAIR_MAP_SOURCE_IMAGE) sum[1] += spot->weight[i] * values[1];
     }
-    return map->of == HAIR_MAP_IMAGE ? look_up(map, sum[0], sum[1]) : sum[0];
+    return map->source == HAIR_MAP_SOURCE_IMAGE ? look_up(map, sum[0], sum[1]) : sum[0];
 }
 
 // Read all maps at a candidate. The last set stands for all missing sets.

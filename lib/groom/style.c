@@ -32,7 +32,7 @@ static hair_result build(const hair_host* host, const hair_style_desc* desc, str
 {
     asset->host = *host;
     asset->format = HAIR_FORMAT_NONE;
-    asset->strands_are = HAIR_STRANDS_GUIDES;
+    asset->strand_set = HAIR_STRAND_SET_GUIDES;
     struct hair_scalp scalp;
     hair_result result =
         hair_scalp_build(host, desc->guide_count, hair_style_parting(desc->style), desc->seed, &scalp);

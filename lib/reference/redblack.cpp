@@ -67,11 +67,11 @@ Vector3d blend(const hair_vec4& a, const hair_vec4& b, double share)
     return (1 - share) * vector_of(a) + share * vector_of(b);
 }
 
-Vector3d push_out(const Vector3d& p, const hair_capsule& solid, double share, double margin)
+Vector3d push_out(const Vector3d& p, const hair_capsule& collider, double share, double margin)
 {
-    const Vector3d a = blend(solid.start[0], solid.end[0], share);
-    const Vector3d b = blend(solid.start[1], solid.end[1], share);
-    const double radius = (1 - share) * solid.start[0].w + share * solid.end[0].w + margin;
+    const Vector3d a = blend(collider.start[0], collider.end[0], share);
+    const Vector3d b = blend(collider.start[1], collider.end[1], share);
+    const double radius = (1 - share) * collider.start[0].w + share * collider.end[0].w + margin;
     const Vector3d axis = b - a;
     double along = axis.squaredNorm() > 0 ? (p - a).dot(axis) / axis.squaredNorm() : 0;
     along = std::fmin(std::fmax(along, 0), 1);
@@ -134,7 +134,8 @@ void hair_reference_integrate(hair_reference_guide g, uint32_t substep, const ha
         }
         const double share = double(i) / (g.guide->count - 1);
         const double frequency =
-            g.params->pull_root + share * (double(g.params->pull_tip) - g.params->pull_root);
+            g.params->shape_frequency_root +
+            share * (double(g.params->shape_frequency_tip) - g.params->shape_frequency_root);
         const Vector3d free = vector_of(before[i].position) +
                               g.params->keep * vector_of(before[i].displacement) + gravity * dt * dt - head;
         s.put(i, pull(free, aim, frequency * frequency, dt));
@@ -176,8 +177,8 @@ void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* po
     strand s{positions};
     const double share = g.params->substep[substep].displacement.w;
     for (uint32_t i = pinned; i < g.guide->count; ++i)
-        for (uint32_t k = 0; k < g.params->solids; ++k)
-            s.put(i, push_out(s[i], g.params->solid[k], share, g.params->margin));
+        for (uint32_t k = 0; k < g.params->colliders; ++k)
+            s.put(i, push_out(s[i], g.params->collider[k], share, g.params->collision_margin));
 }
 
 // Simulate one substep and compute its displacements. A strand that is not finite or too far away

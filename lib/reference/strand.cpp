@@ -99,13 +99,13 @@ astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, doub
 {
     const double spread = look.curl_spread * (2 * high(seed + 2) - 1);
     const double turns = (length / look.curl_wavelength + look.curl_turns) / (1 + spread);
-    const double phase = look.curl_lock_phase * low(guide) + look.curl_phase * low(seed + 2);
-    const double hand = high(guide) < double(look.curl_left) ? -1 : 1;
+    const double phase = look.curl_guide_phase * low(guide) + look.curl_strand_phase * low(seed + 2);
+    const double hand = high(guide) < double(look.curl_left_fraction) ? -1 : 1;
     const double flat = 1 - double(look.curl_flatness), at = t * turns + phase;
     along x, z;
-    if (look.curls == HAIR_CURLS_EXAMPLE) {
-        x = turn(look.curl_x, at);
-        z = turn(look.curl_z, at);
+    if (look.curl_shape == HAIR_CURL_SHAPE_EXAMPLE) {
+        x = turn(look.curl_profile_x, at);
+        z = turn(look.curl_profile_z, at);
     } else {
         const double angle = 6.283185307179586 * at;
         x = {std::cos(angle), -6.283185307179586 * std::sin(angle)};
@@ -141,16 +141,18 @@ along hair_reference_singleness(const hair_look& look, double t)
 
 double hair_reference_share(const hair_look& look, uint32_t seed)
 {
-    return look.length * (1 - look.thinning * ((hash(seed + 3) >> 8) / 16777216.0));
+    return look.length * (1 - look.length_variation * ((hash(seed + 3) >> 8) / 16777216.0));
 }
 
 astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
-    const along by_tip = hair_reference_curve(look.tip_stray, t), by = hair_reference_curve(look.stray, t);
-    const bool tip = low(seed + 1) < double(look.tip_strays), whole = high(seed + 1) < double(look.strays);
+    const along by_tip = hair_reference_curve(look.tip_stray_distance, t),
+                by = hair_reference_curve(look.stray_distance, t);
+    const bool tip = low(seed + 1) < double(look.tip_stray_fraction),
+               whole = high(seed + 1) < double(look.stray_fraction);
     const along stray = {tip * by_tip.value + whole * by.value, tip * by_tip.slope + whole * by.slope};
     astray all = times(wander(seed + 16, t, 6), length, stray);
-    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.kink), 1,
+    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.frizz_wavelength), 1,
                          hair_reference_curve(look.frizz, t)));
     return sum(all, curl(look, guide, seed, t, length));
 }

@@ -31,9 +31,9 @@ static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
     const hair_wind* wind = &sim->wind;
     hair_vec3 size = field_size(&sim->blow.field->box);
     struct hair_fluid_desc desc = {.cells = (wind->resolution + 15) / 16 * 16,
-                                   .side = wind->box,
+                                   .side = wind->grid_size,
                                    .method = (hair_fluid_method)wind->projection,
-                                   .cycles = wind->cycles};
+                                   .cycles = wind->projection_iterations};
     if (desc.side == 0) desc.side = AROUND * fmaxf(size.x, fmaxf(size.y, size.z));
     if (desc.cycles == 0) desc.cycles = enough(wind->projection, desc.cells);
     return desc;
@@ -47,7 +47,7 @@ static void free_hair(struct hair_blow* blow, struct hair_gl* gl)
 
 static int is_porous(const struct hair_sim* sim)
 {
-    return sim->wind.strands > 0 && sim->physics.drag > 0;
+    return sim->wind.drag_strand_count > 0 && sim->physics.drag > 0;
 }
 
 static hair_result need_hair(struct hair_sim* sim)
@@ -84,7 +84,7 @@ hair_result hair_blow_need(struct hair_sim* sim)
         result = hair_fluid_create(fluid, sim->gl, &desc);
     }
     if (!result) result = need_hair(sim);
-    return result ? result : hair_fluid_make_room(fluid, sim->solids.now.count);
+    return result ? result : hair_fluid_make_room(fluid, sim->colliders.now.count);
 }
 
 void hair_blow_free(struct hair_sim* sim)
@@ -136,7 +136,7 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
     const hair_wind* wind = &sim->wind;
     double viscosity = (double)wind->viscosity / (double)wind->density;
     return (struct hair_fluid_strands){
-        .metres = sim->blow.metres * wind->strands / sim->guides,
+        .metres = sim->blow.metres * wind->drag_strand_count / sim->guides,
         .per_speed = (float)(2 * (double)sim->physics.fiber_radius / viscosity),
         .viscous = (float)((double)sim->physics.drag * viscosity),
     };
@@ -155,8 +155,8 @@ uint32_t hair_blow_left(struct hair_sim* sim, double dt)
                                  .gusts = hair_air_gusts_from(&sim->air, &sim->wind, &sim->last_after),
                                  .dt = length * sim->substep,
                                  .field = blow->field,
-                                 .solids = &sim->solids,
-                                 .solids_dt = dt};
+                                 .colliders = &sim->colliders,
+                                 .colliders_dt = dt};
     if (blow->share) now.strands = strands_of(sim);
     hair_fluid_place(&blow->fluid, &now);
     if (blow->share) gather_hair(sim);

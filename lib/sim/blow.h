@@ -10,7 +10,7 @@
 
 struct hair_blow {
     // Distance field of the instance, updated before every step.
-    const struct hair_solid_field* field;
+    const struct hair_collider_field* field;
     struct hair_fluid fluid; // Exists only while the wind model is a fluid.
     uint32_t beat; // Number of substeps done in the current block.
     // Buffers of the grid of hair in the fluid, as in hair_crowd. 0 if the fluid ignores hair.

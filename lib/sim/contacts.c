@@ -21,11 +21,11 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = LOOSE * sim->reach;
     // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
-    int may = sim->physics.root == HAIR_ROOT_FREE || sim->ties.count || hair_skin_is_on(sim);
+    int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_skin_is_on(sim);
     return (struct hair_cells_desc){
         .reach = may ? FARTHEST : fminf(far, FARTHEST),
         .give = FIT + fminf(half, MOST_GIVE),
-        .margin = sim->physics.margin,
+        .margin = sim->physics.collision_margin,
         .share_start = share_start,
         .most_rounds = sim->gl->software ? MOST_ROUNDS : UINT32_MAX,
     };
@@ -33,7 +33,7 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
 
 int hair_contacts_are_any(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->solids.forms || sim->solids.contacts > HAIR_FEW_SOLIDS);
+    return sim->rods && (sim->colliders.forms || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
 }
 
 static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
@@ -48,13 +48,14 @@ static hair_result hold_forms(struct hair_sim* sim)
     struct hair_cells* cells = &contacts->cells;
     uint32_t count = 0, taken = 0;
     hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < cells->contacts; ++i) count += cells->contact[i].body.size.w == HAIR_SHAPE_FORM;
+    for (uint32_t i = 0; i < cells->contacts; ++i) count += cells->contact[i].body.size.w == HAIR_SHAPE_MESH;
     if (!count && !contacts->holds) return HAIR_OK;
     uint32_t* held = hair_alloc(&sim->gl->host, count, sizeof *held);
-    if (!held) return hair_fail_memory(&sim->gl->host, "the forms of solids");
+    if (!held) return hair_fail_memory(&sim->gl->host, "the collision meshes of colliders");
     for (uint32_t i = 0; i < cells->contacts && !result; ++i) {
-        if (cells->contact[i].body.size.w != HAIR_SHAPE_FORM) continue;
-        result = hair_forms_take(contacts->forms, sim->solids.now.solid[cells->solid[i]].form, &held[taken]);
+        if (cells->contact[i].body.size.w != HAIR_SHAPE_MESH) continue;
+        result = hair_forms_take(contacts->forms, sim->colliders.now.collider[cells->collider[i]].mesh,
+                                 &held[taken]);
         if (!result) ++taken;
     }
     if (result) {
@@ -68,7 +69,7 @@ static hair_result hold_forms(struct hair_sim* sim)
     contacts->holds = taken;
     if (taken) result = hair_forms_need_texture(contacts->forms);
     for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // hair_forms_take() may move nodes.
-        if (cells->contact[i].body.size.w == HAIR_SHAPE_FORM)
+        if (cells->contact[i].body.size.w == HAIR_SHAPE_MESH)
             cells->contact[i].first = contacts->forms->pooled[held[k++]].first;
     return result;
 }
@@ -95,7 +96,7 @@ static hair_result upload(struct hair_sim* sim)
     const struct hair_contact none = {.grid = {0, 0, 0, 0}};
     hair_result result =
         put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
-            cells->contacts ? cells->contact : &none, &contacts->solid, &contacts->solid_texture);
+            cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture);
     if (!result)
         result = put(sim->gl, "hair contact cells", GL_R32UI, cells->entries * sizeof *cells->entry,
                      cells->entry, &contacts->cell, &contacts->cell_texture);
@@ -108,7 +109,7 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
     struct hair_cells* cells = &sim->contacts.cells;
     struct hair_cells_desc desc = describe(sim, dt, share_start);
     int others = 0;
-    hair_result result = hair_cells_gather(host, cells, &sim->solids, &sim->at_step, &sim->head, &desc);
+    hair_result result = hair_cells_gather(host, cells, &sim->colliders, &sim->at_step, &sim->head, &desc);
     if (!result) result = hold_forms(sim);
     if (!result) result = hair_cells_list(host, cells, &desc, &others);
     if (!result && others) result = upload(sim);
@@ -119,7 +120,7 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
-    params->solids = cells->contacts;
+    params->colliders = cells->contacts;
     params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
     params->cells_x = cells->cells[0];
     params->cells_y = cells->cells[1];
@@ -130,7 +131,7 @@ void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* pa
 void hair_contacts_bind(const struct hair_sim* sim)
 {
     const struct hair_contacts* contacts = &sim->contacts;
-    sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->solid_texture);
+    sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
     sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
     if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->forms->texture);
 }
@@ -140,8 +141,8 @@ void hair_contacts_free(struct hair_sim* sim)
     struct hair_contacts* contacts = &sim->contacts;
     let_go(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
-    hair_gl_free_buffer_texture(sim->gl, &contacts->solid_texture);
-    hair_gl_free_buffer(sim->gl, &contacts->solid);
+    hair_gl_free_buffer_texture(sim->gl, &contacts->collider_texture);
+    hair_gl_free_buffer(sim->gl, &contacts->collider);
     hair_gl_free_buffer_texture(sim->gl, &contacts->cell_texture);
     hair_gl_free_buffer(sim->gl, &contacts->cell);
     hair_cells_free(&sim->gl->host, &contacts->cells);

@@ -15,7 +15,7 @@
 
 int hair_crowd_is_on(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.volume > 0);
+    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
 }
 
 // Place the grid around all that hair of its rest length can reach.
@@ -292,7 +292,7 @@ static void write_params(const struct hair_sim* sim, struct hair_crowd_params* p
         .nodes_z = crowd->nodes[2],
         .vertices = sim->guide_vertices,
         .cohesion = (float)(-expm1(-rate * time) / time),
-        .volume = fminf(sim->physics.volume, sound * sound),
+        .pressure_stiffness = fminf(sim->physics.pressure_stiffness, sound * sound),
         .per_strand = (float)(crowd->metres / HAIR_CROWD_UNITS) / (MOST_OF_STRAND * crowd->cell),
         .ahead = HAIR_CROWD_SPEED * 0.5f * (float)time / crowd->cell,
     };

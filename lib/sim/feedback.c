@@ -84,7 +84,7 @@ static void run_substep(struct hair_sim* sim, const struct hair_step_params* par
         run_phase(sim, HAIR_GL_FEEDBACK_BLACK, &at);
         if (params->bend > 0) run_phase(sim, HAIR_GL_FEEDBACK_BEND_RED, &at);
         if (params->bend > 0) run_phase(sim, HAIR_GL_FEEDBACK_BEND_BLACK, &at);
-        if (params->solids > 0) run_phase(sim, HAIR_GL_FEEDBACK_COLLIDE, &at);
+        if (params->colliders > 0) run_phase(sim, HAIR_GL_FEEDBACK_COLLIDE, &at);
     }
     run_phase(sim, HAIR_GL_FEEDBACK_END, &at);
 }

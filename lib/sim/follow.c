@@ -110,7 +110,7 @@ void hair_follow_write(const struct hair_rod_shape* s, struct hair_rod* out)
     double softness[HAIR_MAX_GUIDE_VERTICES];
     find_softness(s, softness);
     for (uint32_t i = 0; i < s->count; ++i) {
-        int fixed = (i == 0 && s->held) || s->tied[i];
+        int fixed = (i == 0 && s->held) || s->pinned[i];
         out[i] = (struct hair_rod){
             .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]), (float)s->pull[i], 0}};
         if (i + 1 < s->count) write_segment(s, i, softness[i], out + i);

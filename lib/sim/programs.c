@@ -43,7 +43,7 @@ static int goes_in_two_by_shake(const struct hair_sim* sim)
 // Return whether the second program may split substeps. See glsl/sim/parts.glsl.
 static int has_parts(const struct hair_sim* sim)
 {
-    return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->ties.count;
+    return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
 }
 
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
@@ -84,13 +84,13 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
     hair_gl_pass features = 0;
-    if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(SOLIDS);
+    if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
     if (any) features |= HAIR_GL_WITH(ANY);
     if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
     if (by_thread) features |= HAIR_GL_WITH(THREAD);
     if (hair_crowd_is_on(sim)) features |= HAIR_GL_WITH(CROWD);
-    if (sim->ties.count > 0) features |= HAIR_GL_WITH(TIED);
+    if (sim->pins.count > 0) features |= HAIR_GL_WITH(PINNED);
     if (hair_skin_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
     if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
     hair_gl_pass pass = hair_sim_is_mixed(sim)   ? HAIR_GL_MIXED_SOLVER
@@ -110,7 +110,7 @@ int hair_sim_may_go_in_two(const struct hair_sim* sim)
 
 static int has_bodies(const struct hair_sim* sim)
 {
-    return hair_sim_contacts(sim) > sim->solids.capsules;
+    return hair_sim_contacts(sim) > sim->colliders.capsules;
 }
 
 static hair_gl_pass pass_now(const struct hair_sim* sim)
@@ -126,7 +126,7 @@ static hair_gl_pass pass_now(const struct hair_sim* sim)
 static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
 {
     if (goes_in_two_by_shake(sim)) return 1;
-    return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(SOLIDS), 1);
+    return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
 }
 
 // Compile `pass`, or the two programs that replace it.
@@ -157,12 +157,12 @@ static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step
     uint32_t most = substeps_of(sim, rounds);
     hair_gl_pass listed = pass | HAIR_GL_WITH(LISTED);
     GLuint program = hair_gl_find(sim->gl, listed)->program;
-    size_t at = (HAIR_HEALTH_COUNT + params->list * HAIR_HEALTH_LIST) * sizeof(uint32_t);
+    size_t at = (HAIR_SOLVER_STATS_COUNT + params->list * HAIR_SOLVER_STATS_LIST) * sizeof(uint32_t);
     for (uint32_t done = 0; done < count; done += most) {
         params->substep_first = done;
         params->substeps = count - done < most ? count : done + most;
         if (count > most) hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
-        hair_gl_run_indirect(sim->gl, listed, program, sim->health, at);
+        hair_gl_run_indirect(sim->gl, listed, program, sim->solver_stats, at);
     }
     params->substep_first = 0;
     params->substeps = count;
@@ -211,7 +211,7 @@ hair_result hair_sim_need_programs(struct hair_sim* sim)
     if (!result && any && sim->by_thread && gl->software) // The lists of a step decide which.
         result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
     if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
-    if (!result && sim->physics.sleep > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
+    if (!result && sim->physics.sleep_threshold > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
     if (!result && hair_crowd_is_on(sim))
         result = hair_gl_need_rows(gl, HAIR_GL_CROWD_CLEAR, HAIR_GL_CROWD_GATHER, 0);
     return result ? result : hair_blow_need_programs(sim);

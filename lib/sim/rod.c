@@ -14,7 +14,7 @@
 // where m is the mass, c the damping and w the angular frequency of the pull. In a substep of
 // length h, b is 2/3 h for BDF2, and h for implicit Euler.
 #include "lib/sim/rod_shape.h"
-#include "lib/sim/ties.h"
+#include "lib/sim/pins.h"
 
 #include <string.h>
 
@@ -43,7 +43,7 @@ struct band {
 
 static int is_fixed(const struct hair_rod_shape* s, uint32_t i)
 {
-    return (i == 0 && s->held) || s->tied[i];
+    return (i == 0 && s->held) || s->pinned[i];
 }
 
 static double implicit_ratio(const struct hair_rod_shape* s)
@@ -175,9 +175,9 @@ static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_
     return softest;
 }
 
-static void write_ties(const struct hair_rod_shape* s, struct hair_rod* out)
+static void write_pins(const struct hair_rod_shape* s, struct hair_rod* out)
 {
-    for (uint32_t i = s->count - 1, next = s->tied[i]; i-- > 0; next = s->tied[i] ? s->tied[i] : next)
+    for (uint32_t i = s->count - 1, next = s->pinned[i]; i-- > 0; next = s->pinned[i] ? s->pinned[i] : next)
         out[i].factor.w = (float)next;
 }
 
@@ -259,7 +259,7 @@ static double write_shape(struct hair_rod_shape* s, const hair_physics* physics,
         hair_rod_add_inertia(s, solver == HAIR_SOLVER_DIRECT ? 2 * substep / 3 : substep);
         softest = write_guide(s, tautness, physics, solver, substep, out);
     }
-    write_ties(s, out);
+    write_pins(s, out);
     return softest;
 }
 
@@ -281,7 +281,7 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
     return softened;
 }
 
-void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
+void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_knot* knot, uint32_t count,
                    const hair_physics* physics, hair_solver solver, int mixed, double substep,
                    struct hair_rod* out)
@@ -291,7 +291,7 @@ void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest
         struct hair_rod_shape shape;
         find_borne(guide, rest, borne, physics, &shape);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
-            shape.tied[knot[i].vertex] = i + 1;
+            shape.pinned[knot[i].vertex] = i + 1;
         write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
     }
 }
@@ -370,9 +370,10 @@ int hair_rods_differ(const hair_physics* a, const hair_physics* b)
 {
     for (int k = 0; k < 3; ++k)
         if (a->gravity[k] != b->gravity[k]) return 1;
-    return a->damping != b->damping || a->pull_root != b->pull_root || a->pull_tip != b->pull_tip ||
-           a->young != b->young || a->poisson != b->poisson || a->fiber_radius != b->fiber_radius ||
+    return a->damping != b->damping || a->shape_frequency_root != b->shape_frequency_root ||
+           a->shape_frequency_tip != b->shape_frequency_tip || a->youngs_modulus != b->youngs_modulus ||
+           a->poisson_ratio != b->poisson_ratio || a->fiber_radius != b->fiber_radius ||
            a->fiber_density != b->fiber_density || a->flatness != b->flatness ||
            a->stiffness_root != b->stiffness_root || a->stiffness_tip != b->stiffness_tip ||
-           a->hold != b->hold || a->root != b->root || a->tip_mass != b->tip_mass;
+           a->gravity_preload != b->gravity_preload || a->root != b->root || a->tip_mass != b->tip_mass;
 }

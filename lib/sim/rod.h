@@ -54,7 +54,7 @@ static inline struct hair_rods_report hair_rods_report_none(void)
 // Compute the gravity preload of guides, as hold.c describes. The preload depends on no solver and
 // no substep.
 //
-// The rest strain of a guide with a clamped root balances the fraction `hold` of gravity. With 1
+// The rest strain of a guide with a clamped root balances the fraction `gravity_preload` of gravity. With 1
 // the groom is in equilibrium. A strand that is too soft would still buckle out of the groom, or
 // need a rest strain further than 1 from the groom's own. Such a guide is made up to 3 times as
 // stiff, by as little as keeps it stable. A guide that needs more stiffness sags to a pose that it
@@ -71,7 +71,7 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
                                           double substep, struct hair_rod* out);
 
 // Write the pinned guides again. The pins are in the order of guides and their vertices.
-void hair_rods_tie(const struct hair_guide* guides, const struct hair_rest* rest,
+void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_knot* knot, uint32_t count,
                    const hair_physics* physics, hair_solver solver, int mixed, double substep,
                    struct hair_rod* out);

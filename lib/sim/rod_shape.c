@@ -40,20 +40,21 @@ void hair_rods_ratios(const hair_physics* physics, double ratio[3])
 {
     double flat = (double)physics->flatness;
     ratio[0] = flat;
-    ratio[1] = 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
+    ratio[1] = 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
     ratio[2] = 1 / flat;
 }
 
 static double pull_squared(const hair_physics* physics, double share)
 {
-    double root = (double)physics->pull_root, frequency = root + share * ((double)physics->pull_tip - root);
+    double root = (double)physics->shape_frequency_root,
+           frequency = root + share * ((double)physics->shape_frequency_tip - root);
     return TWO_PI * TWO_PI * frequency * frequency;
 }
 
 static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, const hair_physics* physics)
 {
     double total = 0, so_far = 0, radius = (double)physics->fiber_radius;
-    double bend = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
+    double bend = (double)physics->youngs_modulus * radius * radius / (4 * (double)physics->fiber_density);
     hair_dvec3 gravity = hair_dload(physics->gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
         s->length[i] = i + 1 < s->count ? fmax((double)rest[i].position.w, SHORTEST) : 0;
@@ -95,12 +96,13 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     out->clamped = physics->root == HAIR_ROOT_CLAMPED;
     out->held = physics->root != HAIR_ROOT_FREE;
     for (uint32_t i = 0; i < out->count; ++i) {
-        out->tied[i] = 0;
+        out->pinned[i] = 0;
         out->stress[i] = (hair_dvec3){0, 0, 0};
     }
     out->rest_real[out->count - 1] = 0;
     // Only a clamped strand can balance gravity. A hinged strand hangs, and a free strand falls.
-    out->load = hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->hold : 0);
+    out->load =
+        hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->gravity_preload : 0);
     find_masses(out, rest, physics);
     find_turns(out, guide, rest);
 }

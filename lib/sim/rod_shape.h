@@ -61,7 +61,7 @@ struct hair_rod_shape {
     uint32_t count; // Number of vertices.
     // Constraints of the root. `clamped` fixes its frame, and `held` fixes its position.
     int clamped, held;
-    uint32_t tied[HAIR_MAX_GUIDE_VERTICES]; // Number of the pin, from 1. 0 if not pinned.
+    uint32_t pinned[HAIR_MAX_GUIDE_VERTICES]; // Number of the pin, from 1. 0 if not pinned.
     double gravity; // Magnitude of gravity, m/s^2.
     hair_dvec3 load; // Gravity that the rest strain is to balance, m/s^2.
     double weight; // Weight of all vertices but the root.

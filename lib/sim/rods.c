@@ -15,7 +15,7 @@ struct hair_rods {
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
     int struck; // Value of sim->struck that the rods were made for.
-    uint32_t tied; // Value of sim->ties.which that the rods were made for.
+    uint32_t pinned; // Value of sim->pins.which that the rods were made for.
     uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
 };
 
@@ -73,8 +73,8 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 static uint32_t times_longer(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
-    float rate = sim->physics.rate;
-    if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.unseen_rate);
+    float rate = sim->physics.substep_rate;
+    if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
     while (2 * (float)longer * rate <= 1) longer *= 2;
     if (sim->longer && longer < sim->longer) return sim->longer / 2;
     if (sim->longer && longer > sim->longer) return sim->longer * 2;
@@ -127,7 +127,7 @@ static hair_result make(struct hair_sim* sim, int struck)
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
-    hair_rods_tie(rods->guides, rods->rest, rods->borne, sim->ties.knot, sim->ties.count, &sim->physics,
+    hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.knot, sim->pins.count, &sim->physics,
                   sim->solver, mixed, substep, rod);
     GLuint buffer = 0, reduction = 0, bend = sim->bend;
     uint32_t rounds = 0;
@@ -151,7 +151,7 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->made_for = sim->physics;
         rods->report.softened = softened;
         rods->struck = struck;
-        rods->tied = sim->ties.which;
+        rods->pinned = sim->pins.which;
         rods->longer = longer;
         sim->longer = longer;
         rods->stiff = is_stiff(sim, rod);
@@ -210,7 +210,8 @@ int hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods || rods->longer == times_longer(sim)) return 0;
-    return sim->ties.which == rods->tied && !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
+    return sim->pins.which == rods->pinned &&
+           !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);
 }
 
@@ -220,7 +221,7 @@ hair_result hair_sim_renew_rods(struct hair_sim* sim)
     if (!rods) return HAIR_OK;
     int struck = sim->struck || hair_sim_contacts(sim) > 0;
     int other = rods->longer != times_longer(sim) || is_struck_anew(sim, struck) ||
-                sim->ties.which != rods->tied || hair_rods_differ(&rods->made_for, &sim->physics);
+                sim->pins.which != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
     hair_result result = other ? make(sim, struck) : HAIR_OK;
     if (!result) sim->struck = struck;
     return result;
@@ -244,7 +245,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
 
 void hair_sim_bind_rods(struct hair_sim* sim)
 {
-    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->health,
+    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->solver_stats,
                         sim->bend ? sim->bend : sim->reduction};
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
 }

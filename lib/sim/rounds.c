@@ -20,10 +20,10 @@
 // Times that the solver follow draws a strand again after contact. CONTACT_ROUNDS of
 // glsl/sim/follow.comp.
 #define DRAWN_AGAIN 3u
-// Sweeps of follow-the-leader with pins. TIED_ROUNDS of glsl/sim/leader.glsl, to and fro, and two
+// Sweeps of follow-the-leader with pins. PINNED_ROUNDS of glsl/sim/leader.glsl, to and fro, and two
 // more.
-#define TIED_SWEEPS 18
-#define TIED_ENDS 30 // Iterations per pin that begin and end these sweeps.
+#define PINNED_SWEEPS 18
+#define PINNED_ENDS 30 // Iterations per pin that begin and end these sweeps.
 // Iterations over cached colliders each time that a vertex of a work group tests colliders. See
 // glsl/sim/contact_cache.glsl.
 #define CACHED 16
@@ -69,9 +69,9 @@ static uint32_t newton_steps(const struct hair_sim* sim, int by_thread)
 // and accept.glsl.
 static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t most = newton_steps(sim, by_thread), tied = sim->ties.count > 0;
+    uint32_t most = newton_steps(sim, by_thread), pinned = sim->pins.count > 0;
     struct loops loops = {0};
-    loops.over = most * (14 + 23 + 3 * tied);
+    loops.over = most * (14 + 23 + 3 * pinned);
     loops.along = most * 7;
     return loops;
 }
@@ -80,8 +80,8 @@ static struct loops loops_of_mixed(const struct hair_sim* sim, int by_thread)
 // the strand are not included.
 static struct loops loops_of_follow(const struct hair_sim* sim)
 {
-    uint32_t met = hair_sim_contacts(sim) > 0, tied = sim->ties.count > 0;
-    return (struct loops){.over = 4 + tied + met * (2 + DRAWN_AGAIN * 4)};
+    uint32_t met = hair_sim_contacts(sim) > 0, pinned = sim->pins.count > 0;
+    return (struct loops){.over = 4 + pinned + met * (2 + DRAWN_AGAIN * 4)};
 }
 
 // Return the loops of all methods, from predict.glsl until lengths.glsl fails to find the lengths.
@@ -90,12 +90,12 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
 {
     if (sim->solver == HAIR_SOLVER_FOLLOW) return loops_of_follow(sim);
     if (hair_sim_is_mixed(sim)) return loops_of_mixed(sim, by_thread);
-    uint32_t tried = first ? 1 : TRIED, predicted = first ? 1 : tried + 1, tied = sim->ties.count > 0;
+    uint32_t tried = first ? 1 : TRIED, predicted = first ? 1 : tried + 1, pinned = sim->pins.count > 0;
     uint32_t met = hair_sim_contacts(sim) > 0, stiff = stiff_steps(sim);
     struct loops loops = {0};
-    loops.over = predicted * (10 + tied + 3 * met);
+    loops.over = predicted * (10 + pinned + 3 * met);
     loops.along = predicted * 2;
-    loops.over += tried * (LOOKS * (3 + tied + met) + STEPS * 4 + stiff * 3);
+    loops.over += tried * (LOOKS * (3 + pinned + met) + STEPS * 4 + stiff * 3);
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
     return loops;
@@ -107,11 +107,11 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
     uint32_t met = hair_sim_contacts(sim) > 0;
     uint32_t led = sim->solver == HAIR_SOLVER_FOLLOW ? 1 + met * DRAWN_AGAIN : TRIED * (1 + met);
     // Guides that run together may have their pins at different vertices.
-    uint32_t abreast = by_thread ? lesser(sim->ties.most, AT_ONCE) : 1;
+    uint32_t abreast = by_thread ? lesser(sim->pins.most, AT_ONCE) : 1;
     loops->over += led * 3;
-    if (sim->ties.count) {
-        loops->along += led * (TIED_SWEEPS * abreast + 1);
-        loops->ends += led * TIED_ENDS * sim->ties.most;
+    if (sim->pins.count) {
+        loops->along += led * (PINNED_SWEEPS * abreast + 1);
+        loops->ends += led * PINNED_ENDS * sim->pins.most;
     } else {
         loops->along += led * (sim->physics.tip_mass > 0 ? HEAVY_SWEEPS : 1);
     }
@@ -130,12 +130,13 @@ static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 // Return the iterations of a vertex over colliders, in all attempts of a substep.
 static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t solids = hair_sim_contacts(sim), others = solids - lesser(sim->solids.capsules, solids);
+    uint32_t colliders = hair_sim_contacts(sim),
+             others = colliders - lesser(sim->colliders.capsules, colliders);
     if (sim->contacts.any) return rounds_of_list(sim, by_thread);
     // Other colliders need sphere tracing of BODY_STEPS steps. The mixed scheme tests colliders
     // once per Newton step, and twice when it follows the leader.
     uint32_t looks = hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) + 4 : 44;
-    return solids ? looks * (solids + 10 + 12 * others) : 0;
+    return colliders ? looks * (colliders + 10 + 12 * others) : 0;
 }
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int first)
@@ -157,9 +158,9 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int fir
 
 uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread)
 {
-    uint32_t solids = hair_sim_contacts(sim);
+    uint32_t colliders = hair_sim_contacts(sim);
     if (sim->rods) return rounds_of_rod(sim, by_thread, 0);
-    return sim->physics.iterations * (10 + solids) + 2 * solids + 20;
+    return sim->physics.redblack.iterations * (10 + colliders) + 2 * colliders + 20;
 }
 
 uint32_t hair_sim_rounds_of_first(const struct hair_sim* sim, int by_thread)

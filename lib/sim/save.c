@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "lib/base/bytes.h"
-#include "lib/collide/form.h"
+#include "lib/collide/collision_mesh.h"
 
 // Version of the fields in walk() and of their meaning. Raise it with any change of these.
 #define VERSION 15
@@ -30,7 +30,7 @@
 #define LEAST_SUBSTEP 1e-6 // s
 #define MOST_SUBSTEP 0.11
 
-_Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) == 40 &&
+_Static_assert(offsetof(hair_collider, friction) == 52 && sizeof(struct hair_pose) == 40 &&
                    sizeof(struct hair_state) == 32 && sizeof(struct hair_history) == 32,
                "what is saved has changed: raise VERSION, and see that walk() has it all");
 
@@ -38,102 +38,103 @@ _Static_assert(offsetof(hair_solid, friction) == 52 && sizeof(struct hair_pose) 
 #define MOST_BEAT 2000
 #define MOST_CELLS 1e16 // Maximum distance of the fluid's box from the world's origin, in cells.
 #define MOST_CALM 1e9 // s
-#define MOST_LONGER 16 // 1 / the minimum of hair_physics.rate.
+#define MOST_LONGER 16 // 1 / the minimum of hair_physics.substep_rate.
 // Number of words of a collider before the mark of its collision mesh and its key.
-#define SOLID_WORDS 14
-#define SOLID_BYTES (4 * SOLID_WORDS + 16)
+#define COLLIDER_WORDS 14
+#define COLLIDER_BYTES (4 * COLLIDER_WORDS + 16)
 #define KNOT_BYTES 36
 
 // Loaded arrays, before they are checked and collision meshes are held.
 struct loaded {
-    struct loaded_solids {
-        hair_solid* solid;
+    struct loaded_colliders {
+        hair_collider* collider;
         uint32_t count;
     } now, before;
     struct hair_knot* knot; // Pins.
-    uint32_t ties;
+    uint32_t pins;
 };
 
 // Return the collision mesh with a mark among the present colliders. Return NULL if there is none.
-static const hair_form* find_form(const struct hair_solids* solids, uint64_t mark)
+static const hair_collision_mesh* find_form(const struct hair_colliders* colliders, uint64_t mark)
 {
-    const struct hair_solid_list* lists[] = {&solids->now, &solids->before};
+    const struct hair_collider_list* lists[] = {&colliders->now, &colliders->before};
     for (int k = 0; k < 2 && mark; ++k)
         for (uint32_t i = 0; i < lists[k]->count; ++i) {
-            const hair_form* form = lists[k]->solid[i].form;
+            const hair_collision_mesh* form = lists[k]->collider[i].mesh;
             if (form && form->mark == mark) return form;
         }
     return NULL;
 }
 
-// Serialize a collider as bits. hair_solids_restore() checks the numbers that matter to its shape.
-static void walk_solid(struct hair_walk* c, const struct hair_solids* there, hair_solid* solid)
+// Serialize a collider as bits. hair_colliders_restore() checks the numbers that matter to its shape.
+static void walk_collider(struct hair_walk* c, const struct hair_colliders* there, hair_collider* collider)
 {
-    for (size_t k = 0; k < SOLID_WORDS; ++k) {
+    for (size_t k = 0; k < COLLIDER_WORDS; ++k) {
         uint32_t bits;
-        memcpy(&bits, (unsigned char*)solid + 4 * k, sizeof bits);
-        hair_walk_uint(c, "solid", &bits, UINT32_MAX);
-        memcpy((unsigned char*)solid + 4 * k, &bits, sizeof bits);
+        memcpy(&bits, (unsigned char*)collider + 4 * k, sizeof bits);
+        hair_walk_uint(c, "collider", &bits, UINT32_MAX);
+        memcpy((unsigned char*)collider + 4 * k, &bits, sizeof bits);
     }
-    uint32_t marks[4] = {0, 0, (uint32_t)solid->key, (uint32_t)(solid->key >> 32)};
-    if (solid->form) {
-        marks[0] = (uint32_t)solid->form->mark;
-        marks[1] = (uint32_t)(solid->form->mark >> 32);
+    uint32_t marks[4] = {0, 0, (uint32_t)collider->key, (uint32_t)(collider->key >> 32)};
+    if (collider->mesh) {
+        marks[0] = (uint32_t)collider->mesh->mark;
+        marks[1] = (uint32_t)(collider->mesh->mark >> 32);
     }
-    for (int k = 0; k < 4; ++k) hair_walk_uint(c, "solid", &marks[k], UINT32_MAX);
+    for (int k = 0; k < 4; ++k) hair_walk_uint(c, "collider", &marks[k], UINT32_MAX);
     if (!c->read) return;
-    solid->key = marks[2] | (uint64_t)marks[3] << 32;
-    solid->form = NULL;
-    if (solid->shape == HAIR_SHAPE_FORM) solid->form = find_form(there, marks[0] | (uint64_t)marks[1] << 32);
+    collider->key = marks[2] | (uint64_t)marks[3] << 32;
+    collider->mesh = NULL;
+    if (collider->shape == HAIR_SHAPE_MESH)
+        collider->mesh = find_form(there, marks[0] | (uint64_t)marks[1] << 32);
 }
 
 // Serialize a list of colliders. Read into `loaded`, and fail if the count exceeds the bytes
 // available.
-static void walk_solids(struct hair_walk* c, const char* name, struct hair_solids* there,
-                        struct hair_solid_list* list, struct loaded_solids* loaded)
+static void walk_colliders(struct hair_walk* c, const char* name, struct hair_colliders* there,
+                           struct hair_collider_list* list, struct loaded_colliders* loaded)
 {
-    hair_solid* solid = list->solid;
+    hair_collider* collider = list->collider;
     uint32_t count = list->count;
-    hair_walk_uint(c, name, &count, HAIR_MOST_SOLIDS);
+    hair_walk_uint(c, name, &count, HAIR_MOST_COLLIDERS);
     if (c->read && !c->result) {
-        if (count > (c->end - c->at) / SOLID_BYTES) {
+        if (count > (c->end - c->at) / COLLIDER_BYTES) {
             c->result = hair_fail(c->host, HAIR_ERROR_FILE,
                                   "the %s before byte %zu of the saved state is %u, more than it holds", name,
                                   c->at, count);
             return;
         }
-        solid = loaded->solid = hair_alloc(c->host, count, sizeof *solid);
+        collider = loaded->collider = hair_alloc(c->host, count, sizeof *collider);
         loaded->count = count;
-        if (!solid) c->result = hair_fail_memory(c->host, "the solids to load");
+        if (!collider) c->result = hair_fail_memory(c->host, "the colliders to load");
     }
-    for (uint32_t i = 0; i < count && !c->result; ++i) walk_solid(c, there, &solid[i]);
+    for (uint32_t i = 0; i < count && !c->result; ++i) walk_collider(c, there, &collider[i]);
 }
 
 static void walk_knot(struct hair_walk* c, struct hair_knot* knot)
 {
-    hair_walk_uint(c, "guide of a tie", &knot->guide, UINT32_MAX);
-    hair_walk_uint(c, "vertex of a tie", &knot->vertex, UINT32_MAX);
-    hair_walk_flag(c, "whether a tie is in the world", &knot->world);
-    for (int k = 0; k < 3; ++k) hair_walk_double(c, "place of a tie", &knot->place[k], -MOST_PAST, MOST_PAST);
+    hair_walk_uint(c, "guide of a pin", &knot->guide, UINT32_MAX);
+    hair_walk_uint(c, "vertex of a pin", &knot->vertex, UINT32_MAX);
+    hair_walk_flag(c, "whether a pin is in the world", &knot->world);
+    for (int k = 0; k < 3; ++k) hair_walk_double(c, "place of a pin", &knot->place[k], -MOST_PAST, MOST_PAST);
 }
 
 // Serialize the pins. Read into `loaded`, as for colliders.
-static void walk_ties(struct hair_walk* c, struct hair_ties* ties, struct loaded* loaded)
+static void walk_pins(struct hair_walk* c, struct hair_pins* pins, struct loaded* loaded)
 {
-    struct hair_knot* knot = ties->knot;
-    uint32_t count = ties->count;
-    hair_walk_uint(c, "number of ties", &count, HAIR_MOST_TIES);
+    struct hair_knot* knot = pins->knot;
+    uint32_t count = pins->count;
+    hair_walk_uint(c, "number of pins", &count, HAIR_MOST_PINS);
     if (c->read && !c->result) {
         if (count > (c->end - c->at) / KNOT_BYTES) {
             c->result =
                 hair_fail(c->host, HAIR_ERROR_FILE,
-                          "the number of ties before byte %zu of the saved state is %u, more than it holds",
+                          "the number of pins before byte %zu of the saved state is %u, more than it holds",
                           c->at, count);
             return;
         }
         if (count) knot = loaded->knot = hair_alloc(c->host, count, sizeof *knot);
-        loaded->ties = count;
-        if (count && !loaded->knot) c->result = hair_fail_memory(c->host, "the ties to load");
+        loaded->pins = count;
+        if (count && !loaded->knot) c->result = hair_fail_memory(c->host, "the pins to load");
     }
     for (uint32_t i = 0; i < count && !c->result; ++i) walk_knot(c, &knot[i]);
 }
@@ -242,16 +243,17 @@ static void walk(struct hair_walk* c, struct hair_sim* sim, struct loaded* loade
     hair_walk_same(c, "hash of the vertices of each guide", sim->layout);
     hair_walk_double(c, "time since the last substep", &sim->left, 0, MOST_SUBSTEP);
     hair_walk_double(c, "length of the last substep", &sim->last_substep, LEAST_SUBSTEP, MOST_SUBSTEP);
-    hair_walk_flag(c, "whether there have been solids", &sim->struck);
+    hair_walk_flag(c, "whether there have been colliders", &sim->struck);
     hair_walk_pose(c, "head at the start of the last substep", &sim->last_before, MOST_PAST);
     hair_walk_pose(c, "head at the end of the last substep", &sim->last_after, MOST_PAST);
     hair_walk_pose(c, "head at the last step", &sim->at_step, MOST_PAST);
     hair_walk_pose(c, "head", &sim->head, MOST_PLACE);
     for (int k = 0; k < 3; ++k)
         hair_walk_double(c, "way of gusts", &sim->air.moved[k], -MOST_PAST, MOST_PAST);
-    walk_solids(c, "number of solids", &sim->solids, &sim->solids.now, &loaded->now);
-    walk_solids(c, "number of solids at the last step", &sim->solids, &sim->solids.before, &loaded->before);
-    walk_ties(c, &sim->ties, loaded);
+    walk_colliders(c, "number of colliders", &sim->colliders, &sim->colliders.now, &loaded->now);
+    walk_colliders(c, "number of colliders at the last step", &sim->colliders, &sim->colliders.before,
+                   &loaded->before);
+    walk_pins(c, &sim->pins, loaded);
     hair_walk_buffer(c, "guide vertices", sim->state, sim->guide_vertices * sizeof(struct hair_state));
     hair_walk_buffer(c, "frames of segments", sim->material, sim->guide_vertices * sizeof(hair_vec4));
     hair_walk_buffer(c, "rates of guide vertices", sim->history,
@@ -308,19 +310,19 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
     return HAIR_OK;
 }
 
-// Read and check a state. Fill in `sim`, which is a copy, and `loaded`, `solids` and c->own.
+// Read and check a state. Fill in `sim`, which is a copy, and `loaded`, `colliders` and c->own.
 static hair_result read(struct hair_walk* c, struct hair_sim* sim, struct loaded* loaded,
-                        struct hair_solids* solids)
+                        struct hair_colliders* colliders)
 {
     walk(c, sim, loaded);
     if (!c->result && c->at != c->end)
         c->result =
             hair_fail(c->host, HAIR_ERROR_FILE,
                       "the fields of the saved state end at byte %zu, not at byte %zu", c->at, c->end);
-    if (!c->result) c->result = hair_ties_check(sim, loaded->knot, loaded->ties);
+    if (!c->result) c->result = hair_pins_check(sim, loaded->knot, loaded->pins);
     if (c->result) return c->result;
-    return hair_solids_restore(c->host, solids, loaded->now.solid, loaded->now.count, loaded->before.solid,
-                               loaded->before.count);
+    return hair_colliders_restore(c->host, colliders, loaded->now.collider, loaded->now.count,
+                                  loaded->before.collider, loaded->before.count);
 }
 
 // Upload the buffers by GPU copies, which run in order with dispatches. One driver was seen to lose
@@ -357,9 +359,9 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     own.sleep.fence = NULL;
     c.own = hair_alloc(host, 1, c.end);
     if (!c.own) return hair_fail_memory(host, "the state to load");
-    struct hair_solids solids = {0};
+    struct hair_colliders colliders = {0};
     GLuint still = 0;
-    result = read(&c, &own, &loaded, &solids);
+    result = read(&c, &own, &loaded, &colliders);
     if (!result && !skinned && hair_skin_is_on(sim)) result = hair_skin_make_still(sim, &still);
     if (!result) result = upload(&c);
     if (!result && sim->bend && c.lacks_bend)
@@ -367,19 +369,19 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (!result && still) hair_skin_forget(&own, still);
     hair_gl_free_buffer(sim->gl, &still);
     hair_free(host, c.own);
-    hair_free(host, loaded.now.solid);
-    hair_free(host, loaded.before.solid);
+    hair_free(host, loaded.now.collider);
+    hair_free(host, loaded.before.collider);
     if (result) {
         hair_free(host, loaded.knot);
-        hair_solids_free(host, &solids);
+        hair_colliders_free(host, &colliders);
         if (!sim->sleep.anchor) hair_sleep_free(&own);
         return result;
     }
-    hair_solids_free(host, &sim->solids);
+    hair_colliders_free(host, &sim->colliders);
     hair_sleep_load(&own, &sim->sleep);
     *sim = own;
-    sim->solids = solids;
-    hair_ties_take(sim, loaded.knot, loaded.ties);
+    sim->colliders = colliders;
+    hair_pins_take(sim, loaded.knot, loaded.pins);
     sim->next_substep = 0;
     hair_diagnosis_forget(sim);
     if (!sim->crowd.push) sim->crowd.beat = 0;

@@ -36,7 +36,8 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     sim->air.ball = groom->skull;
     sim->skin.seats = hair_seats_hold(groom->seats);
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
-    size_t health = sim->in_two ? HAIR_HEALTH_LISTS + (size_t)sim->guides : HAIR_HEALTH_COUNT;
+    size_t solver_stats =
+        sim->in_two ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
     hair_result result = HAIR_OK;
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
@@ -45,7 +46,9 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
-    if (!result) result = hair_gl_storage(gl, "hair health", health * sizeof(uint32_t), NULL, &sim->health);
+    if (!result)
+        result =
+            hair_gl_storage(gl, "hair health", solver_stats * sizeof(uint32_t), NULL, &sim->solver_stats);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
@@ -61,14 +64,14 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
 void hair_sim_destroy(struct hair_sim* sim)
 {
     if (!sim->gl) return;
-    hair_solids_free(&sim->gl->host, &sim->solids);
+    hair_colliders_free(&sim->gl->host, &sim->colliders);
     hair_feedback_free(sim);
     hair_gl_free_buffer(sim->gl, &sim->guide);
     hair_gl_free_buffer(sim->gl, &sim->rest);
     hair_gl_free_buffer(sim->gl, &sim->state);
-    hair_gl_free_buffer(sim->gl, &sim->health);
+    hair_gl_free_buffer(sim->gl, &sim->solver_stats);
     hair_gl_free_buffer(sim->gl, &sim->step);
-    hair_ties_free(sim);
+    hair_pins_free(sim);
     hair_contacts_free(sim);
     hair_air_free(&sim->air, sim->gl);
     hair_blow_free(sim);
@@ -82,7 +85,7 @@ void hair_sim_bind(struct hair_sim* sim)
 {
     GLuint storage[] = {sim->guide, sim->rest, sim->state};
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HEALTH, 1, &sim->health);
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
     sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
     hair_skin_bind(sim);
 }
@@ -107,12 +110,12 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     params->gravity =
         (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
     params->keep = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
-    params->pull_root = TWO_PI * physics->pull_root;
-    params->pull_tip = TWO_PI * physics->pull_tip;
-    params->angular = squared_frequency(physics->angular);
-    params->bend = physics->bend;
-    params->margin = physics->margin;
-    params->iterations = physics->iterations;
+    params->shape_frequency_root = TWO_PI * physics->shape_frequency_root;
+    params->shape_frequency_tip = TWO_PI * physics->shape_frequency_tip;
+    params->angular = squared_frequency(physics->redblack.angular_hz);
+    params->bend = physics->redblack.bend;
+    params->collision_margin = physics->collision_margin;
+    params->iterations = physics->redblack.iterations;
     params->guides = sim->guides;
     params->smooth_vertices = sim->smooth_vertices;
     if (sim->rods) hair_sim_write_rods(sim, params);
@@ -171,21 +174,23 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
 
 uint32_t hair_sim_contacts(const struct hair_sim* sim)
 {
-    return sim->rods ? sim->solids.contacts : sim->solids.capsules;
+    return sim->rods ? sim->colliders.contacts : sim->colliders.capsules;
 }
 
-static void write_solids(const struct hair_sim* sim, struct hair_step_params* params)
+static void write_colliders(const struct hair_sim* sim, struct hair_step_params* params)
 {
     if (sim->contacts.any) {
         hair_contacts_write(sim, params);
         return;
     }
     if (!sim->rods) {
-        params->solids = hair_solids_capsules(&sim->solids, &sim->at_step, &sim->head, params->solid);
+        params->colliders =
+            hair_colliders_capsules(&sim->colliders, &sim->at_step, &sim->head, params->collider);
         return;
     }
-    params->solids = hair_solids_bodies(&sim->solids, &sim->at_step, &sim->head, params->solid, params->body);
-    for (uint32_t i = 0; i < params->solids; ++i)
+    params->colliders =
+        hair_colliders_bodies(&sim->colliders, &sim->at_step, &sim->head, params->collider, params->body);
+    for (uint32_t i = 0; i < params->colliders; ++i)
         if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
 }
 
@@ -197,7 +202,7 @@ static float share_of(double from, double dt)
 static hair_result need(struct hair_sim* sim, double from, double dt)
 {
     sim->contacts.any = hair_contacts_are_any(sim);
-    hair_result result = hair_ties_write(sim);
+    hair_result result = hair_pins_write(sim);
     if (!result) result = hair_sim_need_crowd(sim);
     if (!result && sim->rods) result = hair_air_need(&sim->air, sim->gl, &sim->wind);
     if (!result) result = hair_blow_need(sim);
@@ -211,7 +216,7 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
 {
     const struct hair_air_now now = {.wind = &sim->wind,
                                      .physics = &sim->physics,
-                                     .solids = &sim->solids,
+                                     .colliders = &sim->colliders,
                                      .step = params,
                                      .head = sim->last_after,
                                      .substeps = count,
@@ -227,7 +232,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
     int crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
     sim->next_substep = sim->substep;
     write_physics(sim, &params);
-    write_solids(sim, &params);
+    write_colliders(sim, &params);
     if (hair_skin_is_on(sim)) {
         float before = (float)share_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
         hair_skin_ride(sim, again, total, before,
@@ -251,7 +256,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         params.list = hair_sim_next_list(sim);
         upload(sim, &params);
         if (crowd) hair_crowd_bind(sim);
-        if (sim->ties.count) hair_ties_bind(sim);
+        if (sim->pins.count) hair_pins_bind(sim);
         if (blown) hair_fluid_bind(&sim->blow.fluid);
         if (blown) sim->air.box = hair_blow_box(sim);
         if (sim->air.params) write_air(sim, &params, count);
@@ -282,7 +287,7 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
 // Free what is no longer used.
 static void tidy_up(struct hair_sim* sim)
 {
-    if (!sim->solids.now.count && sim->contacts.solid) hair_contacts_free(sim);
+    if (!sim->colliders.now.count && sim->contacts.collider) hair_contacts_free(sim);
     if (!hair_crowd_is_on(sim) && sim->crowd.texture) hair_crowd_free(sim);
 }
 
@@ -314,7 +319,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     advance(sim, again, total, from, dt);
     hair_diagnosis_watch(sim, total);
     sim->at_step = sim->head;
-    hair_solids_settle(&sim->solids);
+    hair_colliders_settle(&sim->colliders);
     hair_sleep_watch(sim, stirred, dt);
     tidy_up(sim);
     return HAIR_OK;
@@ -325,7 +330,7 @@ void hair_sim_pass_time(struct hair_sim* sim, double dt)
     uint32_t total = count_substeps(sim, dt + sim->left);
     sim->left = fmax(dt + sim->left - total * sim->substep, 0);
     if (hair_crowd_is_on(sim)) hair_crowd_count(sim, total);
-    hair_solids_settle(&sim->solids);
+    hair_colliders_settle(&sim->colliders);
 }
 
 // Discard the past of the head, the colliders and the fluid, as if all had always been at rest.
@@ -336,7 +341,7 @@ static void settle(struct hair_sim* sim)
     sim->last_substep = sim->next_substep = sim->substep;
     sim->crowd.beat = 0;
     hair_blow_forget(sim);
-    hair_solids_settle(&sim->solids);
+    hair_colliders_settle(&sim->colliders);
 }
 
 static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
@@ -376,10 +381,10 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[1] = to->position[1] + (double)arm.y;
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
-    hair_ties_teleport(sim, &from, to);
+    hair_pins_teleport(sim, &from, to);
     hair_sleep_stir(sim);
     sim->crowd.beat = 0; // The grid's accelerations are for the old rotation of the head.
-    hair_solids_forget(&sim->solids); // Old positions imply no velocities.
+    hair_colliders_forget(&sim->colliders); // Old positions imply no velocities.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now = vec4_of_quat(to->rotation);

@@ -11,21 +11,21 @@
 #include "lib/sim/blow.h"
 #include "lib/sim/crowd.h"
 #include "lib/sim/feedback.h"
-#include "lib/sim/health.h"
+#include "lib/sim/solver_stats.h"
 #include "lib/sim/rod.h"
 #include "lib/sim/skin.h"
 #include "lib/sim/sleep.h"
-#include "lib/sim/ties.h"
+#include "lib/sim/pins.h"
 #include "lib/wind/air.h"
 
-// Collision data of instances with collision meshes or with more than HAIR_FEW_SOLIDS colliders.
+// Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
 // All 0 until an instance first has them.
 struct hair_contacts {
     int any; // 1 if the current step uses this data.
     struct hair_forms* forms; // Collision meshes of the context.
     struct hair_cells cells;
     // Buffers of the colliders and of the grid's cells, and their textures for shaders.
-    GLuint solid, solid_texture, cell, cell_texture;
+    GLuint collider, collider_texture, cell, cell_texture;
     uint32_t* held; // Places in `forms` of the collision meshes in use.
     uint32_t holds; // Length of `held`.
 };
@@ -37,7 +37,7 @@ struct hair_sim {
     hair_wind wind;
     double asked_substep; // Substep length set by the application, s. 0 selects the solver's own.
     double substep; // Substep length, s.
-    GLuint guide, rest, state, health, step; // Buffers, as in shared.h.
+    GLuint guide, rest, state, solver_stats, step; // Buffers, as in shared.h.
     GLuint rod, history, material, reduction; // Buffers, as in shared.h. 0 under redblack.
     GLuint bend; // Forces and turns of segments. 0 without the mixed scheme.
     uint32_t rounds; // Rounds of the cyclic reduction before its last.
@@ -59,10 +59,10 @@ struct hair_sim {
     struct hair_pose at_step; // Head at the end of the last step.
     struct hair_pose head; // Head at the end of the next step.
     float reach; // Upper bound on the distance of guides from the head's origin, m.
-    struct hair_solids solids;
+    struct hair_colliders colliders;
     struct hair_contacts contacts;
     struct hair_crowd crowd;
-    struct hair_ties ties;
+    struct hair_pins pins;
     struct hair_air air;
     struct hair_skin skin;
     struct hair_sleep sleep;
@@ -90,9 +90,9 @@ void hair_sim_show(struct hair_sim* sim);
 // Bind the buffers of passes that read guides.
 void hair_sim_bind(struct hair_sim* sim);
 
-// Functions of contacts.c, for collision meshes and for more than HAIR_FEW_SOLIDS colliders.
+// Functions of contacts.c, for collision meshes and for more than HAIR_FEW_COLLIDERS colliders.
 
-// Return whether the instance has collision meshes or more than HAIR_FEW_SOLIDS colliders.
+// Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
 int hair_contacts_are_any(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
 // has been done, and may be negative.

@@ -24,10 +24,10 @@
 #define LIKE 0.75
 // Time in which hair at the measured speed may not exceed the allowed distance, s.
 #define SPEED_SPAN 0.03
-// Fraction of hair_physics.sleep that the distance still to go may have. The head may move a
+// Fraction of hair_physics.sleep_threshold that the distance still to go may have. The head may move a
 // quarter. The rest is for motion between measurements.
 #define SHARE 0.5f
-#define HEAD_SHARE 0.25f // Fraction of hair_physics.sleep that motion of the head may have.
+#define HEAD_SHARE 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 // Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
 // for FIT and MOST_GIVE of contacts.c.
@@ -76,43 +76,44 @@ static float distance_between(const struct hair_pose* a, const struct hair_pose*
 }
 
 // Return whether a collider comes near the hair on its way from `a` to `b`.
-static int comes_near(const struct hair_sim* sim, const hair_solid* a, const hair_solid* b)
+static int comes_near(const struct hair_sim* sim, const hair_collider* a, const hair_collider* b)
 {
-    const hair_solid* ends[] = {a, b};
+    const hair_collider* ends[] = {a, b};
     struct hair_pose at[2];
     float radius = 0;
-    if (a->shape == HAIR_SHAPE_FORM && !(a->form && b->form)) return 1;
+    if (a->shape == HAIR_SHAPE_MESH && !(a->mesh && b->mesh)) return 1;
     for (int i = 0; i < 2; ++i) {
         hair_vec3 middle, half;
-        hair_solid_extent(ends[i], &middle, &half);
+        hair_collider_extent(ends[i], &middle, &half);
         radius = fmaxf(radius, hair_length(middle) + hair_length(half) + ends[i]->rounding);
         for (int k = 0; k < 3; ++k) at[i].position[k] = (double)ends[i]->position[k];
     }
     hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
-    float most = LOOSE * sim->reach + AROUND + sim->physics.margin + radius + 0.5f * hair_length(way);
+    float most =
+        LOOSE * sim->reach + AROUND + sim->physics.collision_margin + radius + 0.5f * hair_length(way);
     hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
-    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->ties.count && !hair_skin_is_on(sim);
+    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_skin_is_on(sim);
     return !bound || !(hair_length(mid) > most);
 }
 
-static int are_alike(const hair_solid* a, const hair_solid* b)
+static int are_alike(const hair_collider* a, const hair_collider* b)
 {
     return memcmp(a, b, sizeof *a) == 0;
 }
 
-static int has_solid_near(const struct hair_sim* sim)
+static int has_collider_near(const struct hair_sim* sim)
 {
-    const struct hair_solids* solids = &sim->solids;
-    const struct hair_solid_list *now = &solids->now, *before = &solids->before;
-    if (!solids->changed) return 0;
+    const struct hair_colliders* colliders = &sim->colliders;
+    const struct hair_collider_list *now = &colliders->now, *before = &colliders->before;
+    if (!colliders->changed) return 0;
     for (uint32_t i = 0; i < now->count; ++i) {
-        const hair_solid* was = hair_solids_before(solids, i);
-        int is = was != &now->solid[i] && are_alike(was, &now->solid[i]);
-        if (!is && comes_near(sim, was, &now->solid[i])) return 1;
+        const hair_collider* was = hair_colliders_before(colliders, i);
+        int is = was != &now->collider[i] && are_alike(was, &now->collider[i]);
+        if (!is && comes_near(sim, was, &now->collider[i])) return 1;
     }
     for (uint32_t i = 0; i < before->count; ++i) {
-        int is = i < now->count && are_alike(&before->solid[i], &now->solid[i]);
-        if (!is && comes_near(sim, &before->solid[i], &before->solid[i])) return 1;
+        int is = i < now->count && are_alike(&before->collider[i], &now->collider[i]);
+        if (!is && comes_near(sim, &before->collider[i], &before->collider[i])) return 1;
     }
     return 0;
 }
@@ -125,10 +126,11 @@ int hair_sleep_is_stirred(const struct hair_sim* sim)
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
     if (hair_wind_is_unsteady(&sim->wind)) return 1;
     // Colliders deflect the wind at any distance.
-    if (sim->solids.changed && sim->air.params && sim->solids.now.count + sim->solids.before.count > 0)
+    if (sim->colliders.changed && sim->air.params &&
+        sim->colliders.now.count + sim->colliders.before.count > 0)
         return 1;
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
-    return !(far <= HEAD_SHARE * sim->physics.sleep) || has_solid_near(sim);
+    return !(far <= HEAD_SHARE * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
 
 // Restart the calm period under the current conditions.
@@ -222,7 +224,7 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 static int has_come_to_rest(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    float may = SHARE * sim->physics.sleep;
+    float may = SHARE * sim->physics.sleep_threshold;
     if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return 0;
     double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
     return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
@@ -242,7 +244,7 @@ static void use_answer(struct hair_sim* sim)
 
 static int looks_after(const struct hair_sim* sim, double dt)
 {
-    return sim->physics.sleep > 0 && sim->sleep.calm + dt >= sim->sleep.due;
+    return sim->physics.sleep_threshold > 0 && sim->sleep.calm + dt >= sim->sleep.due;
 }
 
 hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt)

@@ -20,7 +20,7 @@ static int is_heavy(const struct hair_rod_shape* s)
 {
     double length = 0;
     for (uint32_t i = 0; i < s->count; ++i) length += s->length[i];
-    return s->held && !s->tied[s->count - 1] &&
+    return s->held && !s->pinned[s->count - 1] &&
            s->mass[s->count - 1] > length; // See `heavy` of glsl/sim/stored.glsl.
 }
 

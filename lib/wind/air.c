@@ -27,14 +27,15 @@ int hair_wind_is_on(const hair_wind* wind)
 
 int hair_wind_is_unsteady(const hair_wind* wind)
 {
-    int moves = wind->texture || (wind->gusts > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
+    int moves =
+        wind->texture || (wind->turbulence_intensity > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
     return moves && hair_wind_is_on(wind);
 }
 
 static hair_result need_gusts(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind)
 {
     static const uint32_t size[3] = {HAIR_GUST_NODES, HAIR_GUST_NODES, HAIR_GUST_NODES};
-    int wanted = wind->gusts > 0 && blows(wind);
+    int wanted = wind->turbulence_intensity > 0 && blows(wind);
     if (air->gusts && (!wanted || air->gust_seed != wind->seed)) hair_gl_free_texture(gl, &air->gusts);
     if (!wanted || air->gusts) return HAIR_OK;
     float* texels = hair_gusts_make(&gl->host, wind->seed);
@@ -86,17 +87,19 @@ static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius
 }
 
 // Add a collider as a ball of about the same frontal area, from the two larger of its half sides.
-static void add_solid(struct hair_wind_params* params, const hair_solid* solid, const struct hair_pose* head)
+static void add_collider(struct hair_wind_params* params, const hair_collider* collider,
+                         const struct hair_pose* head)
 {
     hair_vec3 middle, half;
-    const float* q = solid->rotation;
+    const float* q = collider->rotation;
     hair_quat turn = {q[0], q[1], q[2], q[3]};
     struct hair_pose at = {
-        {(double)solid->position[0], (double)solid->position[1], (double)solid->position[2]}, turn};
-    if (solid->shape == HAIR_SHAPE_PLANE || (solid->shape == HAIR_SHAPE_FORM && !solid->form)) return;
-    hair_solid_extent(solid, &middle, &half);
+        {(double)collider->position[0], (double)collider->position[1], (double)collider->position[2]}, turn};
+    if (collider->shape == HAIR_SHAPE_PLANE || (collider->shape == HAIR_SHAPE_MESH && !collider->mesh))
+        return;
+    hair_collider_extent(collider, &middle, &half);
     float least = fminf(half.x, fminf(half.y, half.z));
-    float radius = sqrtf(half.x * half.y * half.z / fmaxf(least, 1e-6f)) + solid->rounding;
+    float radius = sqrtf(half.x * half.y * half.z / fmaxf(least, 1e-6f)) + collider->rounding;
     if (!(radius > 0.01f && radius <= LARGEST)) return;
     hair_vec3 from = hair_add(hair_pose_offset(&at, head), hair_rotate(turn, middle));
     if (hair_dot(from, from) < 25) add_ball(params, from, radius); // Within 5 m.
@@ -109,8 +112,8 @@ static void write_balls(const struct hair_air* air, const struct hair_air_now* n
     if (!(now->wind->shelter > 0)) return;
     if (own->w > 0)
         add_ball(params, hair_rotate(now->head.rotation, hair_v3(own->x, own->y, own->z)), own->w);
-    for (uint32_t i = 0; i < now->solids->now.count; ++i)
-        add_solid(params, &now->solids->now.solid[i], &now->head);
+    for (uint32_t i = 0; i < now->colliders->now.count; ++i)
+        add_collider(params, &now->colliders->now.collider[i], &now->head);
 }
 
 // The rest ----------------------------------------------------------------------------------------
@@ -135,7 +138,7 @@ static void write_sources(const struct hair_air_now* now, struct hair_wind_param
 struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair_wind* wind,
                                           const struct hair_pose* head)
 {
-    double side = HAIR_GUST_LENGTHS * (double)wind->gust_length, at[3], place[3];
+    double side = HAIR_GUST_LENGTHS * (double)wind->turbulence_length, at[3], place[3];
     double r[9], x = (double)lie.x, y = (double)lie.y, z = (double)lie.z, w = (double)lie.w;
     double n = x * x + y * y + z * z + w * w, speed = 0;
     r[0] = 1 - 2 * (y * y + z * z) / n, r[1] = 2 * (x * y - w * z) / n, r[2] = 2 * (x * z + w * y) / n;
@@ -155,7 +158,7 @@ struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair
         .texture = air->gusts,
         .turn = {q.x, q.y, q.z, q.w},
         .from = {(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)},
-        .speed = air->gusts ? (float)(sqrt(speed) * (double)wind->gusts) : 0,
+        .speed = air->gusts ? (float)(sqrt(speed) * (double)wind->turbulence_intensity) : 0,
     };
 }
 

@@ -2,7 +2,7 @@
 #ifndef HAIR_WIND_AIR_H
 #define HAIR_WIND_AIR_H
 
-#include "lib/collide/solid.h"
+#include "lib/collide/collider.h"
 #include "lib/gl/gl.h"
 
 // State of the wind. Except `ball` and `moved`, all is 0 while there is no wind.
@@ -22,7 +22,7 @@ struct hair_air {
 struct hair_air_now {
     const hair_wind* wind;
     const hair_physics* physics;
-    const struct hair_solids* solids;
+    const struct hair_colliders* colliders;
     const struct hair_step_params* step;
     struct hair_pose head; // Head at the end of the dispatch.
     uint32_t substeps;

@@ -198,8 +198,9 @@ static hair_vec3 turn_between(const float before[4], const float now[4])
 
 static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint32_t i)
 {
-    const hair_solid *to = &now->solids->now.solid[i], *from = hair_solids_before(now->solids, i);
-    float rate = (float)(1 / now->solids_dt);
+    const hair_collider *to = &now->colliders->now.collider[i],
+                        *from = hair_colliders_before(now->colliders, i);
+    float rate = (float)(1 / now->colliders_dt);
     hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
     hair_vec3 speed = limited(hair_scale(moved, rate));
     hair_vec3 spin = limited(hair_scale(turn_between(from->rotation, to->rotation), rate));
@@ -210,22 +211,22 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
     return (struct hair_fluid_motion){{at.x, at.y, at.z, 0}, {spin.x, spin.y, spin.z, 0}};
 }
 
-hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
+hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t colliders)
 {
     const hair_host* host = &fluid->gl->host;
-    if (solids > MOST_MOVING) solids = MOST_MOVING;
-    if (solids <= fluid->room) return HAIR_OK;
-    struct hair_fluid_motion* motion = hair_alloc(host, solids, sizeof *motion);
-    if (!motion) return hair_fail_memory(host, "the velocities of solids");
+    if (colliders > MOST_MOVING) colliders = MOST_MOVING;
+    if (colliders <= fluid->room) return HAIR_OK;
+    struct hair_fluid_motion* motion = hair_alloc(host, colliders, sizeof *motion);
+    if (!motion) return hair_fail_memory(host, "the velocities of colliders");
     hair_result result =
-        hair_gl_resize(fluid->gl, "hair fluid motion", solids * sizeof *motion, motion, fluid->motion);
+        hair_gl_resize(fluid->gl, "hair fluid motion", colliders * sizeof *motion, motion, fluid->motion);
     if (result) {
         hair_free(host, motion);
         return result;
     }
     hair_free(host, fluid->motion_of);
     fluid->motion_of = motion;
-    fluid->room = solids;
+    fluid->room = colliders;
     fluid->moving = 0;
     return HAIR_OK;
 }
@@ -234,7 +235,7 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids)
 static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     static const struct hair_fluid_motion still;
-    uint32_t count = now->solids_dt > 0 ? now->solids->now.count : 0;
+    uint32_t count = now->colliders_dt > 0 ? now->colliders->now.count : 0;
     int moved = fluid->moving;
     fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
@@ -264,13 +265,13 @@ static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now
 }
 
 static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
-                      const struct hair_solid_field* field)
+                      const struct hair_collider_field* field)
 {
     const struct hair_fluid_params* made = &fluid->made_for;
     return !memcmp(&made->lower, &params->lower, sizeof params->lower) &&
            !memcmp(&made->rotation, &params->rotation, sizeof params->rotation) &&
-           made->solids == params->solids && made->cells == params->cells && !fluid->moving &&
-           (!params->solids || fluid->writes == field->writes);
+           made->colliders == params->colliders && made->cells == params->cells && !fluid->moving &&
+           (!params->colliders || fluid->writes == field->writes);
 }
 
 // Return the metres of strands in a cubic metre for a unit of mass at a node.
@@ -298,7 +299,7 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
         .gust_turn = now->gusts.turn,
         .gust_from = now->gusts.from,
         .cells = fluid->desc.cells,
-        .solids = now->field && hair_field_is_near(now->field),
+        .colliders = now->field && hair_field_is_near(now->field),
         .open = !fluid->desc.closed,
         .nodes = hair_fluid_nodes(fluid),
         .thick = thickness(fluid, now),
@@ -313,7 +314,7 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
     if (!fluid->made_for.cells) {
         hair_fluid_open(fluid, now);
         fluid->made_for = params;
-        fluid->writes = params.solids ? now->field->writes : 0;
+        fluid->writes = params.colliders ? now->field->writes : 0;
     }
 }
 

@@ -10,7 +10,7 @@
 #ifndef HAIR_WIND_FLUID_H
 #define HAIR_WIND_FLUID_H
 
-#include "lib/collide/solid.h"
+#include "lib/collide/collider.h"
 #include "lib/field/field.h"
 #include "lib/gl/gl.h"
 #include "lib/wind/air.h"
@@ -76,7 +76,7 @@ struct hair_fluid {
     uint32_t room;
     int moving; // Nonzero if a collider moved in the last step.
     struct hair_fluid_params made_for; // Parameters that the openness of faces was computed for.
-    uint32_t writes; // Value of hair_solid_field.writes that it was computed for.
+    uint32_t writes; // Value of hair_collider_field.writes that it was computed for.
 };
 
 // Hair in a step, if the fluid couples to hair.
@@ -94,9 +94,9 @@ struct hair_fluid_now {
     struct hair_air_gusts gusts; // Gusts at the start of the step.
     struct hair_fluid_strands strands;
     double dt; // Duration of the step, in s.
-    const struct hair_solid_field* field;
-    const struct hair_solids* solids; // Colliders, which move from `before` to `now`.
-    double solids_dt; // Duration of their motion, in s.
+    const struct hair_collider_field* field;
+    const struct hair_colliders* colliders; // Colliders, which move from `before` to `now`.
+    double colliders_dt; // Duration of their motion, in s.
 };
 
 hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous);
@@ -106,8 +106,8 @@ hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc);
 void hair_fluid_destroy(struct hair_fluid* fluid);
 
-// Make room for the velocities of `solids` colliders, before a step that has them.
-hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t solids);
+// Make room for the velocities of `colliders` colliders, before a step that has them.
+hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t colliders);
 void hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now);
 
 // Run the first half of a step. The grid of hair, which spans the box along the world's axes, is

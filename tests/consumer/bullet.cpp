@@ -19,10 +19,10 @@ int main()
     if (hair_bullet_create(nullptr, sizeof(btScalar), &bullet)) return 1;
     const float lower[] = {0, 0, 0}, upper[] = {2, 2, 2};
     uint32_t count = 0;
-    hair_bullet_begin(bullet);
-    hair_bullet_take_world(bullet, &world, lower, upper, -1);
-    const hair_solid* solids = hair_bullet_solids(bullet, &count);
-    std::printf("%u solid, of shape %d\n", count, count ? static_cast<int>(solids[0].shape) : -1);
+    hair_bullet_clear(bullet);
+    hair_bullet_add_world(bullet, &world, lower, upper, -1);
+    const hair_collider* colliders = hair_bullet_colliders(bullet, &count);
+    std::printf("%u collider, of shape %d\n", count, count ? static_cast<int>(colliders[0].shape) : -1);
     hair_bullet_destroy(bullet);
     world.removeCollisionObject(&object);
     return count != 1;

@@ -30,7 +30,7 @@ int main(void)
     for (int frame = 0; frame < 60; ++frame)
         if (hair_step(hair, 1.0f / 60)) return 1; // A game calls hair_draw(hair, &view) here.
 
-    if (hair_read(hair, HAIR_READ_GUIDES, vertices, 64, &count)) return 1;
+    if (hair_read_positions(hair, HAIR_READ_GUIDES, vertices, 64, &count)) return 1;
     const float* tip = vertices + 3 * (count - 1);
     printf("the tip is at (%.3f, %.3f, %.3f) m\n", (double)tip[0], (double)tip[1], (double)tip[2]);
     hair_destroy(hair), hair_groom_destroy(groom), hair_context_destroy(context), hair_egl_destroy(egl);

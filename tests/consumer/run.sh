@@ -44,7 +44,7 @@ case $shared in
 *"-L$prefix/usr/lib"*) ;;
 *) fail "pkg-config says \"$shared\"" ;;
 esac
-pkg-config --exists "hair >= 0.1" || fail "hair.pc has no version"
+pkg-config --exists "hair >= 0.2" || fail "hair.pc has no version"
 [ "$(pkg-config --modversion hair)" = "$(pkg-config --modversion hair_egl)" ] || fail "two versions are installed"
 
 for standard in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++" "$CXX -std=c++17 -x c++" "$CXX -std=c++20 -x c++"; do
@@ -66,7 +66,7 @@ if pkg-config --exists hair_bullet; then
         # shellcheck disable=SC2086
         $CXX -std=c++11 $OPT "$here/bullet.cpp" $linking -o "$out/bullet" || fail "bullet.cpp does not build"
         output=$(ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH="$prefix/usr/lib" "$out/bullet") || fail "bullet.cpp does not run"
-        [ "$output" = "1 solid, of shape 2" ] || fail "bullet.cpp printed \"$output\""
+        [ "$output" = "1 collider, of shape 2" ] || fail "bullet.cpp printed \"$output\""
     done
     echo "consumer: bullet: $output"
 fi

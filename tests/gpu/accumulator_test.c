@@ -27,8 +27,9 @@ static hair_instance* make(struct hair_test* test, hair_groom* groom, int way)
 
 static void read(struct hair_test* test, hair_instance* hair, struct strands* out)
 {
-    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, out->guides, MOST, &out->guide_vertices));
-    hair_test_ok(test, hair_read(hair, HAIR_READ_SMOOTH, out->smooth, 2 * MOST, &out->smooth_vertices));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, out->guides, MOST, &out->guide_vertices));
+    hair_test_ok(test,
+                 hair_read_positions(hair, HAIR_READ_SMOOTH, out->smooth, 2 * MOST, &out->smooth_vertices));
     assert_in_range(out->guide_vertices, 1, MOST);
     assert_in_range(out->smooth_vertices, 1, 2 * MOST);
 }

@@ -18,7 +18,7 @@ static struct hair_test_living start(void** state)
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
     struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0.1f, 0), hair_v3(0, 1, 0), 0.2f);
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
     hair_test_live(*state, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     return living;
@@ -95,10 +95,10 @@ static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
     for (int model = 0; model < 2; ++model) {
         struct hair_test_living living = start(state);
         hair_wind wind = hair_wind_default();
-        hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0.175f, 0);
+        hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0.175f, 0);
         ball.size[0] = 0.03f;
         wind.model = (hair_wind_model)model, wind.velocity[0] = SPEED;
-        hair_test_set_solids(&living, &ball, 1);
+        hair_test_set_colliders(&living, &ball, 1);
         hair_test_blow(&living, &wind);
         hair_test_wait(&living, model ? 12 : 1);
         look(&living, HAIR_SLICE_Z, &picture);

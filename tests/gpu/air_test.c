@@ -12,7 +12,7 @@
 
 #define STEP (1.0 / 270) // Four substeps.
 
-// Free strands of two vertices, 2 mm long, which damping ties to the air.
+// Free strands of two vertices, 2 mm long, which damping pins to the air.
 static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* at, uint32_t count)
 {
     struct hair_test_living living;
@@ -21,7 +21,8 @@ static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* 
     for (uint32_t i = 0; i < count; ++i) hair_test_add_straight(&strands, 2, at[i], hair_v3(0, 1, 0), 2e-3f);
     physics.gravity[1] = 0, physics.damping = 1000, physics.drag = 0;
     physics.root = HAIR_ROOT_FREE;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, 1.0 / 1080, &physics);
+    hair_desc desc =
+        hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1080, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     living.hair->sim.air.ball.w = 0; // As if roots said nothing of a head.
@@ -58,7 +59,7 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
     uint32_t random = 1;
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 4, wind.velocity[2] = 3;
-    wind.gusts = 0.3f, wind.gust_length = 0.5f;
+    wind.turbulence_intensity = 0.3f, wind.turbulence_length = 0.5f;
     for (int i = 0; i < COUNT; ++i) // By pairs, which are a tenth of the length apart.
         at[i] =
             i % 2 ? hair_add(at[i - 1], hair_v3(0.05f, 0, 0))
@@ -102,7 +103,7 @@ static void gusts_go_with_the_wind(void** state)
     struct hair_test_living living = tracers(*state, &origin, 1);
     hair_wind wind = hair_wind_default();
     double start[3], end[3], world[3] = {0.3, 0.1, -0.2};
-    wind.gusts = 0.2f;
+    wind.turbulence_intensity = 0.2f;
     wind.velocity[0] = 2, wind.velocity[1] = -1;
     hair_test_blow(&living, &wind);
     hair_test_advance(&living, NULL, STEP);
@@ -126,11 +127,11 @@ static void a_ball_shelters_what_is_behind_it(void** state)
                             {0, 0, 0.11f},   {0, 0, 0.2f},  {0, 0, 0.5f}, {0.4f, 0, 0.3f}};
     struct hair_test_living living = tracers(*state, at, 8);
     hair_wind wind = hair_wind_default();
-    hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
+    hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
     double share[8];
     ball.size[0] = 0.1f;
     wind.velocity[2] = 1;
-    hair_test_set_solids(&living, &ball, 1);
+    hair_test_set_colliders(&living, &ball, 1);
     hair_test_blow(&living, &wind);
     measure(&living);
     for (uint32_t i = 0; i < 8; ++i) {
@@ -251,7 +252,7 @@ static void gusts_go_on_from_a_saved_state(void** state)
     const hair_vec3 at[] = {{0, 0, 0}, {1, 0.5f, 0}};
     struct hair_test_living first = tracers(*state, at, 2), second = tracers(*state, at, 2);
     hair_wind wind = hair_wind_default();
-    wind.velocity[0] = 3, wind.gusts = 0.5f;
+    wind.velocity[0] = 3, wind.turbulence_intensity = 0.5f;
     hair_test_blow(&first, &wind);
     hair_test_wait(&first, 7);
     struct hair_test_blob blob = hair_test_save(*state, first.hair);

@@ -1,4 +1,4 @@
-// blow_test.c - hair in air that flows round solids: sheltered behind a ball, alike at any frame rate, and with nothing of
+// blow_test.c - hair in air that flows round colliders: sheltered behind a ball, alike at any frame rate, and with nothing of
 // it left where it is off.
 #include "tests/support/living.h"
 #include "tests/support/passes.h"
@@ -31,12 +31,12 @@ static void begin(struct hair_test* test, hair_solver solver, struct hair_test_l
     struct hair_test_strands strands = hair_test_strands_make(5, VERTICES);
     for (int i = 0; i < 5; ++i)
         hair_test_add_straight(&strands, VERTICES, roots[i], hair_v3(0, i < 4 ? -1 : 1, 0), 0.1f);
-    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_live(test, &strands, &desc, living);
     hair_test_strands_free(&strands);
-    hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
+    hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
     ball.size[0] = 0.1f;
-    hair_test_set_solids(living, &ball, 1);
+    hair_test_set_colliders(living, &ball, 1);
 }
 
 static uint32_t runs(const struct hair_test_living* living)
@@ -142,7 +142,7 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
         wind.velocity[1] = i % 5 == 2 ? -1000 : 0;
         wind.resolution = i % 7 ? 16 : 32;
         wind.projection = i % 6 ? HAIR_PROJECTION_MULTIGRID : HAIR_PROJECTION_JACOBI;
-        wind.cycles = i % 6 ? 0 : 1;
+        wind.projection_iterations = i % 6 ? 0 : 1;
         hair_test_blow(&living, i % 2 ? &wind : NULL);
         hair_test_advance(&living, NULL, i % 3 == 0 ? 0.1 : i % 3 == 1 ? 1e-4 : 1.0 / 60);
         hair_test_read_guides(&living);
@@ -158,7 +158,7 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
     hair_test_wait(&living, 5);
     hair_test_read_guides(&living);
     assert_true(hair_test_moved(&living) < 0.03);
-    assert_int_equal(hair_test_health(&living).reset, 0);
+    assert_int_equal(hair_test_solver_stats(&living).reset, 0);
     hair_test_die(&living);
 }
 

@@ -76,11 +76,11 @@ static struct fixture* start(void** state)
         f->map[i] = make_map(1);
         f->view.ambient[i % 3] = 0;
         f->light[i] = hair_light_default();
-        f->light[i].to[0] = f->light[i].to[1] = 0, f->light[i].to[2] = 1;
-        f->light[i].body_bias = BIAS;
+        f->light[i].direction[0] = f->light[i].direction[1] = 0, f->light[i].direction[2] = 1;
+        f->light[i].opaque_bias = BIAS;
         look_down(f->light[i].shadow_matrix);
     }
-    f->light[0].shadow_texture = f->open;
+    f->light[0].hair_shadow_map = f->open;
     return f;
 }
 
@@ -104,10 +104,10 @@ static void shade_by(struct fixture* f, const char* glsl)
     f->view.shader = f->shader;
 }
 
-static void set_look(struct fixture* f, hair_shadow shadow, hair_shading shading)
+static void set_look(struct fixture* f, hair_self_shadow shadow, hair_shading shading)
 {
     hair_look look = f->hair->draw.look;
-    look.shadow = shadow, look.shading = shading;
+    look.self_shadow = shadow, look.shading = shading;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
 }
 
@@ -139,12 +139,12 @@ static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
     for (int i = 0; i < 4; ++i) {
         struct fixture* f = start(state);
         uint32_t dark = 0, lit = 0;
-        set_look(f, i % 2 ? HAIR_SHADOW_STRANDS : HAIR_SHADOW_DEPTH,
+        set_look(f, i % 2 ? HAIR_SELF_SHADOW_STRANDS : HAIR_SELF_SHADOW_DEPTH,
                  i / 2 ? HAIR_SHADING_LINES : HAIR_SHADING_FIBRES);
         draw(f, 1);
         memcpy(open, f->pixels, sizeof open);
         put_plate(f->map[0], 0, TEXELS / 2, 0.25f);
-        f->light[0].body_texture = f->map[0];
+        f->light[0].opaque_shadow_map = f->map[0];
         draw(f, 1);
         for (int p = 0; p < SIZE * SIZE; ++p) {
             const float *now = f->pixels + 4 * p, *was = open + 4 * p;
@@ -169,11 +169,11 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
         double sum[2] = {0}, most = 0, least = 1;
         uint32_t count[2] = {0};
         shade_by(f, through_glsl);
-        set_look(f, (hair_shadow)shadow, HAIR_SHADING_FIBRES);
+        set_look(f, (hair_self_shadow)shadow, HAIR_SHADING_FIBRES);
         put_plate(f->map[0], 0, TEXELS, (1 - PLATE) / 2);
         for (int body = 0; body < 2; ++body) {
-            f->light[0].shadow_texture = body ? f->open : f->map[0];
-            f->light[0].body_texture = body ? f->map[0] : 0;
+            f->light[0].hair_shadow_map = body ? f->open : f->map[0];
+            f->light[0].opaque_shadow_map = body ? f->map[0] : 0;
             draw(f, 1);
             for (int p = 0; p < SIZE * SIZE; ++p) {
                 const float* pixel = f->pixels + 4 * p;
@@ -189,7 +189,7 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
         assert_true(count[0] > 20 && count[1] > 20);
         hair_test_near("beyond the bias", 0, most, 0, 0);
         assert_true(least > 0.5); // Of what hair lets through, all.
-        if (shadow == HAIR_SHADOW_DEPTH) hair_test_near("as hair", 0, sum[0] / count[0], exp(-1), 0.06);
+        if (shadow == HAIR_SELF_SHADOW_DEPTH) hair_test_near("as hair", 0, sum[0] / count[0], exp(-1), 0.06);
         finish(f);
     }
 }
@@ -199,10 +199,10 @@ static void every_light_has_bodies_of_its_own(void** state)
     struct fixture* f = start(state);
     uint32_t held[4] = {0};
     shade_by(f, lights_glsl);
-    f->light[0].shadow_texture = 0; // A light may have either map, both or none.
-    f->light[2].shadow_texture = f->open;
+    f->light[0].hair_shadow_map = 0; // A light may have either map, both or none.
+    f->light[2].hair_shadow_map = f->open;
     for (int i = 0; i < 4; ++i) {
-        f->light[i].body_texture = i == 1 ? 0 : f->map[i];
+        f->light[i].opaque_shadow_map = i == 1 ? 0 : f->map[i];
         put_plate(f->map[i], 16 * i, 16 * (i + 1), 0);
     }
     draw(f, 4);
@@ -241,12 +241,12 @@ static void maps_may_be_in_perspective(void** state)
         struct fixture* f = start(state);
         uint32_t dark = 0, lit = 0;
         shade_by(f, through_glsl);
-        set_look(f, (hair_shadow)shadow, HAIR_SHADING_FIBRES);
+        set_look(f, (hair_self_shadow)shadow, HAIR_SHADING_FIBRES);
         look_from_lamp(&f->light[0]);
         const float* m = f->light[0].shadow_matrix;
         float clip = m[10] * PLATE + m[14], depth = 0.5f + 0.5f * clip / (1 - PLATE);
         put_plate(f->map[0], 0, 30, depth);
-        f->light[0].body_texture = f->map[0];
+        f->light[0].opaque_shadow_map = f->map[0];
         draw(f, 1);
         for (int p = 0; p < SIZE * SIZE; ++p) {
             const float* pixel = f->pixels + 4 * p;
@@ -258,16 +258,16 @@ static void maps_may_be_in_perspective(void** state)
                 hair_test_near("behind", (size_t)p, (double)pixel[0], 0, 0);
                 ++dark;
             } else {
-                assert_true(shadow == HAIR_SHADOW_STRANDS ? pixel[0] > 0.2f : pixel[0] > 0.9999f);
+                assert_true(shadow == HAIR_SELF_SHADOW_STRANDS ? pixel[0] > 0.2f : pixel[0] > 0.9999f);
                 ++lit;
             }
         }
         print_message("    %u pixels behind it, %u beside and before it\n", dark, lit);
         assert_true(dark > 100 && lit > 100);
-        f->light[0].body_texture = 0, f->light[0].shadow_texture = f->map[0];
+        f->light[0].opaque_shadow_map = 0, f->light[0].hair_shadow_map = f->map[0];
         put_plate(f->map[0], 0, TEXELS, depth);
         draw(f, 1);
-        for (int p = 0; p < SIZE * SIZE && shadow == HAIR_SHADOW_DEPTH; ++p) {
+        for (int p = 0; p < SIZE * SIZE && shadow == HAIR_SELF_SHADOW_DEPTH; ++p) {
             const float* pixel = f->pixels + 4 * p;
             double x = (double)pixel[1] - 1, z = (double)pixel[3] - 1, reach = 1 - z;
             double behind = ((double)PLATE - z) * hypot(hypot(x, (double)pixel[2] - 1), reach) / reach;
@@ -281,7 +281,7 @@ static void maps_may_be_in_perspective(void** state)
 static uint32_t count_passes(const struct fixture* f, const char* words)
 {
     hair_timing timing[128];
-    uint32_t count = hair_timings(f->test->context, timing, 128), found = 0;
+    uint32_t count = hair_get_timings(f->test->context, timing, 128), found = 0;
     for (uint32_t i = 0; i < count && i < 128; ++i) found += strstr(timing[i].pass, words) != NULL;
     return found;
 }
@@ -291,11 +291,11 @@ static void without_bodies_no_program_knows_of_them(void** state)
     struct fixture* f = start(state);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
     uint32_t known = count_passes(f, "blocked");
-    f->view.path = HAIR_PATH_EXPANDED;
+    f->view.render_path = HAIR_RENDER_PATH_CACHED;
     draw(f, 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
     assert_int_equal(count_passes(f, "blocked"), known);
-    f->light[0].body_texture = f->map[0];
+    f->light[0].opaque_shadow_map = f->map[0];
     draw(f, 1);
     assert_int_equal(count_passes(f, "blocked"), known + 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
@@ -319,8 +319,8 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
         hair_light* light = &f->light[0];
         light->kind = HAIR_LIGHT_DIRECTIONAL;
         look_down(light->shadow_matrix);
-        light->body_texture = odd[i % 3];
-        light->body_bias = i % 2 ? 1.0f : 0.0f;
+        light->opaque_shadow_map = odd[i % 3];
+        light->opaque_bias = i % 2 ? 1.0f : 0.0f;
         switch (i / 3) {
         case 1: light->shadow_matrix[0] = light->shadow_matrix[13] = 3e38f; break;
         case 2: memset(light->shadow_matrix, 0, 15 * sizeof(float)); break;
@@ -331,7 +331,7 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
         case 5: look_from_lamp(light), light->shadow_matrix[14] = -3e38f; break;
         default: break;
         }
-        set_look(f, i % 2 ? HAIR_SHADOW_STRANDS : HAIR_SHADOW_DEPTH, HAIR_SHADING_FIBRES);
+        set_look(f, i % 2 ? HAIR_SELF_SHADOW_STRANDS : HAIR_SELF_SHADOW_DEPTH, HAIR_SHADING_FIBRES);
         draw(f, 1);
         for (int p = 0; p < 4 * SIZE * SIZE; ++p)
             if (!(f->pixels[p] >= 0 && f->pixels[p] <= 65504))
@@ -346,14 +346,14 @@ static void what_is_no_map_of_a_light_is_refused(void** state)
     struct fixture* f = start(state);
     float* m = f->light[0].shadow_matrix;
     f->view.lights = f->light;
-    f->light[0].body_texture = 4711;
+    f->light[0].opaque_shadow_map = 4711;
     hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
-                      "hair_view.lights[0].body_texture is 4711, not a 2D texture");
-    f->light[0].body_texture = f->map[0];
-    f->light[0].body_bias = 2;
+                      "hair_view.lights[0].opaque_shadow_map is 4711, not a 2D texture");
+    f->light[0].opaque_shadow_map = f->map[0];
+    f->light[0].opaque_bias = 2;
     hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
-                      "hair_light.body_bias is 2, not in [0, 1]");
-    f->light[0].body_bias = 0;
+                      "hair_light.opaque_bias is 2, not in [0, 1]");
+    f->light[0].opaque_bias = 0;
     look_from_lamp(&f->light[0]);
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     for (int i = 0; i < 3; ++i) {

@@ -44,13 +44,14 @@ static const struct wound wounds[] = {
 #define WOUNDS (sizeof wounds / sizeof *wounds)
 #define HURT 3 // guide
 
-static hair_instance* make(struct hair_test* test, const hair_groom* groom, int way, uint32_t solids)
+static hair_instance* make(struct hair_test* test, const hair_groom* groom, int way, uint32_t colliders)
 {
     hair_instance* hair = NULL;
     hair_desc desc = hair_test_way(way);
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.02f, 0, 0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0.02f, 0, 0}, {0, 0, 0, 1},
+                              {0.1f, 0},         .scale = 1,    .friction = 1};
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    hair_test_ok(test, hair_set_solids(hair, &solid, solids, sizeof solid));
+    hair_test_ok(test, hair_set_colliders(hair, &collider, colliders, sizeof collider));
     return hair;
 }
 
@@ -68,11 +69,11 @@ static void read(hair_instance* hair, struct hair_state state[MOST])
                             state);
 }
 
-static hair_health health_of(struct hair_test* test, hair_instance* hair)
+static hair_solver_stats solver_stats_of(struct hair_test* test, hair_instance* hair)
 {
-    hair_health health = hair_health_default();
-    hair_test_ok(test, hair_get_health(hair, &health));
-    return health;
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    hair_test_ok(test, hair_get_solver_stats(hair, &solver_stats));
+    return solver_stats;
 }
 
 static void check_finite(GLuint buffer, const struct wound* wound)
@@ -89,14 +90,14 @@ static void check_finite(GLuint buffer, const struct wound* wound)
 
 // `value` becomes part of the guide; the others move on like those of an instance that was left alone, and it is
 // finite again after a step.
-static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, uint32_t solids,
+static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, uint32_t colliders,
                      const struct wound* wound, float value)
 {
     static struct hair_state sound[MOST], hurt[MOST];
     const struct hair_guide* guide = &groom->guides[HURT];
     hair_instance* hair[2];
     for (int i = 0; i < 2; ++i) {
-        hair[i] = make(test, groom, way, solids);
+        hair[i] = make(test, groom, way, colliders);
         for (int k = 0; k < 2; ++k) step(test, hair[i], k);
     }
     GLuint buffer = wound->buffer(&hair[1]->sim);
@@ -119,12 +120,12 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
                 assert_memory_equal(&hurt[v], &sound[v], sizeof *hurt);
         }
     }
-    hair_health before = health_of(test, hair[0]), after = health_of(test, hair[1]);
+    hair_solver_stats before = solver_stats_of(test, hair[0]), after = solver_stats_of(test, hair[1]);
     uint32_t resets = after.reset - before.reset;
     if (wound->rests && resets != 1) fail_msg("%s: %u resets", wound->name, resets);
-    if (resets > 1 || after.follow > before.follow + 2)
+    if (resets > 1 || after.follow_fallbacks > before.follow_fallbacks + 2)
         fail_msg("%s of %g: reset %u times, redone %u times", wound->name, (double)value, resets,
-                 after.follow - before.follow);
+                 after.follow_fallbacks - before.follow_fallbacks);
     for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
 }
 
@@ -136,10 +137,10 @@ static void what_is_not_finite_goes_back_to_rest_alone_and_is_counted(void** sta
     hair_groom* groom = hair_test_groom(&test->host.host, wanted);
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         print_message("    %s\n", hair_test_way_name(way));
-        for (uint32_t solids = 0; solids < 2; ++solids)
+        for (uint32_t colliders = 0; colliders < 2; ++colliders)
             for (size_t w = 0; w < WOUNDS; ++w)
                 for (size_t n = w % 2; n < sizeof bad / sizeof *bad; n += 2)
-                    hurt_one(test, groom, way, solids, &wounds[w], bad[n]);
+                    hurt_one(test, groom, way, colliders, &wounds[w], bad[n]);
     }
     hair_groom_destroy(groom);
 }

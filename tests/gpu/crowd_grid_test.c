@@ -144,7 +144,7 @@ static void the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair(void** 
     struct hair_test_living living;
     hair_physics physics = hair_test_only_crowd(5, 0.1f);
     uint32_t random = 3;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
     struct hair_state* at = scatter(&living, 0.3f, 20, &random);
     struct grids g = find(&living, at);
@@ -212,7 +212,7 @@ static void accelerations_are_those_of_the_twin_in_double_precision(void** state
     struct hair_test_living living;
     hair_physics physics = hair_test_only_crowd(5, 0.02f);
     uint32_t random = 4;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
     struct hair_state* at = scatter(&living, 0.05f, 1, &random);
     struct grids g = find(&living, at);
@@ -234,7 +234,7 @@ static void accelerations_are_those_of_the_twin_in_double_precision(void** state
             rigid(sum, r, u);
             for (int a = 0; a < 3; ++a) {
                 pull[a] += rate * (double)HAIR_CROWD_SPEED * weight * company * (u[a] - seat.speed[a]);
-                press[a] += 6 * (double)physics.volume / (double)g.crowd.cell * weight * over *
+                press[a] += 6 * (double)physics.pressure_stiffness / (double)g.crowd.cell * weight * over *
                             (r[a] - sum[HAIR_CROWD_MOMENT + a] / sum[0]);
             }
         }
@@ -259,7 +259,7 @@ static struct one_sided one_sided(struct hair_test* test, float cohesion, float 
     struct hair_test_living living;
     hair_physics physics = hair_test_only_crowd(cohesion, volume);
     uint32_t random = 5;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, &living);
     struct hair_state* at = scatter(&living, 0.05f, 1, &random);
     struct grids g = find(&living, at);

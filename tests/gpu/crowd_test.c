@@ -15,7 +15,7 @@ static double slowing(struct hair_test* test, hair_solver solver, double time, f
     struct hair_test_living living;
     hair_physics physics = hair_test_only_crowd(cohesion, 0);
     physics.root = HAIR_ROOT_FREE;
-    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.01f, &living);
     struct hair_sim* sim = &living.hair->sim;
     struct hair_state* at = hair_test_buffer(sim->state, living.vertices * sizeof *at);
@@ -60,10 +60,10 @@ static double spread(struct hair_test* test, float volume)
 {
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
-    hair_solid wall[2] = {hair_solid_default()};
-    physics.pull_root = physics.pull_tip = 0;
-    physics.volume = volume;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_collider wall[2] = {hair_collider_default()};
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.pressure_stiffness = volume;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, &living);
     // Two walls that leave half of the width.
     wall[0].size[0] = 1;
@@ -71,7 +71,7 @@ static double spread(struct hair_test* test, float volume)
     wall[0].position[0] = -0.99f, wall[1].position[0] = 1.03f;
     wall[0].position[1] = wall[1].position[1] = -0.08f;
     wall[0].position[2] = wall[1].position[2] = 0.02f;
-    hair_test_ok(test, hair_set_solids(living.hair, wall, 2, sizeof *wall));
+    hair_test_ok(test, hair_set_colliders(living.hair, wall, 2, sizeof *wall));
     hair_test_wait(&living, 90);
     hair_test_read_guides(&living);
     double sum = 0, mean[3] = {0}, guides = living.groom->info.guide_count;
@@ -100,8 +100,8 @@ static void a_groom_at_rest_does_not_press(void** state)
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
     physics.cohesion = 10;
-    physics.volume = 1;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    physics.pressure_stiffness = 1;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(*state, &desc, 0.04f, &living);
     hair_test_wait(&living, 30);
     hair_test_read_guides(&living);
@@ -111,13 +111,13 @@ static void a_groom_at_rest_does_not_press(void** state)
 
 // Clamped hair that falls, and swings.
 static void swing(struct hair_test_living* living, struct hair_test* test, hair_solver solver,
-                  hair_mapping mapping)
+                  hair_thread_mapping mapping)
 {
     hair_physics physics = hair_physics_default();
-    physics.pull_root = physics.pull_tip = 0;
-    physics.hold = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.gravity_preload = 0;
     physics.cohesion = 8;
-    physics.volume = 0.2f;
+    physics.pressure_stiffness = 0.2f;
     physics.gravity[0] = 7;
     hair_desc desc = hair_test_rods(solver, mapping, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, living);
@@ -140,8 +140,8 @@ static void a_strand_by_itself_feels_nothing(void** state)
         struct hair_test_strands strand = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(2, -1, 1), 0.2f);
         hair_physics physics = hair_test_bare();
         physics.cohesion = on ? 20.0f : 0;
-        physics.volume = on ? 1.0f : 0;
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        physics.pressure_stiffness = on ? 1.0f : 0;
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strand, &desc, &living[on]);
         hair_test_strands_free(&strand);
     }
@@ -166,11 +166,11 @@ static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
     static const float bad[] = {NAN, INFINITY, -3e38f};
     struct hair_test_living sound, hurt;
     double most = 0;
-    swing(&sound, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
+    swing(&sound, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
     hair_test_wait(&sound, 20);
     hair_test_read_guides(&sound);
     for (int n = 0; n < 9; ++n) {
-        swing(&hurt, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
+        swing(&hurt, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
         hair_test_wait(&hurt, 18);
         struct hair_sim* sim = &hurt.hair->sim;
         GLintptr one = 7 * HAIR_TEST_CROWD_VERTICES + 5;
@@ -180,7 +180,7 @@ static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
         glNamedBufferSubData(at[n / 3], 32 * one + byte[n / 3], sizeof *bad, &bad[n % 3]);
         hair_test_wait(&hurt, 2);
         hair_test_read_guides(&hurt);
-        assert_in_range(hair_test_health(&hurt).reset, 0, 1);
+        assert_in_range(hair_test_solver_stats(&hurt).reset, 0, 1);
         for (uint32_t i = 0; i < hurt.vertices; ++i) {
             hair_vec3 a = hair_load3(hurt.positions + 3 * i), b = hair_load3(sound.positions + 3 * i);
             if (i / HAIR_TEST_CROWD_VERTICES != 7) most = fmax(most, (double)hair_length(hair_sub(a, b)));
@@ -198,7 +198,7 @@ static struct hair_test_subject moving(hair_solver solver, float cohesion, float
     subject.desc.solver = solver;
     subject.desc.substep = 0;
     subject.physics.cohesion = cohesion;
-    subject.physics.volume = volume;
+    subject.physics.pressure_stiffness = volume;
     return subject;
 }
 
@@ -215,10 +215,11 @@ static void the_same_inputs_give_the_same_bits(void** state)
 {
     static struct hair_test_seen a, b;
     for (int solver = 0; solver <= HAIR_SOLVER_FOLLOW; ++solver)
-        for (int mapping = solver == HAIR_SOLVER_DIRECT ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
-             mapping <= HAIR_MAPPING_THREAD; ++mapping) {
+        for (int mapping = solver == HAIR_SOLVER_DIRECT ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE
+                                                        : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
+             mapping <= HAIR_THREAD_MAPPING_THREAD_PER_GUIDE; ++mapping) {
             struct hair_test_subject subject = moving((hair_solver)solver, 10, 0.3f);
-            subject.desc.mapping = (hair_mapping)mapping;
+            subject.desc.thread_mapping = (hair_thread_mapping)mapping;
             run(*state, &subject, &a);
             run(*state, &subject, &b);
             hair_test_same(&a, &b);
@@ -238,18 +239,18 @@ static void motion_depends_neither_on_the_frame_rate_nor_on_the_mapping(void** s
 {
     static const int per[] = {1, 2, 4, 5}; // frames of 1/60 s cut in as many: 4 and 5 cut blocks
     struct hair_test_living once, other;
-    swing(&once, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
+    swing(&once, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
     hair_test_wait(&once, 40);
     hair_test_read_guides(&once);
     assert_true(hair_test_moved(&once) > 0.01);
     for (size_t k = 1; k < sizeof per / sizeof *per; ++k) {
-        swing(&other, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_THREAD);
+        swing(&other, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
         for (int i = 0; i < 40 * per[k]; ++i) hair_test_advance(&other, NULL, 1.0 / 60 / per[k]);
         hair_test_read_guides(&other);
         hair_test_near("frames", k, apart(&once, &other), 0, 1e-6);
         hair_test_die(&other);
     }
-    swing(&other, *state, HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP);
+    swing(&other, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE);
     hair_test_wait(&other, 40);
     hair_test_read_guides(&other);
     print_message("    a group and a thread per guide: %.1e m apart\n", apart(&once, &other));
@@ -261,8 +262,8 @@ static void motion_depends_neither_on_the_frame_rate_nor_on_the_mapping(void** s
 static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state)
 {
     struct hair_test_living straight, loaded;
-    swing(&straight, *state, HAIR_SOLVER_ACCURATE, HAIR_MAPPING_THREAD);
-    swing(&loaded, *state, HAIR_SOLVER_ACCURATE, HAIR_MAPPING_THREAD);
+    swing(&straight, *state, HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
+    swing(&loaded, *state, HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
     for (int i = 0; i < 10; ++i) hair_test_advance(&straight, NULL, 1.0 / 144);
     assert_int_not_equal(straight.hair->sim.crowd.beat, 0);
     struct hair_test_blob blob = hair_test_save(*state, straight.hair);
@@ -275,8 +276,8 @@ static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state
     // An instance without a crowd goes on without.
     hair_physics off = straight.physics;
     hair_test_die(&loaded);
-    off.cohesion = off.volume = 0;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_THREAD, 0, &off);
+    off.cohesion = off.pressure_stiffness = 0;
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, &off);
     hair_test_crowd(*state, &desc, 0.04f, &loaded);
     hair_test_ok(*state, hair_load(loaded.hair, blob.bytes, blob.size));
     assert_int_equal(loaded.hair->sim.crowd.beat, 0);

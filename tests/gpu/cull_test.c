@@ -115,7 +115,7 @@ static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void*
     hair_view view = hair_view_default();
     const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
     hair_test_ok(f.test, hair_teleport(f.hair, head));
-    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, at, MOST, &count));
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, at, MOST, &count));
     assert_in_range(count, 100, MOST);
     for (int i = 0; i < 800; ++i) {
         float away = i % 5 ? 1.5f : 0.2f;
@@ -197,7 +197,7 @@ static void what_has_not_changed_is_not_listed_again(void** state)
     hair_view view = hair_view_default();
     hair_lod lod = hair_lod_default();
     hair_look look = f.hair->draw.look;
-    view.path = HAIR_PATH_INSTANCED;
+    view.render_path = HAIR_RENDER_PATH_INSTANCED;
     lod.strand_pixels = 4;
     project(0, view.projection);
     for (int i = 0; i < 10; ++i) {
@@ -251,7 +251,7 @@ static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(
         for (int k = 0; k < 6; ++k) *numbers[k] = (2 * hair_random(&random) - 1) * (k < 3 ? 0.3f : 1);
         look_along(eye, way, view.view);
         project(i % 4, view.projection);
-        view.primitive = i % 3 ? HAIR_RIBBONS : HAIR_LINES;
+        view.primitive = i % 3 ? HAIR_PRIMITIVE_RIBBONS : HAIR_PRIMITIVE_LINES;
         hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
         drawn[0] += count_primitives(&f, &view, some);
         hair_test_ok(f.test, hair_set_physics(f.hair, &lets_go));
@@ -286,7 +286,7 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
     project(0, view.projection);
     read(&f, &view, pixels); // What is made, is.
     for (int i = 0; i < 3; ++i) {
-        light.shadow_texture = i == 2 ? shadow : 0;
+        light.hair_shadow_map = i == 2 ? shadow : 0;
         view.lights = &light;
         view.light_count = i > 0;
         hair_test_trace_clear();
@@ -306,19 +306,19 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
     finish(&f);
 }
 
-// A frame is a step and a draw, with solids that followers come into and all passes timed.
+// A frame is a step and a draw, with colliders that followers come into and all passes timed.
 static void no_frame_waits_for_the_gpu(void** state)
 {
     struct fixture f = start(state);
     hair_view view = hair_view_default();
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     uint32_t looked = 0;
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
     project(0, view.projection);
-    solid.size[0] = 0.05f, solid.position[1] = 0.2f;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    collider.size[0] = 0.05f, collider.position[1] = 0.2f;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     for (int path = 0; path < 3; ++path) {
-        view.path = (hair_path)path;
+        view.render_path = (hair_render_path)path;
         for (int frame = 0; frame < 40; ++frame) {
             if (frame == 1) hair_test_trace_clear();
             hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));

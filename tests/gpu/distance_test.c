@@ -34,7 +34,7 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
                                "    found[i] = vec4(gradient, distance);\n"
                                "}\n";
     struct hair_gl_source source;
-    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "solid_distance.glsl", "", &source),
+    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "collider_distance.glsl", "", &source),
                      HAIR_OK);
     const char* text[] = {"#version 450 core\n", source.text, rest};
     GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[2];
@@ -136,22 +136,22 @@ static void the_sign_says_what_is_inside(void** state)
     }
 }
 
-static void a_solid_is_its_shape_turned_moved_and_rounded(void** state)
+static void a_collider_is_its_shape_turned_moved_and_rounded(void** state)
 {
     (void)state;
-    hair_solid solid = hair_solid_default();
-    solid.shape = HAIR_SHAPE_BOX;
-    solid.rounding = 0.05f;
-    solid.rotation[2] = solid.rotation[3] = sqrtf(0.5f); // x to y
-    for (int k = 0; k < 3; ++k) solid.size[k] = size[k], solid.position[k] = (float)(k + 1);
+    hair_collider collider = hair_collider_default();
+    collider.shape = HAIR_SHAPE_BOX;
+    collider.rounding = 0.05f;
+    collider.rotation[2] = collider.rotation[3] = sqrtf(0.5f); // x to y
+    for (int k = 0; k < 3; ++k) collider.size[k] = size[k], collider.position[k] = (float)(k + 1);
     const double above[3] = {1, 2.5, 3}, aside[3] = {1.5 + 0.3, 2, 3};
     double n[3];
-    hair_test_near("above", 0, hair_distance_to_solid(&solid, above, n), 0.5 - 0.3 - 0.05, 1e-6);
+    hair_test_near("above", 0, hair_distance_to_collider(&collider, above, n), 0.5 - 0.3 - 0.05, 1e-6);
     hair_test_near("upwards", 0, n[1], 1, 1e-6);
-    hair_test_near("aside", 0, hair_distance_to_solid(&solid, aside, n), 0.8 - 0.5 - 0.05, 1e-6);
+    hair_test_near("aside", 0, hair_distance_to_collider(&collider, aside, n), 0.8 - 0.5 - 0.05, 1e-6);
     hair_test_near("sideways", 0, n[0], 1, 1e-6);
-    solid.shape = HAIR_SHAPE_FORM; // Its mesh is not there.
-    assert_true(hair_distance_to_solid(&solid, above, n) == INFINITY);
+    collider.shape = HAIR_SHAPE_MESH; // Its mesh is not there.
+    assert_true(hair_distance_to_collider(&collider, above, n) == INFINITY);
 }
 
 int main(void)
@@ -160,7 +160,7 @@ int main(void)
         HAIR_TEST(glsl_and_c_have_the_same_distances_and_gradients),
         cmocka_unit_test(one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one),
         cmocka_unit_test(the_sign_says_what_is_inside),
-        cmocka_unit_test(a_solid_is_its_shape_turned_moved_and_rounded),
+        cmocka_unit_test(a_collider_is_its_shape_turned_moved_and_rounded),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

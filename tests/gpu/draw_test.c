@@ -96,7 +96,7 @@ static void samples_and_smaller_pixels_see_the_same_width(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
     struct fixture f = start(state, 0.002f);
-    hair_view view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+    hair_view view = view_of(HAIR_PASS_COLOR, HAIR_PRIMITIVE_RIBBONS);
     draw(&f, &view, SIDE, 4, pixels, NULL);
     draw(&f, &view, 4 * SIDE, 0, fine, NULL);
     double coarse = coverage(pixels, SIDE), true_one = coverage(fine, 4 * SIDE);
@@ -112,7 +112,7 @@ static void a_wider_strand_covers_more(void** state)
     double covered[2];
     for (int wide = 0; wide < 2; ++wide) {
         struct fixture f = start(state, wide ? 0.004f : 0.0005f);
-        hair_view view = view_of(HAIR_PASS_COLOR, HAIR_RIBBONS);
+        hair_view view = view_of(HAIR_PASS_COLOR, HAIR_PRIMITIVE_RIBBONS);
         draw(&f, &view, SIDE, 4, pixels, NULL);
         covered[wide] = coverage(pixels, SIDE);
         finish(&f);
@@ -125,7 +125,7 @@ static void guides_are_drawn_in_the_colour_of_their_stretch(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state, 0.001f);
-    hair_view view = view_of(HAIR_PASS_GUIDES, HAIR_RIBBONS);
+    hair_view view = view_of(HAIR_PASS_GUIDES, HAIR_PRIMITIVE_RIBBONS);
     for (int stretched = 0; stretched < 2; ++stretched) {
         if (stretched) {
             struct hair_gl* gl = &f.test->context->gl;

@@ -38,17 +38,17 @@ static void null_objects_are_argument_errors(void** state)
     assert_int_equal(hair_set_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_set_solids(NULL, NULL, 0, 0), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_colliders(NULL, NULL, 0, 0), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_step(NULL, 0.1f), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_reset(NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_teleport(NULL, transform), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_save(NULL, NULL, 0, &size), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_load(NULL, transform, sizeof transform), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_draw(NULL, NULL), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_read(NULL, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_get_health(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_read_positions(NULL, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_solver_stats(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_get_field(NULL, NULL), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_timings(NULL, NULL, 0), 0);
+    assert_int_equal(hair_get_timings(NULL, NULL, 0), 0);
     hair_destroy(NULL);
     hair_context_destroy(NULL);
     hair_groom_destroy(NULL);
@@ -80,19 +80,20 @@ static void null_arguments_are_named(void** state)
     refused(test, hair_set_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
     refused(test, hair_set_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
     refused(test, hair_teleport(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
-    refused(test, hair_set_solids(hair, NULL, 1, sizeof(hair_solid)), HAIR_ERROR_ARGUMENT, "solids is NULL");
+    refused(test, hair_set_colliders(hair, NULL, 1, sizeof(hair_collider)), HAIR_ERROR_ARGUMENT,
+            "colliders is NULL");
     refused(test, hair_save(hair, positions, sizeof positions, NULL), HAIR_ERROR_ARGUMENT, "size is NULL");
     refused(test, hair_save(hair, NULL, 7, &size), HAIR_ERROR_ARGUMENT, "bytes is NULL but capacity is 7");
     refused(test, hair_load(hair, NULL, 7), HAIR_ERROR_ARGUMENT, "bytes is NULL");
     refused(test, hair_draw(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_view is NULL");
-    refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, NULL), HAIR_ERROR_ARGUMENT,
+    refused(test, hair_read_positions(hair, HAIR_READ_GUIDES, positions, 1, NULL), HAIR_ERROR_ARGUMENT,
             "count is NULL");
-    refused(test, hair_read(hair, HAIR_READ_GUIDES, NULL, 1, &count), HAIR_ERROR_ARGUMENT,
+    refused(test, hair_read_positions(hair, HAIR_READ_GUIDES, NULL, 1, &count), HAIR_ERROR_ARGUMENT,
             "positions is NULL");
-    refused(test, hair_get_health(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_health is NULL");
+    refused(test, hair_get_solver_stats(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_solver_stats is NULL");
     refused(test, hair_get_field(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_field_info is NULL");
-    refused(test, hair_read(hair, (hair_read_what)3, positions, 1, &count), HAIR_ERROR_ARGUMENT,
-            "what is 3, not in [0, 2]");
+    refused(test, hair_read_positions(hair, (hair_read_source)3, positions, 1, &count), HAIR_ERROR_ARGUMENT,
+            "source is 3, not in [0, 2]");
     drop(hair, groom);
 }
 
@@ -150,7 +151,7 @@ static hair_result use_hair_groom_desc(struct user* user, void* given)
     desc->host = &user->test->host.host;
     desc->positions = positions;
     desc->strand_vertices = vertices;
-    if (desc->strand_count == 0 && desc->made.version) desc->strand_count = 1; // which has no default
+    if (desc->strand_count == 0 && desc->header.version) desc->strand_count = 1; // which has no default
     hair_result result = hair_groom_create(desc, &groom);
     hair_groom_destroy(groom);
     return result;
@@ -278,8 +279,8 @@ static void check_ends(struct user* user, const struct subject* subject)
             float real = (float)value;
             uint32_t whole = (uint32_t)value;
             memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
-            if (strcmp(field->name, "hair_desc.mapping") == 0 &&
-                whole == HAIR_MAPPING_FEEDBACK) // Which one solver has.
+            if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
+                whole == HAIR_THREAD_MAPPING_FEEDBACK) // Which one solver has.
                 ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
             hair_test_ok(user->test, subject->use(user, desc));
         }
@@ -294,7 +295,7 @@ static void both_ends_of_every_range_are_inside(void** state)
 
 static void check_made(struct user* user, const struct subject* subject)
 {
-    static const hair_made wrong[] = {
+    static const hair_struct_header wrong[] = {
         {0, 0},  {0, HAIR_VERSION},         {7, HAIR_VERSION}, {4097, HAIR_VERSION},
         {64, 0}, {64, HAIR_VERSION + 10000}};
     _Alignas(16) unsigned char desc[1024];
@@ -304,7 +305,7 @@ static void check_made(struct user* user, const struct subject* subject)
         // Its host is not trusted, so that there may be no sentence.
         hair_result result = subject->use(user, desc);
         if (result != HAIR_ERROR_VERSION)
-            fail_msg("%s.made of (%u, %u): %s", subject->name, wrong[i].size, wrong[i].version,
+            fail_msg("%s.header of (%u, %u): %s", subject->name, wrong[i].size, wrong[i].version,
                      hair_result_string(result));
         assert_in_range(hair_test_forgive(user->test), 0, 1);
     }
@@ -322,16 +323,16 @@ static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
     hair_groom* groom;
     hair_instance* hair = make(test, &groom);
     hair_physics physics = hair_physics_default();
-    physics.made.size = offsetof(hair_physics, margin);
+    physics.header.size = offsetof(hair_physics, collision_margin);
     physics.damping = 7;
-    physics.margin = NAN; // beyond the end, and not to be read
+    physics.collision_margin = NAN; // beyond the end, and not to be read
     hair_test_ok(test, hair_set_physics(hair, &physics));
     assert_true(hair->sim.physics.damping == 7);
-    assert_true(hair->sim.physics.margin == hair_physics_default().margin);
+    assert_true(hair->sim.physics.collision_margin == hair_physics_default().collision_margin);
     drop(hair, groom);
 }
 
-// Not rigid, steps, solids ---------------------------------------------------------------------------------
+// Not rigid, steps, colliders ---------------------------------------------------------------------------------
 
 static void transforms_that_are_not_rigid_are_refused(void** state)
 {
@@ -382,36 +383,36 @@ static void a_substep_that_would_take_for_ever_is_refused(void** state)
     drop(hair, groom);
 }
 
-static void wrong_solids_are_named_and_change_nothing(void** state)
+static void wrong_colliders_are_named_and_change_nothing(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
     hair_instance* hair = make(test, &groom);
-    hair_solid good = {HAIR_SHAPE_CAPSULE, {0}, {0, 0, 0, 1}, {0.1f, 0.1f}, .scale = 1, .friction = 1};
-    hair_solid many[2] = {good};
-    hair_test_ok(test, hair_set_solids(hair, &good, 1, sizeof good));
-    refused(test, hair_set_solids(hair, many, 1048577, sizeof good), HAIR_ERROR_ARGUMENT,
-            "solid count is 1048577, not in [0, 1048576]");
-    refused(test, hair_set_solids(hair, many, 2, 8), HAIR_ERROR_ARGUMENT, "solid stride is 8");
-    refused(test, hair_set_solids(hair, many, 2, 0), HAIR_ERROR_ARGUMENT, "solid stride is 0");
+    hair_collider good = {HAIR_SHAPE_CAPSULE, {0}, {0, 0, 0, 1}, {0.1f, 0.1f}, .scale = 1, .friction = 1};
+    hair_collider many[2] = {good};
+    hair_test_ok(test, hair_set_colliders(hair, &good, 1, sizeof good));
+    refused(test, hair_set_colliders(hair, many, 1048577, sizeof good), HAIR_ERROR_ARGUMENT,
+            "collider count is 1048577, not in [0, 1048576]");
+    refused(test, hair_set_colliders(hair, many, 2, 8), HAIR_ERROR_ARGUMENT, "collider stride is 8");
+    refused(test, hair_set_colliders(hair, many, 2, 0), HAIR_ERROR_ARGUMENT, "collider stride is 0");
     struct {
         const char* words;
-        hair_solid solid;
-    } wrong[] = {{"solids[1].shape is 9", good},        {"solids[1].position[2] is ", good},
-                 {"solids[1].rotation has norm", good}, {"solids[1].size[0] is 0", good},
-                 {"solids[1].size[0] is ", good},       {"solids[1].size[1] is -1", good}};
-    wrong[0].solid.shape = (hair_shape)9;
-    wrong[1].solid.position[2] = NAN;
-    wrong[2].solid.rotation[3] = 0.5f;
-    wrong[3].solid.size[0] = 0;
-    wrong[4].solid.size[0] = NAN;
-    wrong[5].solid.size[1] = -1;
+        hair_collider collider;
+    } wrong[] = {{"colliders[1].shape is 9", good},        {"colliders[1].position[2] is ", good},
+                 {"colliders[1].rotation has norm", good}, {"colliders[1].size[0] is 0", good},
+                 {"colliders[1].size[0] is ", good},       {"colliders[1].size[1] is -1", good}};
+    wrong[0].collider.shape = (hair_shape)9;
+    wrong[1].collider.position[2] = NAN;
+    wrong[2].collider.rotation[3] = 0.5f;
+    wrong[3].collider.size[0] = 0;
+    wrong[4].collider.size[0] = NAN;
+    wrong[5].collider.size[1] = -1;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
-        hair_solid two[2] = {good, wrong[i].solid};
+        hair_collider two[2] = {good, wrong[i].collider};
         two[0].size[0] = 0.3f;
-        refused(test, hair_set_solids(hair, two, 2, sizeof good), HAIR_ERROR_ARGUMENT, wrong[i].words);
-        assert_int_equal(hair->sim.solids.now.count, 1);
-        assert_memory_equal(&hair->sim.solids.now.solid[0], &good, sizeof good);
+        refused(test, hair_set_colliders(hair, two, 2, sizeof good), HAIR_ERROR_ARGUMENT, wrong[i].words);
+        assert_int_equal(hair->sim.colliders.now.count, 1);
+        assert_memory_equal(&hair->sim.colliders.now.collider[0], &good, sizeof good);
     }
     drop(hair, groom);
 }
@@ -425,30 +426,32 @@ static void views_without_sense_are_refused(void** state)
     hair_light light[5];
     for (int i = 0; i < 5; ++i) light[i] = hair_light_default();
     view.lights = light;
-    memset(light[0].to, 0, sizeof light[0].to);
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[0].to has no direction");
+    memset(light[0].direction, 0, sizeof light[0].direction);
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[0].direction has no direction");
     light[0].kind = HAIR_LIGHT_POINT; // It needs none.
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, "framebuffer is not complete");
     light[0] = hair_light_default();
     view.light_count = 2;
     light[1].kind = HAIR_LIGHT_SPOT;
-    light[1].inner = light[1].outer;
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[1].inner is 0.5, not below its outer");
+    light[1].inner_angle = light[1].outer_angle;
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT,
+            "lights[1].inner_angle is 0.5, not below its outer_angle");
     light[1] = hair_light_default();
     light[1].color[2] = NAN;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "hair_light.color[2] is nan");
     light[1] = (hair_light){0};
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_VERSION, "hair_light.made");
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_VERSION, "hair_light.header");
     view.light_count = 1;
-    light[0].shadow_texture = 1;
+    light[0].hair_shadow_map = 1;
     light[0].shadow_matrix[3] = 0.5f;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "shadow_matrix is not orthographic");
     for (int i = 0; i < 5; ++i) {
         light[i] = hair_light_default();
-        light[i].shadow_texture = 1;
+        light[i].hair_shadow_map = 1;
     }
     view.light_count = 5;
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "5 of hair_view.lights have a shadow_texture");
+    refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT,
+            "5 of hair_view.lights have a hair_shadow_map");
     float sky[27] = {[26] = INFINITY};
     view = hair_view_default();
     view.sky = sky;
@@ -458,7 +461,7 @@ static void views_without_sense_are_refused(void** state)
     glCreateTextures(GL_TEXTURE_CUBE_MAP, 1, &cube);
     view = hair_view_default();
     view.lights = light;
-    light[0].shadow_texture = cube;
+    light[0].hair_shadow_map = cube;
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
     glDeleteTextures(1, &cube);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
@@ -498,7 +501,7 @@ int main(void)
         HAIR_TEST(transforms_that_are_not_rigid_are_refused),
         HAIR_TEST(steps_that_are_no_time_are_refused),
         HAIR_TEST(a_substep_that_would_take_for_ever_is_refused),
-        HAIR_TEST(wrong_solids_are_named_and_change_nothing),
+        HAIR_TEST(wrong_colliders_are_named_and_change_nothing),
         HAIR_TEST(views_without_sense_are_refused),
         HAIR_TEST(a_failed_call_leaves_the_instance_as_it_was),
     };

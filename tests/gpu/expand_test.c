@@ -130,27 +130,27 @@ static hair_look any_look(uint32_t* random)
     look.clump = any_curve(random, 1);
     look.clump_width = any_curve(random, 1);
     look.interpolation = (hair_interpolation)between(random, 0, 3);
-    look.tip_strays = between(random, 0, 1);
-    look.strays = between(random, 0, 1);
-    look.tip_stray = any_curve(random, 0.03f);
-    look.stray = any_curve(random, 0.03f);
+    look.tip_stray_fraction = between(random, 0, 1);
+    look.stray_fraction = between(random, 0, 1);
+    look.tip_stray_distance = any_curve(random, 0.03f);
+    look.stray_distance = any_curve(random, 0.03f);
     look.length = between(random, 0.2f, 1);
-    look.thinning = between(random, 0, 1);
+    look.length_variation = between(random, 0, 1);
     look.frizz = any_curve(random, 0.004f);
-    look.kink = between(random, 0.01f, 0.1f);
+    look.frizz_wavelength = between(random, 0.01f, 0.1f);
     look.curl_radius = between(random, 0, 0.008f);
     look.curl_profile = any_curve(random, 1);
     look.curl_wavelength = between(random, 0.02f, 0.2f);
     look.curl_turns = between(random, 0, 4);
     look.curl_flatness = between(random, 0, 1);
-    look.curl_left = between(random, 0, 1);
-    look.curl_lock_phase = between(random, 0, 1);
-    look.curl_phase = between(random, 0, 1);
+    look.curl_left_fraction = between(random, 0, 1);
+    look.curl_guide_phase = between(random, 0, 1);
+    look.curl_strand_phase = between(random, 0, 1);
     look.curl_spread = between(random, 0, 0.9f);
-    look.curls = (hair_curls)between(random, 0, 2);
+    look.curl_shape = (hair_curl_shape)between(random, 0, 2);
     for (int i = 0; i < 16; ++i) {
-        look.curl_x[i] = between(random, -1, 1);
-        look.curl_z[i] = between(random, -1, 1);
+        look.curl_profile_x[i] = between(random, -1, 1);
+        look.curl_profile_z[i] = between(random, -1, 1);
     }
     return look;
 }
@@ -253,11 +253,11 @@ static void what_is_read_is_in_the_world(void** state)
     float* near = malloc(3 * sizeof *near * count);
     float* far = malloc(3 * sizeof *far * count);
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
-    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, near, count, &there));
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, near, count, &there));
     assert_int_equal(there, count);
     float away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, -2000, 500, 1};
     hair_test_ok(f.test, hair_teleport(f.hair, away));
-    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, far, count, &there));
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, far, count, &there));
     for (uint32_t i = 0; i < 3 * count; ++i)
         hair_test_near("coordinate", i, far[i] - (double)away[12 + i % 3], near[i], 2000.0 / 16777216);
     free(near);
@@ -267,14 +267,14 @@ static void what_is_read_is_in_the_world(void** state)
 
 static void no_more_than_the_capacity_is_written(void** state)
 {
-    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
+    static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
     struct fixture f = start(state);
     for (int i = 0; i < 3; ++i) {
         float some[3 * 8];
         uint32_t all, count;
-        hair_test_ok(f.test, hair_read(f.hair, whats[i], NULL, 0, &all));
+        hair_test_ok(f.test, hair_read_positions(f.hair, whats[i], NULL, 0, &all));
         memset(some, 0xff, sizeof some);
-        hair_test_ok(f.test, hair_read(f.hair, whats[i], some, 7, &count));
+        hair_test_ok(f.test, hair_read_positions(f.hair, whats[i], some, 7, &count));
         assert_int_equal(all, count);
         assert_true(all > 8);
         for (int k = 0; k < 24; ++k) assert_true(isnan(some[k]) == (k >= 21));

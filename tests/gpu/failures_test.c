@@ -46,7 +46,7 @@ static void without_a_current_context_every_call_says_so(void** state)
     float positions[3];
     uint32_t count;
     size_t size;
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     hair_field_info field = hair_field_info_default();
     const char* words = "no OpenGL context is current";
     of.host = &test->host.host;
@@ -61,8 +61,9 @@ static void without_a_current_context_every_call_says_so(void** state)
     refused(test, hair_save(hair, NULL, 0, &size), HAIR_ERROR_OPENGL, words);
     refused(test, hair_load(hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_read(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_get_health(hair, &health), HAIR_ERROR_OPENGL, words);
+    refused(test, hair_read_positions(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL,
+            words);
+    refused(test, hair_get_solver_stats(hair, &solver_stats), HAIR_ERROR_OPENGL, words);
     refused(test, hair_get_field(hair, &field), HAIR_ERROR_OPENGL, words);
     hair_egl_make_current(test->egl);
     hair_test_ok(test, hair_step(hair, 0.1f));
@@ -171,18 +172,18 @@ static void a_reload_finds_it(struct hair_test* test, struct broken* b)
     hair_groom_destroy(longer);
 }
 
-// The first solid asks for a program that knows of contact.
+// The first collider asks for a program that knows of contact.
 static void hair_step_finds_it(struct hair_test* test, struct broken* b)
 {
     static float before[300], after[300];
     uint32_t count;
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                        {0.05f, 0},        .scale = 1,      .friction = 1};
-    hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, before, 100, &count));
-    hair_test_ok(test, hair_set_solids(b->hair, &solid, 1, sizeof solid));
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                              {0.05f, 0},        .scale = 1,      .friction = 1};
+    hair_test_ok(test, hair_read_positions(b->hair, HAIR_READ_SMOOTH, before, 100, &count));
+    hair_test_ok(test, hair_set_colliders(b->hair, &collider, 1, sizeof collider));
     assert_int_equal(hair_step(b->hair, 1.0f / 60), HAIR_ERROR_OPENGL);
     hair_test_forgive(test);
-    hair_test_ok(test, hair_read(b->hair, HAIR_READ_SMOOTH, after, 100, &count));
+    hair_test_ok(test, hair_read_positions(b->hair, HAIR_READ_SMOOTH, after, 100, &count));
     assert_memory_equal(before, after, sizeof before);
     mend_shader(b);
     hair_test_ok(test, hair_step(b->hair, 1.0f / 60));

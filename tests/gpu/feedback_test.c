@@ -28,7 +28,7 @@ static struct fixture start(void** state, const hair_physics* physics)
     for (int i = 0; i < 2; ++i) {
         hair_desc desc = hair_desc_default();
         desc.solver = HAIR_SOLVER_REDBLACK;
-        desc.mapping = i ? HAIR_MAPPING_FEEDBACK : HAIR_MAPPING_GROUP;
+        desc.thread_mapping = i ? HAIR_THREAD_MAPPING_FEEDBACK : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
         desc.physics = physics;
         hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair[i]));
     }
@@ -48,17 +48,17 @@ static double step(struct fixture* f, int frame, double* moved)
     static float was[3 * 4096], at[2][3 * 4096];
     float a = 0.15f * (float)frame, worst = 0;
     float head[16] = {cosf(a), 0, -sinf(a), 0, 0, 1, 0, 0, sinf(a), 0, cosf(a), 0, 0.02f * a, 0.1f * a, 0, 1};
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     uint32_t count;
-    solid.shape = HAIR_SHAPE_CAPSULE;
-    solid.size[0] = 0.05f, solid.size[1] = 0.1f;
-    solid.position[0] = 0.2f - 0.01f * (float)frame;
-    hair_test_ok(f->test, hair_read(f->hair[0], HAIR_READ_GUIDES, was, f->vertices, &count));
+    collider.shape = HAIR_SHAPE_CAPSULE;
+    collider.size[0] = 0.05f, collider.size[1] = 0.1f;
+    collider.position[0] = 0.2f - 0.01f * (float)frame;
+    hair_test_ok(f->test, hair_read_positions(f->hair[0], HAIR_READ_GUIDES, was, f->vertices, &count));
     for (int i = 0; i < 2; ++i) {
-        hair_test_ok(f->test, hair_set_solids(f->hair[i], &solid, 1, sizeof solid));
+        hair_test_ok(f->test, hair_set_colliders(f->hair[i], &collider, 1, sizeof collider));
         hair_test_ok(f->test, hair_set_transform(f->hair[i], head));
         hair_test_ok(f->test, hair_step(f->hair[i], 1.0f / 60));
-        hair_test_ok(f->test, hair_read(f->hair[i], HAIR_READ_GUIDES, at[i], f->vertices, &count));
+        hair_test_ok(f->test, hair_read_positions(f->hair[i], HAIR_READ_GUIDES, at[i], f->vertices, &count));
     }
     for (uint32_t i = 0; i < 3 * count; ++i) {
         worst = fmaxf(worst, fabsf(at[0][i] - at[1][i]));
@@ -73,8 +73,8 @@ static void five_steps_are_those_of_compute(void** state)
     for (int off = 0; off < 3; ++off) { // Everything on; no angular forces; no angular constraints.
         hair_physics physics = hair_physics_default();
         double worst = 0, moved = 0;
-        if (off == 1) physics.angular = 0;
-        if (off == 2) physics.bend = 0;
+        if (off == 1) physics.redblack.angular_hz = 0;
+        if (off == 2) physics.redblack.bend = 0;
         struct fixture f = start(state, &physics);
         for (int frame = 1; frame <= 5; ++frame) worst = fmax(worst, step(&f, frame, &moved));
         print_message("    off by up to %.2g lengths after moves of up to %.2g m\n", worst, moved);
@@ -98,7 +98,7 @@ static void what_is_not_finite_goes_back_to_rest_alone(void** state)
         glNamedBufferSubData(f.hair[i]->sim.state, 0, (GLsizeiptr)(f.vertices * sizeof *bad), bad);
     }
     (void)step(&f, 1, &moved);
-    hair_test_ok(f.test, hair_read(f.hair[1], HAIR_READ_GUIDES, at, f.vertices, &count));
+    hair_test_ok(f.test, hair_read_positions(f.hair[1], HAIR_READ_GUIDES, at, f.vertices, &count));
     for (uint32_t i = 0; i < 3 * count; ++i) assert_true(isfinite(at[i]));
     assert_true(step(&f, 2, &moved) <= 1e-6);
     free(bad);
@@ -112,7 +112,7 @@ static void other_solvers_have_none(void** state)
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_instance* hair = NULL;
     hair_desc desc = hair_desc_default();
-    desc.mapping = HAIR_MAPPING_FEEDBACK;
+    desc.thread_mapping = HAIR_THREAD_MAPPING_FEEDBACK;
     hair_test_refused(test, hair_create(test->context, groom, &desc, &hair), HAIR_ERROR_ARGUMENT,
                       "which only the solver redblack has");
     assert_null(hair);

@@ -1,4 +1,4 @@
-// field_draw_test.c - solids and a slice of the field as hair_draw shows them.
+// field_draw_test.c - colliders and a slice of the field as hair_draw shows them.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -9,24 +9,24 @@
 #include "tests/support/handmade.h"
 
 #define SIDE 96
-#define SOLIDS 3
+#define COLLIDERS 3
 
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
     hair_instance* hair;
     hair_desc desc;
-    hair_solid solids[SOLIDS];
+    hair_collider colliders[COLLIDERS];
     hair_view view;
     float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
 };
 
 static struct fixture f;
 
-// A head turned half round at (0.2, 0, -1), solids at its sides, seen from the world's origin along -z.
+// A head turned half round at (0.2, 0, -1), colliders at its sides, seen from the world's origin along -z.
 static void start(void** state)
 {
-    const hair_solid solids[SOLIDS] = {
+    const hair_collider colliders[COLLIDERS] = {
         {HAIR_SHAPE_SPHERE, {0.25f, 0.12f, -1}, {0, 0, 0, 1}, {0.05f}, .scale = 1, .friction = 1},
         {HAIR_SHAPE_CAPSULE,
          {0.15f, 0.08f, -1.05f},
@@ -37,16 +37,16 @@ static void start(void** state)
         {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f}, .scale = 1, .friction = 1},
     };
     f = (struct fixture){.test = *state, .desc = hair_desc_default(), .view = hair_view_default()};
-    memcpy(f.solids, solids, sizeof solids);
+    memcpy(f.colliders, colliders, sizeof colliders);
     f.desc.field_voxel = 0.004f;
     f.desc.transform[0] = f.desc.transform[10] = -1;
     f.desc.transform[12] = 0.2f;
     f.desc.transform[14] = -1;
     f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &f.desc, &f.hair));
-    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));
-    f.view.pass = HAIR_PASS_SOLIDS;
+    f.view.pass = HAIR_PASS_COLLIDERS;
     f.view.projection[0] = f.view.projection[5] = 3;
     f.view.projection[8] = 0.6f; // Their middle is the picture\'s.
     f.view.projection[9] = 0.3f;
@@ -83,14 +83,14 @@ static void find_ray(int i, double way[3])
     way[2] = -1;
 }
 
-// How near to a solid the ray comes, below 0 if it meets one at z = *meets.
+// How near to a collider the ray comes, below 0 if it meets one at z = *meets.
 static double march(const double way[3], double from, double* meets)
 {
     double least = INFINITY;
     for (double t = from; t < 1.5; t += 0.0005) {
         const double p[3] = {way[0] * t, way[1] * t, way[2] * t};
         uint32_t number;
-        double distance = hair_test_nearest(f.solids, SOLIDS, p, &number);
+        double distance = hair_test_nearest(f.colliders, COLLIDERS, p, &number);
         if (distance < least) least = distance;
         if (distance < 0) {
             *meets = -t;
@@ -106,7 +106,7 @@ static double depth_at(double z)
     return 0.5 + 0.5 * clip / -z;
 }
 
-static void a_solid_is_drawn_where_it_is_with_its_depth(void** state)
+static void a_collider_is_drawn_where_it_is_with_its_depth(void** state)
 {
     start(state);
     draw();
@@ -141,7 +141,7 @@ static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** stat
         double way[3];
         uint32_t number;
         find_ray(i, way);
-        double distance = hair_test_nearest(f.solids, SOLIDS, way, &number);
+        double distance = hair_test_nearest(f.colliders, COLLIDERS, way, &number);
         const float* color = &f.pixels[4 * i];
         if (fabs(distance) < (double)info.voxel || distance > 3 * (double)info.voxel) continue;
         hair_test_near("depth of the slice", (size_t)i, (double)f.depths[i], depth_at(-1), 1e-4);
@@ -157,10 +157,10 @@ static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** stat
     finish();
 }
 
-static void without_solids_nothing_is_drawn_and_there_is_no_field(void** state)
+static void without_colliders_nothing_is_drawn_and_there_is_no_field(void** state)
 {
     start(state);
-    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof *f.solids));
+    hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof *f.colliders));
     f.view.slice = HAIR_SLICE_X;
     draw();
     for (int i = 0; i < SIDE * SIDE; ++i) assert_true(f.depths[i] == 1 && f.pixels[4 * i] == 0);
@@ -183,9 +183,9 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_solid_is_drawn_where_it_is_with_its_depth),
+        HAIR_TEST(a_collider_is_drawn_where_it_is_with_its_depth),
         HAIR_TEST(a_slice_is_white_at_surfaces_red_inside_and_blue_outside),
-        HAIR_TEST(without_solids_nothing_is_drawn_and_there_is_no_field),
+        HAIR_TEST(without_colliders_nothing_is_drawn_and_there_is_no_field),
         HAIR_TEST(without_a_slice_there_is_no_field),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

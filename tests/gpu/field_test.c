@@ -1,4 +1,4 @@
-// field_test.c - the field: what its voxels hold, what is written again and what is not, and hostile solids.
+// field_test.c - the field: what its voxels hold, what is written again and what is not, and hostile colliders.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -20,9 +20,9 @@ static const struct hair_pose elsewhere = {{30, -20, 10}, {0.36f, 0.48f, 0, 0.8f
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
-    struct hair_solid_field field;
+    struct hair_collider_field field;
     struct hair_pose head;
-    hair_solid solids[MANY];
+    hair_collider colliders[MANY];
     uint32_t random;
 };
 
@@ -32,7 +32,7 @@ static void begin(struct hair_test* test, struct hair_pose head, struct fixture*
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
     for (int i = 0; i < MANY; ++i)
-        out->solids[i] = hair_test_any_solid(&out->field.box, &head, 0.1f, &out->random);
+        out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
 }
 
 static void end(struct fixture* f)
@@ -43,7 +43,7 @@ static void end(struct fixture* f)
 
 static void update(struct fixture* f, uint32_t count)
 {
-    hair_test_ok(f->test, hair_field_update(&f->field, f->solids, count, &f->head));
+    hair_test_ok(f->test, hair_field_update(&f->field, f->colliders, count, &f->head));
 }
 
 static uint32_t runs(struct fixture* f)
@@ -63,17 +63,17 @@ static void check_voxels(struct fixture* f, uint32_t count)
         double point[3];
         uint32_t number, own = read.number[i];
         hair_test_voxel(box, &f->head, i, point);
-        double right = fmin(hair_test_nearest(f->solids, count, point, &number), (double)box->far);
+        double right = fmin(hair_test_nearest(f->colliders, count, point, &number), (double)box->far);
         double off = fabs((double)read.distance[i] - right);
         most = fmax(most, off);
         if (!(off <= 0.05 * voxel))
             fail_msg("voxel %zu holds %g, not %g", i, (double)read.distance[i], right);
-        near += own != HAIR_NO_SOLID;
-        if (own == HAIR_NO_SOLID)
+        near += own != HAIR_NO_COLLIDER;
+        if (own == HAIR_NO_COLLIDER)
             assert_true(right > (double)box->far - 0.01 * voxel);
         else
             assert_true(own < count &&
-                        hair_distance_to_solid(&f->solids[own], point, NULL) < right + 0.01 * voxel);
+                        hair_distance_to_collider(&f->colliders[own], point, NULL) < right + 0.01 * voxel);
     }
     print_message("    %zu voxels, %zu near, off by at most %.4f of one\n", hair_test_field_count(&read),
                   near, most / voxel);
@@ -81,7 +81,7 @@ static void check_voxels(struct fixture* f, uint32_t count)
     hair_test_field_free(&read);
 }
 
-static void every_voxel_holds_the_distance_to_the_nearest_solid_and_its_number(void** state)
+static void every_voxel_holds_the_distance_to_the_nearest_collider_and_its_number(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -152,7 +152,7 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
                                "    uint i    = gl_GlobalInvocationID.x;\n"
                                "    vec3 p    = point[i].xyz;\n"
                                "    found[i]  = vec4(field_gradient(p), field_distance(p));\n"
-                               "    number[i] = field_solid(p);\n"
+                               "    number[i] = field_collider(p);\n"
                                "}\n";
     struct hair_gl_source source;
     assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "field.glsl", "", &source), HAIR_OK);
@@ -175,7 +175,7 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
     glDeleteBuffers(3, buffer);
 }
 
-// Between voxels the field is interpolated: where a solid curves with a radius of R voxels that is wrong by 1 / 4R of
+// Between voxels the field is interpolated: where a collider curves with a radius of R voxels that is wrong by 1 / 4R of
 // one, by up to a half where another begins, and by up to 0.87 where it has edges. Gradients are compared where none of
 // that is near.
 static void between_voxels_distance_sign_gradient_and_number_are_right(void** state)
@@ -195,29 +195,29 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
         double point[3], gradient[3], dot = 0;
         uint32_t number, second;
         for (int k = 0; k < 3; ++k) point[k] = f.head.position[k] + (double)points[i][k];
-        double right = hair_test_nearest(f.solids, MANY, point, &number), own = (double)found[i].distance;
+        double right = hair_test_nearest(f.colliders, MANY, point, &number), own = (double)found[i].distance;
         if (own == (double)f.field.box.far) { // Far off, or beyond the box.
             far += 1;
-            assert_true(numbers[i] == HAIR_NO_SOLID || right > 3 * voxel);
+            assert_true(numbers[i] == HAIR_NO_COLLIDER || right > 3 * voxel);
             continue;
         }
         assert_true(fabs(right) < voxel || (own < 0) == (right < 0));
         if (fabs(right) > 2 * voxel) continue;
         ++near;
-        // Whether one solid alone is near, and that without edges.
-        hair_solid others[MANY];
-        memcpy(others, f.solids, sizeof others);
+        // Whether one collider alone is near, and that without edges.
+        hair_collider others[MANY];
+        memcpy(others, f.colliders, sizeof others);
         others[number] = others[number ? 0 : 1];
-        int round = f.solids[number].shape <= HAIR_SHAPE_CAPSULE &&
+        int round = f.colliders[number].shape <= HAIR_SHAPE_CAPSULE &&
                     hair_test_nearest(others, MANY, point, &second) > right + 2 * voxel;
         most[!round] = fmax(most[!round], fabs(own - right));
         if (!(fabs(own - right) <= (round ? 0.5 : 0.9) * voxel))
-            fail_msg("point %d: %g, not %g, of solid %u", i, own, right, number);
+            fail_msg("point %d: %g, not %g, of collider %u", i, own, right, number);
         assert_true(numbers[i] < MANY);
-        assert_true(hair_distance_to_solid(&f.solids[numbers[i]], point, NULL) < right + 2 * voxel);
-        if (!round || right < -0.5 * (double)f.solids[number].size[0]) continue;
+        assert_true(hair_distance_to_collider(&f.colliders[numbers[i]], point, NULL) < right + 2 * voxel);
+        if (!round || right < -0.5 * (double)f.colliders[number].size[0]) continue;
         ++compared;
-        hair_distance_to_solid(&f.solids[number], point, gradient);
+        hair_distance_to_collider(&f.colliders[number], point, gradient);
         for (int k = 0; k < 3; ++k) dot += gradient[k] * (double)found[i].gradient[k];
         turned = fmax(turned, 1 - dot);
     }
@@ -234,9 +234,9 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
 
 static void assert_as_made_at_once(struct fixture* f, uint32_t count)
 {
-    struct hair_solid_field fresh;
+    struct hair_collider_field fresh;
     hair_field_create(&fresh, &f->test->context->forms, f->groom, VOXEL);
-    hair_test_ok(f->test, hair_field_update(&fresh, f->solids, count, &f->head));
+    hair_test_ok(f->test, hair_field_update(&fresh, f->colliders, count, &f->head));
     struct hair_test_field a = hair_test_field_read(&f->field), b = hair_test_field_read(&fresh);
     size_t voxels = hair_test_field_count(&a);
     assert_memory_equal(a.distance, b.distance, voxels * sizeof *a.distance);
@@ -255,8 +255,8 @@ static void after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once(void** 
     for (int round = 0; round < 12; ++round) {
         uint32_t which = (uint32_t)(hair_random(&f.random) * (float)count);
         if (round % 4 == 3) count = 1 + (uint32_t)(hair_random(&f.random) * (MANY - 1)); // Come or go.
-        f.solids[which] = hair_test_any_solid(&f.field.box, &f.head, 0.15f, &f.random);
-        if (round % 4 == 2) f.solids[which].position[1] += 100; // Out of the box.
+        f.colliders[which] = hair_test_any_collider(&f.field.box, &f.head, 0.15f, &f.random);
+        if (round % 4 == 2) f.colliders[which].position[1] += 100; // Out of the box.
         update(&f, count);
         assert_as_made_at_once(&f, count);
     }
@@ -274,28 +274,28 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
 #define FUNCTION(type, name, parameters) gl->name = NULL;
 #include "lib/gl/functions.inl"
 #undef FUNCTION
-    hair_result result = hair_field_update(&f.field, f.solids, MANY, &f.head);
+    hair_result result = hair_field_update(&f.field, f.colliders, MANY, &f.head);
     // Not by more than rounding either.
-    f.solids[3].position[0] += 1e-6f;
-    hair_result again = hair_field_update(&f.field, f.solids, MANY, &f.head);
+    f.colliders[3].position[0] += 1e-6f;
+    hair_result again = hair_field_update(&f.field, f.colliders, MANY, &f.head);
     *gl = kept;
     assert_int_equal(result, HAIR_OK);
     assert_int_equal(again, HAIR_OK);
-    f.solids[3].position[0] += 1e-3f;
+    f.colliders[3].position[0] += 1e-3f;
     update(&f, MANY);
     assert_int_equal(runs(&f), before + 1);
     end(&f);
 }
 
-// Solids that go with the head: their place in the world is rounded at each step, and that adds up to nothing.
+// Colliders that go with the head: their place in the world is rounded at each step, and that adds up to nothing.
 static void what_moves_with_the_head_is_not_written_again(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
     update(&f, MANY);
     uint32_t before = runs(&f);
-    hair_solid rest[MANY];
-    memcpy(rest, f.solids, sizeof rest);
+    hair_collider rest[MANY];
+    memcpy(rest, f.colliders, sizeof rest);
     for (int step = 1; step <= 20; ++step) {
         float angle = 0.3f * (float)step;
         f.head.rotation = (hair_quat){0, sinf(angle / 2), 0, cosf(angle / 2)};
@@ -305,8 +305,8 @@ static void what_moves_with_the_head_is_not_written_again(void** state)
             hair_quat own = {rest[i].rotation[0], rest[i].rotation[1], rest[i].rotation[2],
                              rest[i].rotation[3]};
             own = hair_quat_multiply(f.head.rotation, own);
-            hair_store3(f.solids[i].position, hair_add(at, hair_v3((float)f.head.position[0], 0, 0)));
-            memcpy(f.solids[i].rotation, &own, sizeof own);
+            hair_store3(f.colliders[i].position, hair_add(at, hair_v3((float)f.head.position[0], 0, 0)));
+            memcpy(f.colliders[i].rotation, &own, sizeof own);
         }
         update(&f, MANY);
     }
@@ -315,7 +315,7 @@ static void what_moves_with_the_head_is_not_written_again(void** state)
     end(&f);
 }
 
-static void there_is_no_field_where_no_solid_is_near(void** state)
+static void there_is_no_field_where_no_collider_is_near(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -323,15 +323,15 @@ static void there_is_no_field_where_no_solid_is_near(void** state)
     uint32_t before = runs(&f);
     update(&f, 0);
     assert_false(hair_field_is_near(&f.field));
-    for (int i = 0; i < MANY; ++i) f.solids[i].position[2] += 50;
+    for (int i = 0; i < MANY; ++i) f.colliders[i].position[2] += 50;
     update(&f, MANY);
     assert_false(hair_field_is_near(&f.field));
     assert_int_equal(f.field.distance, 0);
     assert_int_equal(runs(&f), before);
-    f.solids[0].position[2] -= 50; // One comes near, and goes.
+    f.colliders[0].position[2] -= 50; // One comes near, and goes.
     update(&f, MANY);
     assert_true(hair_field_is_near(&f.field));
-    f.solids[0].position[2] += 50;
+    f.colliders[0].position[2] += 50;
     update(&f, MANY);
     assert_false(hair_field_is_near(&f.field));
     update(&f, 0);
@@ -342,9 +342,9 @@ static void there_is_no_field_where_no_solid_is_near(void** state)
 
 // Hostile -----------------------------------------------------------------------------------------------------
 
-static void whatever_the_solids_nothing_that_is_not_finite_is_written(void** state)
+static void whatever_the_colliders_nothing_that_is_not_finite_is_written(void** state)
 {
-    static const hair_solid hostile[] = {
+    static const hair_collider hostile[] = {
         {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e-30f, 0}, .scale = 1, .friction = 1},
         {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e6f, 0}, .scale = 1, .friction = 1},
         {HAIR_SHAPE_SPHERE, {0, -1e6f, 0}, {0, 0, 0, 1}, {1e6f, 0}, .scale = 1, .friction = 1},
@@ -365,36 +365,36 @@ static void whatever_the_solids_nothing_that_is_not_finite_is_written(void** sta
     begin(*state, origin, &f);
     const uint32_t count = sizeof hostile / sizeof *hostile;
     for (uint32_t i = 0; i <= count; ++i) {
-        const hair_solid* solids = i < count ? &hostile[i] : hostile;
-        hair_test_ok(f.test, hair_field_update(&f.field, solids, i < count ? 1 : count, &f.head));
+        const hair_collider* colliders = i < count ? &hostile[i] : hostile;
+        hair_test_ok(f.test, hair_field_update(&f.field, colliders, i < count ? 1 : count, &f.head));
         if (!hair_field_is_near(&f.field)) continue;
         struct hair_test_field read = hair_test_field_read(&f.field);
         for (size_t k = 0; k < hair_test_field_count(&read); ++k)
-            if (!isfinite(read.distance[k])) fail_msg("solid %u: voxel %zu is not finite", i, k);
+            if (!isfinite(read.distance[k])) fail_msg("collider %u: voxel %zu is not finite", i, k);
         hair_test_field_free(&read);
     }
     end(&f);
 }
 
-static void ten_thousand_solids_are_one_field(void** state)
+static void ten_thousand_colliders_are_one_field(void** state)
 {
     const uint32_t count = 10000;
     struct fixture f;
     begin(*state, origin, &f);
-    hair_solid* solids = calloc(count, sizeof *solids);
+    hair_collider* colliders = calloc(count, sizeof *colliders);
     for (uint32_t i = 0; i < count; ++i)
-        solids[i] = hair_test_any_solid(&f.field.box, &f.head, 0.3f, &f.random);
-    hair_test_ok(f.test, hair_field_update(&f.field, solids, count, &f.head));
+        colliders[i] = hair_test_any_collider(&f.field.box, &f.head, 0.3f, &f.random);
+    hair_test_ok(f.test, hair_field_update(&f.field, colliders, count, &f.head));
     struct hair_test_field read = hair_test_field_read(&f.field);
     for (size_t i = 0; i < hair_test_field_count(&read); i += 997) {
         double point[3];
         uint32_t number;
         hair_test_voxel(&f.field.box, &f.head, i, point);
-        double right = fmin(hair_test_nearest(solids, count, point, &number), (double)f.field.box.far);
+        double right = fmin(hair_test_nearest(colliders, count, point, &number), (double)f.field.box.far);
         hair_test_near("voxel", i, (double)read.distance[i], right, 0.05 * (double)VOXEL);
     }
     hair_test_field_free(&read);
-    free(solids);
+    free(colliders);
     end(&f);
 }
 
@@ -412,7 +412,7 @@ static void a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_firs
     size_t bytes = f.test->host.live;
     void(APIENTRY * kept)(GLuint, GLsizei, GLenum, GLsizei, GLsizei, GLsizei) = gl->TextureStorage3D;
     gl->TextureStorage3D = make_nothing;
-    hair_result result = hair_field_update(&f.field, f.solids, MANY, &f.head);
+    hair_result result = hair_field_update(&f.field, f.colliders, MANY, &f.head);
     gl->TextureStorage3D = kept;
     hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "the driver has no");
     assert_int_equal(f.test->host.live, bytes);
@@ -429,7 +429,7 @@ static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(
     uint32_t refused = 0;
     for (;; ++refused) {
         f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result = hair_field_update(&f.field, f.solids, MANY, &f.head);
+        hair_result result = hair_field_update(&f.field, f.colliders, MANY, &f.head);
         f.test->host.refuse = 0;
         if (result == HAIR_OK) break;
         hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
@@ -447,7 +447,8 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
     struct hair_test* test = *state;
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_desc desc = hair_desc_default();
-    hair_solid ball = {HAIR_SHAPE_SPHERE, {1.02f, 2, 3}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_collider ball = {HAIR_SHAPE_SPHERE, {1.02f, 2, 3}, {0, 0, 0, 1},
+                          {0.05f, 0},        .scale = 1,    .friction = 1};
     hair_field_info info = hair_field_info_default();
     hair_instance* hair = NULL;
     // Turned by 90 degrees about y.
@@ -456,10 +457,10 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_get_field(hair, &info));
     assert_int_equal(info.distance_texture, 0);
-    hair_test_ok(test, hair_set_solids(hair, &ball, 1, sizeof ball));
+    hair_test_ok(test, hair_set_colliders(hair, &ball, 1, sizeof ball));
     hair_test_ok(test, hair_step(hair, 0.1f));
     hair_test_ok(test, hair_get_field(hair, &info));
-    assert_true(info.distance_texture && info.solid_texture);
+    assert_true(info.distance_texture && info.collider_texture);
     float* texels = calloc((size_t)info.size[0] * info.size[1] * info.size[2], sizeof *texels);
     uint32_t bytes = info.size[0] * info.size[1] * info.size[2] * (uint32_t)sizeof *texels;
     glGetTextureImage(info.distance_texture, 0, GL_RED, GL_FLOAT, (GLsizei)bytes, texels);
@@ -487,16 +488,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_voxel_holds_the_distance_to_the_nearest_solid_and_its_number),
+        HAIR_TEST(every_voxel_holds_the_distance_to_the_nearest_collider_and_its_number),
         HAIR_TEST(between_voxels_distance_sign_gradient_and_number_are_right),
         HAIR_TEST(the_box_has_from_32_to_256_voxels_along_its_longest_side),
         HAIR_TEST(the_box_holds_the_hair_at_rest_and_some_of_its_swing_but_no_more_than_its_reach),
         HAIR_TEST(after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once),
         HAIR_TEST(nothing_moved_is_no_call_of_opengl),
         HAIR_TEST(what_moves_with_the_head_is_not_written_again),
-        HAIR_TEST(there_is_no_field_where_no_solid_is_near),
-        HAIR_TEST(whatever_the_solids_nothing_that_is_not_finite_is_written),
-        HAIR_TEST(ten_thousand_solids_are_one_field),
+        HAIR_TEST(there_is_no_field_where_no_collider_is_near),
+        HAIR_TEST(whatever_the_colliders_nothing_that_is_not_finite_is_written),
+        HAIR_TEST(ten_thousand_colliders_are_one_field),
         HAIR_TEST(a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_first),
         HAIR_TEST(a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first),
         HAIR_TEST(the_host_is_given_textures_and_where_they_are),

@@ -141,7 +141,7 @@ static void air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it(void
     hair_test_fluid_end(&f);
 }
 
-static void without_solids_the_wind_stays_as_it_is_wherever_the_head_goes(void** state)
+static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, 16, 0, &f);
@@ -175,7 +175,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
     struct hair_air air = {0};
     hair_wind wind = hair_wind_default();
     begin(*state, 32, 0, &f);
-    wind.velocity[0] = (float)WIND, wind.gusts = 0.2f, wind.gust_length = 0.5f;
+    wind.velocity[0] = (float)WIND, wind.turbulence_intensity = 0.2f, wind.turbulence_length = 0.5f;
     hair_test_ok(f.test, hair_air_need(&air, &f.test->context->gl, &wind));
     float* texel = hair_gusts_make(&f.test->host.host, wind.seed);
     assert_non_null(texel);
@@ -205,20 +205,20 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
     hair_test_fluid_end(&f);
 }
 
-// A solid that moves --------------------------------------------------------------------------------------------
+// A collider that moves --------------------------------------------------------------------------------------------
 
 static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
 {
     struct hair_test_fluid f;
-    hair_solid ball;
+    hair_collider ball;
     begin(*state, 32, 1, &f);
     f.now.wind = hair_v3(0, 0, 0);
     for (int i = 0; i < 6; ++i) { // With the head, to which the box goes along by whole cells.
-        ball = f.solids.now.solid[0];
-        hair_solids_settle(&f.solids);
+        ball = f.colliders.now.collider[0];
+        hair_colliders_settle(&f.colliders);
         f.now.head.position[0] += WIND / 60;
         ball.position[0] = (float)f.now.head.position[0];
-        hair_test_ok(f.test, hair_solids_set(&f.test->host.host, &f.solids, &ball, 1, sizeof ball));
+        hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
         advance(&f, 1);
     }
     double *velocity = hair_test_fluid_velocity(&f), place[3] = {0, 16, 16}, n = f.cells;
@@ -305,18 +305,18 @@ static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
         if (i % 5 == 0) f.now.head.position[1] = 1e9;
         if (i % 7 == 0) f.now.head.rotation = (hair_quat){0, 1, 0, 0};
         if (i % 8 == 0) f.now.wind = hair_v3(NAN, INFINITY, 1);
-        hair_solid ball = f.solids.now.solid[0];
-        hair_solids_settle(&f.solids);
+        hair_collider ball = f.colliders.now.collider[0];
+        hair_colliders_settle(&f.colliders);
         ball.position[2] = i % 11 == 0 ? 1e6f : 0.01f * (float)(i % 3);
         ball.rotation[0] = i % 2 ? 1.0f : 0.0f, ball.rotation[3] = i % 2 ? 0.0f : 1.0f;
-        hair_test_ok(f.test, hair_solids_set(&f.test->host.host, &f.solids, &ball, 1, sizeof ball));
+        hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
         advance(&f, 1);
         assert_true(fastest(&f) <= 1e4);
     }
-    hair_solid ball = f.solids.now.solid[0];
+    hair_collider ball = f.colliders.now.collider[0];
     memset(ball.position, 0, sizeof ball.position);
-    hair_test_ok(f.test, hair_solids_set(&f.test->host.host, &f.solids, &ball, 1, sizeof ball));
-    hair_solids_settle(&f.solids);
+    hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
+    hair_colliders_settle(&f.colliders);
     f.now = kept;
     advance(&f, 60);
     double most = fastest(&f);
@@ -368,7 +368,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(nothing_is_left_to_be_driven_out_of_cells),
         HAIR_TEST(air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it),
-        HAIR_TEST(without_solids_the_wind_stays_as_it_is_wherever_the_head_goes),
+        HAIR_TEST(without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes),
         HAIR_TEST(gusts_come_in_with_the_wind_and_travel_through_the_box),
         HAIR_TEST(a_ball_that_moves_through_still_air_pushes_it_along),
         HAIR_TEST(in_a_closed_box_nothing_goes_out_and_energy_only_fades),

@@ -100,17 +100,17 @@ static void coarser_faces_are_as_open_as_their_four_parts(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Solids turn about and go with: each face's wall has the speed of the ball there.
-static void walls_move_as_the_solid_does(void** state)
+// Colliders turn about and go with: each face's wall has the speed of the ball there.
+static void walls_move_as_the_collider_does(void** state)
 {
     struct hair_test_fluid f;
     const double spin = 0.1 * 60, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
     begin(*state, &f);
-    hair_solid ball = f.solids.now.solid[0];
-    hair_solids_settle(&f.solids);
+    hair_collider ball = f.colliders.now.collider[0];
+    hair_colliders_settle(&f.colliders);
     ball.position[1] = 0.01f;
     ball.rotation[2] = sinf(0.05f), ball.rotation[3] = cosf(0.05f);
-    hair_test_ok(f.test, hair_solids_set(&f.test->host.host, &f.solids, &ball, 1, sizeof ball));
+    hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
     hair_fluid_place(&f.fluid, &f.now);
     double *open = hair_test_fluid_open(&f, 0), *wall = hair_test_floats(f.fluid.wall.buffer, f.faces);
     size_t closed = 0, slots = f.faces / 3, side = CELLS + 1;
@@ -311,7 +311,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(faces_are_as_open_as_the_ball_leaves_them),
         HAIR_TEST(coarser_faces_are_as_open_as_their_four_parts),
-        HAIR_TEST(walls_move_as_the_solid_does),
+        HAIR_TEST(walls_move_as_the_collider_does),
         HAIR_TEST(air_is_carried_and_corrected_from_a_box_that_has_moved),
         HAIR_TEST(what_flows_into_cells_is_to_be_driven_out),
         HAIR_TEST(sweeps_fit_the_pressures_of_one_color_or_of_all),

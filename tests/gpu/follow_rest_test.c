@@ -1,5 +1,5 @@
 // follow_rest_test.c - the solvers follow and redblack come to rest: built-in haircuts after a head shake, alone and
-// among solids that touch them.
+// among colliders that touch them.
 #include "tests/support/haircut.h"
 #include "tests/support/living.h"
 
@@ -13,13 +13,13 @@
 // Add a head, a neck and shoulders that touch hair.
 static void add_bust(struct hair_test* test, hair_instance* hair)
 {
-    hair_solid solids[3] = {hair_solid_default(), hair_solid_default(), hair_solid_default()};
-    solids[0].position[1] = 1.63f, solids[0].size[0] = 0.088f;
-    solids[1].shape = solids[2].shape = HAIR_SHAPE_CAPSULE;
-    solids[1].position[1] = 1.48f, solids[1].size[0] = 0.05f, solids[1].size[1] = 0.08f;
-    solids[2].position[1] = 1.4f, solids[2].size[0] = 0.05f, solids[2].size[1] = 0.15f;
-    solids[2].rotation[2] = solids[2].rotation[3] = sqrtf(0.5f);
-    hair_test_ok(test, hair_set_solids(hair, solids, 3, sizeof *solids));
+    hair_collider colliders[3] = {hair_collider_default(), hair_collider_default(), hair_collider_default()};
+    colliders[0].position[1] = 1.63f, colliders[0].size[0] = 0.088f;
+    colliders[1].shape = colliders[2].shape = HAIR_SHAPE_CAPSULE;
+    colliders[1].position[1] = 1.48f, colliders[1].size[0] = 0.05f, colliders[1].size[1] = 0.08f;
+    colliders[2].position[1] = 1.4f, colliders[2].size[0] = 0.05f, colliders[2].size[1] = 0.15f;
+    colliders[2].rotation[2] = colliders[2].rotation[3] = sqrtf(0.5f);
+    hair_test_ok(test, hair_set_colliders(hair, colliders, 3, sizeof *colliders));
 }
 
 static void turn_head(struct hair_test* test, hair_instance* hair, double yaw)
@@ -38,9 +38,10 @@ static double shake_and_wait(struct hair_test* test, hair_instance* hair, uint32
     for (int k = 0; k <= 660; ++k) {
         if (k <= 60) turn_head(test, hair, 0.6 * sin(6.283185307179586 * k / 60));
         hair_test_ok(test, hair_step(hair, (float)FRAME));
-        if (k == 659) hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, before, vertices, &count));
+        if (k == 659)
+            hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, before, vertices, &count));
     }
-    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, after, vertices, &count));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, after, vertices, &count));
     for (uint32_t i = 0; i < vertices; ++i)
         farthest =
             fmax(farthest, (double)hair_distance(hair_load3(after + 3 * i), hair_load3(before + 3 * i)));
@@ -49,7 +50,7 @@ static double shake_and_wait(struct hair_test* test, hair_instance* hair, uint32
     return farthest / FRAME;
 }
 
-static double speed_at_rest(struct hair_test* test, hair_style style, hair_solver solver, int solids)
+static double speed_at_rest(struct hair_test* test, hair_style style, hair_solver solver, int colliders)
 {
     hair_style_desc cut = hair_style_desc_default();
     hair_physics physics = hair_physics_default();
@@ -57,21 +58,21 @@ static double speed_at_rest(struct hair_test* test, hair_style style, hair_solve
     hair_instance* hair = NULL;
     hair_groom_info info = hair_groom_info_default();
     cut.style = style, cut.guide_count = GUIDES, cut.strand_vertices = 32;
-    physics.sleep = 0, desc.physics = &physics, desc.solver = solver;
+    physics.sleep_threshold = 0, desc.physics = &physics, desc.solver = solver;
     hair_groom* groom = hair_test_haircut(test, &cut, 0);
     hair_test_ok(test, hair_groom_describe(groom, &info));
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    if (solids) add_bust(test, hair);
+    if (colliders) add_bust(test, hair);
     double speed = shake_and_wait(test, hair, info.guide_vertex_count);
     hair_destroy(hair);
     hair_groom_destroy(groom);
     return speed;
 }
 
-static void check(struct hair_test* test, hair_style style, hair_solver solver, int solids)
+static void check(struct hair_test* test, hair_style style, hair_solver solver, int colliders)
 {
-    double fastest = speed_at_rest(test, style, solver, solids);
-    print_message("    style %d, %d solids: %.2g mm/s\n", (int)style, 3 * solids, 1000 * fastest);
+    double fastest = speed_at_rest(test, style, solver, colliders);
+    print_message("    style %d, %d colliders: %.2g mm/s\n", (int)style, 3 * colliders, 1000 * fastest);
     assert_true(fastest < RESTLESS);
 }
 
@@ -93,11 +94,11 @@ static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
 {
     for (int held = 0; held < 2; ++held) {
         hair_physics physics = hair_physics_default();
-        physics.pull_root = physics.pull_tip = 0;
-        physics.hold = (float)held;
+        physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+        physics.gravity_preload = (float)held;
         struct hair_test_strands strands =
             hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(1, 0.3f, 0.1f), 0.05f);
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         struct hair_test_living living;
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 240);
@@ -119,7 +120,7 @@ static void limp_strands_hang_as_the_reference_does(void** state)
             physics.damping = 4;
             struct hair_test_strands strands =
                 hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, ways[k], 0), 0.3f);
-            hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_MAPPING_AUTO, 0, &physics);
+            hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
             struct hair_test_living living;
             hair_test_live(*state, &strands, &desc, &living);
             hair_test_wait(&living, 180);

@@ -77,8 +77,8 @@ static void refuse(struct fixture* f, GLuint texture)
 {
     static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_ID, HAIR_PASS_OPACITY};
     char words[128];
-    snprintf(words, sizeof words, "hair_view.depth_texture is %u, not a 2D texture of depth", texture);
-    f->view.depth_texture = texture;
+    snprintf(words, sizeof words, "hair_view.occluder_depth is %u, not a 2D texture of depth", texture);
+    f->view.occluder_depth = texture;
     for (int i = 0; i < 4; ++i) {
         f->view.pass = passes[i];
         hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT, words);
@@ -120,7 +120,7 @@ static void what_is_no_texture_of_depth_is_refused(void** state)
     refuse(&f, 4711);
     refuse(&f, UINT32_MAX);
     refuse(&f, f.hair->draw.patch_texture); // Of a buffer, and the library's own.
-    f.view.depth_texture = 0;
+    f.view.occluder_depth = 0;
     assert_true(draw(&f) > 0);
     finish(&f);
 }
@@ -132,22 +132,22 @@ static void every_format_of_depth_is_read(void** state)
     struct fixture f = start(state);
     for (int i = 0; i < 6; ++i) {
         GLuint frame;
-        f.view.depth_texture = make_texture(GL_TEXTURE_2D, formats[i], SIZE);
-        glTextureParameteri(f.view.depth_texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        f.view.occluder_depth = make_texture(GL_TEXTURE_2D, formats[i], SIZE);
+        glTextureParameteri(f.view.occluder_depth, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         glCreateFramebuffers(1, &frame);
         glNamedFramebufferTexture(frame, i < 4 ? GL_DEPTH_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT,
-                                  f.view.depth_texture, 0);
+                                  f.view.occluder_depth, 0);
         for (int hides = 0; hides < 2; ++hides) {
             float depth = hides ? 0.01f : 0.99f;
             glClearNamedFramebufferfv(frame, GL_DEPTH, 0, &depth);
             assert_int_equal(draw(&f) == 0, hides);
         }
         if (i >= 4) {
-            glTextureParameteri(f.view.depth_texture, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
-            refuse(&f, f.view.depth_texture);
+            glTextureParameteri(f.view.occluder_depth, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
+            refuse(&f, f.view.occluder_depth);
         }
         glDeleteFramebuffers(1, &frame);
-        glDeleteTextures(1, &f.view.depth_texture);
+        glDeleteTextures(1, &f.view.occluder_depth);
     }
     finish(&f);
 }
@@ -164,10 +164,10 @@ static void by_any_matrix_there_is_a_picture(void** state)
         {[0] = FLT_MIN, [3] = -FLT_MAX, [5] = FLT_MAX, [10] = FLT_MIN, [15] = FLT_MAX},
     };
     struct fixture f = start(state);
-    f.view.depth_texture = f.depth;
+    f.view.occluder_depth = f.depth;
     assert_int_equal(draw(&f), 0);
     for (size_t i = 0; i < sizeof odd / sizeof *odd; ++i) {
-        memcpy(f.view.depth_matrix, odd[i], sizeof odd[i]);
+        memcpy(f.view.occluder_matrix, odd[i], sizeof odd[i]);
         assert_true(draw(&f) > 0 || i >= 2);
     }
     finish(&f);
@@ -178,10 +178,10 @@ static void a_matrix_that_is_not_finite_is_refused(void** state)
     struct fixture f = start(state);
     for (int i = 0; i < 16; ++i) {
         char words[64];
-        snprintf(words, sizeof words, "hair_view.depth_matrix[%d] is", i);
-        f.view.depth_matrix[i] = i % 2 ? NAN : -INFINITY;
+        snprintf(words, sizeof words, "hair_view.occluder_matrix[%d] is", i);
+        f.view.occluder_matrix[i] = i % 2 ? NAN : -INFINITY;
         hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, words);
-        f.view.depth_matrix[i] = 0;
+        f.view.occluder_matrix[i] = 0;
     }
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
     finish(&f);
@@ -194,11 +194,13 @@ static void textures_of_lights_and_colours_may_be_no_buffers_either(void** state
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
     GLuint buffer = f.hair->draw.patch_texture;
     f.view.lights = &light;
-    light.body_texture = buffer;
-    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, "lights[0].body_texture is");
-    light.body_texture = 0, light.shadow_texture = buffer;
-    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, "lights[0].shadow_texture is");
-    light.shadow_texture = 0, f.view.color_texture = buffer;
+    light.opaque_shadow_map = buffer;
+    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT,
+                      "lights[0].opaque_shadow_map is");
+    light.opaque_shadow_map = 0, light.hair_shadow_map = buffer;
+    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT,
+                      "lights[0].hair_shadow_map is");
+    light.hair_shadow_map = 0, f.view.color_texture = buffer;
     hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, "hair_view.color_texture is");
     assert_int_equal(glGetError(), GL_NO_ERROR);
     finish(&f);

@@ -144,7 +144,7 @@ static uint32_t draw(const struct fixture* f, int lends, const int at[4], float 
     glGenQueries(1, &query);
     clear(f);
     put_wall(f, at, away);
-    view.depth_texture = lends ? f->depth : 0;
+    view.occluder_depth = lends ? f->depth : 0;
     glBeginQuery(GL_PRIMITIVES_GENERATED, query);
     hair_test_ok(f->test, hair_draw(f->hair, &view));
     glEndQuery(GL_PRIMITIVES_GENERATED);
@@ -193,7 +193,7 @@ static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void*
     for (int i = 0; i < KINDS * 3 * 3; ++i) {
         int where = i % 3;
         set_kind(&f, (enum kind)(i / 9));
-        f.view.path = (hair_path)(i / 3 % 3);
+        f.view.render_path = (hair_render_path)(i / 3 % 3);
         uint32_t all = draw(&f, 0, places[where], away[where], kept);
         uint32_t primitive = draw(&f, 1, places[where], away[where], some), hidden = read_hidden(&f, NULL);
         if (differ(kept, some) > 0) fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
@@ -210,14 +210,14 @@ static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void*
     finish(&f);
 }
 
-static void move(struct fixture* f, float turn, int solid)
+static void move(struct fixture* f, float turn, int collider)
 {
     float c = cosf(turn), s = sinf(turn), at[16];
-    hair_solid ball = hair_solid_default();
+    hair_collider ball = hair_collider_default();
     memcpy(at, head, sizeof at);
     at[0] = at[10] = c, at[2] = -s, at[8] = s;
     ball.size[0] = 0.08f, ball.position[0] = 5.12f, ball.position[1] = 7.5f, ball.position[2] = -7;
-    hair_test_ok(f->test, hair_set_solids(f->hair, &ball, (uint32_t)solid, sizeof ball));
+    hair_test_ok(f->test, hair_set_colliders(f->hair, &ball, (uint32_t)collider, sizeof ball));
     hair_test_ok(f->test, hair_set_transform(f->hair, at));
     hair_test_ok(f->test, hair_step(f->hair, 1.0f / 30));
 }
@@ -231,7 +231,7 @@ static void no_strand_that_is_seen_is_left_out(void** state)
     hair_look look = f.hair->draw.look, curls = look;
     uint32_t random = 5, hidden = 0, drawn = 0;
     lod.strand_pixels = 6;
-    hair_test_ok(f.test, hair_look_preset(&curls, HAIR_LOOK_WAVY));
+    hair_test_ok(f.test, hair_look_apply_preset(&curls, HAIR_LOOK_WAVY));
     curls.segments = 12;
     for (int i = 0; i < 96; ++i) {
         float number[6];
@@ -240,9 +240,9 @@ static void no_strand_that_is_seen_is_left_out(void** state)
         const int at[4] = {x, y, (int)((float)(SIZE - x) * (0.5f + 0.5f * number[2])), SIZE - y};
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 6.28f * number[3], 0.4f * number[4] - 0.2f);
-        f.view.path = (hair_path)(i % 3);
-        f.view.primitive = i % 5 ? HAIR_RIBBONS : HAIR_LINES;
-        f.view.coverage = i % 7 ? HAIR_COVERAGE_SAMPLES : HAIR_COVERAGE_SHARES;
+        f.view.render_path = (hair_render_path)(i % 3);
+        f.view.primitive = i % 5 ? HAIR_PRIMITIVE_RIBBONS : HAIR_PRIMITIVE_LINES;
+        f.view.coverage = i % 7 ? HAIR_COVERAGE_MSAA : HAIR_COVERAGE_ALPHA;
         f.view.lod = i % 2 ? &lod : NULL;
         f.view.jitter[0] = i % 11 ? 0 : 0.4f;
         if (i % 8 == 0) hair_test_ok(f.test, hair_set_look(f.hair, i % 16 ? &curls : &look));
@@ -299,12 +299,12 @@ static void depth_may_be_that_of_another_view(void** state)
     for (int i = 0; i < 2 * KINDS; ++i) {
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 0, 0);
-        memset(f.view.depth_matrix, 0, sizeof f.view.depth_matrix);
+        memset(f.view.occluder_matrix, 0, sizeof f.view.occluder_matrix);
         draw(&f, 1, left, 0.3f, pixels);
         uint32_t count = read_hidden(&f, before);
         assert_in_range(count, 1, f.hair->draw.patches - 1);
         hair_mat4_multiply(f.view.projection, f.view.view, given);
-        memcpy(f.view.depth_matrix, given, sizeof given);
+        memcpy(f.view.occluder_matrix, given, sizeof given);
         look_from(&f, i < KINDS ? 0.4f : 0.9f, 0.05f);
         draw(&f, 1, left, 0.3f, pixels);
         assert_int_equal(read_hidden(&f, now), count);
@@ -320,7 +320,7 @@ static hair_report_row report(const struct fixture* f)
     uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].work, "hide") == 0) return rows[i];
+        if (strcmp(rows[i].stage, "hide") == 0) return rows[i];
     fail_msg("there is no row hide");
     return none;
 }
@@ -333,7 +333,7 @@ static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
     struct fixture f = start(state);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f, 0, all, 0.3f, pixels);
-    assert_int_equal(report(&f).why, HAIR_WHY_NOT_WANTED);
+    assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
     assert_int_equal(report(&f).bytes, 0);
     hair_test_trace_clear();
     draw(&f, 0, all, 0.3f, pixels);
@@ -344,14 +344,14 @@ static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
     assert_int_equal(hair_test_trace_count("glBindTextureUnit"), binds + 1);
     assert_in_range(hair_test_trace_count("glDispatch"), 3, 5);
     assert_int_equal(hair_test_trace_waits(), 0);
-    assert_int_equal(report(&f).why, HAIR_WHY_DONE);
+    assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_NONE);
     assert_true(report(&f).bytes > 0);
     for (int i = 0; i < 250; ++i) {
         hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
         if (i % 50 == 49) draw(&f, 0, all, 0.3f, pixels);
     }
     draw(&f, 0, all, 0.3f, pixels);
-    assert_int_equal(report(&f).why, HAIR_WHY_NOT_WANTED);
+    assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
     assert_int_equal(report(&f).bytes, 0);
     finish(&f);
 }
@@ -365,14 +365,14 @@ static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** s
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f, 0, all, 4, pixels); // After which guides are smooth.
     for (int i = 0; i < 2; ++i) { // Beside it; and where depth tells no near from far.
-        hair_mat4_multiply(f.view.projection, f.view.view, f.view.depth_matrix);
-        f.view.depth_matrix[12] += i == 0 ? 20 : 0;
+        hair_mat4_multiply(f.view.projection, f.view.view, f.view.occluder_matrix);
+        f.view.occluder_matrix[12] += i == 0 ? 20 : 0;
         glDepthFunc(i == 0 ? GL_LESS : GL_ALWAYS);
         hair_test_trace_clear();
         assert_true(draw(&f, 1, all, 0.3f, pixels) > 0);
         assert_int_equal(hair_test_trace_count("glDispatch"), 0);
     }
-    assert_int_equal(report(&f).why, HAIR_WHY_OUT_OF_VIEW);
+    assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_OUT_OF_VIEW);
     finish(&f);
 }
 
@@ -382,7 +382,7 @@ static void what_was_hidden_is_listed_again_when_it_is_not(void** state)
     static float kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
-    f.view.path = HAIR_PATH_INSTANCED;
+    f.view.render_path = HAIR_RENDER_PATH_INSTANCED;
     draw(&f, 0, all, 4, kept);
     for (int i = 0; i < 6; ++i) {
         draw(&f, i % 3 < 2, all, i % 3 ? 4 : 0.3f, now);

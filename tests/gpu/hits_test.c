@@ -1,4 +1,4 @@
-// hits_test.c - followers that meet solids are found, and led round them, as the double-precision reference has it;
+// hits_test.c - followers that meet colliders are found, and led round them, as the double-precision reference has it;
 // where nothing can be met, nothing is done.
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
@@ -12,7 +12,7 @@
 #include "tests/support/handmade.h"
 
 #define STATES 1024
-#define SOLIDS 3
+#define COLLIDERS 3
 
 struct fixture {
     struct hair_test* test;
@@ -20,7 +20,7 @@ struct fixture {
     hair_instance* hair;
     hair_look look;
     struct hair_reference_sample* samples;
-    hair_solid solids[SOLIDS];
+    hair_collider colliders[COLLIDERS];
 };
 
 static void smooth(struct fixture* f)
@@ -52,18 +52,19 @@ static void smooth(struct fixture* f)
     }
 }
 
-static hair_solid solid_of(hair_shape shape, const float position[3], const float rotation[4], float radius)
+static hair_collider collider_of(hair_shape shape, const float position[3], const float rotation[4],
+                                 float radius)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = shape;
-    solid.size[0] = radius;
-    solid.size[1] = 0.1f;
-    memcpy(solid.position, position, sizeof solid.position);
-    memcpy(solid.rotation, rotation, sizeof solid.rotation);
-    return solid;
+    hair_collider collider = hair_collider_default();
+    collider.shape = shape;
+    collider.size[0] = radius;
+    collider.size[1] = 0.1f;
+    memcpy(collider.position, position, sizeof collider.position);
+    memcpy(collider.rotation, rotation, sizeof collider.rotation);
+    return collider;
 }
 
-// Guides in disorder, smoothed on the GPU and by the reference, with solids among them. `alone`: followers have one
+// Guides in disorder, smoothed on the GPU and by the reference, with colliders among them. `alone`: followers have one
 // guide; else those of many lie anywhere on the ball, and no follower of theirs is like a hair.
 static struct fixture start(void** state, int alone)
 {
@@ -77,11 +78,12 @@ static struct fixture start(void** state, int alone)
     desc.field_voxel = 0.001f; // As fine as it gets.
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     smooth(&f);
-    f.solids[0] = solid_of(HAIR_SHAPE_SPHERE, (float[3]){0.15f, 0, 0}, (float[4]){0, 0, 0, 1}, 0.05f);
-    f.solids[1] =
-        solid_of(HAIR_SHAPE_CAPSULE, (float[3]){-0.05f, 0.12f, 0.05f}, (float[4]){0.6f, 0, 0, 0.8f}, 0.03f);
-    f.solids[2] = solid_of(HAIR_SHAPE_SPHERE, (float[3]){0, -0.1f, 0.14f}, (float[4]){0, 0, 0, 1}, 0.06f);
-    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
+    f.colliders[0] = collider_of(HAIR_SHAPE_SPHERE, (float[3]){0.15f, 0, 0}, (float[4]){0, 0, 0, 1}, 0.05f);
+    f.colliders[1] = collider_of(HAIR_SHAPE_CAPSULE, (float[3]){-0.05f, 0.12f, 0.05f},
+                                 (float[4]){0.6f, 0, 0, 0.8f}, 0.03f);
+    f.colliders[2] =
+        collider_of(HAIR_SHAPE_SPHERE, (float[3]){0, -0.1f, 0.14f}, (float[4]){0, 0, 0, 1}, 0.06f);
+    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
     return f;
 }
 
@@ -100,26 +102,26 @@ static void find_point(const struct fixture* f, uint32_t number, double t,
                             f->samples, t, repair, out);
 }
 
-static double distance_to(const hair_solid* solid, const double p[3])
+static double distance_to(const hair_collider* collider, const double p[3])
 {
-    const float* q = solid->rotation;
+    const float* q = collider->rotation;
     double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
     // The second column of the rotation: where its own y points.
     double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3], along = 0;
-    double half = solid->shape == HAIR_SHAPE_CAPSULE ? (double)solid->size[1] : 0;
+    double half = collider->shape == HAIR_SHAPE_CAPSULE ? (double)collider->size[1] : 0;
     for (int k = 0; k < 3; ++k) {
-        arm[k] = p[k] - (double)solid->position[k];
+        arm[k] = p[k] - (double)collider->position[k];
         along += arm[k] * axis[k];
     }
     along = fmin(fmax(along, -half), half);
     for (int k = 0; k < 3; ++k) arm[k] -= along * axis[k];
-    return sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]) - (double)solid->size[0];
+    return sqrt(arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2]) - (double)collider->size[0];
 }
 
 static double distance_to_all(const struct fixture* f, const double p[3])
 {
     double least = INFINITY;
-    for (int i = 0; i < SOLIDS; ++i) least = fmin(least, distance_to(&f->solids[i], p));
+    for (int i = 0; i < COLLIDERS; ++i) least = fmin(least, distance_to(&f->colliders[i], p));
     return least;
 }
 
@@ -130,13 +132,13 @@ static double distance_to_all(const struct fixture* f, const double p[3])
 // What the field may be off where the surface is. m.
 #define FIELD 3e-4
 
-static float* read_followers(struct fixture* f, hair_collision collision)
+static float* read_followers(struct fixture* f, hair_follower_collision collision)
 {
     uint32_t count = f->groom->info.follower_count * (f->look.segments + 1), there;
     float* vertices = malloc(3 * sizeof *vertices * count);
-    f->look.collision = collision;
+    f->look.follower_collision = collision;
     hair_test_ok(f->test, hair_set_look(f->hair, &f->look));
-    hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
+    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
     assert_int_equal(there, count);
     return vertices;
 }
@@ -168,7 +170,7 @@ static void the_first_vertex_inside_is_found(void** state)
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         uint32_t found = 0, doubtful = 0;
         f.look.segments = segments[i];
-        free(read_followers(&f, HAIR_COLLISION_PUSH));
+        free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
             double nearest;
@@ -200,7 +202,8 @@ static void a_work_group_finds_the_same(void** state)
     uint32_t runs = hair_test_runs_of(&f.test->context->gl, "interpolate/hit_group");
     for (size_t i = 0; i < 2 * sizeof segments / sizeof *segments; ++i) {
         uint32_t differ = 0;
-        hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
+        hair_follower_collision collision =
+            i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
         f.look.segments = segments[i / 2];
         float* before = read_followers(&f, collision);
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
@@ -232,15 +235,16 @@ static void a_prepass_finds_the_same(void** state)
     hair_desc desc = hair_desc_default();
     hair_instance* prepass = NULL;
     desc.field_voxel = 0.001f;
-    desc.first_hit = HAIR_FIRST_HIT_PREPASS;
+    desc.hit_method = HAIR_HIT_METHOD_PREPASS;
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &prepass));
     f.hair = prepass;
     free(f.samples);
     smooth(&f);
-    hair_test_ok(f.test, hair_set_solids(prepass, f.solids, SOLIDS, sizeof *f.solids));
+    hair_test_ok(f.test, hair_set_colliders(prepass, f.colliders, COLLIDERS, sizeof *f.colliders));
     for (int i = 0; i < 8; ++i) {
         uint32_t differ = 0;
-        hair_collision collision = i % 2 ? HAIR_COLLISION_SWITCH : HAIR_COLLISION_PUSH;
+        hair_follower_collision collision =
+            i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
         f.look.segments = segments[i / 2];
         f.hair = compute;
         free(read_followers(&f, collision));
@@ -271,7 +275,7 @@ static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
 static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
 {
     struct fixture f = start(state, 0);
-    float* vertices = read_followers(&f, HAIR_COLLISION_SWITCH);
+    float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
     static float hits[400];
     uint32_t switched = 0;
     read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
@@ -298,7 +302,7 @@ static double from_half(uint16_t half)
     return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
 }
 
-static void what_leads_followers_round_solids_is_a_spline(void** state)
+static void what_leads_followers_round_colliders_is_a_spline(void** state)
 {
     static const uint32_t segments[] = {7, 32, 100};
     static float hits[400];
@@ -306,7 +310,7 @@ static void what_leads_followers_round_solids_is_a_spline(void** state)
     struct fixture f = start(state, 0);
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         f.look.segments = segments[i];
-        float* vertices = read_followers(&f, HAIR_COLLISION_PUSH);
+        float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         read_buffer(&f, f.hair->draw.hits.repair, sizeof *halves, halves);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
@@ -345,11 +349,11 @@ static struct strand measure(const struct fixture* f, const float* vertices, uin
 }
 
 // Strands whose roots are inside, or all but, have nowhere to go at once: they are not looked at.
-static void followers_pushed_out_of_solids_are_outside_and_as_long_as_before(void** state)
+static void followers_pushed_out_of_colliders_are_outside_and_as_long_as_before(void** state)
 {
     struct fixture f = start(state, 1);
-    float* before = read_followers(&f, HAIR_COLLISION_NONE);
-    float* after = read_followers(&f, HAIR_COLLISION_PUSH);
+    float* before = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
+    float* after = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     uint32_t inside = 0, left = 0;
     double deepest = 0, longest = 0;
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
@@ -374,19 +378,19 @@ static void followers_pushed_out_of_solids_are_outside_and_as_long_as_before(voi
     finish(&f);
 }
 
-// A solid that comes by and by moves followers by and by: what it does has no jumps. But one that has come over a strand
+// A collider that comes by and by moves followers by and by: what it does has no jumps. But one that has come over a strand
 // until its middle is past it pushes it out on the other side, and guides that are simulated are not there.
-static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
+static void a_collider_that_moves_a_little_moves_followers_a_little(void** state)
 {
     struct fixture f = start(state, 1);
     float* before = NULL;
     double worst = 0;
     size_t each = f.look.segments + 1;
-    float* freely = read_followers(&f, HAIR_COLLISION_NONE);
+    float* freely = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
     for (int frame = 0; frame < 60; ++frame) {
-        f.solids[0].position[0] = 0.25f - 0.002f * (float)frame;
-        hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
-        float* now = read_followers(&f, HAIR_COLLISION_PUSH);
+        f.colliders[0].position[0] = 0.25f - 0.002f * (float)frame;
+        hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+        float* now = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
         for (size_t i = 0; before && i < each * f.groom->info.follower_count; ++i) {
             double square = 0;
             if (measure(&f, freely, (uint32_t)(i / each)).deepest > 0.01) continue;
@@ -403,17 +407,17 @@ static void a_solid_that_moves_a_little_moves_followers_a_little(void** state)
     finish(&f);
 }
 
-static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** state)
+static void where_no_collider_is_in_reach_there_is_no_pass_and_no_memory(void** state)
 {
     struct fixture f = start(state, 0);
     uint32_t hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit"),
              repairs = hair_test_runs_of(&f.test->context->gl, "repair");
-    float* without = read_followers(&f, HAIR_COLLISION_NONE);
-    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, 0));
-    float* none = read_followers(&f, HAIR_COLLISION_PUSH);
-    for (int i = 0; i < SOLIDS; ++i) f.solids[i].position[1] += 3;
-    hair_test_ok(f.test, hair_set_solids(f.hair, f.solids, SOLIDS, sizeof *f.solids));
-    float* far = read_followers(&f, HAIR_COLLISION_PUSH);
+    float* without = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
+    hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, 0));
+    float* none = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
+    for (int i = 0; i < COLLIDERS; ++i) f.colliders[i].position[1] += 3;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+    float* far = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.segments + 1);
     assert_memory_equal(none, without, size);
     assert_memory_equal(far, without, size);
@@ -430,13 +434,15 @@ static void where_no_solid_is_in_reach_there_is_no_pass_and_no_memory(void** sta
 static void nothing_is_looked_for_twice(void** state)
 {
     struct fixture f = start(state, 0);
-    free(read_followers(&f, HAIR_COLLISION_PUSH));
+    free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
     uint32_t count, hits = hair_test_runs_of(&f.test->context->gl, "interpolate/hit");
     float some[3];
-    for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    for (int i = 0; i < 3; ++i)
+        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits);
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));
-    for (int i = 0; i < 3; ++i) hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    for (int i = 0; i < 3; ++i)
+        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "interpolate/hit"), hits + 1);
     finish(&f);
 }
@@ -449,10 +455,10 @@ int main(void)
         HAIR_TEST(a_work_group_finds_the_same),
         HAIR_TEST(a_prepass_finds_the_same),
         HAIR_TEST(below_its_hit_a_follower_keeps_to_its_own_guide),
-        HAIR_TEST(what_leads_followers_round_solids_is_a_spline),
-        HAIR_TEST(followers_pushed_out_of_solids_are_outside_and_as_long_as_before),
-        HAIR_TEST(a_solid_that_moves_a_little_moves_followers_a_little),
-        HAIR_TEST(where_no_solid_is_in_reach_there_is_no_pass_and_no_memory),
+        HAIR_TEST(what_leads_followers_round_colliders_is_a_spline),
+        HAIR_TEST(followers_pushed_out_of_colliders_are_outside_and_as_long_as_before),
+        HAIR_TEST(a_collider_that_moves_a_little_moves_followers_a_little),
+        HAIR_TEST(where_no_collider_is_in_reach_there_is_no_pass_and_no_memory),
         HAIR_TEST(nothing_is_looked_for_twice),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -47,9 +47,9 @@ static hair_instance* make(struct hair_test* test, const hair_groom* groom)
     return hair;
 }
 
-static void read(struct hair_test* test, hair_instance* hair, hair_read_what what, struct strands* out)
+static void read(struct hair_test* test, hair_instance* hair, hair_read_source what, struct strands* out)
 {
-    hair_test_ok(test, hair_read(hair, what, out->positions, MOST, &out->vertices));
+    hair_test_ok(test, hair_read_positions(hair, what, out->positions, MOST, &out->vertices));
     assert_in_range(out->vertices, 1, MOST);
 }
 
@@ -84,7 +84,7 @@ static void a_new_instance_is_in_its_rest_pose(void** state)
 static void a_reset_is_as_good_as_new(void** state)
 {
     static struct strands used, fresh;
-    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH};
+    static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH};
     struct hair_test* test = *state;
     hair_groom* groom = make_groom(test);
     hair_instance* hair = make(test, groom);
@@ -132,7 +132,7 @@ static void compare_in_heads(const struct strands* a, const float at_a[16], cons
 static void a_teleport_takes_shape_and_motion_along(void** state)
 {
     static struct strands before, after;
-    static const hair_read_what whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
+    static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
     struct hair_test* test = *state;
     hair_groom* groom = make_groom(test);
     hair_instance* hair = make(test, groom);
@@ -185,7 +185,7 @@ static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** sta
     hair_groom_destroy(groom);
 }
 
-static void strands_rest_on_a_solid_that_moves_into_them(void** state)
+static void strands_rest_on_a_collider_that_moves_into_them(void** state)
 {
     static struct strands strands;
     struct hair_test* test = *state;
@@ -194,7 +194,7 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
     hair_physics physics = hair_physics_default();
     hair_test_ok(test, hair_set_physics(hair, &physics));
     for (int i = 0; i <= 60; ++i) {
-        hair_solid solids[2] = {
+        hair_collider colliders[2] = {
             {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.09f, 0}, .scale = 1, .friction = 1},
             {HAIR_SHAPE_CAPSULE,
              {0.3f - 0.0025f * (float)i, 0.1f, 0},
@@ -202,7 +202,7 @@ static void strands_rest_on_a_solid_that_moves_into_them(void** state)
              {0.04f, 0.1f},
              .scale = 1,
              .friction = 1}};
-        hair_test_ok(test, hair_set_solids(hair, solids, 2, sizeof *solids));
+        hair_test_ok(test, hair_set_colliders(hair, colliders, 2, sizeof *colliders));
         hair_test_ok(test, hair_step(hair, 1.0f / 60));
     }
     read(test, hair, HAIR_READ_GUIDES, &strands);
@@ -269,11 +269,11 @@ static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
     for (int out = 0; out < 2; ++out) {
         hair_instance* hair = NULL;
         hair_desc desc = hair_test_way(way);
-        hair_solid solid = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0},
-                            .scale = 1,        .friction = 1};
+        hair_collider collider = {HAIR_SHAPE_SPHERE, {out ? 1e5f : 0, 0, 0}, {0, 0, 0, 1}, {0.095f, 0},
+                                  .scale = 1,        .friction = 1};
         desc.transform[12] = out ? 1e5f : 0;
         hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
         for (int i = 0; i < 30; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 60));
         glGetNamedBufferSubData(hair->sim.state, 0, (GLsizeiptr)size, out ? far : near);
         hair_destroy(hair);
@@ -286,7 +286,7 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
                  float* pixels)
 {
     hair_view view = hair_view_default();
-    view.primitive = HAIR_LINES; // Ribbons are much narrower than these pixels.
+    view.primitive = HAIR_PRIMITIVE_LINES; // Ribbons are much narrower than these pixels.
     // 0.8 m wide around the head, seen along -z.
     view.projection[0] = view.projection[5] = 2.5f;
     view.projection[10] = -0.5f;
@@ -304,21 +304,21 @@ static void instances_beside_each_other_are_as_if_alone(void** state)
     static float seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
     struct hair_test* test = *state;
     hair_groom* groom = make_groom(test);
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                        {0.05f, 0},        .scale = 1,      .friction = 1};
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                              {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_instance* hair[2];
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 2; ++i) {
         hair[i] = make(test, groom);
-        if (i) hair_test_ok(test, hair_set_solids(hair[i], &solid, 1, sizeof solid));
+        if (i) hair_test_ok(test, hair_set_colliders(hair[i], &collider, 1, sizeof collider));
         for (int n = 0; n < 20; ++n) hair_test_ok(test, hair_step(hair[i], i ? 1.0f / 60 : 1.0f / 40));
         read(test, hair[i], HAIR_READ_SMOOTH, &alone[i]);
         draw(test, hair[i], &frame, seen_alone[i]);
         hair_destroy(hair[i]);
     }
     for (int i = 0; i < 2; ++i) hair[i] = make(test, groom);
-    hair_test_ok(test, hair_set_solids(hair[1], &solid, 1, sizeof solid));
+    hair_test_ok(test, hair_set_colliders(hair[1], &collider, 1, sizeof collider));
     for (int n = 0; n < 20; ++n)
         for (int i = 0; i < 2; ++i) {
             hair_test_ok(test, hair_step(hair[i], i ? 1.0f / 60 : 1.0f / 40));
@@ -369,18 +369,19 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
         float there[16], far = powf(10, 8 * hair_random(&random) - 2);
         pose(6.28f * hair_random(&random), far, -far, 0, there);
         for (int k = 0; k < 3; ++k) physics.gravity[k] = 2000 * hair_random(&random) - 1000;
-        physics.damping = 1000 * hair_random(&random), physics.pull_root = 30 * hair_random(&random);
-        physics.angular = 30 * hair_random(&random), physics.bend = hair_random(&random);
-        physics.iterations = 1 + (uint32_t)(40 * hair_random(&random));
-        hair_solid solid = {HAIR_SHAPE_CAPSULE, {far, -far, 0},
-                            {0, 0, 0, 1},       {1e-3f + 10 * hair_random(&random), far},
-                            .scale = 1,         .friction = 1};
+        physics.damping = 1000 * hair_random(&random),
+        physics.shape_frequency_root = 30 * hair_random(&random);
+        physics.redblack.angular_hz = 30 * hair_random(&random), physics.redblack.bend = hair_random(&random);
+        physics.redblack.iterations = 1 + (uint32_t)(40 * hair_random(&random));
+        hair_collider collider = {HAIR_SHAPE_CAPSULE, {far, -far, 0},
+                                  {0, 0, 0, 1},       {1e-3f + 10 * hair_random(&random), far},
+                                  .scale = 1,         .friction = 1};
         hair_test_ok(test, hair_set_physics(hair, &physics));
-        hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)i % 2, sizeof solid));
+        hair_test_ok(test, hair_set_colliders(hair, &collider, (uint32_t)i % 2, sizeof collider));
         hair_test_ok(test, i % 7 ? hair_set_transform(hair, there) : hair_teleport(hair, there));
         hair_test_ok(test, hair_step(hair, 0.1f * hair_random(&random)));
         for (int what = 0; what < 2; ++what) {
-            read(test, hair, (hair_read_what)what, &strands);
+            read(test, hair, (hair_read_source)what, &strands);
             for (uint32_t k = 0; k < 3 * strands.vertices; ++k) assert_true(isfinite(strands.positions[k]));
         }
     }
@@ -411,8 +412,8 @@ static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** 
     hair_groom_destroy(groom);
 }
 
-// A step that is a small part of a substep, and ends one: solids are where they were set, not beyond.
-static void a_step_shorter_than_rounding_moves_no_solid_too_far(void** state)
+// A step that is a small part of a substep, and ends one: colliders are where they were set, not beyond.
+static void a_step_shorter_than_rounding_moves_no_collider_too_far(void** state)
 {
     static struct strands before, after;
     struct hair_test* test = *state;
@@ -421,13 +422,13 @@ static void a_step_shorter_than_rounding_moves_no_solid_too_far(void** state)
     hair_physics physics = hair_physics_default();
     memset(physics.gravity, 0, sizeof physics.gravity);
     hair_test_ok(test, hair_set_physics(hair, &physics));
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}, .scale = 1, .friction = 1};
-    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0, 3, 0}, {0, 0, 0, 1}, {1, 0}, .scale = 1, .friction = 1};
+    hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
     hair_test_ok(test, hair_step(hair, (float)((1 - 3e-6) / 120)));
     read(test, hair, HAIR_READ_GUIDES, &before);
     for (int i = 0; i < 110; ++i) {
-        solid.position[1] -= 0.0145f; // In the end at 1.4: it touches no hair.
-        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        collider.position[1] -= 0.0145f; // In the end at 1.4: it touches no hair.
+        hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
         hair_test_ok(test, hair_step(hair, 2e-8f / 120));
         read(test, hair, HAIR_READ_GUIDES, &after);
         for (uint32_t k = 0; k < 3 * after.vertices; ++k)
@@ -445,13 +446,13 @@ int main(void)
         HAIR_TEST(a_reset_is_as_good_as_new),
         HAIR_TEST(a_teleport_takes_shape_and_motion_along),
         HAIR_TEST(a_head_that_is_set_far_away_and_stepped_is_not_teleported),
-        HAIR_TEST(strands_rest_on_a_solid_that_moves_into_them),
+        HAIR_TEST(strands_rest_on_a_collider_that_moves_into_them),
         HAIR_TEST(far_from_the_origin_nothing_stretches_more),
         HAIR_TEST(far_from_the_origin_a_still_head_gives_the_same_bits),
         HAIR_TEST(instances_beside_each_other_are_as_if_alone),
         HAIR_TEST(the_groom_may_be_destroyed_while_instances_use_it),
         HAIR_TEST(a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along),
-        HAIR_TEST(a_step_shorter_than_rounding_moves_no_solid_too_far),
+        HAIR_TEST(a_step_shorter_than_rounding_moves_no_collider_too_far),
         HAIR_TEST(no_abuse_makes_a_strand_that_is_not_finite),
     };
     int failed = 0;

@@ -83,26 +83,27 @@ struct drawn {
 #define SHADED_LINES (HAIR_GL_WITH(SHADED) | HAIR_GL_WITH(LINES))
 #define HITS HAIR_GL_WITH(HITS)
 
-// What makes lines, and the same without pixels: without and with solids in reach.
+// What makes lines, and the same without pixels: without and with colliders in reach.
 static const struct {
     hair_gl_pass pass[2];
     const char* stages[2];
 } paths[] = {
-    [HAIR_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
-                                 HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
-                                {"draw/patch.vert draw/patch.tesc draw/strand.tese",
-                                 "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
-    [HAIR_PATH_INSTANCED] = {{HAIR_GL_INSTANCED | FIBRES_LINES, HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
-                             {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_PATH_EXPANDED] = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
-                            {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
+    [HAIR_RENDER_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
+                                        HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
+                                       {"draw/patch.vert draw/patch.tesc draw/strand.tese",
+                                        "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
+    [HAIR_RENDER_PATH_INSTANCED] = {{HAIR_GL_INSTANCED | FIBRES_LINES,
+                                     HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
+                                    {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
+    [HAIR_RENDER_PATH_CACHED] = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
+                                 {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
 };
 
 #define PATHS (sizeof paths / sizeof *paths)
 
-// hair_draw as lines, with what becomes of it instead of pixels. `hits`: there are solids in reach. The caller frees the
+// hair_draw as lines, with what becomes of it instead of pixels. `hits`: there are colliders in reach. The caller frees the
 // vertices.
-static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_path path,
+static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_render_path path,
                              size_t most_segments, int hits, const hair_lod* lod)
 {
     struct hair_gl* gl = &test->context->gl;
@@ -127,9 +128,9 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
     gl->DrawArraysInstanced = capture_patches;
     gl->MultiDrawElementsIndirect = capture_listed;
     hair_view view = hair_view_default();
-    view.path = path;
+    view.render_path = path;
     view.lod = lod;
-    view.primitive = HAIR_LINES;
+    view.primitive = HAIR_PRIMITIVE_LINES;
     hair_result result = hair_draw(hair, &view);
     own->program = whole;
     gl->DrawArraysInstanced = capture.patches;
@@ -148,8 +149,8 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_p
     return drawn;
 }
 
-static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_path path, size_t most_segments,
-                         int hits)
+static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_render_path path,
+                         size_t most_segments, int hits)
 {
     return draw_lod(test, hair, path, most_segments, hits, NULL);
 }
@@ -242,9 +243,9 @@ static void check_every_segment(const struct drawn* drawn, const float* expected
 }
 
 // A groom of so many followers and isolines to a patch is drawn whole, and where it is read, also where it meets a
-// solid.
+// collider.
 static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments,
-                          hair_collision collision)
+                          hair_follower_collision collision)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers = followers;
@@ -254,22 +255,22 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
     hair_desc desc = hair_desc_default();
     hair_instance* hair = NULL;
     desc.look = &look;
-    look.collision = collision;
-    hair_solid solid = hair_solid_default();
-    solid.position[0] = 0.15f;
-    solid.size[0] = 0.06f;
+    look.follower_collision = collision;
+    hair_collider collider = hair_collider_default();
+    collider.position[0] = 0.15f;
+    collider.size[0] = 0.06f;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
 
     uint32_t count = followers * (segments + 1);
     float* expected = malloc(3 * sizeof *expected * count);
-    hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
     assert_int_equal(count, followers * (segments + 1));
 
-    for (hair_path path = 0; path < PATHS; ++path) {
+    for (hair_render_path path = 0; path < PATHS; ++path) {
         struct drawn drawn =
-            draw(test, hair, path, (size_t)followers * segments, collision != HAIR_COLLISION_NONE);
-        if (path == HAIR_PATH_TESSELLATION)
+            draw(test, hair, path, (size_t)followers * segments, collision != HAIR_FOLLOWER_COLLISION_NONE);
+        if (path == HAIR_RENDER_PATH_TESSELLATION)
             print_message("    %5u followers, %3u a patch, %3u segments: %3llu draws\n", followers, isolines,
                           segments, (unsigned long long)drawn.draws);
         assert_int_equal(drawn.generated, (uint64_t)followers * segments);
@@ -284,15 +285,15 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
 
 static void check(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments)
 {
-    check_meeting(test, followers, isolines, segments, HAIR_COLLISION_NONE);
+    check_meeting(test, followers, isolines, segments, HAIR_FOLLOWER_COLLISION_NONE);
 }
 
-static void followers_that_meet_a_solid_are_drawn_where_they_are_read(void** state)
+static void followers_that_meet_a_collider_are_drawn_where_they_are_read(void** state)
 {
     static const uint32_t counts[] = {1, 2, 33, 65, 256};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
-        check_meeting(*state, 500, 64, counts[i], HAIR_COLLISION_PUSH);
-        check_meeting(*state, 500, 64, counts[i], HAIR_COLLISION_SWITCH);
+        check_meeting(*state, 500, 64, counts[i], HAIR_FOLLOWER_COLLISION_PUSH_OUT);
+        check_meeting(*state, 500, 64, counts[i], HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
     }
 }
 
@@ -335,7 +336,7 @@ static void a_driver_that_loses_strands_is_found_out(void** state)
     assert_int_equal(test->context->gl.lines_level, 0);
 }
 
-static size_t count_drawn(struct hair_test* test, hair_path path, float density, uint32_t segments)
+static size_t count_drawn(struct hair_test* test, hair_render_path path, float density, uint32_t segments)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers = 1000;
@@ -358,13 +359,14 @@ static size_t count_drawn(struct hair_test* test, hair_path path, float density,
 
 static void a_density_of_0_draws_nothing(void** state)
 {
-    for (hair_path path = 0; path < PATHS; ++path) assert_int_equal(count_drawn(*state, path, 0, 8), 0);
+    for (hair_render_path path = 0; path < PATHS; ++path)
+        assert_int_equal(count_drawn(*state, path, 0, 8), 0);
 }
 
 // The last isoline of each patch, of which there are 16, is drawn when any of it is wanted.
 static void density_is_the_share_of_followers_drawn(void** state)
 {
-    for (hair_path path = 0; path < PATHS; ++path) {
+    for (hair_render_path path = 0; path < PATHS; ++path) {
         for (int i = 1; i <= 16; ++i) {
             size_t drawn = count_drawn(*state, path, (float)i / 16, 8);
             assert_in_range(drawn, (size_t)(1000 * i / 16), (size_t)(1000 * i / 16) + 16);
@@ -384,7 +386,7 @@ static void a_patch_of_no_density_draws_nothing(void** state)
     hair_instance* hair = NULL;
     groom->patches[1].density = 1;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    for (hair_path path = 0; path < PATHS; ++path) {
+    for (hair_render_path path = 0; path < PATHS; ++path) {
         struct drawn drawn = draw(test, hair, path, 64 * 32, 0);
         assert_int_equal(drawn.segments, groom->patches[1].count * 32);
         free(drawn.vertices);
@@ -414,7 +416,7 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
         float set = 0.25f * (float)(i % 7), blend = fminf(set, 1); // Beyond the last set there is no other.
         look.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
-        struct drawn drawn = draw(test, hair, (hair_path)(i / 7), (size_t)64 * 4, 0);
+        struct drawn drawn = draw(test, hair, (hair_render_path)(i / 7), (size_t)64 * 4, 0);
         size_t first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
         assert_int_equal(drawn.segments, 4 * (first + second));
         sort_strands(&drawn);
@@ -442,14 +444,14 @@ static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
     hair_lod lod = hair_lod_default();
     hair_instance* hair = NULL;
     desc.look = &look;
-    lod.dynamic = 0;
+    lod.per_patch = 0;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < sizeof shares / sizeof *shares; ++i) {
-        lod.segments = shares[i];
-        struct drawn tessellated = draw_lod(test, hair, HAIR_PATH_TESSELLATION, 200 * 32, 0, &lod);
+        lod.segment_fraction = shares[i];
+        struct drawn tessellated = draw_lod(test, hair, HAIR_RENDER_PATH_TESSELLATION, 200 * 32, 0, &lod);
         assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * shares[i]));
         sort_strands(&tessellated);
-        struct drawn drawn = draw_lod(test, hair, HAIR_PATH_INSTANCED, 200 * 64, 0, &lod);
+        struct drawn drawn = draw_lod(test, hair, HAIR_RENDER_PATH_INSTANCED, 200 * 64, 0, &lod);
         double worst = 0;
         size_t at = 0;
         sort_strands(&drawn);
@@ -481,7 +483,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(every_count_of_isolines_and_of_segments_is_drawn_whole),
         HAIR_TEST(the_most_segments_are_drawn_whole),
-        HAIR_TEST(followers_that_meet_a_solid_are_drawn_where_they_are_read),
+        HAIR_TEST(followers_that_meet_a_collider_are_drawn_where_they_are_read),
         HAIR_TEST(the_65536th_vertex_is_no_boundary),
         HAIR_TEST(a_driver_that_loses_strands_is_found_out),
         HAIR_TEST(a_density_of_0_draws_nothing),

@@ -71,15 +71,15 @@ static const struct member members[] = {
     VEC4(hair_substep, displacement),
     VEC4(hair_step_params, gravity),
     FLOAT(hair_step_params, keep),
-    FLOAT(hair_step_params, pull_root),
-    FLOAT(hair_step_params, pull_tip),
+    FLOAT(hair_step_params, shape_frequency_root),
+    FLOAT(hair_step_params, shape_frequency_tip),
     FLOAT(hair_step_params, angular),
     FLOAT(hair_step_params, bend),
-    FLOAT(hair_step_params, margin),
+    FLOAT(hair_step_params, collision_margin),
     UINT(hair_step_params, iterations),
     UINT(hair_step_params, substeps),
     UINT(hair_step_params, guides),
-    UINT(hair_step_params, solids),
+    UINT(hair_step_params, colliders),
     UINT(hair_step_params, smooth_vertices),
     FLOAT(hair_step_params, alpha),
     VEC4(hair_step_params, rotation_before),
@@ -109,10 +109,10 @@ static const struct member members[] = {
     VEC4(hair_step_params, substep[0].displacement),
     VEC4(hair_step_params, substep[1].rotation),
     VEC4(hair_step_params, substep[63].displacement),
-    VEC4(hair_step_params, solid[0].start[0]),
-    VEC4(hair_step_params, solid[0].end[1]),
-    VEC4(hair_step_params, solid[63].end[1]),
-    VEC4(hair_step_params, solid[63].spin),
+    VEC4(hair_step_params, collider[0].start[0]),
+    VEC4(hair_step_params, collider[0].end[1]),
+    VEC4(hair_step_params, collider[63].end[1]),
+    VEC4(hair_step_params, collider[63].spin),
     VEC4(hair_step_params, body[0].position[0]),
     VEC4(hair_step_params, body[63].size),
     UINT(hair_share, mass),
@@ -127,7 +127,7 @@ static const struct member members[] = {
     UINT(hair_crowd_params, nodes_z),
     UINT(hair_crowd_params, vertices),
     FLOAT(hair_crowd_params, cohesion),
-    FLOAT(hair_crowd_params, volume),
+    FLOAT(hair_crowd_params, pressure_stiffness),
     FLOAT(hair_crowd_params, ahead),
     FLOAT(hair_crowd_params, per_strand),
     MAT4(hair_hide_params, to_texture),
@@ -265,7 +265,7 @@ static const struct member members[] = {
     VEC4(hair_fluid_params, gust_turn),
     VEC4(hair_fluid_params, gust_from),
     UINT(hair_fluid_params, cells),
-    UINT(hair_fluid_params, solids),
+    UINT(hair_fluid_params, colliders),
     UINT(hair_fluid_params, open),
     UINT(hair_fluid_params, nodes),
     FLOAT(hair_fluid_params, thick),
@@ -282,18 +282,18 @@ static const struct member members[] = {
     UINT(hair_fluid_level, unused),
     VEC4(hair_fluid_motion, velocity),
     VEC4(hair_fluid_motion, spin),
-    VEC4(hair_field_solid, position),
-    VEC4(hair_field_solid, rotation),
-    VEC4(hair_field_solid, size),
-    VEC4(hair_field_solid, grid),
-    UINT(hair_field_solid, nodes_x),
-    UINT(hair_field_solid, nodes_y),
-    UINT(hair_field_solid, nodes_z),
-    UINT(hair_field_solid, first),
-    UINT(hair_field_solid, shape),
-    UINT(hair_field_solid, number),
-    UINT(hair_field_solid, unused0),
-    UINT(hair_field_solid, unused1),
+    VEC4(hair_field_collider, position),
+    VEC4(hair_field_collider, rotation),
+    VEC4(hair_field_collider, size),
+    VEC4(hair_field_collider, grid),
+    UINT(hair_field_collider, nodes_x),
+    UINT(hair_field_collider, nodes_y),
+    UINT(hair_field_collider, nodes_z),
+    UINT(hair_field_collider, first),
+    UINT(hair_field_collider, shape),
+    UINT(hair_field_collider, number),
+    UINT(hair_field_collider, unused0),
+    UINT(hair_field_collider, unused1),
     UINT(hair_field_brick, at),
     UINT(hair_field_brick, first),
     UINT(hair_field_brick, count),
@@ -302,18 +302,18 @@ static const struct member members[] = {
     VEC4(hair_strand_look, curve[48]),
     VEC4(hair_strand_look, loop[0]),
     VEC4(hair_strand_look, loop[31]),
-    FLOAT(hair_strand_look, tip_strays),
-    FLOAT(hair_strand_look, strays),
+    FLOAT(hair_strand_look, tip_stray_fraction),
+    FLOAT(hair_strand_look, stray_fraction),
     FLOAT(hair_strand_look, kinks),
     FLOAT(hair_strand_look, drawn),
-    FLOAT(hair_strand_look, thinning),
+    FLOAT(hair_strand_look, length_variation),
     FLOAT(hair_strand_look, curl_radius),
     FLOAT(hair_strand_look, curl_waves),
     FLOAT(hair_strand_look, curl_turns),
-    FLOAT(hair_strand_look, curl_lock_phase),
-    FLOAT(hair_strand_look, curl_phase),
+    FLOAT(hair_strand_look, curl_guide_phase),
+    FLOAT(hair_strand_look, curl_strand_phase),
     FLOAT(hair_strand_look, curl_spread),
-    FLOAT(hair_strand_look, curl_left),
+    FLOAT(hair_strand_look, curl_left_fraction),
     FLOAT(hair_strand_look, most_stray),
     FLOAT(hair_strand_look, most_aside),
     FLOAT(hair_strand_look, most_width),
@@ -341,9 +341,9 @@ static const struct member members[] = {
     UINT(hair_draw_params, smooth_vertices),
     UINT(hair_draw_params, colored),
     UINT(hair_draw_params, followers),
-    UINT(hair_draw_params, collision),
+    UINT(hair_draw_params, follower_collision),
     UINT(hair_draw_params, turn),
-    FLOAT(hair_draw_params, margin),
+    FLOAT(hair_draw_params, collision_margin),
     UINT(hair_draw_params, lights),
     UINT(hair_draw_params, textured),
     UINT(hair_draw_params, lit),
@@ -374,9 +374,9 @@ static const struct member members[] = {
     FLOAT(hair_draw_params, tint.hue),
     FLOAT(hair_draw_params, tint.roughness),
     FLOAT(hair_draw_params, tint.tilt),
-    FLOAT(hair_draw_params, tint.root_shade),
+    FLOAT(hair_draw_params, tint.root_darkening),
     FLOAT(hair_draw_params, tint.root_recovery),
-    FLOAT(hair_draw_params, tint.streak_locks),
+    FLOAT(hair_draw_params, tint.streak_clumping),
     FLOAT(hair_draw_params, tint.sparkle),
     VEC4(hair_draw_params, strand.curve[0]),
     UINT(hair_draw_params, strand.unused),
@@ -399,17 +399,17 @@ static const struct {
     {                                                                                                        \
 #S, sizeof(struct S)                                                                                 \
     }
-    STRUCT(hair_guide),         STRUCT(hair_rest),          STRUCT(hair_rod),
-    STRUCT(hair_state),         STRUCT(hair_history),       STRUCT(hair_capsule),
-    STRUCT(hair_body),          STRUCT(hair_substep),       STRUCT(hair_step_params),
-    STRUCT(hair_follower),      STRUCT(hair_patch),         STRUCT(hair_draw_params),
-    STRUCT(hair_field_params),  STRUCT(hair_field_solid),   STRUCT(hair_field_brick),
-    STRUCT(hair_crowd_params),  STRUCT(hair_share),         STRUCT(hair_strand_look),
-    STRUCT(hair_strand),        STRUCT(hair_draw_command),  STRUCT(hair_contact),
-    STRUCT(hair_seat),          STRUCT(hair_ride),          STRUCT(hair_scalp_params),
-    STRUCT(hair_fluid_params),  STRUCT(hair_fluid_level),   STRUCT(hair_fluid_motion),
-    STRUCT(hair_stir_params),   STRUCT(hair_hide_params),   STRUCT(hair_wind_params),
-    STRUCT(hair_raster_params), STRUCT(hair_motion_params), STRUCT(hair_energy_params),
+    STRUCT(hair_guide),         STRUCT(hair_rest),           STRUCT(hair_rod),
+    STRUCT(hair_state),         STRUCT(hair_history),        STRUCT(hair_capsule),
+    STRUCT(hair_body),          STRUCT(hair_substep),        STRUCT(hair_step_params),
+    STRUCT(hair_follower),      STRUCT(hair_patch),          STRUCT(hair_draw_params),
+    STRUCT(hair_field_params),  STRUCT(hair_field_collider), STRUCT(hair_field_brick),
+    STRUCT(hair_crowd_params),  STRUCT(hair_share),          STRUCT(hair_strand_look),
+    STRUCT(hair_strand),        STRUCT(hair_draw_command),   STRUCT(hair_contact),
+    STRUCT(hair_seat),          STRUCT(hair_ride),           STRUCT(hair_scalp_params),
+    STRUCT(hair_fluid_params),  STRUCT(hair_fluid_level),    STRUCT(hair_fluid_motion),
+    STRUCT(hair_stir_params),   STRUCT(hair_hide_params),    STRUCT(hair_wind_params),
+    STRUCT(hair_raster_params), STRUCT(hair_motion_params),  STRUCT(hair_energy_params),
     STRUCT(hair_energy),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
@@ -525,7 +525,7 @@ static void no_member_is_forgotten(void** state)
     }
 }
 
-#define SOLIDS HAIR_GL_WITH(SOLIDS)
+#define COLLIDERS HAIR_GL_WITH(COLLIDERS)
 #define THREAD HAIR_GL_WITH(THREAD)
 
 // Of a storage buffer the size is that of one element.
@@ -553,7 +553,7 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(pass, "state_buffer", STATE, sizeof(struct hair_state)),                                     \
         STORAGE(pass, "rod_buffer", ROD, sizeof(struct hair_rod)),                                           \
         STORAGE(pass, "history_buffer", HISTORY, sizeof(struct hair_history)),                               \
-        STORAGE(pass, "health_buffer", HEALTH, sizeof(hair_uint))
+        STORAGE(pass, "solver_stats_buffer", SOLVER_STATS, sizeof(hair_uint))
         STEP(HAIR_GL_REDBLACK),
         STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(1)),
         STEP(HAIR_GL_REDBLACK | HAIR_GL_SIZE(2)),
@@ -566,14 +566,14 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         STORAGE(HAIR_GL_SEAT, "follower_buffer", FOLLOWER, sizeof(struct hair_follower)),
         STEP(HAIR_GL_SEAT),
         ROD(HAIR_GL_DIRECT),
-        ROD(HAIR_GL_DIRECT | SOLIDS | HAIR_GL_SIZE(3)),
+        ROD(HAIR_GL_DIRECT | COLLIDERS | HAIR_GL_SIZE(3)),
         STORAGE(HAIR_GL_DIRECT, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
         ROD(HAIR_GL_MIXED_SOLVER | THREAD | HAIR_GL_SIZE(1)),
-        STORAGE(HAIR_GL_MIXED_SOLVER | SOLIDS, "material_buffer", MATERIAL, sizeof(hair_vec4)),
-        STORAGE(HAIR_GL_FOLLOW | SOLIDS | HAIR_GL_SIZE(2), "rod_buffer", ROD, sizeof(struct hair_rod)),
-        STORAGE(HAIR_GL_FOLLOW | SOLIDS | HAIR_GL_SIZE(2), "material_buffer", MATERIAL, sizeof(hair_vec4)),
+        STORAGE(HAIR_GL_MIXED_SOLVER | COLLIDERS, "material_buffer", MATERIAL, sizeof(hair_vec4)),
+        STORAGE(HAIR_GL_FOLLOW | COLLIDERS | HAIR_GL_SIZE(2), "rod_buffer", ROD, sizeof(struct hair_rod)),
+        STORAGE(HAIR_GL_FOLLOW | COLLIDERS | HAIR_GL_SIZE(2), "material_buffer", MATERIAL, sizeof(hair_vec4)),
         STEP(HAIR_GL_ACCURATE),
-        STEP(HAIR_GL_ACCURATE | THREAD | SOLIDS),
+        STEP(HAIR_GL_ACCURATE | THREAD | COLLIDERS),
         STORAGE(HAIR_GL_MOTION_OF_GUIDES, "found_buffer", FOUND, sizeof(hair_uint)),
         {HAIR_GL_MOTION_OF_GUIDES, GL_UNIFORM_BLOCK, "motion_params_buffer", HAIR_BIND_MOTION_PARAMS,
          sizeof(struct hair_motion_params)},
@@ -636,9 +636,12 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 // A guide's work group has a thread for each of its vertices, in the smallest group of the four that has.
 static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 {
-    static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,        HAIR_GL_SMOOTH,
-                                          HAIR_GL_DIRECT,          HAIR_GL_ACCURATE,
-                                          HAIR_GL_FOLLOW | SOLIDS, HAIR_GL_MIXED_SOLVER | SOLIDS};
+    static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,
+                                          HAIR_GL_SMOOTH,
+                                          HAIR_GL_DIRECT,
+                                          HAIR_GL_ACCURATE,
+                                          HAIR_GL_FOLLOW | COLLIDERS,
+                                          HAIR_GL_MIXED_SOLVER | COLLIDERS};
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (uint32_t vertices = 2; vertices <= HAIR_MAX_GUIDE_VERTICES; ++vertices) {
             hair_gl_pass pass = hair_gl_pass_for(groups[i], vertices);
@@ -651,8 +654,8 @@ static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
-                                          HAIR_GL_FOLLOW | THREAD | SOLIDS,
-                                          HAIR_GL_MIXED_SOLVER | THREAD | SOLIDS};
+                                          HAIR_GL_FOLLOW | THREAD | COLLIDERS,
+                                          HAIR_GL_MIXED_SOLVER | THREAD | COLLIDERS};
     static const int most[] = {3, 3, 3, 2}; // sizes that a GPU has memory for: see lib/sim/programs.c
     const struct hair_test* test = *state;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)

@@ -55,7 +55,7 @@ static struct fixture start_in(void** state, hair_context* context, uint32_t gui
 
     hair_desc instance = hair_test_way(way);
     hair_look look = hair_look_default();
-    look.tip_strays = look.strays = 0;
+    look.tip_stray_fraction = look.stray_fraction = 0;
     instance.look = &look;
     hair_test_ok(f.test, hair_create(context, f.groom, &instance, &f.hair));
     return f;
@@ -73,12 +73,12 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-static uint32_t read(struct fixture* f, hair_read_what what, float** out)
+static uint32_t read(struct fixture* f, hair_read_source what, float** out)
 {
     uint32_t count;
-    hair_test_ok(f->test, hair_read(f->hair, what, NULL, 0, &count));
+    hair_test_ok(f->test, hair_read_positions(f->hair, what, NULL, 0, &count));
     *out = calloc(count, 3 * sizeof **out);
-    hair_test_ok(f->test, hair_read(f->hair, what, *out, count, &count));
+    hair_test_ok(f->test, hair_read_positions(f->hair, what, *out, count, &count));
     for (uint32_t i = 0; i < 3 * count; ++i) assert_true(isfinite((*out)[i]));
     return count;
 }
@@ -265,7 +265,7 @@ static void strands_and_guides_of_every_length_are_drawn(void** state)
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
         hair_view view = hair_view_default();
-        view.primitive = HAIR_LINES;
+        view.primitive = HAIR_PRIMITIVE_LINES;
         // Orthographic, 0.6 m wide, around the middle of the hair.
         float to_clip[16] = {3.3f, 0, 0, 0, 0, 3.3f, 0, 0, 0, 0, -1, 0, 0, 0.5f, 0, 1};
         memcpy(view.projection, to_clip, sizeof to_clip);

@@ -82,17 +82,17 @@ static void lights_add_up(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float alone[3][VALUES], together[VALUES];
-    f.light[0].to[0] = -1;
+    f.light[0].direction[0] = -1;
     f.light[1].kind = HAIR_LIGHT_POINT;
     f.light[1].position[1] = 0.4f, f.light[1].position[2] = 0.3f;
     f.light[1].color[2] = 0.5f;
     f.light[2].kind = HAIR_LIGHT_SPOT;
     f.light[2].position[0] = 1;
-    f.light[2].to[0] = 1, f.light[2].to[1] = f.light[2].to[2] = 0;
+    f.light[2].direction[0] = 1, f.light[2].direction[1] = f.light[2].direction[2] = 0;
     draw(&f, 3, together);
     for (int i = 2; i >= 0; --i) {
         f.light[0] = f.light[i];
-        if (i == 0) f.light[0] = hair_light_default(), f.light[0].to[0] = -1;
+        if (i == 0) f.light[0] = hair_light_default(), f.light[0].direction[0] = -1;
         draw(&f, 1, alone[i]);
         assert_true(sum_of(alone[i]) > 1);
     }
@@ -108,7 +108,7 @@ static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float sun[VALUES], lamp[VALUES];
-    f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
+    f.light[0].direction[0] = f.light[0].direction[1] = 0, f.light[0].direction[2] = 1;
     draw(&f, 1, sun);
     f.light[0].kind = HAIR_LIGHT_POINT;
     f.light[0].position[2] = 1000;
@@ -134,8 +134,8 @@ static void a_spot_shines_into_its_cone_and_no_farther(void** state)
     f.light[0].position[2] = 2;
     draw(&f, 1, point);
     f.light[0].kind = HAIR_LIGHT_SPOT;
-    f.light[0].to[0] = f.light[0].to[1] = 0, f.light[0].to[2] = 1;
-    f.light[0].inner = 0.05f, f.light[0].outer = 0.06f; // 10 and 12 cm of 30.
+    f.light[0].direction[0] = f.light[0].direction[1] = 0, f.light[0].direction[2] = 1;
+    f.light[0].inner_angle = 0.05f, f.light[0].outer_angle = 0.06f; // 10 and 12 cm of 30.
     draw(&f, 1, spot);
     for (int i = 0; i < SIZE * SIZE; ++i) {
         double r = 0.6 / SIZE * hypot(i % SIZE + 0.5 - SIZE / 2.0, i / SIZE + 0.5 - SIZE / 2.0);
@@ -182,15 +182,15 @@ static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** sta
         static float pixels[VALUES], vertices[3 * 4096];
         uint32_t count;
         float sky[27];
-        hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
+        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
         for (int i = 0; i < 16; ++i) {
             f.light[i].kind = (hair_light_kind)(i % 3);
             memcpy(f.light[i].position, vertices + 3 * (37 * i % 4096), 3 * sizeof(float));
             for (int k = 0; k < 3; ++k)
-                f.light[i].color[k] = 1e6f, f.light[i].to[k] = k == i % 2 ? 2e-12f : 0;
-            f.light[i].size = 0.001f;
+                f.light[i].color[k] = 1e6f, f.light[i].direction[k] = k == i % 2 ? 2e-12f : 0;
+            f.light[i].source_radius = 0.001f;
         }
-        f.light[13].position[0] = 1e9f, f.light[10].to[2] = 1e6f, f.light[5].range = 1e-6f;
+        f.light[13].position[0] = 1e9f, f.light[10].direction[2] = 1e6f, f.light[5].range = 1e-6f;
         for (int i = 0; i < 27; ++i) sky[i] = i % 2 ? 1e6f : -1e6f;
         f.view.sky = sky;
         draw(&f, 16, pixels);

@@ -28,8 +28,8 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     static float positions[3 * MOST];
     hair_instance* hair = NULL;
     hair_desc desc = hair_test_way(way);
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
-                        {0.05f, 0},        .scale = 1,      .friction = 1};
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
+                              {0.05f, 0},        .scale = 1,      .friction = 1};
     hair_view view = hair_view_default();
     hair_look look = hair_look_default();
     hair_physics other = hair_physics_default();
@@ -40,10 +40,10 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_test_ok(test, hair_set_look(hair, &look));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
     hair_test_ok(test, hair_set_physics(hair, &other)); // which makes rods anew
-    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
     hair_test_ok(test, hair_draw(hair, &view));
-    if (reads) hair_test_ok(test, hair_read(hair, HAIR_READ_FOLLOWERS, positions, MOST, &count));
+    if (reads) hair_test_ok(test, hair_read_positions(hair, HAIR_READ_FOLLOWERS, positions, MOST, &count));
     hair_destroy(hair);
 }
 
@@ -107,8 +107,8 @@ static void timings_count_the_runs_of_every_pass(void** state)
     for (int i = 0; i < 9; ++i) hair_test_ok(test, hair_step(hair, 1.0f / 120));
     glFinish();
     hair_timing timings[16];
-    uint32_t count = hair_timings(context, timings, 16), found = 0;
-    assert_int_equal(hair_timings(context, NULL, 0), count);
+    uint32_t count = hair_get_timings(context, timings, 16), found = 0;
+    assert_int_equal(hair_get_timings(context, NULL, 0), count);
     assert_in_range(count, 3, 16);
     for (uint32_t i = 0; i < count; ++i) {
         int solves = !strcmp(timings[i].pass, "sim/mixed_32");
@@ -127,7 +127,7 @@ static void timings_count_the_runs_of_every_pass(void** state)
 static uint32_t read_smooth(struct hair_test* test, hair_instance* hair, float* out)
 {
     uint32_t count = 0;
-    hair_test_ok(test, hair_read(hair, HAIR_READ_SMOOTH, out, MOST, &count));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_SMOOTH, out, MOST, &count));
     assert_true(count <= MOST);
     return count;
 }
@@ -205,42 +205,44 @@ static uint32_t count_solvers(const hair_context* context)
     return count;
 }
 
-// Of the many programs that solvers have: straight hair needs not what curls, and what meets no solid no contact.
+// Of the many programs that solvers have: straight hair needs not what curls, and what meets no collider no contact.
 static void check_compiled(struct hair_test* test, int way)
 {
     static const hair_gl_pass rows[HAIR_TEST_WAYS] = {
         HAIR_GL_DIRECT, HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE, HAIR_GL_ACCURATE | THREAD,
         HAIR_GL_FOLLOW, HAIR_GL_FOLLOW | THREAD, HAIR_GL_REDBLACK};
     hair_context* context = make_context(test);
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0, 0, 0},  {0, 0, 0, 1},
+                              {0.05f, 0},        .scale = 1, .friction = 1};
     hair_physics limp = hair_physics_default();
     hair_gl_pass passes[4];
     uint32_t compiled = 0;
-    limp.hold = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
+    limp.gravity_preload = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
     for (int kind = 0; kind < 4; ++kind) {
         struct hair_test_handmade wanted = hair_test_handmade_default();
         hair_instance* hair = NULL;
         hair_desc desc = hair_test_way(way);
-        int curved = kind & 1, solids = kind / 2;
+        int curved = kind & 1, colliders = kind / 2;
         if (!curved) wanted.turn = 0;
         desc.physics = &limp;
         hair_groom* groom = hair_test_groom(&test->host.host, wanted);
         hair_test_ok(test, hair_create(context, groom, &desc, &hair));
-        hair_test_ok(test, hair_set_solids(hair, &solid, (uint32_t)solids, sizeof solid));
+        hair_test_ok(test, hair_set_colliders(hair, &collider, (uint32_t)colliders, sizeof collider));
         hair_test_ok(test, hair_step(hair, 1e-6f)); // It runs no substep.
         hair_gl_pass pass = rows[way];
         if (hair_sim_is_mixed(&hair->sim))
             pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);
         else if (hair_sim_is_stiff(&hair->sim))
             pass += HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE;
-        pass = hair_gl_with(pass, solids ? HAIR_GL_WITH(SOLIDS) : 0);
+        pass = hair_gl_with(pass, colliders ? HAIR_GL_WITH(COLLIDERS) : 0);
         int anew = 1;
         for (int k = 0; k < kind; ++k) anew = anew && passes[k] != pass;
         passes[kind] = pass;
         compiled += (uint32_t)anew;
         assert_int_equal(count_solvers(context), compiled);
         if (!hair_test_program(&context->gl, pass))
-            fail_msg("%s curved %d, solids %d is not compiled", hair_gl_row_label(pass), curved, solids);
+            fail_msg("%s curved %d, colliders %d is not compiled", hair_gl_row_label(pass), curved,
+                     colliders);
         hair_destroy(hair);
         hair_groom_destroy(groom);
     }

@@ -40,7 +40,7 @@ static hair_view view_from(float distance, float turn)
 {
     static const float target[3] = {0, 1.55f, 0};
     hair_view view = hair_view_default();
-    view.path = HAIR_PATH_TESSELLATION; // The others make segments without length.
+    view.render_path = HAIR_RENDER_PATH_TESSELLATION; // The others make segments without length.
     float s = sinf(turn), c = cosf(turn);
     const float rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int i = 0; i < 3; ++i) {
@@ -100,10 +100,10 @@ static void fewer_strands_cover_as_much(void** state)
         hair_lod lod = hair_lod_default();
         double full = coverage_of(&f, 1.4f, NULL);
         assert_true(full > 0.03);
-        lod.dynamic = 0;
+        lod.per_patch = 0;
         for (int k = 0; k < 4; ++k) {
             static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
-            lod.strands = shares[k];
+            lod.strand_fraction = shares[k];
             double covered = coverage_of(&f, 1.4f, &lod);
             print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n", hair_style_name(style),
                           100.0 * (double)shares[k], covered / full);
@@ -184,12 +184,12 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
     hair_view view = view_from(1.2f, 0);
     hair_lod lod = hair_lod_default();
     view.lod = &lod;
-    lod.dynamic = 0;
+    lod.per_patch = 0;
     for (int k = 0; k < 2; ++k)
         for (int i = 0; i < 2; ++i) {
             float share = 0.5f + (i ? 1e-6f : -1e-6f);
-            if (k == 0) lod.segments = share;
-            if (k == 1) lod.segments = 1, lod.strands = share;
+            if (k == 0) lod.segment_fraction = share;
+            if (k == 1) lod.segment_fraction = 1, lod.strand_fraction = share;
             draw(&f, &view, NULL, &picture[i]);
             if (i == 0) continue;
             assert_true(picture[0].primitives != picture[1].primitives);
@@ -203,20 +203,20 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
     finish(&f);
 }
 
-// Where what leads followers round a solid moves them by a pixel, that begins to be shown, by two all of it is; on either side of
+// Where what leads followers round a collider moves them by a pixel, that begins to be shown, by two all of it is; on either side of
 // both the pictures are the same but for little. As long as none is shown no follower has been looked at.
-static void nothing_pops_where_followers_need_not_be_led_round_solids(void** state)
+static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** state)
 {
     static struct picture picture[4];
     static const float pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f}; // of 5 mm
     struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
     hair_view view = view_from(0.9f, 0.5f);
     hair_lod lod = hair_lod_default();
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     hair_vec4 skull = f.groom->skull;
-    solid.position[0] = skull.x, solid.position[1] = skull.y, solid.position[2] = skull.z;
-    solid.size[0] = 1.3f * skull.w;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    collider.position[0] = skull.x, collider.position[1] = skull.y, collider.position[2] = skull.z;
+    collider.size[0] = 1.3f * skull.w;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     lod.strand_pixels = 0.01f; // All of them,
     lod.segment_pixels = 0.1f; // whole.
     view.lod = &lod;
@@ -224,8 +224,8 @@ static void nothing_pops_where_followers_need_not_be_led_round_solids(void** sta
         lod.importance = 1;
         draw(&f, &view, NULL, &picture[i]); // It says how many pixels a metre has.
         lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels);
-        hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof solid));
-        hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+        hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
+        hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
         uint32_t met = f.hair->draw.hits.met;
         draw(&f, &view, NULL, &picture[i]);
         assert_int_equal(f.hair->draw.hits.met - met, i > 0);
@@ -302,28 +302,28 @@ static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** 
     finish(&f);
 }
 
-// With the head in front of it, drawn as a solid, what is behind is not missed.
+// With the head in front of it, drawn as a collider, what is behind is not missed.
 static void what_the_head_hides_is_not_drawn(void** state)
 {
     static struct picture full, culled;
     struct fixture f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
     hair_lod lod = only_culling();
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     hair_vec4 skull = f.groom->skull;
     double least = 1;
     print_message("    a skull of %.3f m at (%.3f, %.3f, %.3f)\n", (double)skull.w, (double)skull.x,
                   (double)skull.y, (double)skull.z);
     assert_true(skull.w > 0.05f && skull.w < 0.1f);
-    solid.position[0] = skull.x, solid.position[1] = skull.y, solid.position[2] = skull.z;
-    solid.size[0] = skull.w;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    collider.position[0] = skull.x, collider.position[1] = skull.y, collider.position[2] = skull.z;
+    collider.size[0] = skull.w;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     for (int i = 0; i < 4; ++i) {
         hair_view view = view_from(0.9f, 1.5f * (float)i), before = view;
-        before.pass = HAIR_PASS_SOLIDS;
+        before.pass = HAIR_PASS_COLLIDERS;
         view.lod = &lod;
-        lod.hidden = 1;
+        lod.occluded_importance = 1;
         draw(&f, &view, &before, &full);
-        lod.hidden = 0;
+        lod.occluded_importance = 0;
         draw(&f, &view, &before, &culled);
         double error = flip_between(&full, &culled),
                left = (double)culled.primitives / (double)full.primitives;
@@ -342,7 +342,7 @@ int main(void)
         HAIR_TEST(fewer_strands_cover_as_much),
         HAIR_TEST(walking_away_shows_no_step),
         HAIR_TEST(nothing_pops_where_segments_or_strands_become_fewer),
-        HAIR_TEST(nothing_pops_where_followers_need_not_be_led_round_solids),
+        HAIR_TEST(nothing_pops_where_followers_need_not_be_led_round_colliders),
         HAIR_TEST(what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing),
         HAIR_TEST(what_the_head_hides_is_not_drawn),
     };

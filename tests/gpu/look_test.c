@@ -42,7 +42,7 @@ static hair_look plain_look(void)
 {
     hair_look look = hair_look_default();
     look.segments = SEGMENTS;
-    look.tip_strays = look.strays = 0;
+    look.tip_stray_fraction = look.stray_fraction = 0;
     return look;
 }
 
@@ -51,7 +51,7 @@ static float* read_with(struct fixture* f, const hair_look* look)
     uint32_t count = FOLLOWERS * EACH, there;
     float* positions = malloc(3 * sizeof *positions * count);
     hair_test_ok(f->test, hair_set_look(f->hair, look));
-    hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, positions, count, &there));
+    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, positions, count, &there));
     assert_int_equal(there, count);
     return positions;
 }
@@ -80,11 +80,11 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
     struct fixture f = start(state);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
-    look.tip_strays = 0.3f;
+    look.tip_stray_fraction = 0.3f;
     float* tips = read_with(&f, &look);
-    look.tip_strays = 0, look.strays = 0.1f;
+    look.tip_stray_fraction = 0, look.stray_fraction = 0.1f;
     float* whole = read_with(&f, &look);
-    look.tip_strays = look.strays = 1;
+    look.tip_stray_fraction = look.stray_fraction = 1;
     float* all = read_with(&f, &look);
     print_message("    %.3f stray at their tips, %.3f all along\n", share_moved(plain, tips, 0, SEGMENTS),
                   share_moved(plain, whole, 0, SEGMENTS));
@@ -127,7 +127,7 @@ static void strands_are_cut_where_the_look_says(void** state)
     float* whole = read_with(&f, &look);
     look.length = 0.5f;
     float* half = read_with(&f, &look);
-    look.thinning = 0.8f;
+    look.length_variation = 0.8f;
     float* thinned = read_with(&f, &look);
     double mean = 0;
     for (size_t n = 0; n < FOLLOWERS; ++n) {
@@ -159,8 +159,8 @@ static void single_strands_without_offsets_are_their_guide(void** state)
     float* positions = read_with(&f, &look);
     uint32_t count, each = 2 * f.groom->most_vertices - 1;
     float* smooth = malloc(3 * sizeof *smooth * each * f.groom->info.guide_count);
-    hair_test_ok(f.test,
-                 hair_read(f.hair, HAIR_READ_SMOOTH, smooth, each * f.groom->info.guide_count, &count));
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_SMOOTH, smooth,
+                                             each * f.groom->info.guide_count, &count));
     for (size_t n = 0; n < FOLLOWERS; ++n)
         for (size_t k = 0; k < EACH; ++k) {
             const struct hair_follower* follower = &f.groom->followers[n];
@@ -199,16 +199,16 @@ static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** sta
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
     float* plain = read_with(&f, &look);
-    off.tip_stray = off.stray = hair_curve_line(0.1f, 0.2f); // Of no strand.
-    off.kink = 0.1f;
+    off.tip_stray_distance = off.stray_distance = hair_curve_line(0.1f, 0.2f); // Of no strand.
+    off.frizz_wavelength = 0.1f;
     off.curl_profile = hair_curve_line(2, 1); // Of no radius.
     off.curl_wavelength = 0.01f;
-    off.curl_turns = 7, off.curl_flatness = 0.5f, off.curl_left = 0.5f, off.curl_phase = 1,
+    off.curl_turns = 7, off.curl_flatness = 0.5f, off.curl_left_fraction = 0.5f, off.curl_strand_phase = 1,
     off.curl_spread = 0.5f;
     float* same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
-    off.tip_strays = off.strays = 1;
-    off.tip_stray = off.stray = hair_curve_line(0, 0); // Nowhere.
+    off.tip_stray_fraction = off.stray_fraction = 1;
+    off.tip_stray_distance = off.stray_distance = hair_curve_line(0, 0); // Nowhere.
     off.curl_radius = 0.1f;
     off.curl_profile = hair_curve_line(0, 0);
     free(same);
@@ -235,9 +235,9 @@ static void wrong_looks_are_refused_by_name(void** state)
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
                       "hair_look.curl_radius is -1, not in [0, 0.1");
     look = plain_look();
-    look.curl_x[15] = 1.5f;
+    look.curl_profile_x[15] = 1.5f;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
-                      "hair_look.curl_x[15] is 1.5");
+                      "hair_look.curl_profile_x[15] is 1.5");
     finish(&f);
 }
 

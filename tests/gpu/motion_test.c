@@ -59,13 +59,13 @@ static hair_view view_of(hair_pass pass, float moved)
     hair_view view = hair_view_default();
     view.pass = pass;
     set_matrix(view.view, 0, 0, -0.8f);
-    set_matrix(view.before_view, moved, 0, -0.8f + 0.5f * moved);
+    set_matrix(view.prev_view, moved, 0, -0.8f + 0.5f * moved);
     memset(view.projection, 0, sizeof view.projection);
     view.projection[0] = view.projection[5] = 2;
     view.projection[10] = -1.02f;
     view.projection[11] = -1;
     view.projection[14] = -0.1f;
-    memcpy(view.before_projection, view.projection, sizeof view.projection);
+    memcpy(view.prev_projection, view.projection, sizeof view.projection);
     return view;
 }
 
@@ -75,7 +75,7 @@ static void read_now(struct fixture* f)
     float* swap = f->before;
     f->before = f->now;
     f->now = swap;
-    hair_test_ok(f->test, hair_read(f->hair, HAIR_READ_FOLLOWERS, f->now, f->count, &count));
+    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, f->now, f->count, &count));
     assert_int_equal(count, f->count);
 }
 
@@ -107,7 +107,7 @@ static void draw(struct fixture* f, const hair_view* view, struct picture* out)
             glClearNamedFramebufferfv(framebuffer[i], GL_COLOR, 0, none);
         glClearNamedFramebufferfv(framebuffer[i], GL_DEPTH, 0, &far_away);
         own.pass = i ? HAIR_PASS_ID : HAIR_PASS_MOTION;
-        own.path = HAIR_PATH_EXPANDED;
+        own.render_path = HAIR_RENDER_PATH_CACHED;
         hair_test_ok(f->test, hair_draw(f->hair, &own));
         if (i)
             glReadPixels(0, 0, SIDE, SIDE, GL_RGBA_INTEGER, GL_UNSIGNED_INT, out->id);
@@ -156,7 +156,7 @@ static double check(const char* what, const hair_view* view, const struct pictur
         strand_at(now, id[0] - 1, id[2] / 65535.0, p);
         project(view->view, view->projection, p, a);
         strand_at(before, id[0] - 1, id[2] / 65535.0, p);
-        project(view->before_view, view->before_projection, p, b);
+        project(view->prev_view, view->prev_projection, p, b);
         for (int k = 0; k < 2; ++k) {
             off = fmax(off, fabs((double)picture->motion[4 * i + k] - 0.5 * (a[k] - b[k])) * SIDE);
             most = fmax(most, fabs((double)picture->motion[4 * i + k]) * SIDE);
@@ -203,7 +203,7 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 8, 8, GL_RGBA8, 0);
     hair_view shadow = view_of(HAIR_PASS_DEPTH, 0);
-    shadow.path = HAIR_PATH_EXPANDED;
+    shadow.render_path = HAIR_RENDER_PATH_CACHED;
     for (int i = 0; i < 2; ++i) {
         step(&f, 0.02f + 0.01f * (float)i);
         hair_test_ok(f.test, hair_draw(f.hair, &shadow));
@@ -220,13 +220,13 @@ static void views_of_one_frame_share_the_frame_before(void** state)
     static struct picture picture;
     struct fixture f = start(state);
     hair_view view = view_of(HAIR_PASS_MOTION, 0);
-    view.frame = 1;
+    view.frame_index = 1;
     read_now(&f);
     draw(&f, &view, &picture);
     step(&f, 0.01f);
-    view.frame = 2;
+    view.frame_index = 2;
     for (int eye = 0; eye < 2; ++eye) {
-        view.view[12] = view.before_view[12] = 0.02f * (float)eye;
+        view.view[12] = view.prev_view[12] = 0.02f * (float)eye;
         draw(&f, &view, &picture);
         assert_true(check("eye", &view, &picture, f.now, f.before) > 0.3);
     }
@@ -239,12 +239,12 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
     struct fixture f = start(state);
     hair_view view = view_of(HAIR_PASS_MOTION, 0.01f);
     hair_lod lod = hair_lod_default();
-    lod.dynamic = 0, lod.strands = 0.6f, lod.segments = 0.33f;
+    lod.per_patch = 0, lod.strand_fraction = 0.6f, lod.segment_fraction = 0.33f;
     view.lod = &lod;
     read_now(&f);
     draw(&f, &view, &picture);
     step(&f, 0.01f);
-    lod.strands = 0.8f, lod.segments = 0.71f; // Other vertices than in the frame before.
+    lod.strand_fraction = 0.8f, lod.segment_fraction = 0.71f; // Other vertices than in the frame before.
     draw(&f, &view, &picture);
     // Its segments are chords of those that the strand has.
     double sum = 0;
@@ -256,7 +256,7 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
         strand_at(f.now, id[0] - 1, id[2] / 65535.0, p);
         project(view.view, view.projection, p, a);
         strand_at(f.before, id[0] - 1, id[2] / 65535.0, p);
-        project(view.before_view, view.before_projection, p, b);
+        project(view.prev_view, view.prev_projection, p, b);
         sum += hypot(picture.motion[4 * i] - 0.5 * (a[0] - b[0]),
                      picture.motion[4 * i + 1] - 0.5 * (a[1] - b[1])) *
                SIDE;
@@ -286,7 +286,7 @@ static void teleports_take_along_and_resets_forget(void** state)
     view.view[12] = 0.01f - (seen[0] * 500 + seen[4] * 3 + seen[8] * -200);
     view.view[13] = 0 - (seen[1] * 500 + seen[5] * 3 + seen[9] * -200);
     view.view[14] = -0.8f - (seen[2] * 500 + seen[6] * 3 + seen[10] * -200);
-    memcpy(view.before_view, view.view, sizeof view.view);
+    memcpy(view.prev_view, view.view, sizeof view.view);
     draw(&f, &view, &picture);
     double most = 0;
     uint32_t covered = 0;
@@ -351,7 +351,7 @@ static void hair_of_which_no_velocity_is_asked_keeps_none(void** state)
     hair_view view = view_of(HAIR_PASS_COLOR, 0);
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 3; ++i) {
-        view.path = (hair_path)i;
+        view.render_path = (hair_render_path)i;
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &view));
     }

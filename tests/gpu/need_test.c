@@ -88,7 +88,7 @@ static hair_result create(struct fixture* f, hair_instance** out)
     hair_desc desc = hair_desc_default();
     hair_physics physics = hair_physics_default();
     hair_groom* groom = hair_test_groom(&f->test->host.host, hair_test_handmade_default());
-    physics.sleep = 0;
+    physics.sleep_threshold = 0;
     desc.physics = &physics;
     hair_result result = hair_create(f->context, groom, &desc, out);
     hair_groom_destroy(groom);
@@ -111,10 +111,10 @@ static void finish(struct fixture* f)
     hair_context_destroy(f->context);
 }
 
-static hair_view view_of(hair_path path)
+static hair_view view_of(hair_render_path path)
 {
     hair_view view = hair_view_default();
-    view.path = path;
+    view.render_path = path;
     view.projection[0] = view.projection[5] = view.projection[10] = 3;
     return view;
 }
@@ -132,7 +132,7 @@ static void each_program_is_compiled_when_something_first_needs_it(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = {.test = *state};
-    hair_view view = view_of(HAIR_PATH_TESSELLATION);
+    hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
     const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
     f.context = make_context(f.test, NULL);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
@@ -148,7 +148,7 @@ static void each_program_is_compiled_when_something_first_needs_it(void** state)
     view.pass = HAIR_PASS_GUIDES;
     draw(&f, &view, pixels);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 6);
-    view.pass = HAIR_PASS_SOLIDS;
+    view.pass = HAIR_PASS_COLLIDERS;
     draw(&f, &view, pixels);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 7);
     finish(&f);
@@ -179,7 +179,7 @@ static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** st
         hair_test_trace_clear();
         double begin = now_ms();
         struct fixture f = start(*state, &cache);
-        hair_view view = view_of(HAIR_PATH_TESSELLATION);
+        hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
         print_message("    the first picture %s the cache after %.0f ms\n", run ? "with" : "without",
@@ -279,31 +279,32 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
-    hair_view view = view_of(HAIR_PATH_EXPANDED);
-    hair_solid solid = hair_solid_default();
+    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_collider collider = hair_collider_default();
     hair_wind wind = hair_wind_default();
     hair_physics physics = hair_physics_default();
-    hair_tie tie = hair_tie_default();
+    hair_pin pin = hair_pin_default();
     hair_lod lod = hair_lod_default();
     uint64_t plain, all;
     hair_test_ok(f.test, hair_step(f.hair, 0.02f));
     assert_int_equal(memory_of(&f).bytes, reported(&f));
     plain = memory_of(&f).bytes;
-    solid.size[0] = 0.05f, solid.position[1] = -0.1f;
-    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.gusts = 0.2f, wind.resolution = 16;
-    physics.cohesion = physics.volume = 1;
-    tie.position[0] = 0.1f;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    collider.size[0] = 0.05f, collider.position[1] = -0.1f;
+    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.turbulence_intensity = 0.2f,
+    wind.resolution = 16;
+    physics.cohesion = physics.pressure_stiffness = 1;
+    pin.position[0] = 0.1f;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
-    hair_test_ok(f.test, hair_set_ties(f.hair, &tie, 1, sizeof tie));
+    hair_test_ok(f.test, hair_set_pins(f.hair, &pin, 1, sizeof pin));
     for (int i = 0; i < 3; ++i) {
-        solid.position[0] += 0.01f;
-        hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+        collider.position[0] += 0.01f;
+        hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
         hair_test_ok(f.test, hair_step(f.hair, 0.02f));
         view.pass = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
-        view.coverage = i == 2 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
-        view.path = i == 0 ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED;
+        view.coverage = i == 2 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
+        view.render_path = i == 0 ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED;
         draw(&f, &view, pixels);
         view.lod = i == 0 ? &lod : NULL;
         if (view.lod) draw(&f, &view, pixels);
@@ -314,7 +315,7 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
     print_message("    %llu bytes, %llu with all that there is\n", (unsigned long long)plain,
                   (unsigned long long)all);
     assert_true(all > 4 * plain);
-    assert_true(memory_of(&f).most >= all);
+    assert_true(memory_of(&f).peak >= all);
     hair_destroy(f.hair);
     f.hair = NULL;
     assert_int_equal(memory_of(&f).bytes, 0);
@@ -325,7 +326,7 @@ static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
-    hair_view plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
+    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_instance* other = NULL;
     draw(&f, &plain, pixels[0]);
     uint64_t bytes = memory_of(&f).bytes, used = bytes;
@@ -355,7 +356,7 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
-    hair_view plain = view_of(HAIR_PATH_TESSELLATION), view = view_of(HAIR_PATH_EXPANDED);
+    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->draw.look;
     look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
@@ -363,7 +364,7 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
     uint64_t least = memory_of(&f).bytes;
     for (int kind = 0; kind < 4; ++kind) {
         view.pass = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
-        view.coverage = kind == 1 ? HAIR_COVERAGE_SHARES : HAIR_COVERAGE_SAMPLES;
+        view.coverage = kind == 1 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
         look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         for (int turn = 0; turn < 2; ++turn) {
             hair_test_ok(f.test, hair_reset(f.hair));
@@ -394,7 +395,7 @@ static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(vo
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
-    hair_view view = view_of(HAIR_PATH_EXPANDED);
+    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->draw.look;
     look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));

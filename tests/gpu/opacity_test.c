@@ -91,7 +91,7 @@ static void draw(struct fixture* f, float bodies)
 static void count_rays(struct fixture* f, double behind)
 {
     uint32_t each = f->hair->draw.look.segments + 1, count = f->hair->draw.followers * each;
-    f->view.path = HAIR_PATH_EXPANDED; // Which leaves vertices and radii.
+    f->view.render_path = HAIR_RENDER_PATH_CACHED; // Which leaves vertices and radii.
     make_map(f, 16);
     draw(f, 1);
     hair_vec4* vertices = malloc(count * sizeof *vertices);
@@ -165,16 +165,17 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
     struct fixture* f = start(state, 1500, 2e-4f);
     hair_lod part = hair_lod_default();
     double all = 0;
-    part.dynamic = 0;
+    part.per_patch = 0;
     count_rays(f, -1);
     make_map(f, 256);
-    for (int path = 0; path <= HAIR_PATH_EXPANDED; ++path)
+    for (int path = 0; path <= HAIR_RENDER_PATH_CACHED; ++path)
         for (int k = 0; k < 4; ++k) {
             static const float shares[] = {1, 0.5f, 0.2f, 0.1f};
-            part.strands = shares[k], part.segments = k ? 0.5f : 1.0f;
-            f->view.path = (hair_path)path;
+            part.strand_fraction = shares[k], part.segment_fraction = k ? 0.5f : 1.0f;
+            f->view.render_path = (hair_render_path)path;
             f->view.lod = k ? &part : NULL;
-            f->view.primitive = k % 2 ? HAIR_LINES : HAIR_RIBBONS; // It has ribbons either way.
+            f->view.primitive =
+                k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS; // It has ribbons either way.
             draw(f, 1);
             struct found found = compare(f);
             double error = found.mean / found.expected - 1;
@@ -242,7 +243,7 @@ static const hair_report_row* find_row(struct fixture* f, const char* work)
     uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].work, work) == 0) return &rows[i];
+        if (strcmp(rows[i].stage, work) == 0) return &rows[i];
     fail_msg("there is no row %s", work);
     return rows;
 }
@@ -256,7 +257,7 @@ static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void**
     hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
     draw(f, 1);
     assert_int_equal(find_row(f, "opacity")->runs, 0);
-    assert_int_equal(find_row(f, "opacity")->why, HAIR_WHY_NOT_CALLED);
+    assert_int_equal(find_row(f, "opacity")->skip_reason, HAIR_SKIP_REASON_NOT_CALLED);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
     f->view.pass = HAIR_PASS_OPACITY;
     draw(f, 1);
@@ -267,7 +268,7 @@ static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void**
     f->view.view[12] = 9;
     hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
     draw(f, 1);
-    assert_int_equal(find_row(f, "opacity")->why, HAIR_WHY_OUT_OF_VIEW);
+    assert_int_equal(find_row(f, "opacity")->skip_reason, HAIR_SKIP_REASON_OUT_OF_VIEW);
     finish(f);
 }
 

@@ -1,4 +1,4 @@
-// paths_test.c - by whatever path hair is drawn it looks alike, and HAIR_PATH_AUTO takes the one that is known to be fast.
+// paths_test.c - by whatever path hair is drawn it looks alike, and HAIR_RENDER_PATH_AUTO takes the one that is known to be fast.
 #include "tests/support/support.h"
 
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 #include "tools/common/flip.c"
 #include "tools/common/image_error.c"
 
-enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_PATH_AUTO };
+enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_RENDER_PATH_AUTO };
 
 static const char* const names[PATHS] = {"tessellated", "instanced", "expanded", "compose"};
 
@@ -29,9 +29,9 @@ static struct fixture start(void** state, int curly)
     hair_style_desc of = hair_style_desc_default();
     hair_desc how = hair_desc_default();
     hair_look look = hair_look_default();
-    hair_solid ball = hair_solid_default();
+    hair_collider ball = hair_collider_default();
     of.style = HAIR_STYLE_CURLY;
-    if (curly) hair_test_ok(f.test, hair_look_preset(&look, HAIR_LOOK_CURLY));
+    if (curly) hair_test_ok(f.test, hair_look_apply_preset(&look, HAIR_LOOK_CURLY));
     hair_test_ok(f.test, hair_look_color(&look, HAIR_COLOR_BLOND));
     look.radius = 5e-4f;
     how.look = &look;
@@ -39,7 +39,7 @@ static struct fixture start(void** state, int curly)
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     ball.size[0] = 0.06f;
     ball.position[0] = 0.1f, ball.position[1] = 1.55f, ball.position[2] = 0.05f;
-    if (curly) hair_test_ok(f.test, hair_set_solids(f.hair, &ball, 1, sizeof ball));
+    if (curly) hair_test_ok(f.test, hair_set_colliders(f.hair, &ball, 1, sizeof ball));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     return f;
 }
@@ -51,10 +51,10 @@ static void finish(struct fixture* f)
 }
 
 // From in front of the head, 0.8 m away.
-static hair_view front(hair_path path, hair_primitive primitive)
+static hair_view front(hair_render_path path, hair_primitive primitive)
 {
     hair_view view = hair_view_default();
-    view.path = path, view.primitive = primitive;
+    view.render_path = path, view.primitive = primitive;
     view.view[13] = -1.6f, view.view[14] = -0.8f;
     view.projection[0] = view.projection[5] = 3;
     view.projection[10] = -1, view.projection[14] = -0.02f;
@@ -104,15 +104,16 @@ static const char* drawn_by(struct fixture* f)
     uint32_t count;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].work, "color") == 0 && rows[i].pass) return rows[i].pass;
+        if (strcmp(rows[i].stage, "color") == 0 && rows[i].pass) return rows[i].pass;
     return "";
 }
 
 // Compute makes no lines; and with levels of detail vertices are another view's.
-static const char* name_of(hair_path path, const hair_view* view)
+static const char* name_of(hair_render_path path, const hair_view* view)
 {
-    if (path == HAIR_PATH_COMPUTED && view->primitive == HAIR_LINES) path = HAIR_PATH_EXPANDED;
-    return path == HAIR_PATH_EXPANDED && view->lod ? "staged" : names[path];
+    if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
+        path = HAIR_RENDER_PATH_CACHED;
+    return path == HAIR_RENDER_PATH_CACHED && view->lod ? "staged" : names[path];
 }
 
 static uint32_t count_hits(struct fixture* f)
@@ -130,8 +131,8 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
 {
     static struct picture picture[PATHS];
     struct fixture f = start(state, 1);
-    for (hair_primitive primitive = HAIR_RIBBONS; primitive <= HAIR_LINES; ++primitive) {
-        for (hair_path path = 0; (int)path < PATHS; ++path) {
+    for (hair_primitive primitive = HAIR_PRIMITIVE_RIBBONS; primitive <= HAIR_PRIMITIVE_LINES; ++primitive) {
+        for (hair_render_path path = 0; (int)path < PATHS; ++path) {
             struct hair_image_error error;
             hair_view view = front(path, primitive);
             draw(&f, &view, &picture[path]);
@@ -141,7 +142,7 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
             print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
                           primitive ? "lines" : "ribbons", error.flip, count_hits(&f));
             // Drawn samples have the colour of their pixel's middle, those made by compute their own.
-            assert_true(error.flip <= (path == HAIR_PATH_COMPUTED ? 0.03 : 0.01));
+            assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
         }
         assert_true(count_hits(&f) > 100);
     }
@@ -154,11 +155,11 @@ static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
     static struct picture picture[PATHS];
     struct fixture f = start(state, 1);
     hair_lod lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
-    lods[0].strands = 0.37f, lods[0].segments = 0.3f, lods[0].dynamic = 0;
-    lods[1].strands = 0.1f, lods[1].dynamic = 0;
+    lods[0].strand_fraction = 0.37f, lods[0].segment_fraction = 0.3f, lods[0].per_patch = 0;
+    lods[1].strand_fraction = 0.1f, lods[1].per_patch = 0;
     lods[2].strand_pixels = 3, lods[2].segment_pixels = 20;
     for (int i = 0; i < 12; ++i)
-        for (hair_path path = 0; (int)path < PATHS; ++path) {
+        for (hair_render_path path = 0; (int)path < PATHS; ++path) {
             struct hair_image_error error;
             hair_view view = front(path, (hair_primitive)(i / 3 % 2));
             int shown = i < 6;
@@ -171,7 +172,7 @@ static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s, level %d%s: FLIP %.5f\n", names[path],
                           view.primitive ? "lines" : "ribbons", i % 3, shown ? "" : ", depth", error.flip);
-            assert_true(error.flip <= (path == HAIR_PATH_COMPUTED ? 0.03 : 0.01));
+            assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
         }
     finish(&f);
 }
@@ -183,7 +184,7 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
     struct fixture f = start(state, 0);
     hair_look look = f.hair->draw.look;
     uint32_t count = f.groom->info.follower_count;
-    hair_view view = front(HAIR_PATH_TESSELLATION, HAIR_RIBBONS);
+    hair_view view = front(HAIR_RENDER_PATH_TESSELLATION, HAIR_PRIMITIVE_RIBBONS);
     draw(&f, &view, &picture[PATHS]);
     f.groom->paint = hair_alloc(&f.test->host.host, count, 8 * 4 * sizeof *f.groom->paint);
     for (uint32_t i = 0; i < count; ++i)
@@ -196,9 +197,9 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
     how.look = &look;
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-    for (hair_path path = 0; (int)path < PATHS; ++path) {
+    for (hair_render_path path = 0; (int)path < PATHS; ++path) {
         double sum[2][2] = {{0}};
-        view.path = path;
+        view.render_path = path;
         draw(&f, &view, &picture[path]);
         for (int i = 0; i < PIXELS; ++i)
             for (int c = 0; c < 2; ++c)
@@ -208,7 +209,7 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
         assert_true(sum[0][0] > 2 * sum[0][1] && sum[1][1] > 2 * sum[1][0]);
     }
     look.groom_colors = 0;
-    view.path = HAIR_PATH_TESSELLATION;
+    view.render_path = HAIR_RENDER_PATH_TESSELLATION;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &view, &picture[PATHS + 1]);
     assert_memory_equal(picture[PATHS].pixels, picture[PATHS + 1].pixels, sizeof picture[0].pixels);
@@ -221,12 +222,12 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
     struct fixture f = start(state, 0);
     hair_lod lod = hair_lod_default();
     for (int i = 0; i < 4; ++i) {
-        hair_view view = front(HAIR_PATH_AUTO, (hair_primitive)(i % 2));
+        hair_view view = front(HAIR_RENDER_PATH_AUTO, (hair_primitive)(i % 2));
         view.lod = i / 2 ? &lod : NULL;
-        hair_path taken = hair_draw_path(&f.hair->draw, &view);
+        hair_render_path taken = hair_draw_path(&f.hair->draw, &view);
         draw(&f, &view, &own);
         assert_non_null(strstr(drawn_by(&f), name_of(taken, &view)));
-        view.path = taken;
+        view.render_path = taken;
         draw(&f, &view, &same);
         assert_memory_equal(own.pixels, same.pixels, sizeof own.pixels);
     }
@@ -237,12 +238,12 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
 static void auto_does_not_expand_more_than_fits(void** state)
 {
     struct fixture f = start(state, 0);
-    hair_view view = front(HAIR_PATH_AUTO, HAIR_RIBBONS);
+    hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
     struct hair_draw many = f.hair->draw;
     many.followers = 4000000;
-    assert_int_not_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);
-    view.path = HAIR_PATH_EXPANDED;
-    assert_int_equal(hair_draw_path(&many, &view), HAIR_PATH_EXPANDED);
+    assert_int_not_equal(hair_draw_path(&many, &view), HAIR_RENDER_PATH_CACHED);
+    view.render_path = HAIR_RENDER_PATH_CACHED;
+    assert_int_equal(hair_draw_path(&many, &view), HAIR_RENDER_PATH_CACHED);
     finish(&f);
 }
 

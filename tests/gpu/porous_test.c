@@ -62,7 +62,7 @@ static void advance(struct hair_test_fluid* f, int steps)
     }
 }
 
-// Where hair moves as it likes, among solids, and in a box that has moved.
+// Where hair moves as it likes, among colliders, and in a box that has moved.
 static void faces_are_as_open_as_hair_leaves_them(void** state)
 {
     struct hair_test_fluid f;
@@ -201,7 +201,7 @@ static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(voi
     }
 }
 
-// As if hair were a solid that moves: no faster than the wind anywhere near, and with the hair.
+// As if hair were a collider that moves: no faster than the wind anywhere near, and with the hair.
 static void air_is_sound_in_hair_of_any_density(void** state)
 {
     struct hair_test_fluid f;
@@ -249,9 +249,9 @@ static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(
     wind.model = HAIR_WIND_FLUID;
     wind.velocity[0] = 2;
     for (int k = 0; k < 2; ++k) {
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        wind.strands = k ? 50000 : 0;
+        wind.drag_strand_count = k ? 50000 : 0;
         hair_test_blow(&living, &wind);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
@@ -260,7 +260,7 @@ static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(
         if (k) {
             GLuint grid = living.hair->sim.blow.fluid.hair.grid.buffer, share = living.hair->sim.blow.share;
             assert_true(glIsBuffer(grid) && glIsBuffer(share));
-            wind.strands = 0;
+            wind.drag_strand_count = 0;
             hair_test_blow(&living, &wind);
             hair_test_wait(&living, 1);
             assert_false(glIsBuffer(grid) || glIsBuffer(share));

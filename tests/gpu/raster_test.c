@@ -32,10 +32,10 @@ static void finish(struct fixture* f)
 }
 
 // From so far in front of the middle of the head, m.
-static hair_view front(hair_path path, float away)
+static hair_view front(hair_render_path path, float away)
 {
     hair_view view = hair_view_default();
-    view.path = path;
+    view.render_path = path;
     view.view[13] = -1.6f, view.view[14] = -away;
     view.projection[0] = 2.4f, view.projection[5] = 3;
     view.projection[10] = -1, view.projection[14] = -0.02f; // 1 cm away -1, far away 1
@@ -121,8 +121,8 @@ struct picture {
     float pixels[4 * PIXELS], depth[PIXELS];
 };
 
-static void draw_lod(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
-                     const hair_lod* lod, struct picture* out)
+static void draw_lod(struct fixture* f, hair_render_path path, hair_pass pass, float away,
+                     void (*set)(hair_view*), const hair_lod* lod, struct picture* out)
 {
     struct hair_test_frame frame;
     hair_view view = front(path, away);
@@ -137,8 +137,8 @@ static void draw_lod(struct fixture* f, hair_path path, hair_pass pass, float aw
     hair_test_frame_free(&frame);
 }
 
-static void draw(struct fixture* f, hair_path path, hair_pass pass, float away, void (*set)(hair_view*),
-                 struct picture* out)
+static void draw(struct fixture* f, hair_render_path path, hair_pass pass, float away,
+                 void (*set)(hair_view*), struct picture* out)
 {
     draw_lod(f, path, pass, away, set, NULL, out);
 }
@@ -178,8 +178,8 @@ static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_ha
     static struct picture drawn, made;
     for (size_t i = 0; i < sizeof hosts / sizeof *hosts; ++i) {
         struct fixture f = start(state, 400, hosts[i].radius);
-        draw(&f, HAIR_PATH_EXPANDED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &drawn);
-        draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &made);
+        draw(&f, HAIR_RENDER_PATH_CACHED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &drawn);
+        draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &made);
         struct difference d = compare(&drawn, &made);
         print_message("    %s: %u pixels, %u of one alone, %u not alike\n", hosts[i].name, d.covered, d.alone,
                       d.apart);
@@ -194,8 +194,8 @@ static void depth_made_by_compute_is_that_which_is_drawn(void** state)
     static struct picture drawn, made;
     struct fixture f = start(state, 400, 3e-4f);
     uint32_t there = 0, apart = 0;
-    draw(&f, HAIR_PATH_EXPANDED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &drawn);
-    draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &made);
+    draw(&f, HAIR_RENDER_PATH_CACHED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &drawn);
+    draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_DEPTH, 0.8f, set_nothing, &made);
     for (int i = 0; i < PIXELS; ++i) {
         there += drawn.depth[i] < 1;
         apart += fabsf(drawn.depth[i] - made.depth[i]) > 2e-5f;
@@ -213,17 +213,17 @@ static void levels_of_detail_are_those_that_are_drawn(void** state)
     for (int i = 0; i < 4; ++i) {
         hair_lod lod = hair_lod_default();
         float away = i == 3 ? 3 : 0.8f;
-        lod.dynamic = i >= 2;
-        if (i == 0) lod.strands = 0.37f;
-        if (i == 1) lod.segments = 0.4f;
+        lod.per_patch = i >= 2;
+        if (i == 0) lod.strand_fraction = 0.37f;
+        if (i == 1) lod.segment_fraction = 0.4f;
         if (i >= 2) lod.strand_pixels = 2, lod.segment_pixels = 6;
-        draw_lod(&f, HAIR_PATH_INSTANCED, HAIR_PASS_COLOR, away, set_nothing, &lod, &drawn);
-        draw_lod(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, away, set_nothing, &lod, &made);
+        draw_lod(&f, HAIR_RENDER_PATH_INSTANCED, HAIR_PASS_COLOR, away, set_nothing, &lod, &drawn);
+        draw_lod(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, away, set_nothing, &lod, &made);
         struct difference d = compare(&drawn, &made);
         print_message("    %d: %u pixels, %u of one alone, %u not alike\n", i, d.covered, d.alone, d.apart);
         assert_true(d.covered > 100);
         assert_true(d.alone <= 2 + d.covered / 40 && d.apart <= 2 + d.covered / 40);
-        draw_lod(&f, HAIR_PATH_COMPUTED, HAIR_PASS_DEPTH, away, set_nothing, &lod, &drawn);
+        draw_lod(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_DEPTH, away, set_nothing, &lod, &drawn);
         uint32_t apart = 0;
         for (int k = 0; k < PIXELS; ++k) apart += drawn.depth[k] != made.depth[k];
         assert_int_equal(apart, 0);
@@ -237,9 +237,9 @@ static void the_same_hair_is_made_the_same_bits(void** state)
 {
     static struct picture first, second;
     struct fixture f = start(state, 1500, 3e-4f);
-    draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &first);
+    draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, 0.8f, set_nothing, &first);
     for (int i = 0; i < 5; ++i) {
-        draw(&f, HAIR_PATH_COMPUTED, HAIR_PASS_COLOR, 0.8f, set_nothing, &second);
+        draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, 0.8f, set_nothing, &second);
         assert_memory_equal(&first, &second, sizeof first);
     }
     finish(&f);
@@ -252,7 +252,7 @@ static void samples_cover_as_much_as_those_that_are_drawn(void** state)
     struct fixture f = start(state, 400, 3e-4f);
     for (int made = 0; made < 2; ++made) {
         struct hair_test_frame frame;
-        hair_view view = front(made ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED, 0.8f);
+        hair_view view = front(made ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED, 0.8f);
         hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 4);
         hair_test_ok(f.test, hair_draw(f.hair, &view));
         hair_test_frame_read(&frame, pixels[made]);
@@ -280,24 +280,25 @@ static void what_compute_does_not_make_is_drawn(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
     hair_lod lod = hair_lod_default();
-    hair_view view = front(HAIR_PATH_COMPUTED, 0.8f);
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_COMPUTED);
+    hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_COMPUTE);
     view.lod = &lod;
-    view.primitive = HAIR_LINES;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
+    view.primitive = HAIR_PRIMITIVE_LINES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
     view.pass = HAIR_PASS_ID; // More than levels of detail write of a vertex.
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_INSTANCED);
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_INSTANCED);
     view.pass = HAIR_PASS_COLOR;
     view.lod = NULL;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
-    view.primitive = HAIR_RIBBONS;
-    view.coverage = HAIR_COVERAGE_SHARES;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_PATH_EXPANDED);
-    view.coverage = HAIR_COVERAGE_SAMPLES;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
+    view.primitive = HAIR_PRIMITIVE_RIBBONS;
+    view.coverage = HAIR_COVERAGE_ALPHA;
+    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
+    view.coverage = HAIR_COVERAGE_MSAA;
     for (hair_pass pass = HAIR_PASS_COLOR; pass <= HAIR_PASS_OPACITY; ++pass) {
         view.pass = pass;
         int is = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
-        assert_int_equal(hair_draw_path(&f.hair->draw, &view), is ? HAIR_PATH_COMPUTED : HAIR_PATH_EXPANDED);
+        assert_int_equal(hair_draw_path(&f.hair->draw, &view),
+                         is ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED);
     }
     finish(&f);
 }
@@ -306,7 +307,7 @@ static void what_compute_does_not_make_is_drawn(void** state)
 static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
-    hair_view view = front(HAIR_PATH_COMPUTED, 0.8f);
+    hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
     hair_shader_desc desc = hair_shader_desc_default();
     struct hair_test_frame frame;
     desc.glsl = "vec4 hair_shade(hair_fragment f) { return vec4(f.t, 0.5, 0.0, 1.0); }";
@@ -333,11 +334,11 @@ static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(v
     struct fixture f = start(state, 50, 3e-4f);
     struct hair_raster* own = &f.hair->draw.raster;
     struct hair_test_frame frame;
-    hair_view view = front(HAIR_PATH_EXPANDED, 0.8f);
+    hair_view view = front(HAIR_RENDER_PATH_CACHED, 0.8f);
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     assert_int_equal(own->nearest, 0);
-    view.path = HAIR_PATH_COMPUTED;
+    view.render_path = HAIR_RENDER_PATH_COMPUTE;
     view.view[14] = -40; // where it is a few pixels
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     print_message("    %zu numbers of %d pixels\n", own->room, PIXELS);
@@ -345,7 +346,7 @@ static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(v
     view.view[14] = -0.8f;
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     assert_in_range(own->room, 1000, 3 * PIXELS + 4);
-    view.path = HAIR_PATH_EXPANDED;
+    view.render_path = HAIR_RENDER_PATH_CACHED;
     for (int i = 0; i < LONG_UNUSED; ++i) {
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &view));

@@ -55,7 +55,7 @@ static float angle_at(uint32_t frame)
 static uint32_t count_runs(hair_context* context)
 {
     hair_timing timings[1024];
-    uint32_t count = hair_timings(context, timings, 1024), runs = 0;
+    uint32_t count = hair_get_timings(context, timings, 1024), runs = 0;
     for (uint32_t i = 0; i < count && i < 1024; ++i)
         if (!strncmp(timings[i].pass, "sim/mixed", 9)) runs += timings[i].runs;
     return runs;
@@ -65,7 +65,7 @@ static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUID
 {
     float at[3 * MOST];
     uint32_t count = 0, each = hair->sim.smooth_vertices;
-    hair_test_ok(f->test, hair_read(hair, HAIR_READ_SMOOTH, at, MOST, &count));
+    hair_test_ok(f->test, hair_read_positions(hair, HAIR_READ_SMOOTH, at, MOST, &count));
     assert_int_equal(count, GUIDES * each);
     for (uint32_t i = 0; i < GUIDES; ++i) tip[i] = hair_load3(at + 3 * ((i + 1) * each - 1));
 }
@@ -77,9 +77,9 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
     hair_physics physics = hair_physics_default();
     hair_desc desc = hair_desc_default();
     hair_instance* hair = NULL;
-    physics.sleep = 0; // It would leave out runs of its own.
-    physics.rate = rate_at(0);
-    physics.unseen_rate = is_seen ? 0.25f : 1;
+    physics.sleep_threshold = 0; // It would leave out runs of its own.
+    physics.substep_rate = rate_at(0);
+    physics.offscreen_substep_rate = is_seen ? 0.25f : 1;
     desc.physics = &physics;
     hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &hair));
     uint32_t before = count_runs(f->context);
@@ -87,7 +87,7 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
         float angle = angle_at(i);
         float head[16] = {cosf(angle), 0, -sinf(angle), 0, 0, 1, 0, 0,
                           sinf(angle), 0, cosf(angle),  0, 0, 0, 0, 1};
-        physics.rate = rate_at(i);
+        physics.substep_rate = rate_at(i);
         hair_test_ok(f->test, hair_set_physics(hair, &physics));
         hair_test_ok(f->test, hair_set_transform(hair, head));
         hair_test_ok(f->test, hair_step(hair, 1.0f / PER_SECOND));
@@ -101,12 +101,12 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
         }
     }
     out->runs = count_runs(f->context) - before;
-    hair_health health = hair_health_default();
-    hair_test_ok(f->test, hair_get_health(hair, &health));
-    assert_int_equal(health.euler, 0);
-    assert_int_equal(health.parts, 0);
-    assert_int_equal(health.follow, 0);
-    assert_int_equal(health.reset, 0);
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    hair_test_ok(f->test, hair_get_solver_stats(hair, &solver_stats));
+    assert_int_equal(solver_stats.euler_fallbacks, 0);
+    assert_int_equal(solver_stats.parts, 0);
+    assert_int_equal(solver_stats.follow_fallbacks, 0);
+    assert_int_equal(solver_stats.reset, 0);
     hair_destroy(hair);
 }
 

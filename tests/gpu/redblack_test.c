@@ -86,16 +86,16 @@ static void move_head(struct fixture* f)
     }
 }
 
-static void put_solids(struct fixture* f)
+static void put_colliders(struct fixture* f)
 {
-    f->params.margin = 0.001f;
-    f->params.solids = 3;
-    f->params.solid[0] = (struct hair_capsule){.start = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}},
-                                               .end = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
-    f->params.solid[1] =
+    f->params.collision_margin = 0.001f;
+    f->params.colliders = 3;
+    f->params.collider[0] = (struct hair_capsule){.start = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}},
+                                                  .end = {{0, 0, 0, 0.09f}, {0, 0, 0, 0.09f}}};
+    f->params.collider[1] =
         (struct hair_capsule){.start = {{-0.2f, 0.2f, 0, 0.05f}, {0.2f, 0.25f, 0, 0.05f}},
                               .end = {{-0.2f, 0.25f, 0.01f, 0.05f}, {0.2f, 0.22f, 0.03f, 0.05f}}};
-    f->params.solid[2] =
+    f->params.collider[2] =
         (struct hair_capsule){.start = {{0.1f, 0.3f, 0.1f, 0.04f}, {0.1f, 0.3f, 0.1f, 0.04f}},
                               .end = {{0.1f, 0.28f, 0.08f, 0.04f}, {0.1f, 0.28f, 0.08f, 0.04f}}};
 }
@@ -104,13 +104,13 @@ static void switch_all_on(struct fixture* f)
 {
     f->params.gravity = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
     f->params.keep = 0.97f;
-    f->params.pull_root = 25;
-    f->params.pull_tip = 3;
+    f->params.shape_frequency_root = 25;
+    f->params.shape_frequency_tip = 3;
     f->params.angular = 150;
     f->params.bend = 0.1f;
     f->params.iterations = 20;
     move_head(f);
-    put_solids(f);
+    put_colliders(f);
 }
 
 // How far a position may be from its double: the probabilistic bound of Higham and Mary 2019 ("A New Approach
@@ -119,15 +119,15 @@ static void switch_all_on(struct fixture* f)
 // origin; a million comparisons want l = 6. Those operations count that round at the size of a position; all
 // others work on what neighbours differ by, a hundredth of it:
 //   a substep       4 to integrate, and 4 to add what the angular force does
-//   an iteration    1 for each of two distance and two bend links, 2 for each solid
-// Constraints hardly make errors larger: a link divides them among its ends; out of a solid by more than half
+//   an iteration    1 for each of two distance and two bend links, 2 for each collider
+// Constraints hardly make errors larger: a link divides them among its ends; out of a collider by more than half
 // its radius nothing is pushed here. Hence the factor 2.
 static double tolerance(const struct fixture* f)
 {
     const struct hair_step_params* params = &f->params;
 
     double substep = 4 + (params->angular > 0 ? 4 : 0);
-    double iteration = (params->bend > 0 ? 4 : 2) + 2 * params->solids;
+    double iteration = (params->bend > 0 ? 4 : 2) + 2 * params->colliders;
     return 2 * 6 * sqrt(params->substeps * (substep + params->iterations * iteration)) / 16777216;
 }
 
@@ -199,8 +199,8 @@ static void integration_is_as_the_reference_has_it(void** state)
     struct fixture f = start(state);
     f.params.gravity = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
     f.params.keep = 0.97f;
-    f.params.pull_root = 25;
-    f.params.pull_tip = 3;
+    f.params.shape_frequency_root = 25;
+    f.params.shape_frequency_tip = 3;
     move_head(&f);
     compare(&f, "integrate");
     finish(&f);
@@ -246,17 +246,17 @@ static void collisions_are_as_the_reference_has_them(void** state)
 {
     struct fixture f = start(state);
     f.params.iterations = 1;
-    put_solids(&f);
+    put_colliders(&f);
     scatter(&f, 0, 0);
     compare(&f, "collide");
     finish(&f);
 }
 
-static void no_vertex_is_left_inside_a_solid(void** state)
+static void no_vertex_is_left_inside_a_collider(void** state)
 {
     struct fixture f = start(state);
     switch_all_on(&f);
-    f.params.solids = 1;
+    f.params.colliders = 1;
     f.params.substeps = 5;
     run(&f);
     for (uint32_t g = 0; g < f.params.guides; ++g)
@@ -285,8 +285,8 @@ static void switch_off(struct fixture* f, int off)
 {
     if (off & 1) f->params.angular = 0;
     if (off & 2) f->params.bend = 0;
-    if (off & 4) f->params.solids = 0;
-    if (off & 8) f->params.pull_root = f->params.pull_tip = 0;
+    if (off & 4) f->params.colliders = 0;
+    if (off & 8) f->params.shape_frequency_root = f->params.shape_frequency_tip = 0;
     if (off & 16) f->params.iterations = 1;
 }
 
@@ -307,19 +307,21 @@ static void each_stage_does_its_part_among_the_others(void** state)
     }
 }
 
-// hair_step, from what the application says to where the guides are: the head turns and moves, a solid moves,
+// hair_step, from what the application says to where the guides are: the head turns and moves, a collider moves,
 // in a step of four substeps.
 static void a_step_is_what_the_application_asked_for(void** state)
 {
     struct fixture f = start(state);
     hair_physics physics = hair_physics_default();
     // None at its default, which may change.
-    physics.damping = 3, physics.pull_root = 5, physics.pull_tip = 0.75f, physics.angular = 1.5f;
-    physics.bend = 0.15f, physics.iterations = 19, physics.margin = 0.002f, physics.gravity[0] = 1;
+    physics.damping = 3, physics.shape_frequency_root = 5, physics.shape_frequency_tip = 0.75f,
+    physics.redblack.angular_hz = 1.5f;
+    physics.redblack.bend = 0.15f, physics.redblack.iterations = 19, physics.collision_margin = 0.002f,
+    physics.gravity[0] = 1;
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
-    hair_solid solid = {HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)},
-                        {0.05f, 0.1f},      .scale = 1,       .friction = 1};
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    hair_collider collider = {HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)},
+                              {0.05f, 0.1f},      .scale = 1,       .friction = 1};
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     hair_test_ok(f.test, hair_reset(f.hair));
     double angle = 0.3, to[3] = {0.04, -0.01, 0.02};
     float transform[16] = {(float)cos(angle),
@@ -339,23 +341,23 @@ static void a_step_is_what_the_application_asked_for(void** state)
                            (float)to[2],
                            1};
     hair_test_ok(f.test, hair_set_transform(f.hair, transform));
-    hair_solid there = solid;
+    hair_collider there = collider;
     there.position[1] += 0.03f;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &there, 1, sizeof there));
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &there, 1, sizeof there));
     hair_test_ok(f.test, hair_step(f.hair, 4.0f / 120));
 
     struct hair_step_params* p = &f.params;
     double dt = (double)(float)(1.0 / 120), tau = 6.283185307179586;
     p->gravity = (hair_vec4){1, physics.gravity[1], physics.gravity[2], (float)dt};
     p->keep = (float)exp(-3 * dt);
-    p->pull_root = (float)(tau * 5);
-    p->pull_tip = (float)(tau * 0.75);
+    p->shape_frequency_root = (float)(tau * 5);
+    p->shape_frequency_tip = (float)(tau * 0.75);
     p->angular = (float)(tau * tau * 1.5 * 1.5);
     p->bend = 0.15f;
-    p->margin = 0.002f;
+    p->collision_margin = 0.002f;
     p->iterations = 19;
     p->substeps = 4;
-    p->solids = 1;
+    p->colliders = 1;
     for (int i = 0; i < 4; ++i) {
         float share = (float)(i + 1) / 4;
         p->substep[i] =
@@ -364,8 +366,8 @@ static void a_step_is_what_the_application_asked_for(void** state)
     }
     for (int end = 0; end < 2; ++end) {
         float x = (float)((end ? -1 : 1) * sin(0.8) * 0.1), y = (float)((end ? 1 : -1) * cos(0.8) * 0.1);
-        p->solid[0].start[end] = (hair_vec4){0.1f + x, 0.25f + y, 0, 0.05f};
-        p->solid[0].end[end] =
+        p->collider[0].start[end] = (hair_vec4){0.1f + x, 0.25f + y, 0, 0.05f};
+        p->collider[0].end[end] =
             (hair_vec4){(float)(0.1 + x - to[0]), (float)(0.28 + y - to[1]), (float)-to[2], 0.05f};
     }
     static struct hair_reference_vertex expected[STATES];
@@ -378,7 +380,7 @@ static void a_step_is_what_the_application_asked_for(void** state)
         hair_reference_redblack((struct hair_reference_guide){guide, f.groom->rest + guide->first, p},
                                 expected + guide->first);
     }
-    hair_test_ok(f.test, hair_read(f.hair, HAIR_READ_GUIDES, got, STATES, &count));
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_GUIDES, got, STATES, &count));
     assert_int_equal(count, f.groom->info.guide_vertex_count);
     for (uint32_t i = 0; i < count; ++i)
         for (int k = 0; k < 3; ++k)
@@ -453,7 +455,8 @@ static void what_is_not_finite_goes_back_to_rest_alone(void** state)
     for (size_t n = 0; n < sizeof bad / sizeof *bad; ++n) {
         struct fixture f = start(state);
         switch_all_on(&f);
-        f.params.pull_root = f.params.pull_tip = 0; // which would bring 1e6 m back by itself
+        f.params.shape_frequency_root = f.params.shape_frequency_tip =
+            0; // which would bring 1e6 m back by itself
         run(&f);
         memcpy(sound, f.state, sizeof sound);
 
@@ -491,7 +494,7 @@ int main(void)
         HAIR_TEST(distance_constraints_are_as_the_reference_has_them),
         HAIR_TEST(angular_constraints_are_as_the_reference_has_them),
         HAIR_TEST(collisions_are_as_the_reference_has_them),
-        HAIR_TEST(no_vertex_is_left_inside_a_solid),
+        HAIR_TEST(no_vertex_is_left_inside_a_collider),
         HAIR_TEST(one_to_five_substeps_are_as_the_reference_has_them),
         HAIR_TEST(each_stage_does_its_part_among_the_others),
         HAIR_TEST(a_step_is_what_the_application_asked_for),

@@ -143,7 +143,7 @@ static hair_result read_all(struct user* user)
     for (int what = 0; what < 3 && !result; ++what) {
         float positions[30];
         uint32_t count;
-        result = hair_read(user->hair, (hair_read_what)what, positions, 10, &count);
+        result = hair_read_positions(user->hair, (hair_read_source)what, positions, 10, &count);
     }
     return result;
 }

@@ -66,23 +66,25 @@ static void run_frame(struct fixture* f)
 static const hair_report_row* row_of(const struct fixture* f, const char* work)
 {
     for (uint32_t i = 0; i < f->rows; ++i)
-        if (strcmp(f->row[i].work, work) == 0) return &f->row[i];
+        if (strcmp(f->row[i].stage, work) == 0) return &f->row[i];
     fail_msg("there is no row %s", work);
     return NULL;
 }
 
 // `memory`: 1: it has some, 0: none, -1: either.
-static void check(const struct fixture* f, const char* work, hair_why why, int memory)
+static void check(const struct fixture* f, const char* work, hair_skip_reason why, int memory)
 {
     const hair_report_row* row = row_of(f, work);
-    if (row->why != why) fail_msg("%s: %s, not %s", work, hair_why_string(row->why), hair_why_string(why));
-    assert_int_equal(row->runs > 0, why == HAIR_WHY_DONE);
-    assert_int_equal(row->pass != NULL, why == HAIR_WHY_DONE);
+    if (row->skip_reason != why)
+        fail_msg("%s: %s, not %s", work, hair_skip_reason_string(row->skip_reason),
+                 hair_skip_reason_string(why));
+    assert_int_equal(row->runs > 0, why == HAIR_SKIP_REASON_NONE);
+    assert_int_equal(row->pass != NULL, why == HAIR_SKIP_REASON_NONE);
     if (memory >= 0 && (row->bytes > 0) != memory)
         fail_msg("%s has %llu bytes", work, (unsigned long long)row->bytes);
 }
 
-// No wind, solids, crowd, skinned scalp, list or written vertices: neither a pass nor memory of any.
+// No wind, colliders, crowd, skinned scalp, list or written vertices: neither a pass nor memory of any.
 static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 {
     static const char* const none[] = {"scalp",  "ride",  "wind", "crowd",   "seat",
@@ -90,15 +92,16 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
     struct fixture f = start(state, NULL);
     hair_test_trace_clear();
     run_frame(&f);
-    for (size_t i = 0; i < sizeof none / sizeof *none; ++i) check(&f, none[i], HAIR_WHY_NOT_WANTED, 0);
-    check(&f, "field", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "hit", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "repair", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "stir", HAIR_WHY_NOT_DUE, 0);
-    check(&f, "depth", HAIR_WHY_NOT_CALLED, 0);
-    check(&f, "solve", HAIR_WHY_DONE, 1);
-    check(&f, "smooth", HAIR_WHY_DONE, 1);
-    check(&f, "color", HAIR_WHY_DONE, 1);
+    for (size_t i = 0; i < sizeof none / sizeof *none; ++i)
+        check(&f, none[i], HAIR_SKIP_REASON_NOT_WANTED, 0);
+    check(&f, "field", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "hit", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "repair", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "stir", HAIR_SKIP_REASON_NOT_DUE, 0);
+    check(&f, "depth", HAIR_SKIP_REASON_NOT_CALLED, 0);
+    check(&f, "solve", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "smooth", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
     assert_int_equal(hair_test_trace_count("glDispatch"), 2); // solve, smooth
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
     report(&f);
@@ -111,28 +114,28 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
 {
     struct fixture f = start(state, NULL);
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     hair_physics physics = hair_physics_default();
     run_frame(&f);
     uint64_t before = f.info.bytes;
-    solid.size[0] = 0.12f, physics.cohesion = 3;
-    hair_test_ok(f.test, hair_set_solids(f.hair, &solid, 1, sizeof solid));
+    collider.size[0] = 0.12f, physics.cohesion = 3;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     run_frame(&f);
-    check(&f, "field", HAIR_WHY_DONE, 1);
-    check(&f, "hit", HAIR_WHY_DONE, 1);
-    check(&f, "repair", HAIR_WHY_DONE, 1);
-    check(&f, "crowd", HAIR_WHY_DONE, 1);
-    print_message("    %llu bytes, with a solid and a crowd %llu\n", (unsigned long long)before,
+    check(&f, "field", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "hit", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "repair", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "crowd", HAIR_SKIP_REASON_NONE, 1);
+    print_message("    %llu bytes, with a collider and a crowd %llu\n", (unsigned long long)before,
                   (unsigned long long)f.info.bytes);
     physics.cohesion = 0;
-    hair_test_ok(f.test, hair_set_solids(f.hair, NULL, 0, sizeof solid));
+    hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     run_frame(&f);
-    check(&f, "field", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "hit", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "repair", HAIR_WHY_NONE_NEAR, 0);
-    check(&f, "crowd", HAIR_WHY_NOT_WANTED, 0);
+    check(&f, "field", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "hit", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "repair", HAIR_SKIP_REASON_NONE_NEAR, 0);
+    check(&f, "crowd", HAIR_SKIP_REASON_NOT_WANTED, 0);
     assert_true(f.info.bytes == before);
     finish(&f);
 }
@@ -140,23 +143,24 @@ static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
 static void an_idle_head_and_one_out_of_view_say_so(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0.01f;
+    physics.sleep_threshold = 0.01f;
     struct fixture f = start(state, &physics);
-    f.view.path = HAIR_PATH_EXPANDED;
+    f.view.render_path = HAIR_RENDER_PATH_CACHED;
     for (int i = 0; i < 600 && !f.hair->sim.sleep.asleep; ++i) run_frame(&f);
     run_frame(&f);
     run_frame(&f);
-    check(&f, "solve", HAIR_WHY_ASLEEP, 1);
-    check(&f, "stir", HAIR_WHY_ASLEEP, 1);
-    check(&f, "smooth", HAIR_WHY_UNCHANGED, 1);
-    check(&f, "expand", HAIR_WHY_UNCHANGED, 1);
-    check(&f, "list", HAIR_WHY_UNCHANGED, 1);
-    check(&f, "color", HAIR_WHY_DONE, 1);
-    check(&f, "solids", HAIR_WHY_NOT_CALLED, 0); // Vertices that are shaded by themselves are colour.
+    check(&f, "solve", HAIR_SKIP_REASON_ASLEEP, 1);
+    check(&f, "stir", HAIR_SKIP_REASON_ASLEEP, 1);
+    check(&f, "smooth", HAIR_SKIP_REASON_UNCHANGED, 1);
+    check(&f, "expand", HAIR_SKIP_REASON_UNCHANGED, 1);
+    check(&f, "list", HAIR_SKIP_REASON_UNCHANGED, 1);
+    check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "colliders", HAIR_SKIP_REASON_NOT_CALLED,
+          0); // Vertices that are shaded by themselves are colour.
     f.view.view[12] = 20;
     run_frame(&f);
-    check(&f, "color", HAIR_WHY_OUT_OF_VIEW, 1);
-    check(&f, "smooth", HAIR_WHY_OUT_OF_VIEW, 1);
+    check(&f, "color", HAIR_SKIP_REASON_OUT_OF_VIEW, 1);
+    check(&f, "smooth", HAIR_SKIP_REASON_OUT_OF_VIEW, 1);
     assert_true(f.info.ms == 0);
     finish(&f);
 }
@@ -188,8 +192,8 @@ static void reports_come_without_waiting_and_are_of_one_instance(void** state)
     assert_int_equal(hair_test_trace_waits(), 0);
     assert_true(last > 0);
     report(&other);
-    check(&other, "color", HAIR_WHY_NOT_CALLED, 1);
-    check(&other, "smooth", HAIR_WHY_NOT_CALLED, 1);
+    check(&other, "color", HAIR_SKIP_REASON_NOT_CALLED, 1);
+    check(&other, "smooth", HAIR_SKIP_REASON_NOT_CALLED, 1);
     hair_destroy(other.hair);
     finish(&f);
 }
@@ -212,7 +216,7 @@ static void wrong_arguments_are_refused(void** state)
     hair_test_ok(f.test, hair_report(f.hair, 0, &info, NULL, 0, 0, &count));
     assert_int_equal(info.frame, 0);
     assert_int_equal(count, 0);
-    assert_null(hair_why_string((hair_why)(HAIR_WHY_NOT_CALLED + 1)));
+    assert_null(hair_skip_reason_string((hair_skip_reason)(HAIR_SKIP_REASON_NOT_CALLED + 1)));
     finish(&f);
 }
 

@@ -11,7 +11,7 @@ static struct bench_rest hang(struct hair_test* test, const hair_physics* physic
     struct hair_test_strands strands = hair_test_strands_make(2, 8);
     hair_test_add_straight(&strands, 8, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.1f);
     hair_test_add_straight(&strands, 8, hair_v3(0.1f, 0, 0), hair_v3(0, -1, 0), 0.1f);
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, physics);
     struct hair_test_living living;
     struct bench_rest rest;
     struct bench_rest_desc wait = {.seconds = 4, .window = 0.5, .patience = 8};
@@ -46,7 +46,7 @@ static void hanging_hair_sleeps_and_is_still(void** state)
 static void hair_that_may_not_sleep_is_measured(void** state)
 {
     hair_physics physics = hair_test_loose(0);
-    physics.sleep = 0;
+    physics.sleep_threshold = 0;
     struct bench_rest rest = hang(*state, &physics);
     assert_true(rest.max_speed < 1e-3 && !isfinite(rest.seconds_asleep));
 }

@@ -1,4 +1,4 @@
-// rod_any_test.c - strands as rods, and forms, and a thousand solids: swept, spun in, begun in, come upon.
+// rod_any_test.c - strands as rods, and forms, and a thousand colliders: swept, spun in, begun in, come upon.
 #include "lib/collide/distance.h"
 #include "tests/support/living.h"
 #include "tests/support/meshes.h"
@@ -11,54 +11,54 @@
 #define MARGIN 1e-3
 #define VOXEL 5e-3 // m: of the field, by default
 
-static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
+static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
 {
-    hair_form* form = NULL;
-    hair_form_desc desc = hair_form_desc_default();
+    hair_collision_mesh* form = NULL;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &test->host.host;
     desc.positions = mesh.positions;
     desc.triangles = mesh.triangles;
     desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution = resolution;
-    hair_test_ok(test, hair_form_create(&desc, &form));
+    hair_test_ok(test, hair_collision_mesh_create(&desc, &form));
     hair_test_mesh_free(&mesh);
     return form;
 }
 
 // A box of these half sides: itself, or a form of its mesh at half the size, twice as large.
-static hair_solid box_of(struct hair_test* test, int is_form, float x, float y, float z)
+static hair_collider box_of(struct hair_test* test, int is_form, float x, float y, float z)
 {
     const float half[] = {x / 2, y / 2, z / 2};
-    hair_solid solid = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_BOX, 0, 0, 0);
+    hair_collider collider = hair_test_body(is_form ? HAIR_SHAPE_MESH : HAIR_SHAPE_BOX, 0, 0, 0);
     if (is_form) {
-        solid.form = form_of(test, hair_test_box_mesh(half), 48);
-        solid.scale = 2;
+        collider.mesh = form_of(test, hair_test_box_mesh(half), 48);
+        collider.scale = 2;
     } else
-        solid.size[0] = x, solid.size[1] = y, solid.size[2] = z;
-    return solid;
+        collider.size[0] = x, collider.size[1] = y, collider.size[2] = z;
+    return collider;
 }
 
-static hair_solid ball_of(struct hair_test* test, int is_form, float radius)
+static hair_collider ball_of(struct hair_test* test, int is_form, float radius)
 {
-    hair_solid solid = hair_test_body(is_form ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE, 0, 0, 0);
+    hair_collider collider = hair_test_body(is_form ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE, 0, 0, 0);
     if (is_form)
-        solid.form = form_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
+        collider.mesh = form_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
     else
-        solid.size[0] = radius;
-    return solid;
+        collider.size[0] = radius;
+    return collider;
 }
 
-static void at(hair_solid* solid, double x, double y, double z)
+static void at(hair_collider* collider, double x, double y, double z)
 {
-    solid->position[0] = (float)x, solid->position[1] = (float)y, solid->position[2] = (float)z;
+    collider->position[0] = (float)x, collider->position[1] = (float)y, collider->position[2] = (float)z;
 }
 
 static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_physics* physics,
                  struct hair_test_living* out)
 {
     struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
-    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
 }
@@ -71,7 +71,7 @@ static void live_row(struct hair_test* test, int solver, const hair_physics* phy
     for (int k = 0; k < 4; ++k)
         hair_test_add_straight(&strands, 32, hair_v3(0, 0, 0.02f * (float)k - 0.03f), hair_v3(0, -1, 0),
                                0.3f);
-    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_AUTO, 0, physics);
+    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_AUTO, 0, physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
 }
@@ -86,18 +86,18 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
     for (int n = 0; n < 4; ++n) {
         int solver = n == 3 ? HAIR_SOLVER_FOLLOW : HAIR_SOLVER_DIRECT;
         struct hair_test_living living;
-        hair_solid solid = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
+        hair_collider collider = n % 2 ? ball_of(*state, 1, 0.06f) : box_of(*state, 1, 0.06f, 0.03f, 0.2f);
         double deepest = -INFINITY;
-        at(&solid, 0.08, n % 2 ? -0.08 : -0.05, 0);
-        if (n == 2) hair_test_turn(&solid, 2, 0.3);
+        at(&collider, 0.08, n % 2 ? -0.08 : -0.05, 0);
+        if (n == 2) hair_test_turn(&collider, 2, 0.3);
         live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &living);
-        hair_test_set_solids(&living, &solid, 1);
+        hair_test_set_colliders(&living, &collider, 1);
         for (int k = 0; k < 150; ++k) {
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
-            deepest = fmax(deepest, hair_test_depth(&living, &solid) + MARGIN);
+            deepest = fmax(deepest, hair_test_depth(&living, &collider) + MARGIN);
         }
-        double touching = hair_test_depth(&living, &solid) + MARGIN;
+        double touching = hair_test_depth(&living, &collider) + MARGIN;
         // Follow-the-leader knows no tension that would keep a strand on a ball: it slides off, and hangs.
         int slides = solver == HAIR_SOLVER_FOLLOW;
         if (slides) {
@@ -113,7 +113,7 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
         assert_true(slides || touching > -1e-3);
         assert_true(hair_test_moved(&living) < 1e-4);
         hair_test_die(&living);
-        hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+        hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)collider.mesh);
     }
 }
 
@@ -124,7 +124,7 @@ static void a_form_has_friction(void** state)
     hair_physics physics = hair_test_loose(0.3f);
     physics.root = HAIR_ROOT_FREE;
     physics.damping = 0;
-    hair_solid slope = box_of(*state, 1, 1, 0.1f, 0.5f);
+    hair_collider slope = box_of(*state, 1, 1, 0.1f, 0.5f);
     hair_test_turn(&slope, 2, 0.4);
     at(&slope, (0.1 + MARGIN) * sin(0.4), -(0.1 + MARGIN) * cos(0.4), 0);
     for (int n = 0; n < 3; ++n) {
@@ -134,7 +134,7 @@ static void a_form_has_friction(void** state)
         live(*state, 0, hair_v3(0, 0, 1), &physics, &living);
         hair_test_read_guides(&living);
         double before = (double)hair_test_at(&living, 0, 10).x;
-        hair_test_set_solids(&living, &slope, 1);
+        hair_test_set_colliders(&living, &slope, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         double slid = (before - (double)hair_test_at(&living, 0, 10).x) / cos(0.4);
@@ -142,7 +142,7 @@ static void a_form_has_friction(void** state)
         hair_test_near("slid", (size_t)n, slid, far, 0.02 * far + 1e-4);
         hair_test_die(&living);
     }
-    hair_form_destroy((hair_form*)(uintptr_t)slope.form);
+    hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)slope.mesh);
 }
 
 static void forms_that_move_and_spin_carry_hair_along(void** state)
@@ -152,21 +152,22 @@ static void forms_that_move_and_spin_carry_hair_along(void** state)
     physics.damping = 0;
     for (int spins = 0; spins < 2; ++spins) {
         struct hair_test_living living;
-        hair_solid solid = spins ? ball_of(*state, 1, 0.5f) : box_of(*state, 1, 0.5f, 0.1f, 0.5f);
+        hair_collider collider = spins ? ball_of(*state, 1, 0.5f) : box_of(*state, 1, 0.5f, 0.1f, 0.5f);
         double below = spins ? 0.5 : 0.1, way = 0;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc =
+            hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        at(&solid, 0, -below - MARGIN, 0);
-        hair_test_set_solids(&living, &solid, 1);
+        at(&collider, 0, -below - MARGIN, 0);
+        hair_test_set_colliders(&living, &collider, 1);
         hair_test_wait(&living, 10);
         for (int k = 1; k <= 30; ++k) {
             way += 0.2 * fmin(k / 10.0, 1) / 60;
             if (spins)
-                hair_test_turn(&solid, 2, -way / below);
+                hair_test_turn(&collider, 2, -way / below);
             else
-                at(&solid, way, -below - MARGIN, 0);
-            hair_test_set_solids(&living, &solid, 1);
+                at(&collider, way, -below - MARGIN, 0);
+            hair_test_set_colliders(&living, &collider, 1);
             hair_test_wait(&living, 1);
         }
         hair_test_read_guides(&living);
@@ -176,21 +177,21 @@ static void forms_that_move_and_spin_carry_hair_along(void** state)
         assert_true(fabs(carried / expected - 1) < 0.03);
         hair_test_die(&living);
         hair_test_strands_free(&strands);
-        hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+        hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)collider.mesh);
     }
 }
 
 // Stress ----------------------------------------------------------------------------------------------------
 
 // 0.1 s after: nothing deeper than a voxel, all as long as it was; and a second later, when it is gone, all hang.
-static void check_after(struct hair_test_living* living, const hair_solid* solid, const char* what,
+static void check_after(struct hair_test_living* living, const hair_collider* collider, const char* what,
                         int solver)
 {
     hair_test_wait(living, 6);
     hair_test_read_guides(living);
-    double left = hair_test_depth(living, solid), stretch = hair_test_stretch(living);
-    hair_health health = hair_test_health(living);
-    hair_test_set_solids(living, NULL, 0);
+    double left = hair_test_depth(living, collider), stretch = hair_test_stretch(living);
+    hair_solver_stats solver_stats = hair_test_solver_stats(living);
+    hair_test_set_colliders(living, NULL, 0);
     hair_test_wait(living, 60);
     hair_test_read_guides(living);
     double highest = -INFINITY;
@@ -198,7 +199,7 @@ static void check_after(struct hair_test_living* living, const hair_solid* solid
         highest = fmax(highest, (double)hair_test_tip(living, g).y);
     print_message("    %s, shape %d, solver %d: 0.1 s later %.2g m deep, stretch %.2g, resets %u, then tips "
                   "at %.3f m\n",
-                  what, (int)solid->shape, solver, left, stretch, health.reset, highest);
+                  what, (int)collider->shape, solver, left, stretch, solver_stats.reset, highest);
     assert_true(left < VOXEL);
     assert_true(stretch < 0.02);
     assert_true(highest < -0.25);
@@ -212,33 +213,33 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
             static const char* const names[] = {"swept", "spun", "begun inside", "came upon"};
             struct hair_test_living living;
             int is_form = n % 2, what = n / 2;
-            hair_solid solid =
+            hair_collider collider =
                 what == 1 ? box_of(*state, is_form, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_form, 0.05f);
             live_row(*state, solver, &physics, &living);
             if (what == 0) // 5 m/s, and there it stops.
                 for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
-                    at(&solid, x, -0.15, 0);
-                    hair_test_set_solids(&living, &solid, 1);
+                    at(&collider, x, -0.15, 0);
+                    hair_test_set_colliders(&living, &collider, 1);
                     hair_test_wait(&living, 1);
                 }
             if (what == 1) // 21 rad/s
                 for (int k = 0; k < 45; ++k) {
-                    at(&solid, 0.03, -0.18, 0);
-                    hair_test_turn(&solid, 2, 0.35 * k);
-                    hair_test_set_solids(&living, &solid, 1);
+                    at(&collider, 0.03, -0.18, 0);
+                    hair_test_turn(&collider, 2, 0.35 * k);
+                    hair_test_set_colliders(&living, &collider, 1);
                     hair_test_wait(&living, 1);
                 }
-            if (what == 2) at(&solid, 0.004, -0.15, 0), hair_test_set_solids(&living, &solid, 1);
+            if (what == 2) at(&collider, 0.004, -0.15, 0), hair_test_set_colliders(&living, &collider, 1);
             if (what == 3) {
-                at(&solid, 2, 3, 1);
-                hair_test_set_solids(&living, &solid, 1);
+                at(&collider, 2, 3, 1);
+                hair_test_set_colliders(&living, &collider, 1);
                 hair_test_wait(&living, 2);
-                at(&solid, 0.004, -0.15, 0);
-                hair_test_set_solids(&living, &solid, 1);
+                at(&collider, 0.004, -0.15, 0);
+                hair_test_set_colliders(&living, &collider, 1);
             }
-            check_after(&living, &solid, names[what], solver);
+            check_after(&living, &collider, names[what], solver);
             hair_test_die(&living);
-            if (is_form) hair_form_destroy((hair_form*)(uintptr_t)solid.form);
+            if (is_form) hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)collider.mesh);
         }
 }
 
@@ -246,7 +247,7 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
 
 #define MANY 1000
 
-static void place_many(hair_solid* solids, const hair_form* form)
+static void place_many(hair_collider* colliders, const hair_collision_mesh* form)
 {
     uint32_t random = 5;
     for (int i = 0; i < MANY; ++i) {
@@ -255,24 +256,24 @@ static void place_many(hair_solid* solids, const hair_form* form)
             random = random * 1664525u + 1013904223u;
             p[k] = (float)(random >> 8) / 16777216.0f - 0.5f;
         }
-        solids[i] = hair_test_body(i % 50 == 7 ? HAIR_SHAPE_FORM
-                                   : i % 3     ? HAIR_SHAPE_SPHERE
-                                               : HAIR_SHAPE_BOX,
-                                   0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
-        if (solids[i].shape == HAIR_SHAPE_FORM) {
-            solids[i].form = form;
+        colliders[i] = hair_test_body(i % 50 == 7 ? HAIR_SHAPE_MESH
+                                      : i % 3     ? HAIR_SHAPE_SPHERE
+                                                  : HAIR_SHAPE_BOX,
+                                      0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
+        if (colliders[i].shape == HAIR_SHAPE_MESH) {
+            colliders[i].mesh = form;
             continue;
         }
-        for (int k = 0; k < 3; ++k) solids[i].size[k] = i % 3 && k ? 0 : 0.012f;
+        for (int k = 0; k < 3; ++k) colliders[i].size[k] = i % 3 && k ? 0 : 0.012f;
     }
 }
 
-static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded(void** state)
+static void among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded(void** state)
 {
-    static hair_solid solids[MANY];
+    static hair_collider colliders[MANY];
     hair_physics physics = hair_test_loose(0.3f);
-    hair_form* form = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
-    place_many(solids, form);
+    hair_collision_mesh* form = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
+    place_many(colliders, form);
     struct hair_test_living living[2];
     size_t size = 0;
     void* bytes;
@@ -281,10 +282,10 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
         for (int k = 0; k < 8; ++k)
             hair_test_add_straight(&strands, 32, hair_v3(-0.1f + 0.03f * (float)k, 0, 0.003f * (float)k),
                                    hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living[run]);
         hair_test_strands_free(&strands);
-        hair_test_set_solids(&living[run], solids, MANY);
+        hair_test_set_colliders(&living[run], colliders, MANY);
     }
     hair_test_wait(&living[0], 20);
     hair_save(living[0].hair, NULL, 0, &size);
@@ -297,20 +298,20 @@ static void among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit
         hair_test_read_guides(&living[run]);
     }
     double deepest = -INFINITY;
-    for (int i = 0; i < MANY; ++i) deepest = fmax(deepest, hair_test_depth(&living[0], &solids[i]));
+    for (int i = 0; i < MANY; ++i) deepest = fmax(deepest, hair_test_depth(&living[0], &colliders[i]));
     print_message("    up to %.2g m deep, stretch %.2g\n", deepest, hair_test_stretch(&living[0]));
     assert_true(deepest < 1e-3);
     assert_true(hair_test_stretch(&living[0]) < 0.02);
     assert_memory_equal(living[0].positions, living[1].positions, 12 * living[0].vertices);
     hair_test_die(&living[0]);
     hair_test_die(&living[1]);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
 }
 
 #define POST_BALLS 100
 
 // Hair that begins inside a post and about it, between its axis and its surface.
-static void live_in_post(struct hair_test* test, hair_mapping mapping, const hair_solid* solids,
+static void live_in_post(struct hair_test* test, hair_thread_mapping mapping, const hair_collider* colliders,
                          uint32_t count, struct hair_test_living* out)
 {
     hair_physics physics = hair_test_loose(0.3f);
@@ -321,15 +322,15 @@ static void live_in_post(struct hair_test* test, hair_mapping mapping, const hai
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, mapping, 0, &physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
-    hair_test_set_solids(out, solids, count);
+    hair_test_set_colliders(out, colliders, count);
 }
 
 // Each of the balls alone would push them up and down as well.
 static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void** state)
 {
     static const char* const names[] = {"post", "balls", "balls, a work group per guide"};
-    static hair_solid balls[POST_BALLS];
-    hair_solid post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
+    static hair_collider balls[POST_BALLS];
+    hair_collider post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
     post.size[0] = 0.02f, post.size[1] = 0.09f;
     for (int i = 0; i < POST_BALLS; ++i) {
         float share = (float)i / (POST_BALLS - 1);
@@ -339,20 +340,22 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
     uint32_t fallbacks[3];
     for (int kind = 0; kind < 3; ++kind) {
         struct hair_test_living living;
-        live_in_post(*state, kind == 2 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD, kind ? balls : &post,
-                     kind ? POST_BALLS : 1, &living);
+        live_in_post(*state,
+                     kind == 2 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE
+                               : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE,
+                     kind ? balls : &post, kind ? POST_BALLS : 1, &living);
         hair_test_wait(&living, 6);
         hair_test_read_guides(&living);
         double soon = hair_test_depth(&living, &post);
-        hair_health then = hair_test_health(&living);
+        hair_solver_stats then = hair_test_solver_stats(&living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
-        hair_health now = hair_test_health(&living);
-        fallbacks[kind] = now.euler + now.parts + now.follow;
+        hair_solver_stats now = hair_test_solver_stats(&living);
+        fallbacks[kind] = now.euler_fallbacks + now.parts + now.follow_fallbacks;
         print_message(
             "    %s: %.2g m deep 0.1 s later, %.2g m 1 s later; %u fallbacks, %u of them after 0.1 s\n",
             names[kind], soon, hair_test_depth(&living, &post), fallbacks[kind],
-            fallbacks[kind] - then.euler - then.parts - then.follow);
+            fallbacks[kind] - then.euler_fallbacks - then.parts - then.follow_fallbacks);
         assert_true(soon < VOXEL);
         assert_true(hair_test_depth(&living, &post) < 1e-3);
         assert_true(hair_test_stretch(&living) < 0.02);
@@ -368,7 +371,7 @@ int main(void)
         HAIR_TEST(a_form_has_friction),
         HAIR_TEST(forms_that_move_and_spin_carry_hair_along),
         HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
-        HAIR_TEST(among_a_thousand_solids_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
+        HAIR_TEST(among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
         HAIR_TEST(many_balls_along_a_line_are_left_as_the_post_that_they_make_is),
     };
     if (hair_test_skips()) return 0;

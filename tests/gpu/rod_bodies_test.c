@@ -7,16 +7,16 @@
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
-// How far a vertex is in a solid, or in the margin around it, at most; negative: how near.
-static double depth(const struct hair_test_living* living, const hair_solid* solid)
+// How far a vertex is in a collider, or in the margin around it, at most; negative: how near.
+static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
-    return MARGIN + hair_test_depth(living, solid);
+    return MARGIN + hair_test_depth(living, collider);
 }
 
 static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_physics* physics,
                  struct hair_test_strands* strands, struct hair_test_living* out)
 {
-    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_AUTO, 0, physics);
+    hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_AUTO, 0, physics);
     *strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
     hair_test_live(test, strands, &desc, out);
 }
@@ -24,7 +24,7 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
 // A strand starts level and comes to hang over an edge, a back, a flank, the ground.
 static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
 {
-    hair_solid bodies[] = {
+    hair_collider bodies[] = {
         hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0), hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
         hair_test_body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
         hair_test_body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0), hair_test_body(HAIR_SHAPE_PLANE, 0, -0.1f, 0)};
@@ -42,7 +42,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
             struct hair_test_strands strands;
             double deepest = -INFINITY;
             live(*state, solver, hair_v3(1, 0, 0.05f), &physics, &strands, &living);
-            hair_test_set_solids(&living, &bodies[n], 1);
+            hair_test_set_colliders(&living, &bodies[n], 1);
             for (int k = 0; k < 150; ++k) {
                 hair_test_wait(&living, 1);
                 hair_test_read_guides(&living);
@@ -76,9 +76,9 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
         double deepest = -INFINITY;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
-            hair_solid plate = hair_test_body(HAIR_SHAPE_BOX, (float)x, -0.2f, 0);
+            hair_collider plate = hair_test_body(HAIR_SHAPE_BOX, (float)x, -0.2f, 0);
             plate.size[0] = 0.015f, plate.size[1] = plate.size[2] = 0.15f;
-            hair_test_set_solids(&living, &plate, 1);
+            hair_test_set_colliders(&living, &plate, 1);
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
             deepest = fmax(deepest, depth(&living, &plate) - MARGIN);
@@ -104,12 +104,12 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
         struct hair_test_living living;
         struct hair_test_strands strands;
         double deepest = -INFINITY;
-        hair_solid box = hair_test_body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
+        hair_collider box = hair_test_body(HAIR_SHAPE_BOX, 0.03f, -0.18f, 0);
         box.size[0] = 0.08f, box.size[1] = 0.02f, box.size[2] = 0.05f;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (int k = 0; k < 90; ++k) {
             if (k < 80) hair_test_turn(&box, 2, 0.35 * k); // 21 rad/s, and then it stops.
-            hair_test_set_solids(&living, &box, 1);
+            hair_test_set_colliders(&living, &box, 1);
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
             if (k > 10) deepest = fmax(deepest, depth(&living, &box) - MARGIN);
@@ -124,7 +124,7 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 }
 
 // On a slope of 0.4 rad, of which Coulomb holds what has a coefficient above its tangent, 0.42.
-static void a_solid_has_friction_of_its_own(void** state)
+static void a_collider_has_friction_of_its_own(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
     hair_physics physics = hair_test_loose(0.3f);
@@ -133,14 +133,14 @@ static void a_solid_has_friction_of_its_own(void** state)
     for (int n = 0; n < 3; ++n) {
         struct hair_test_living living;
         struct hair_test_strands strands;
-        hair_solid slope = hair_test_body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
+        hair_collider slope = hair_test_body(HAIR_SHAPE_PLANE, 0, -(float)MARGIN / cosf(0.4f), 0);
         double a = 9.81 * (sin(0.4) - 0.3 * (double)factors[n] * cos(0.4)), far = fmax(a, 0) * 0.125;
         hair_test_turn(&slope, 2, 0.4);
         slope.friction = factors[n];
         live(*state, 0, hair_v3(0, 0, 1), &physics, &strands, &living);
         hair_test_read_guides(&living);
         double before = (double)hair_test_at(&living, 0, 10).x;
-        hair_test_set_solids(&living, &slope, 1);
+        hair_test_set_colliders(&living, &slope, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         double slid = (before - (double)hair_test_at(&living, 0, 10).x) / cos(0.4);
@@ -157,7 +157,7 @@ int main(void)
         HAIR_TEST(what_lies_on_a_body_stays_out_of_it_and_comes_to_rest),
         HAIR_TEST(a_plate_swept_through_hair_takes_it_along),
         HAIR_TEST(a_box_that_spins_in_hair_leaves_nothing_inside),
-        HAIR_TEST(a_solid_has_friction_of_its_own),
+        HAIR_TEST(a_collider_has_friction_of_its_own),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -1,4 +1,4 @@
-// rod_contact_test.c - strands as rods and solids: laid over them, sliding and held by friction, carried, swept, freed.
+// rod_contact_test.c - strands as rods and colliders: laid over them, sliding and held by friction, carried, swept, freed.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -9,52 +9,52 @@
 #define SOLVERS HAIR_SOLVER_REDBLACK // all before it
 #define MARGIN 1e-3
 
-static hair_solid sphere(double x, double y, double z, double radius)
+static hair_collider sphere(double x, double y, double z, double radius)
 {
-    return (hair_solid){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z},
-                        {0, 0, 0, 1},      {(float)radius, 0},
-                        .scale = 1,        .friction = 1};
+    return (hair_collider){HAIR_SHAPE_SPHERE, {(float)x, (float)y, (float)z},
+                           {0, 0, 0, 1},      {(float)radius, 0},
+                           .scale = 1,        .friction = 1};
 }
 
 // Its axis along z, turned by `angle` about it.
-static hair_solid capsule(double x, double y, double radius, double angle)
+static hair_collider capsule(double x, double y, double radius, double angle)
 {
     double h = sqrt(0.5), c = cos(angle / 2), s = sin(angle / 2);
-    hair_solid solid = {HAIR_SHAPE_CAPSULE,
-                        {(float)x, (float)y, 0},
-                        {(float)(h * c), (float)(h * s), (float)(h * s), (float)(h * c)},
-                        {(float)radius, 0.5f},
-                        .scale = 1,
-                        .friction = 1};
-    return solid;
+    hair_collider collider = {HAIR_SHAPE_CAPSULE,
+                              {(float)x, (float)y, 0},
+                              {(float)(h * c), (float)(h * s), (float)(h * s), (float)(h * c)},
+                              {(float)radius, 0.5f},
+                              .scale = 1,
+                              .friction = 1};
+    return collider;
 }
 
-// How far a vertex is in a solid, or in the margin around it, at most; negative: how near. The root, which the scalp
+// How far a vertex is in a collider, or in the margin around it, at most; negative: how near. The root, which the scalp
 // holds, does not count when it is held.
-static double depth(const struct hair_test_living* living, const hair_solid* solid)
+static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
     double most = -INFINITY;
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
         for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
              ++i) {
             hair_vec3 p = hair_test_at(living, g, i);
-            double x = (double)(p.x - solid->position[0]), y = (double)(p.y - solid->position[1]);
-            double z = (double)(p.z - solid->position[2]);
-            if (solid->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)solid->size[1], 0);
-            most = fmax(most, (double)solid->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
+            double x = (double)(p.x - collider->position[0]), y = (double)(p.y - collider->position[1]);
+            double z = (double)(p.z - collider->position[2]);
+            if (collider->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)collider->size[1], 0);
+            most = fmax(most, (double)collider->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
         }
     return most;
 }
 
 // A strand of 0.25 m whose root is above a ball, to its side, laid over it. Seconds pass.
 static void lay(struct hair_test* test, hair_solver solver, const hair_physics* physics,
-                const hair_solid* over, uint32_t seconds, struct hair_test_living* out)
+                const hair_collider* over, uint32_t seconds, struct hair_test_living* out)
 {
     struct hair_test_strands strands =
         hair_test_straight(32, hair_v3(-0.03f, 0.056f, 0), hair_v3(1, 0, 0.1f), 0.25f);
-    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, physics);
     hair_test_live(test, &strands, &desc, out);
-    hair_test_set_solids(out, over, 1);
+    hair_test_set_colliders(out, over, 1);
     for (uint32_t k = 0; k < 60 * seconds; ++k) {
         hair_test_wait(out, 1);
         hair_test_read_guides(out);
@@ -64,23 +64,23 @@ static void lay(struct hair_test* test, hair_solver solver, const hair_physics* 
     hair_test_strands_free(&strands);
 }
 
-static void a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep(void** state)
+static void a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
     physics.damping = 10;
     for (int kind = 0; kind < 2; ++kind)
         for (int solver = 0; solver < 2; ++solver) {
-            hair_solid solid = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
+            hair_collider collider = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
             struct hair_test_living living;
-            lay(*state, (hair_solver)solver, &physics, &solid, 8, &living);
+            lay(*state, (hair_solver)solver, &physics, &collider, 8, &living);
             assert_true(hair_test_tip(&living, 0).x > 0.06f); // Over the top.
-            assert_true(depth(&living, &solid) > -1e-5);
+            assert_true(depth(&living, &collider) > -1e-5);
             hair_test_wait(&living, 600);
             hair_test_read_guides(&living);
             print_message("    %s, solver %d: %.2g m in 10 s, stretch %.2g\n", kind ? "capsule" : "sphere",
                           solver, hair_test_moved(&living), hair_test_stretch(&living));
             assert_true(hair_test_moved(&living) < 1e-5);
-            assert_true(depth(&living, &solid) < 1e-5);
+            assert_true(depth(&living, &collider) < 1e-5);
             hair_test_die(&living);
         }
 }
@@ -89,9 +89,9 @@ static void without_friction_it_slides_off(void** state)
 {
     hair_physics physics = hair_test_loose(0);
     for (int solver = 0; solver < 2; ++solver) {
-        hair_solid solid = sphere(0.02, 0, 0, 0.05);
+        hair_collider collider = sphere(0.02, 0, 0, 0.05);
         struct hair_test_living living;
-        lay(*state, (hair_solver)solver, &physics, &solid, 4, &living);
+        lay(*state, (hair_solver)solver, &physics, &collider, 4, &living);
         assert_true(hair_test_tip(&living, 0).x < 0);
         hair_test_die(&living);
     }
@@ -110,11 +110,12 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
         physics.damping = 0;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
         struct hair_test_living living;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid solid =
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
+        hair_collider collider =
             capsule(-(radius + MARGIN) * sin(start), -(radius + MARGIN) * cos(start), radius, 0);
         hair_test_live(*state, &strands, &desc, &living);
-        hair_test_set_solids(&living, &solid, 1);
+        hair_test_set_colliders(&living, &collider, 1);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         for (int i = 0; i < 50000 && friction < 0.55; ++i) {
@@ -122,20 +123,21 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
             a += 1e-5 * w;
         }
         hair_vec3 p = hair_test_at(&living, 0, 2);
-        double slid = atan2((double)(p.x - solid.position[0]), (double)(p.y - solid.position[1])) - start;
+        double slid =
+            atan2((double)(p.x - collider.position[0]), (double)(p.y - collider.position[1])) - start;
         print_message("    solver %d, friction %g: slides %.4f m of %.4f m\n", solver, friction,
                       radius * slid, radius * (a - start));
         if (friction > 0.55)
             assert_true(fabs(slid) * radius < 2e-6);
         else
             assert_true(fabs(slid / (a - start) - 1) < (solver == HAIR_SOLVER_FOLLOW ? 0.03 : 0.01));
-        assert_true(depth(&living, &solid) < 1e-5);
+        assert_true(depth(&living, &collider) < 1e-5);
         hair_test_die(&living);
         hair_test_strands_free(&strands);
     }
 }
 
-static void solids_that_move_and_spin_carry_hair_along(void** state)
+static void colliders_that_move_and_spin_carry_hair_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.8f);
     physics.root = HAIR_ROOT_FREE;
@@ -144,16 +146,17 @@ static void solids_that_move_and_spin_carry_hair_along(void** state)
         int spins = kind % 2, solver = kind / 2;
         struct hair_test_strands strands = hair_test_straight(5, hair_v3(0, 0, 0), hair_v3(0, 0, 1), 0.04f);
         struct hair_test_living living;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid solid = capsule(0, -1 - MARGIN, 1, 0);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
+        hair_collider collider = capsule(0, -1 - MARGIN, 1, 0);
         double way = 0;
         hair_test_live(*state, &strands, &desc, &living);
-        hair_test_set_solids(&living, &solid, 1);
+        hair_test_set_colliders(&living, &collider, 1);
         hair_test_wait(&living, 10);
         for (int k = 1; k <= 30; ++k) {
             way += 0.2 * fmin(k / 10.0, 1) / 60;
-            solid = spins ? capsule(0, -1 - MARGIN, 1, -way) : capsule(way, -1 - MARGIN, 1, 0);
-            hair_test_set_solids(&living, &solid, 1);
+            collider = spins ? capsule(0, -1 - MARGIN, 1, -way) : capsule(way, -1 - MARGIN, 1, 0);
+            hair_test_set_colliders(&living, &collider, 1);
             hair_test_wait(&living, 1);
         }
         hair_test_read_guides(&living);
@@ -190,15 +193,17 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
             struct hair_test_strands strands =
                 hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
             struct hair_test_living living;
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_desc desc =
+                hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
             double r = cases[n].radius, x = -0.3, deepest = -INFINITY;
             hair_test_live(*state, &strands, &desc, &living);
             for (; x < 0.2; x += cases[n].speed / 60) {
-                hair_solid solid = cases[n].is_capsule ? capsule(x, -0.15, r, 0) : sphere(x, -0.15, 0, r);
-                hair_test_set_solids(&living, &solid, 1);
+                hair_collider collider =
+                    cases[n].is_capsule ? capsule(x, -0.15, r, 0) : sphere(x, -0.15, 0, r);
+                hair_test_set_colliders(&living, &collider, 1);
                 hair_test_wait(&living, 1);
                 hair_test_read_guides(&living);
-                deepest = fmax(deepest, depth(&living, &solid) - MARGIN);
+                deepest = fmax(deepest, depth(&living, &collider) - MARGIN);
                 assert_true(winding(&living, x, -0.15) < 0);
             }
             print_message("    radius %g m, %g m/s, solver %d: up to %.2g m deep\n", r, cases[n].speed,
@@ -209,20 +214,21 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
         }
 }
 
-static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
+static void hair_in_a_collider_that_appears_comes_out_slowly(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_strands strands =
             hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0.05f), 0.3f);
         struct hair_test_living living;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid solid = sphere(0.01, -0.15, 0, 0.06);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
+        hair_collider collider = sphere(0.01, -0.15, 0, 0.06);
         double speed = 0;
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
-        hair_test_set_solids(&living, &solid, 1);
+        hair_test_set_colliders(&living, &collider, 1);
         for (int k = 0; k < 60; ++k) {
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
@@ -231,7 +237,7 @@ static void hair_in_a_solid_that_appears_comes_out_slowly(void** state)
         }
         print_message("    solver %d: up to %.2g m/s\n", solver, speed);
         assert_true(speed < 5);
-        assert_true(depth(&living, &solid) < 1e-5);
+        assert_true(depth(&living, &collider) < 1e-5);
         hair_test_die(&living);
         hair_test_strands_free(&strands);
     }
@@ -244,27 +250,28 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0.1f), 0.1f);
         struct hair_test_living living;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_solid solid = sphere(0, -12, 0, 10);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
+        hair_collider collider = sphere(0, -12, 0, 10);
         hair_test_live(*state, &strands, &desc, &living);
-        hair_test_set_solids(&living, &solid, 1);
+        hair_test_set_colliders(&living, &collider, 1);
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
-        assert_true(depth(&living, &solid) < 1e-4);
-        assert_true(depth(&living, &solid) > -1e-3);
+        assert_true(depth(&living, &collider) < 1e-4);
+        assert_true(depth(&living, &collider) > -1e-3);
         hair_test_die(&living);
         hair_test_strands_free(&strands);
     }
 }
 
-static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
+static void among_64_colliders_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
 {
-    hair_solid solids[HAIR_STEP_SOLIDS];
+    hair_collider colliders[HAIR_STEP_COLLIDERS];
     hair_physics physics = hair_test_loose(0.3f);
-    for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) {
+    for (int i = 0; i < HAIR_STEP_COLLIDERS; ++i) {
         double row = i / 8;
-        solids[i] = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
-                           0.015 + 0.004 * (i % 4));
+        colliders[i] = sphere(-0.2 + 0.055 * (i % 8), -0.05 - 0.02 * (i % 3), -0.2 + 0.05 * row,
+                              0.015 + 0.004 * (i % 4));
     }
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living[2];
@@ -273,15 +280,17 @@ static void among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time(
             for (int k = 0; k < 8; ++k)
                 hair_test_add_straight(&strands, 32, hair_v3(-0.1f + 0.03f * (float)k, 0, 0.003f * (float)k),
                                        hair_v3(1, -0.1f, 0.1f * (float)(k - 3)), 0.3f);
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_desc desc =
+                hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
             hair_test_live(*state, &strands, &desc, &living[run]);
-            hair_test_set_solids(&living[run], solids, HAIR_STEP_SOLIDS);
+            hair_test_set_colliders(&living[run], colliders, HAIR_STEP_COLLIDERS);
             hair_test_wait(&living[run], 180);
             hair_test_read_guides(&living[run]);
             hair_test_strands_free(&strands);
         }
         double deepest = -INFINITY;
-        for (int i = 0; i < HAIR_STEP_SOLIDS; ++i) deepest = fmax(deepest, depth(&living[0], &solids[i]));
+        for (int i = 0; i < HAIR_STEP_COLLIDERS; ++i)
+            deepest = fmax(deepest, depth(&living[0], &colliders[i]));
         print_message("    solver %d: up to %.2g m deep in the margin\n", solver, deepest);
         assert_true(deepest < 1e-5);
         assert_true(hair_test_stretch(&living[0]) < 0.01);
@@ -296,14 +305,15 @@ static void fall_over_bar(struct hair_test* test, int substeps, float* track, st
 {
     hair_physics physics = hair_test_loose(0.3f);
     struct hair_test_strands strands = hair_test_strands_make(STRIKING, 32);
-    hair_solid bar = capsule(-0.05, -0.22, 0.05, 0);
+    hair_collider bar = capsule(-0.05, -0.22, 0.05, 0);
     for (int k = 0; k < STRIKING; ++k)
         hair_test_add_straight(&strands, 32, hair_v3(0.008f * (float)k - 0.1f, 0, 0.01f * (float)k),
                                hair_v3(1, -0.1f, 0.1f), 0.3f);
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 1.0 / 60 / substeps, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+                                    1.0 / 60 / substeps, &physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
-    hair_test_set_solids(out, &bar, 1);
+    hair_test_set_colliders(out, &bar, 1);
     for (int frame = 0; frame < STRIKING_FRAMES; ++frame) {
         hair_test_wait(out, 1);
         hair_test_read_guides(out);
@@ -311,7 +321,7 @@ static void fall_over_bar(struct hair_test* test, int substeps, float* track, st
     }
 }
 
-static void what_strikes_a_solid_at_few_substeps_goes_on_as_at_many(void** state)
+static void what_strikes_a_collider_at_few_substeps_goes_on_as_at_many(void** state)
 {
     enum { FLOATS = 3 * 32 * STRIKING * STRIKING_FRAMES };
     static float track[2][FLOATS];
@@ -330,24 +340,26 @@ static void what_strikes_a_solid_at_few_substeps_goes_on_as_at_many(void** state
 // Of 25 mm, that stand at 20 degrees from a head whose margin their roots are in, or whose inside.
 static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
 {
-    hair_solid head = sphere(0, 0, 0, 0.1);
+    hair_collider head = sphere(0, 0, 0, 0.1);
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0;
-    for (int any = 0; any < 2; ++any) // Of so many solids there is a grid.
+    physics.sleep_threshold = 0;
+    for (int any = 0; any < 2; ++any) // Of so many colliders there is a grid.
         for (int solver = 0; solver < 2; ++solver) {
-            hair_solid solids[HAIR_FEW_SOLIDS + 1];
+            hair_collider colliders[HAIR_FEW_COLLIDERS + 1];
             struct hair_test_living living;
             struct hair_test_strands strands = hair_test_strands_make(6, 32);
             for (int k = 0; k < 6; ++k)
                 hair_test_add_straight(&strands, 32, hair_v3(0, 0.1f - 0.0002f * (float)k, 0),
                                        hair_v3(cosf((float)k), 0.36f, sinf((float)k)), 0.025f);
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_desc desc =
+                hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
             hair_test_live(*state, &strands, &desc, &living);
-            for (int i = 0; i <= HAIR_FEW_SOLIDS; ++i) solids[i] = i ? sphere(0.02 * i, -0.3, 0, 0.01) : head;
-            hair_test_set_solids(&living, solids, any ? HAIR_FEW_SOLIDS + 1 : 1);
+            for (int i = 0; i <= HAIR_FEW_COLLIDERS; ++i)
+                colliders[i] = i ? sphere(0.02 * i, -0.3, 0, 0.01) : head;
+            hair_test_set_colliders(&living, colliders, any ? HAIR_FEW_COLLIDERS + 1 : 1);
             hair_test_wait(&living, 60);
             hair_test_read_guides(&living);
-            print_message("    %d solids, solver %d: %.2g m from rest\n", any ? HAIR_FEW_SOLIDS + 1 : 1,
+            print_message("    %d colliders, solver %d: %.2g m from rest\n", any ? HAIR_FEW_COLLIDERS + 1 : 1,
                           solver, hair_test_from_rest(&living));
             assert_true(hair_test_from_rest(&living) < 2e-3);
             hair_test_healthy(&living);
@@ -360,16 +372,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_strand_laid_over_a_solid_stays_out_of_it_and_does_not_creep),
+        HAIR_TEST(a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep),
         HAIR_TEST(without_friction_it_slides_off),
         HAIR_TEST(a_strand_on_a_slope_obeys_coulomb),
-        HAIR_TEST(solids_that_move_and_spin_carry_hair_along),
+        HAIR_TEST(colliders_that_move_and_spin_carry_hair_along),
         HAIR_TEST(what_is_swept_through_hair_takes_it_along),
         HAIR_TEST(hair_whose_roots_are_in_the_margin_rests_without_a_fallback),
-        HAIR_TEST(hair_in_a_solid_that_appears_comes_out_slowly),
+        HAIR_TEST(hair_in_a_collider_that_appears_comes_out_slowly),
         HAIR_TEST(a_free_strand_comes_to_lie_on_what_it_falls_on),
-        HAIR_TEST(what_strikes_a_solid_at_few_substeps_goes_on_as_at_many),
-        HAIR_TEST(among_64_solids_hair_stays_out_of_all_with_the_same_bits_every_time),
+        HAIR_TEST(what_strikes_a_collider_at_few_substeps_goes_on_as_at_many),
+        HAIR_TEST(among_64_colliders_hair_stays_out_of_all_with_the_same_bits_every_time),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

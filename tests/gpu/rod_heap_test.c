@@ -15,7 +15,7 @@
 
 // A heap of balls that overlap, 6 to 25 mm, each of which goes its own way to and fro, and spins as a capsule can as well. In the end it
 // rises through the hair.
-static void place_heap(hair_solid* heap, int frame)
+static void place_heap(hair_collider* heap, int frame)
 {
     uint32_t random = 11;
     for (int i = 0; i < HEAP; ++i) {
@@ -35,10 +35,10 @@ static void place_heap(hair_solid* heap, int frame)
 }
 
 // Hair falls over it, or begins inside, and where it is after each frame is written down. Returns how deep it ever was.
-static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_shape shape, int balls,
+static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, hair_shape shape, int balls,
                            int inside, int guides, int frames, float* track)
 {
-    static hair_solid heap[HEAP];
+    static hair_collider heap[HEAP];
     hair_physics physics = hair_test_loose(0.3f);
     struct hair_test_strands strands = hair_test_strands_make((uint32_t)guides, 32);
     struct hair_test_living living;
@@ -53,7 +53,7 @@ static double fall_on_heap(struct hair_test* test, hair_mapping mapping, hair_sh
     for (int frame = 0; frame < frames; ++frame) {
         place_heap(heap, frame);
         for (int i = 0; i < HEAP; ++i) heap[i].shape = shape;
-        hair_test_set_solids(&living, heap, (uint32_t)balls);
+        hair_test_set_colliders(&living, heap, (uint32_t)balls);
         hair_test_wait(&living, 1);
         hair_test_read_guides(&living);
         for (int i = 0; i < balls && frame <= HEAP_RISES; ++i)
@@ -73,7 +73,8 @@ static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
     for (int n = 0; n < 4; ++n) {
-        hair_mapping mapping = n % 2 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
+        hair_thread_mapping mapping =
+            n % 2 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
         int balls = n == 2 ? FEWER : HEAP; // Of which a thread may look at all.
         fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[0]);
         fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[1]);
@@ -88,8 +89,9 @@ static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_gr
     static float track[3 * HEAP_VERTICES * HEAP_FRAMES];
     double deepest[2];
     for (int n = 0; n < 2; ++n)
-        deepest[n] = fall_on_heap(*state, n ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD, HAIR_SHAPE_SPHERE,
-                                  HEAP, 1, HEAP_GUIDES, HEAP_FRAMES, track);
+        deepest[n] = fall_on_heap(
+            *state, n ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE,
+            HAIR_SHAPE_SPHERE, HEAP, 1, HEAP_GUIDES, HEAP_FRAMES, track);
     assert_true(deepest[0] < 2 * deepest[1]);
 }
 
@@ -98,8 +100,10 @@ static void many_guides_go_as_few_do(void** state)
 {
     enum { MANY = 2056, FRAMES = 8 };
     static float track[2][3 * HEAP_VERTICES * FRAMES];
-    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, HEAP, 1, HEAP_GUIDES, FRAMES, track[0]);
-    fall_on_heap(*state, HAIR_MAPPING_GROUP, HAIR_SHAPE_SPHERE, HEAP, 1, MANY, FRAMES, track[1]);
+    fall_on_heap(*state, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, HAIR_SHAPE_SPHERE, HEAP, 1, HEAP_GUIDES,
+                 FRAMES, track[0]);
+    fall_on_heap(*state, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, HAIR_SHAPE_SPHERE, HEAP, 1, MANY, FRAMES,
+                 track[1]);
     if (((struct hair_test*)*state)->context->gl.software)
         assert_memory_equal(track[0], track[1], sizeof track[0]);
 }

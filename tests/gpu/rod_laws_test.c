@@ -56,10 +56,12 @@ static void guides_of_one_instance_do_not_notice_each_other(void** state)
 {
     hair_physics physics = hair_test_bare();
     for (int kind = 0; kind < 4; ++kind) {
-        int solver = kind % 3, mapping = kind < 3 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_THREAD;
+        int solver = kind % 3, mapping = kind < 3 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE
+                                                  : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
         struct hair_test_living together, alone;
         struct hair_test_strands all = uneven(0, KINDS);
-        hair_desc desc = hair_test_rods((hair_solver)solver, (hair_mapping)mapping, 1.0 / 480, &physics);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, (hair_thread_mapping)mapping, 1.0 / 480, &physics);
         shake(*state, &all, &desc, &together);
         assert_true(hair_test_from_rest(&together) > 0.03);
         for (uint32_t g = 0; g < KINDS; ++g) {
@@ -79,7 +81,8 @@ static void a_thread_per_guide_does_what_a_work_group_does(void** state)
         struct hair_test_living living[2];
         for (int m = 0; m < 2; ++m) {
             struct hair_test_strands strands = uneven(0, KINDS);
-            hair_mapping mapping = m ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+            hair_thread_mapping mapping =
+                m ? HAIR_THREAD_MAPPING_THREAD_PER_GUIDE : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
             hair_desc desc = hair_test_rods((hair_solver)solver, mapping, 1.0 / 480, &physics);
             shake(*state, &strands, &desc, &living[m]);
         }
@@ -101,7 +104,8 @@ static void motion_does_not_depend_on_how_time_is_cut(void** state)
             struct hair_test_living living[2];
             struct hair_test_strands strands = hair_test_slanting(32);
             for (int cut = 0; cut < 2; ++cut) {
-                hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 1.0 / 960, &physics);
+                hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+                                                1.0 / 960, &physics);
                 int each = cut ? 4 : 1;
                 hair_test_live(*state, &strands, &desc, &living[cut]);
                 for (int k = 1; k <= 30 * each; ++k) {
@@ -129,7 +133,8 @@ static void the_same_steps_give_the_same_bits(void** state)
         struct hair_test_living living[2];
         for (int m = 0; m < 2; ++m) {
             struct hair_test_strands strands = uneven(0, KINDS);
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_desc desc =
+                hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
             shake(*state, &strands, &desc, &living[m]);
         }
         assert_memory_equal(living[0].positions, living[1].positions, 12 * living[0].vertices);
@@ -153,7 +158,8 @@ static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
         struct hair_test_living living;
         double c = drag ? 5 : 0, worst = 0, t = 0;
         physics.damping = (float)c;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_blow(&living, &wind);
         for (int k = 0; k < 60; ++k) {
@@ -194,13 +200,14 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 // However stiff: what a force does to the whole of a strand is not lost beside what it does to its bends.
 static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
 {
-    static const hair_mapping mappings[] = {HAIR_MAPPING_GROUP, HAIR_MAPPING_THREAD};
+    static const hair_thread_mapping mappings[] = {HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+                                                   HAIR_THREAD_MAPPING_THREAD_PER_GUIDE};
     for (int kind = 0; kind < 4; ++kind) {
         struct hair_test_living living;
         hair_physics physics = hair_test_bare();
         struct hair_test_strands strands = hair_test_strands_make(1, 8);
         double worst = 0;
-        physics.young = 1e12f;
+        physics.youngs_modulus = 1e12f;
         physics.fiber_radius = 1e-3f;
         physics.damping = 0;
         physics.root = HAIR_ROOT_FREE;
@@ -267,7 +274,8 @@ static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** sta
         struct hair_test_living living;
         struct motion first = {{0}, {0}, 0}, now = first;
         const double h = 1.0 / 960;
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, h, &physics);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, h, &physics);
         shake(*state, &strands, &desc, &living);
         physics.root = HAIR_ROOT_FREE;
         physics.damping = 0;
@@ -292,11 +300,12 @@ static void accurate_keeps_the_energy_of_what_swings(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.damping = 0;
-    physics.young = 0;
+    physics.youngs_modulus = 0;
     struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.3f);
     struct hair_test_living living;
     const double h = 1.0 / 960, scale = 9.81 * 0.3 * 0.15;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, h, &physics);
+    hair_desc desc =
+        hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, h, &physics);
     hair_test_live(*state, &strands, &desc, &living);
     for (int k = 0; k < 9600; ++k) {
         hair_test_advance(&living, NULL, h);
@@ -317,7 +326,8 @@ static void what_hangs_straight_down_stays_where_it_is(void** state)
             struct hair_test_strands strands =
                 hair_test_straight(vertices[k], hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
             struct hair_test_living living;
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+            hair_desc desc =
+                hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
             hair_test_live(*state, &strands, &desc, &living);
             hair_test_wait(&living, 120);
             hair_test_read_guides(&living);

@@ -45,10 +45,10 @@ static struct error shake(struct hair_test* test, uint32_t vertices, const hair_
     struct hair_test_strands strands = hair_test_slanting(vertices);
     hair_test_live(test, &strands, desc, &living);
     struct error error = follow(&living, 0, frames, 1);
-    hair_health health = hair_test_health(&living);
+    hair_solver_stats solver_stats = hair_test_solver_stats(&living);
     print_message("    %u vertices, %s, 1/%.0f s: rms %.2g of the length, stretch %.2g, %u by Euler\n",
                   vertices, desc->solver == HAIR_SOLVER_DIRECT ? "direct" : "accurate",
-                  1 / (double)health.substep, error.rms, error.stretch, health.euler);
+                  1 / (double)solver_stats.substep, error.rms, error.stretch, solver_stats.euler_fallbacks);
     hair_test_die(&living);
     hair_test_strands_free(&strands);
     return error;
@@ -66,8 +66,10 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
     hair_physics physics = hair_test_bare();
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         uint32_t n = cases[i].vertices;
-        hair_desc direct = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
-        hair_desc accurate = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc direct =
+            hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
+        hair_desc accurate =
+            hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         struct error a = shake(*state, n, &direct, cases[i].frames),
                      b = shake(*state, n, &accurate, cases[i].frames);
         assert_true(a.rms < 5e-3 && a.stretch < 1e-3);
@@ -79,11 +81,12 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 static void the_error_is_of_second_order_in_the_substep(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.young = 3e7f;
+    physics.youngs_modulus = 3e7f;
     for (int solver = 0; solver < 2; ++solver) {
         double before = 0, substep = 1.0 / 240;
         for (int k = 0; k < 3; ++k, substep /= 2) {
-            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, substep, &physics);
+            hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+                                            substep, &physics);
             struct error error = shake(*state, 12, &desc, 20);
             if (k > 0) print_message("    order %.2f\n", log2(before / error.rms));
             if (k > 0) assert_true(log2(before / error.rms) > 1.8);
@@ -97,13 +100,13 @@ static void a_chain_released_from_the_horizontal_is_as_near_as_stated(void** sta
 {
     static const double limit[] = {3.5e-3, 6e-4}; // m
     hair_physics physics = hair_test_bare();
-    physics.young = 0;
+    physics.youngs_modulus = 0;
     physics.damping = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
         struct hair_test_living living;
-        hair_desc desc =
-            hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, solver ? 1.0 / 1080 : 0, &physics);
+        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+                                        solver ? 1.0 / 1080 : 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         struct error error = follow(&living, 0, 24, 0);
         print_message("    rms %.3g mm, stretch %.2g\n", 1e3 * error.rms * 0.3, error.stretch);
@@ -119,7 +122,8 @@ static void shake_both(struct hair_test* test, uint32_t vertices, const hair_phy
                        double accurate)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, physics);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, physics);
         struct error error = shake(test, vertices, &desc, 30);
         assert_true(error.rms < (solver == HAIR_SOLVER_DIRECT ? direct : accurate));
         assert_true(error.stretch < 1e-3);
@@ -145,7 +149,7 @@ static void a_heavy_tip_swings_as_the_reference_has_it(void** state)
 static void pull_is_a_spring_to_the_rest_pose_under_the_head(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.pull_root = 8, physics.pull_tip = 2;
+    physics.shape_frequency_root = 8, physics.shape_frequency_tip = 2;
     shake_both(*state, 16, &physics, 2e-3, 5e-5);
     shake_both(*state, 70, &physics, 2e-3, 3e-4); // Implicit under accurate.
 }
@@ -159,7 +163,8 @@ static void wind_carries_hair_as_the_reference_has_it(void** state)
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         struct hair_test_strands strands = hair_test_slanting(16);
-        hair_desc desc = hair_test_rods((hair_solver)solver, HAIR_MAPPING_GROUP, 0, &physics);
+        hair_desc desc =
+            hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_test_blow(&living, &wind);
         struct error error = follow(&living, 0, 30, 1);

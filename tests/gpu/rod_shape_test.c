@@ -29,7 +29,7 @@ static struct hair_test_strands shapes(uint32_t vertices, float length)
 static void live(struct hair_test* test, struct hair_test_strands strands, hair_solver solver,
                  const hair_physics* physics, struct hair_test_living* out)
 {
-    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_GROUP, 0, physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, physics);
     hair_test_live(test, &strands, &desc, out);
     hair_test_strands_free(&strands);
 }
@@ -57,7 +57,7 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
 {
     static const float lengths[] = {0.05f, 0.14f};
     hair_physics physics = hair_physics_default();
-    physics.pull_root = physics.pull_tip = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (int k = 0; k < 2; ++k) {
             struct hair_test_living living;
@@ -65,13 +65,14 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
                  &physics, &living);
             hair_test_wait(&living, 120);
             hair_test_read_guides(&living);
-            hair_health health = hair_test_health(&living);
+            hair_solver_stats solver_stats = hair_test_solver_stats(&living);
             print_message("    solver %d: %.2g m away, stiffened %.3g times\n", solver,
-                          hair_test_from_rest(&living), (double)health.stiffest);
+                          hair_test_from_rest(&living), (double)solver_stats.max_stiffening);
             assert_true(hair_test_from_rest(&living) < 1e-5 * (double)lengths[k]);
-            assert_int_equal(health.stiffened, k);
-            assert_true(k ? health.stiffest > 2 && health.stiffest <= 3 : health.stiffest == 1);
-            assert_true(health.sagging == 0 && health.farthest_sag == 0);
+            assert_int_equal(solver_stats.stiffened, k);
+            assert_true(k ? solver_stats.max_stiffening > 2 && solver_stats.max_stiffening <= 3
+                          : solver_stats.max_stiffening == 1);
+            assert_true(solver_stats.sagging == 0 && solver_stats.farthest_sag == 0);
             hair_test_healthy(&living);
             hair_test_die(&living);
         }
@@ -81,19 +82,19 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
 static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0;
+    physics.sleep_threshold = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         live(*state, hair_test_straight(16, origin, hair_v3(1, 0.2f, 0), 0.25f), (hair_solver)solver,
              &physics, &living);
         hair_test_wait(&living, 300);
         hair_test_read_guides(&living);
-        hair_health health = hair_test_health(&living);
+        hair_solver_stats solver_stats = hair_test_solver_stats(&living);
         print_message("    solver %d: %.4g m away, said to be %.4g\n", solver, hair_test_from_rest(&living),
-                      (double)health.farthest_sag);
-        assert_true(health.stiffened == 1 && health.sagging == 1);
-        assert_true(health.stiffest == 3 && health.farthest_sag > 0.02f);
-        hair_test_near("sag", (size_t)solver, hair_test_from_rest(&living), (double)health.farthest_sag,
+                      (double)solver_stats.farthest_sag);
+        assert_true(solver_stats.stiffened == 1 && solver_stats.sagging == 1);
+        assert_true(solver_stats.max_stiffening == 3 && solver_stats.farthest_sag > 0.02f);
+        hair_test_near("sag", (size_t)solver, hair_test_from_rest(&living), (double)solver_stats.farthest_sag,
                        5e-5);
         hair_test_healthy(&living);
         hair_test_die(&living);
@@ -103,16 +104,17 @@ static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void
 static void with_hold_waves_and_curls_stay_as_they_were_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.pull_root = physics.pull_tip = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         live(*state, shapes(33, 0.125f), (hair_solver)solver, &physics, &living);
         hair_test_wait(&living, 120);
         hair_test_read_guides(&living);
-        hair_health health = hair_test_health(&living);
+        hair_solver_stats solver_stats = hair_test_solver_stats(&living);
         print_message("    solver %d: %.2g m away, %u stiffened up to %.3g times\n", solver,
-                      hair_test_from_rest(&living), health.stiffened, (double)health.stiffest);
-        assert_true(health.stiffened > 0 && health.sagging == 0);
+                      hair_test_from_rest(&living), solver_stats.stiffened,
+                      (double)solver_stats.max_stiffening);
+        assert_true(solver_stats.stiffened > 0 && solver_stats.sagging == 0);
         assert_true(hair_test_from_rest(&living) < 1e-5 * 0.125);
         hair_test_healthy(&living);
         hair_test_die(&living);
@@ -134,7 +136,7 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0;
+    physics.sleep_threshold = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         struct hair_test_strands strands = hair_test_strands_make(4, 32);
@@ -269,9 +271,9 @@ static void compare_at_rest(struct hair_test* test, const char* what, const hair
 static void a_cantilever_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0; // Nothing stops before it is where it goes.
-    physics.pull_root = physics.pull_tip = 0;
-    physics.hold = 0;
+    physics.sleep_threshold = 0; // Nothing stops before it is where it goes.
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.gravity_preload = 0;
     physics.damping = 8;
     compare_at_rest(*state, "5 cm", &physics, 0.05f, 5e-4, 1e-4);
     compare_at_rest(*state, "10 cm", &physics, 0.1f, 1e-2, 5e-6);
@@ -290,10 +292,10 @@ static void a_cantilever_hangs_as_the_reference_does(void** state)
 static void a_coarse_curl_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep = 0;
-    physics.pull_root = physics.pull_tip = 0;
-    physics.hold = 0;
-    physics.young = 4e10f;
+    physics.sleep_threshold = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.gravity_preload = 0;
+    physics.youngs_modulus = 4e10f;
     physics.damping = 8;
     compare_at_rest(*state, "coarse curl", &physics, 0, 2e-3, 2e-3);
     physics.flatness = 0.5f;
@@ -305,8 +307,8 @@ static void a_coarse_curl_hangs_as_the_reference_does(void** state)
 static void a_flat_section_bends_about_its_long_axis(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.pull_root = physics.pull_tip = 0;
-    physics.hold = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.gravity_preload = 0;
     physics.damping = 8;
     physics.flatness = 0.4f;
     physics.gravity[1] = 0, physics.gravity[2] = -9.81f;

@@ -22,7 +22,7 @@ static void spin(struct hair_test* test, double rate)
     hair_physics physics = hair_test_bare();
     physics.damping = 4;
     struct hair_test_strands strands = hair_test_straight(32, hair_v3(ROOT, 0, 0), hair_v3(1, 0, 0), LENGTH);
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_GROUP, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
     struct hair_reference_rod_pose head = turned(rate, 0);
     struct hair_test_living living;
     double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;

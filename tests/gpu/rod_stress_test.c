@@ -74,11 +74,11 @@ static double flip(uint32_t i, struct hair_reference_rod_pose* head)
 
 static void make_stiff(hair_physics* physics)
 {
-    physics->young = 1e12f;
+    physics->youngs_modulus = 1e12f;
 }
 static void make_soft(hair_physics* physics)
 {
-    physics->young = 0;
+    physics->youngs_modulus = 0;
 }
 static void make_heavy(hair_physics* physics)
 {
@@ -149,7 +149,7 @@ static double suffer(struct hair_test_living* living, const struct stress* stres
     return most;
 }
 
-static struct hair_test_living start(struct hair_test* test, hair_solver solver, hair_mapping mapping,
+static struct hair_test_living start(struct hair_test* test, hair_solver solver, hair_thread_mapping mapping,
                                      const struct stress* stress)
 {
     struct hair_test_living living;
@@ -176,31 +176,32 @@ static double from_rest(const struct hair_test_living* living)
     return most;
 }
 
-static void try_all(struct hair_test* test, hair_mapping mapping, int solvers)
+static void try_all(struct hair_test* test, hair_thread_mapping mapping, int solvers)
 {
     for (size_t n = 0; n < sizeof stresses / sizeof *stresses; ++n)
         for (int solver = 0; solver < solvers; ++solver) {
             struct hair_test_living living = start(test, (hair_solver)solver, mapping, &stresses[n]);
             double most = suffer(&living, &stresses[n]), off = from_rest(&living);
-            hair_health health = hair_test_health(&living);
+            hair_solver_stats solver_stats = hair_test_solver_stats(&living);
             print_message("    %s, solver %d: stretch %.2g, then %.2g of the length from rest; %u by Euler, "
                           "%u follow, %u reset\n",
-                          stresses[n].name, solver, most, off, health.euler, health.follow, health.reset);
+                          stresses[n].name, solver, most, off, solver_stats.euler_fallbacks,
+                          solver_stats.follow_fallbacks, solver_stats.reset);
             assert_true(most <= 0.02);
             if (stresses[n].returns && solver != HAIR_SOLVER_FOLLOW) assert_true(off < 0.01);
-            assert_int_equal(health.reset, 0);
+            assert_int_equal(solver_stats.reset, 0);
             hair_test_die(&living);
         }
 }
 
 static void hair_bears_what_nobody_should_do_to_it(void** state)
 {
-    try_all(*state, HAIR_MAPPING_GROUP, HAIR_SOLVER_REDBLACK);
+    try_all(*state, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, HAIR_SOLVER_REDBLACK);
 }
 
 static void so_it_does_with_a_thread_per_guide(void** state)
 {
-    try_all(*state, HAIR_MAPPING_THREAD, 1);
+    try_all(*state, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1);
 }
 
 // From vertex to vertex another way: of no such strand are lengths found soon.
@@ -217,11 +218,11 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
     struct hair_test_strands s = hair_test_strands_make(8, HAIR_MAX_GUIDE_VERTICES);
     hair_physics physics = hair_physics_default();
     double most = 0, dt = 0.01;
-    physics.young = 1e12f;
+    physics.youngs_modulus = 1e12f;
     physics.flatness = 0.5f;
     physics.tip_mass = tip_mass;
     for (int k = 0; k < 8; ++k) hair_test_strands_add(&s, HAIR_MAX_GUIDE_VERTICES, jagged, NULL);
-    hair_desc desc = hair_test_rods(solver, HAIR_MAPPING_THREAD, dt, &physics);
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, dt, &physics);
     hair_test_live(test, &s, &desc, &living);
     hair_test_strands_free(&s);
     for (uint32_t i = 0; i < 36; ++i) {
@@ -250,8 +251,10 @@ static void a_head_100_km_out_is_a_head_like_any_other(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         static const float home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-        struct hair_test_living far = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
-        struct hair_test_living near = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        struct hair_test_living far =
+            start(*state, (hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, NULL);
+        struct hair_test_living near =
+            start(*state, (hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, NULL);
         float away[16];
         for (int k = 0; k < 16; ++k) away[k] = home[k];
         away[12] = 1e5f, away[14] = -1e5f;
@@ -281,8 +284,9 @@ static void a_head_100_km_out_is_a_head_like_any_other(void** state)
 static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        struct hair_test_living living = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
-        uint32_t frames = (uint32_t)(20000 * 60 * (double)hair_test_health(&living).substep);
+        struct hair_test_living living =
+            start(*state, (hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, NULL);
+        uint32_t frames = (uint32_t)(20000 * 60 * (double)hair_test_solver_stats(&living).substep);
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
         hair_test_wait(&living, frames);
@@ -295,18 +299,20 @@ static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
     }
 }
 
-static void health_says_what_happened(void** state)
+static void solver_stats_says_what_happened(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
-        struct hair_test_living living = start(*state, (hair_solver)solver, HAIR_MAPPING_GROUP, NULL);
+        struct hair_test_living living =
+            start(*state, (hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, NULL);
         hair_test_wait(&living, 60);
         hair_test_healthy(&living);
         suffer(&living, &stresses[4]); // No method but following the leader bears a jump of 10 m.
-        hair_health health = hair_test_health(&living);
-        assert_true(health.euler > 0 || health.parts > 0);
-        assert_true(!health.euler || !health.parts); // A program does the one or the other.
-        assert_true(health.follow > 0);
-        assert_int_equal(health.reset, 0);
+        hair_solver_stats solver_stats = hair_test_solver_stats(&living);
+        assert_true(solver_stats.euler_fallbacks > 0 || solver_stats.parts > 0);
+        assert_true(!solver_stats.euler_fallbacks ||
+                    !solver_stats.parts); // A program does the one or the other.
+        assert_true(solver_stats.follow_fallbacks > 0);
+        assert_int_equal(solver_stats.reset, 0);
         hair_test_die(&living);
     }
 }
@@ -320,7 +326,7 @@ int main(void)
         HAIR_TEST(as_many_vertices_as_a_guide_may_have_bear_it_too),
         HAIR_TEST(a_head_100_km_out_is_a_head_like_any_other),
         HAIR_TEST(twenty_thousand_substeps_at_rest_change_nothing),
-        HAIR_TEST(health_says_what_happened),
+        HAIR_TEST(solver_stats_says_what_happened),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

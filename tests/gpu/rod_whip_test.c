@@ -50,7 +50,7 @@ struct whip {
     uint32_t vertices;
     double degrees; // from down
     hair_root root;
-    hair_mapping mapping;
+    hair_thread_mapping mapping;
     double substep; // s; 0 leaves it to the solver
     int beside; // 1 puts a ball beside the plane of the whip, nearer to the root than 2 cm
 };
@@ -69,9 +69,9 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
     hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, whip->mapping, whip->substep, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
-    hair_solid ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0.09f);
+    hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0.09f);
     ball.size[0] = 0.08f;
-    if (whip->beside) hair_test_set_solids(&living, &ball, 1);
+    if (whip->beside) hair_test_set_colliders(&living, &ball, 1);
     double h = living.hair->sim.substep, lowest = -GRAVITY * (double)LENGTH * (double)LENGTH / 2;
     for (int i = 0; i < (int)(5 / h); ++i) {
         hair_test_advance(&living, NULL, h);
@@ -80,10 +80,10 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
         if (i == 2) first = now;
         most = fmax(most, now);
     }
-    print_message("    %u vertices from %g degrees, root %d, 1/%.0f s, %d solids: %.4f of the energy left, "
-                  "at most %.4f\n",
-                  whip->vertices, whip->degrees, (int)whip->root, 1 / h, whip->beside, now / first,
-                  most / first);
+    print_message(
+        "    %u vertices from %g degrees, root %d, 1/%.0f s, %d colliders: %.4f of the energy left, "
+        "at most %.4f\n",
+        whip->vertices, whip->degrees, (int)whip->root, 1 / h, whip->beside, now / first, most / first);
     hair_test_healthy(&living);
     assert_true(now > 0.95 * first);
     assert_true(most < 1.03 * first);
@@ -93,22 +93,22 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
 static void a_whip_keeps_its_energy(void** state)
 {
     static const struct whip whips[] = {
-        {16, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_GROUP, 0, 0},
-        {16, 120, HAIR_ROOT_HINGED, HAIR_MAPPING_THREAD, 0, 0},
-        {32, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_THREAD, 0, 0},
-        {32, 90, HAIR_ROOT_HINGED, HAIR_MAPPING_GROUP, 0, 0},
-        {32, 120, HAIR_ROOT_CLAMPED, HAIR_MAPPING_GROUP, 0, 0},
-        {32, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_GROUP, 1.0 / 1024, 0},
-        {32, 170, HAIR_ROOT_CLAMPED, HAIR_MAPPING_THREAD, 1.0 / 1024, 0},
-        {32, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_GROUP, 1.0 / 2048, 0},
-        {32, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_GROUP, 1.0 / 1024, 1},
-        {32, 90, HAIR_ROOT_CLAMPED, HAIR_MAPPING_THREAD, 1.0 / 1024, 1},
+        {16, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, 0},
+        {16, 120, HAIR_ROOT_HINGED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, 0},
+        {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, 0},
+        {32, 90, HAIR_ROOT_HINGED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, 0},
+        {32, 120, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, 0},
+        {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1024, 0},
+        {32, 170, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 0},
+        {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 2048, 0},
+        {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1024, 1},
+        {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 1},
     };
     for (size_t k = 0; k < sizeof whips / sizeof *whips; ++k) keep_energy(*state, &whips[k]);
 }
 
 // Move a strand for two seconds, so many substeps in a step, and return its state.
-static struct hair_state* whip_in_steps(struct hair_test* test, hair_mapping mapping, int substeps)
+static struct hair_state* whip_in_steps(struct hair_test* test, hair_thread_mapping mapping, int substeps)
 {
     hair_physics physics = hair_test_bare();
     struct hair_test_living living;
@@ -128,7 +128,8 @@ static void a_whip_is_the_same_in_longer_steps(void** state)
 {
     if (!((struct hair_test*)*state)->context->gl.software) return; // Two programs round in two ways.
     for (int by_thread = 0; by_thread < 2; ++by_thread) {
-        hair_mapping mapping = by_thread ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+        hair_thread_mapping mapping =
+            by_thread ? HAIR_THREAD_MAPPING_THREAD_PER_GUIDE : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
         struct hair_state* one = whip_in_steps(*state, mapping, 1);
         struct hair_state* many = whip_in_steps(*state, mapping, 16);
         assert_true(one[0].position.w < 1); // in parts

@@ -19,9 +19,9 @@ enum {
     STRUCK = 80,
     POSES = 84,
     HEAD = POSES + 3 * 40,
-    SOLIDS = POSES + 4 * 40 + 3 * 8, // after the way of gusts
-    SOLID_BYTES = 72,
-    TIE_BYTES = 36,
+    COLLIDERS = POSES + 4 * 40 + 3 * 8, // after the way of gusts
+    COLLIDER_BYTES = 72,
+    PIN_BYTES = 36,
     SLEEP = 144 // bytes, of hair that is looked at by nobody, and of air that is no fluid
 };
 
@@ -36,7 +36,7 @@ static void seal(struct hair_test_blob* blob)
 
 #define CROWD 3 // the way in which hair feels the hair around it, and is saved within a block
 
-// Small, on its way, with two solids; and with a tie where there is a crowd.
+// Small, on its way, with two colliders; and with a pin where there is a crowd.
 static hair_instance* make_small(struct hair_test* test, int way)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -44,13 +44,13 @@ static hair_instance* make_small(struct hair_test* test, int way)
     subject.groom.guides = 2;
     subject.groom.fewest = 4, subject.groom.most = 5;
     subject.groom.followers = 8;
-    if (way == CROWD) subject.physics.cohesion = 5, subject.physics.volume = 0.2f;
+    if (way == CROWD) subject.physics.cohesion = 5, subject.physics.pressure_stiffness = 0.2f;
     hair_instance* hair = hair_test_subject_make(test, &subject);
-    hair_tie tie = {1, 2, HAIR_TIE_WORLD, {0.1f, 0.2f, 0.1f}};
-    if (way == CROWD) hair_test_ok(test, hair_set_ties(hair, &tie, 1, sizeof tie));
+    hair_pin pin = {1, 2, HAIR_PIN_WORLD, {0.1f, 0.2f, 0.1f}};
+    if (way == CROWD) hair_test_ok(test, hair_set_pins(hair, &pin, 1, sizeof pin));
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_move(test, hair, &subject, 4);
-    assert_int_equal(hair->sim.solids.now.count, 2);
+    assert_int_equal(hair->sim.colliders.now.count, 2);
     assert_int_equal(hair->sim.crowd.beat > 0, way == CROWD);
     return hair;
 }
@@ -133,9 +133,10 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     struct hair_test* test = *state;
     hair_instance* hair = make_small(test, 0);
     struct hair_test_blob good = hair_test_save(test, hair);
-    // Solids now and before, and no ties; then of every vertex its state, its frame, its rates, and, after a flag, its force and turns.
+    // Colliders now and before, and no pins; then of every vertex its state, its frame, its rates, and, after a flag, its force and turns.
     size_t vertices = hair->sim.guide_vertices,
-           states = SOLIDS + 12 + SOLID_BYTES * (hair->sim.solids.now.count + hair->sim.solids.before.count),
+           states = COLLIDERS + 12 +
+                    COLLIDER_BYTES * (hair->sim.colliders.now.count + hair->sim.colliders.before.count),
            tip = states + 32 * (vertices - 1);
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     size_t forces = 4 + 48 * vertices;
@@ -166,15 +167,15 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_with_nan, LEFT, HAIR_ERROR_FILE, "the time since the last substep"},
         {load_with_nan, LAST, HAIR_ERROR_FILE, "the length of the last substep at byte 72 of the saved state is "},
         {load_with_zero, LAST, HAIR_ERROR_FILE, "is 0, not in [1e-06, 0.11]"},
-        {load_with_65, STRUCK, HAIR_ERROR_FILE, "whether there have been solids at byte 80 of the saved state is 65, not in [0, 1]"},
+        {load_with_65, STRUCK, HAIR_ERROR_FILE, "whether there have been colliders at byte 80 of the saved state is 65, not in [0, 1]"},
         {load_with_nan, POSES, HAIR_ERROR_FILE, "the head at the start of the last substep at byte 84"},
         {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 204 of the saved state is 2e+09, not in [-1e+09"},
         {load_with_nan, HEAD + 24, HAIR_ERROR_FILE, "the head at byte "},
         {load_with_minus_1, HEAD + 24, HAIR_ERROR_FILE, "the rotation of the head"},
-        {load_with_65, SOLIDS, HAIR_ERROR_FILE, "the number of solids before byte 272 of the saved state is 65, more than it holds"},
-        {load_with_65, SOLIDS + 4, HAIR_ERROR_ARGUMENT, "solids[0].shape is 65"},
-        {load_with_nan_float, SOLIDS + 4 + 32, HAIR_ERROR_ARGUMENT, "solids[0].size[0] is "},
-        {load_with_nan_float, SOLIDS + 4 + 2 * SOLID_BYTES + 8, HAIR_ERROR_ARGUMENT, "solids[0].position[0] is "},
+        {load_with_65, COLLIDERS, HAIR_ERROR_FILE, "the number of colliders before byte 272 of the saved state is 65, more than it holds"},
+        {load_with_65, COLLIDERS + 4, HAIR_ERROR_ARGUMENT, "colliders[0].shape is 65"},
+        {load_with_nan_float, COLLIDERS + 4 + 32, HAIR_ERROR_ARGUMENT, "colliders[0].size[0] is "},
+        {load_with_nan_float, COLLIDERS + 4 + 2 * COLLIDER_BYTES + 8, HAIR_ERROR_ARGUMENT, "colliders[0].position[0] is "},
         {load_with_nan_float, tip, HAIR_ERROR_FILE, "the guide vertices at byte "},
         {load_with_2e9_float, tip + 28, HAIR_ERROR_FILE, "is 2e+09, not in [-1e+09, 1e+09]"},
         {load_with_nan_float, frames, HAIR_ERROR_FILE, "the frames of segments at byte "},
@@ -302,12 +303,12 @@ static void load_the_farthest(struct hair_test* test, int way)
     size_t pushes = hair->sim.crowd.beat ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
     size_t beat = blob.size - 8 - SLEEP - pushes - 4;
     size_t flag = beat - 4 - (hair->sim.bend ? 48 * (size_t)hair->sim.guide_vertices : 0);
-    size_t ties = 4 + hair->sim.ties.count * TIE_BYTES;
+    size_t pins = 4 + hair->sim.pins.count * PIN_BYTES;
     for (int sign = -1; sign <= 1; sign += 2) {
         for (int p = 0; p < 4; ++p)
             for (int k = 0; k < 3; ++k)
                 hair_write_double(blob.bytes + POSES + 40 * p + 8 * k, p == 3 ? 1e9 : sign * 1e12);
-        for (size_t at = SOLIDS + 2 * (4 + 2 * SOLID_BYTES) + ties; at < blob.size - 8 - SLEEP; at += 4)
+        for (size_t at = COLLIDERS + 2 * (4 + 2 * COLLIDER_BYTES) + pins; at < blob.size - 8 - SLEEP; at += 4)
             if (at != beat && at != flag)
                 hair_write_float(blob.bytes + at, at % 8 ? 1e9f : (float)sign * -1e9f);
         assert_true(survives(test, hair, blob));

@@ -55,7 +55,7 @@ static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void*
             // Every two of way, moment and subject are together once.
             struct hair_test_subject subject = hair_test_subject_of((way + i) % HAIR_TEST_SUBJECTS);
             subject.desc.solver = hair_test_way((int)way).solver;
-            subject.desc.mapping = hair_test_way((int)way).mapping;
+            subject.desc.thread_mapping = hair_test_way((int)way).thread_mapping;
             between += check_run(*state, &subject, saved[i]);
         }
     print_message("    %d of %d between two substeps\n", between, all);
@@ -107,7 +107,7 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
     hair_instance* hair[3];
     for (uint32_t n = 0; n < 3; ++n) {
         subjects[n] = hair_test_subject_of(n);
-        if (n > 0) subjects[n].physics.cohesion = 6, subjects[n].physics.volume = 0.2f;
+        if (n > 0) subjects[n].physics.cohesion = 6, subjects[n].physics.pressure_stiffness = 0.2f;
         hair[n] = hair_test_subject_make(test, &subjects[n]);
         for (uint32_t half = 0; half < 2; ++half) {
             hair_test_run(test, hair[n], &subjects[n], 20 * half, 20 * half + 20);

@@ -51,14 +51,15 @@ static hair_groom* make_groom(struct hair_test* test, float* rest)
     return groom;
 }
 
-static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_mapping mapping)
+static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_thread_mapping mapping)
 {
     struct skinned s = {0};
     hair_desc desc = hair_desc_default();
-    desc.mapping = mapping;
+    desc.thread_mapping = mapping;
     hair_look look = hair_look_default();
     look.segments = SEGMENTS;
-    look.collision = HAIR_COLLISION_NONE; // Whether a follower meets a solid may hang on rounding.
+    look.follower_collision =
+        HAIR_FOLLOWER_COLLISION_NONE; // Whether a follower meets a collider may hang on rounding.
     desc.look = &look;
     desc.solver = solver;
     s.groom = make_groom(test, s.rest);
@@ -70,7 +71,7 @@ static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_m
 
 static struct skinned make(struct hair_test* test, hair_solver solver)
 {
-    return make_by(test, solver, HAIR_MAPPING_AUTO);
+    return make_by(test, solver, HAIR_THREAD_MAPPING_AUTO);
 }
 
 static void drop(struct skinned* s)
@@ -89,9 +90,9 @@ struct seen {
     uint32_t count;
 };
 
-static void look(struct hair_test* test, const struct skinned* s, hair_read_what what, struct seen* seen)
+static void look(struct hair_test* test, const struct skinned* s, hair_read_source what, struct seen* seen)
 {
-    hair_test_ok(test, hair_read(s->hair, what, seen->at, MOST, &seen->count));
+    hair_test_ok(test, hair_read_positions(s->hair, what, seen->at, MOST, &seen->count));
     assert_in_range(seen->count, 1, MOST);
     for (uint32_t i = 0; i < 3 * seen->count; ++i) assert_true(isfinite(seen->at[i]));
 }
@@ -133,7 +134,8 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
     struct hair_test* test = *state;
     static struct seen a, b;
     for (int i = 0; i < 5; ++i) {
-        hair_mapping mapping = i == 4 ? HAIR_MAPPING_GROUP : HAIR_MAPPING_AUTO;
+        hair_thread_mapping mapping =
+            i == 4 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE : HAIR_THREAD_MAPPING_AUTO;
         struct skinned head = make_by(test, solvers[i % 4], mapping),
                        scalp = make_by(test, solvers[i % 4], mapping);
         double most = 0, went = 0, apart[2] = {0};
@@ -182,8 +184,8 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
     double most[2] = {0};
     for (int frame = 1; frame <= 90; ++frame) {
         float m[16];
-        physics.rate = rates[frame / 5 % 6];
-        if (frame % 30 == 0) physics.young *= 1.1f; // Which does not wait for a substep's end.
+        physics.substep_rate = rates[frame / 5 % 6];
+        if (frame % 30 == 0) physics.youngs_modulus *= 1.1f; // Which does not wait for a substep's end.
         float dt = frame % 10 == 5 ? STEP : 1.0f / 250;
         time += dt;
         pose_at(time, m);
@@ -215,13 +217,14 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
     double most[2] = {0};
     struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
     hair_physics physics = hair_physics_default();
-    hair_solid solids[2] = {hair_solid_default(), hair_solid_default()};
+    hair_collider colliders[2] = {hair_collider_default(), hair_collider_default()};
     physics.cohesion = 5;
-    solids[0].size[0] = 0.04f;
-    solids[1].shape = HAIR_SHAPE_BOX;
+    colliders[0].size[0] = 0.04f;
+    colliders[1].shape = HAIR_SHAPE_BOX;
     for (int i = 0; i < 2; ++i) {
-        solids[i].position[0] = 0.15f * (float)i, solids[i].position[1] = 0.08f, solids[i].position[2] = 0.1f;
-        if (i) solids[i].size[0] = solids[i].size[1] = solids[i].size[2] = 0.03f;
+        colliders[i].position[0] = 0.15f * (float)i, colliders[i].position[1] = 0.08f,
+        colliders[i].position[2] = 0.1f;
+        if (i) colliders[i].size[0] = colliders[i].size[1] = colliders[i].size[2] = 0.03f;
     }
     for (int frame = 1; frame <= 12; ++frame) {
         float m[16];
@@ -229,7 +232,7 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
         for (int i = 0; i < 2; ++i) {
             struct skinned* s = i ? &scalp : &head;
             hair_test_ok(test, hair_set_physics(s->hair, &physics));
-            hair_test_ok(test, hair_set_solids(s->hair, solids, 2, sizeof *solids));
+            hair_test_ok(test, hair_set_colliders(s->hair, colliders, 2, sizeof *colliders));
             hair_test_ok(test, hair_set_transform(s->hair, m));
             if (i) hair_test_ok(test, hair_set_scalp(s->hair, s->rest, VERTICES, 12, m));
             hair_test_ok(test, hair_step(s->hair, STEP));
@@ -244,24 +247,25 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 }
 
 // More than a step's parameters hold: looked for where hair may be, which the head does not say.
-static void a_scalp_taken_far_from_the_head_meets_solids_there(void** state)
+static void a_scalp_taken_far_from_the_head_meets_colliders_there(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b, free;
     struct skinned near = make(test, HAIR_SOLVER_DIRECT), far = make(test, HAIR_SOLVER_DIRECT),
                    none = make(test, HAIR_SOLVER_DIRECT);
-    hair_solid solids[HAIR_STEP_SOLIDS + 8];
+    hair_collider colliders[HAIR_STEP_COLLIDERS + 8];
     float m[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 0, 0, 1};
     for (int at = 0; at < 2; ++at) {
-        for (int i = 0; i < HAIR_STEP_SOLIDS + 8; ++i) {
-            solids[i] = hair_solid_default();
-            solids[i].size[0] = 0.01f;
-            solids[i].position[0] = (float)(4 * at) + 0.025f * (float)(i % 9);
-            solids[i].position[1] = 0.08f;
-            solids[i].position[2] = 0.025f * (float)(i / 9);
+        for (int i = 0; i < HAIR_STEP_COLLIDERS + 8; ++i) {
+            colliders[i] = hair_collider_default();
+            colliders[i].size[0] = 0.01f;
+            colliders[i].position[0] = (float)(4 * at) + 0.025f * (float)(i % 9);
+            colliders[i].position[1] = 0.08f;
+            colliders[i].position[2] = 0.025f * (float)(i / 9);
         }
         struct skinned* s = at ? &far : &near;
-        hair_test_ok(test, hair_set_solids(s->hair, solids, HAIR_STEP_SOLIDS + 8, sizeof *solids));
+        hair_test_ok(test,
+                     hair_set_colliders(s->hair, colliders, HAIR_STEP_COLLIDERS + 8, sizeof *colliders));
         hair_test_ok(test, hair_set_scalp(s->hair, s->rest, VERTICES, 12, at ? m : NULL));
         hair_test_ok(test, hair_reset(s->hair));
     }
@@ -274,7 +278,7 @@ static void a_scalp_taken_far_from_the_head_meets_solids_there(void** state)
     look(test, &far, HAIR_READ_GUIDES, &b);
     look(test, &none, HAIR_READ_GUIDES, &free);
     for (uint32_t i = 0; i < b.count; ++i) b.at[3 * i] -= 4;
-    print_message("    within %.2g mm of hair near the head, which solids move by %.2g mm\n",
+    print_message("    within %.2g mm of hair near the head, which colliders move by %.2g mm\n",
                   farthest(&a, &b) * 1e3, farthest(&a, &free) * 1e3);
     assert_true(farthest(&a, &free) > 0.02 && farthest(&a, &b) < 0.02);
     drop(&near), drop(&far), drop(&none);
@@ -292,12 +296,12 @@ static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
     static struct seen rest[3], now[3];
     for (int redblack = 0; redblack < 2; ++redblack) {
         struct skinned s = make(test, redblack ? HAIR_SOLVER_REDBLACK : HAIR_SOLVER_DIRECT);
-        for (int i = 0; i < 3; ++i) look(test, &s, (hair_read_what)i, &rest[i]);
+        for (int i = 0; i < 3; ++i) look(test, &s, (hair_read_source)i, &rest[i]);
         stretch(&s, 1.1f, s.positions);
         give(test, &s);
         hair_test_ok(test, hair_reset(s.hair));
         for (int stepped = 0; stepped < 2; ++stepped) {
-            for (int i = 0; i < 3; ++i) look(test, &s, (hair_read_what)i, &now[i]);
+            for (int i = 0; i < 3; ++i) look(test, &s, (hair_read_source)i, &now[i]);
             const uint32_t each[3] = {10, 2 * 9 + 1, SEGMENTS + 1};
             for (int i = 0; i < 3; ++i)
                 for (uint32_t k = 0; k < now[i].count / each[i]; ++k)
@@ -575,7 +579,7 @@ int main(void)
         HAIR_TEST(a_scalp_moved_as_one_is_a_head_that_moves),
         HAIR_TEST(where_substeps_change_their_length_a_scalp_is_still_as_a_head),
         HAIR_TEST(a_scalp_at_rest_in_a_head_that_moves_changes_nothing),
-        HAIR_TEST(a_scalp_taken_far_from_the_head_meets_solids_there),
+        HAIR_TEST(a_scalp_taken_far_from_the_head_meets_colliders_there),
         HAIR_TEST(a_scalp_stretched_by_a_tenth_takes_every_root_along),
         HAIR_TEST(from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory),
         HAIR_TEST(where_it_is_given_a_head_far_out_and_a_teleport_change_nothing),

@@ -44,8 +44,8 @@ static struct fixture start(void** state, uint32_t followers)
     hair_look look = hair_look_default();
     wanted.followers = followers;
     wanted.density = 1;
-    look.segments = SEGMENTS, look.radius = 0.001f, look.voxel = 0.012f;
-    look.shadow = HAIR_SHADOW_STRANDS;
+    look.segments = SEGMENTS, look.radius = 0.001f, look.self_shadow_cell = 0.012f;
+    look.self_shadow = HAIR_SELF_SHADOW_STRANDS;
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -109,7 +109,7 @@ static void look_inside(struct fixture* f)
     uint32_t box[6];
     size_t nodes = 1;
     glGetNamedBufferSubData(d->self_shadow.box, 0, sizeof box, box);
-    f->grid.cell = (double)d->look.voxel;
+    f->grid.cell = (double)d->look.self_shadow_cell;
     for (int i = 0; i < 3; ++i) {
         double low = (double)from_ordered(box[i]), high = (double)from_ordered(~box[3 + i]);
         f->grid.lower[i] = f->grid.cell * floor(low / f->grid.cell);
@@ -226,7 +226,7 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
 // Straight down -z, 1.2 m of it, as the picture is.
 static void light_with_map(struct fixture* f, float depth)
 {
-    f->light[0].to[0] = f->light[0].to[1] = 0, f->light[0].to[2] = 1;
+    f->light[0].direction[0] = f->light[0].direction[1] = 0, f->light[0].direction[2] = 1;
     f->light[0].shadow_matrix[0] = f->light[0].shadow_matrix[5] = 1 / 0.6f;
     f->light[0].shadow_matrix[10] = -0.5f;
     if (!f->map) {
@@ -234,7 +234,7 @@ static void light_with_map(struct fixture* f, float depth)
         glTextureStorage2D(f->map, 1, GL_DEPTH_COMPONENT32F, 1024, 1024);
     }
     glClearTexImage(f->map, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
-    f->light[0].shadow_texture = f->map;
+    f->light[0].hair_shadow_map = f->map;
 }
 
 static double open_on_average(struct fixture* f, uint32_t vertices)
@@ -291,7 +291,7 @@ static hair_report_row row_of(struct fixture* f, const char* work)
     uint32_t count = 0;
     hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].work, work) == 0) return rows[i];
+        if (strcmp(rows[i].stage, work) == 0) return rows[i];
     fail_msg("there is no row %s", work);
     return rows[0];
 }
@@ -300,7 +300,7 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
     hair_look look = f.hair->draw.look;
-    f.view.frame = 7;
+    f.view.frame_index = 7;
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
     draw(&f);
@@ -309,12 +309,12 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
     f.light[1].position[1] = 1;
     draw(&f);
     assert_int_equal(row_of(&f, "light").runs, 6); // The grid is the same.
-    look.shadow = HAIR_SHADOW_DEPTH;
+    look.self_shadow = HAIR_SELF_SHADOW_DEPTH;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
     assert_int_equal(row_of(&f, "light").runs, 0);
-    assert_int_equal(row_of(&f, "light").why, HAIR_WHY_NOT_WANTED);
+    assert_int_equal(row_of(&f, "light").skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
     assert_int_equal(row_of(&f, "light").bytes, 0);
     finish(&f);
 }
@@ -327,8 +327,8 @@ static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(voi
     hair_lod lod = hair_lod_default();
     double area[2] = {0};
     uint32_t lit = 0;
-    lod.dynamic = 0;
-    lod.strands = 0.25f;
+    lod.per_patch = 0;
+    lod.strand_fraction = 0.25f;
     for (int i = 0; i < 2; ++i) {
         f.view.lod = i ? &lod : NULL;
         hair_test_ok(f.test, hair_step(f.hair, 0.01f));

@@ -293,12 +293,12 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
     for (uint32_t i = 0; i < scalp.vertex_count; ++i)
         for (size_t k = 0; k < 2; ++k) uvs[2 * i + k] = scalp.positions[3 * i + 2 * k] / 0.4f;
     hair_test_set_scalp(&groom, &scalp);
-    groom.strands_are = HAIR_STRANDS_GUIDES;
+    groom.strand_set = HAIR_STRAND_SET_GUIDES;
     groom.follower_count = 200;
     groom.scalp_uvs = uvs;
     hair_look look = hair_look_default();
     hair_desc desc = hair_desc_default();
-    look.radius = 0.004f, look.tip_strays = look.strays = 0, look.color_spread = 0;
+    look.radius = 0.004f, look.tip_stray_fraction = look.stray_fraction = 0, look.color_spread = 0;
     look.interpolation = HAIR_INTERPOLATION_MULTI;
     desc.look = &look;
     hair_test_ok(f.test, hair_groom_create(&groom, &f.groom));

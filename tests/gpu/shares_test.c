@@ -80,12 +80,12 @@ static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
         // Of thinner strands finer pixels than these see too little: they are taken to cover in proportion.
         float seen = fmaxf(widths[i], 0.5f), pixel = 1.0f / SIDE;
         struct fixture f = start(state, 5, 0.5f * seen * pixel);
-        hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
+        hair_view view = view_of(HAIR_COVERAGE_MSAA);
         draw(&f, &view, FINE * SIDE, 4, fine, NULL);
         double expected = mean_alpha(fine, FINE * SIDE) * (double)(widths[i] / seen);
         finish(&f);
         f = start(state, 5, 0.5f * widths[i] * pixel);
-        view.coverage = HAIR_COVERAGE_SHARES;
+        view.coverage = HAIR_COVERAGE_ALPHA;
         for (GLsizei samples = 0; samples <= 4; samples += 4) {
             draw(&f, &view, SIDE, samples, pixels, NULL);
             double covered = mean_alpha(pixels, SIDE);
@@ -106,15 +106,15 @@ static void the_nearest_strand_is_in_front(void** state)
 {
     static float opaque[4 * WIDE * WIDE], shares[4 * WIDE * WIDE];
     struct fixture f = start(state, 64, 0.009f);
-    hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
+    hair_view view = view_of(HAIR_COVERAGE_MSAA);
     for (int lod = 0; lod < 2; ++lod) {
         hair_lod part = hair_lod_default();
-        part.dynamic = 0, part.strands = 0.7f, part.segments = 0.5f;
-        view.path = HAIR_PATH_INSTANCED;
+        part.per_patch = 0, part.strand_fraction = 0.7f, part.segment_fraction = 0.5f;
+        view.render_path = HAIR_RENDER_PATH_INSTANCED;
         view.lod = lod ? &part : NULL;
-        view.coverage = HAIR_COVERAGE_SAMPLES;
+        view.coverage = HAIR_COVERAGE_MSAA;
         draw(&f, &view, WIDE, 4, opaque, NULL);
-        view.coverage = HAIR_COVERAGE_SHARES;
+        view.coverage = HAIR_COVERAGE_ALPHA;
         draw(&f, &view, WIDE, 0, shares, NULL);
         double off = 0;
         uint32_t covered = 0;
@@ -138,7 +138,7 @@ static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** sta
     static float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
     static const float near = 0.2f, blue[4] = {0, 0, 0.5f, 1};
     struct fixture f = start(state, 64, 0.002f);
-    hair_view view = view_of(HAIR_COVERAGE_SHARES);
+    hair_view view = view_of(HAIR_COVERAGE_ALPHA);
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     glClearNamedFramebufferfv(frame.framebuffer, GL_DEPTH, 0, &near);
@@ -163,12 +163,12 @@ static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state, 64, 0.002f);
-    hair_view view = view_of(HAIR_COVERAGE_SAMPLES);
-    view.path = HAIR_PATH_EXPANDED;
+    hair_view view = view_of(HAIR_COVERAGE_MSAA);
+    view.render_path = HAIR_RENDER_PATH_CACHED;
     draw(&f, &view, SIDE, 0, pixels, NULL);
     assert_int_equal(f.hair->draw.sorted.bucket, 0);
     assert_int_equal(f.hair->draw.sorted.index, 0);
-    view.coverage = HAIR_COVERAGE_SHARES;
+    view.coverage = HAIR_COVERAGE_ALPHA;
     view.pass = HAIR_PASS_DEPTH; // Of depth there are no shares.
     draw(&f, &view, SIDE, 0, pixels, NULL);
     assert_int_equal(f.hair->draw.sorted.bucket, 0);

@@ -33,7 +33,7 @@ static hair_instance* make(struct hair_test* test, hair_context* context, hair_s
     hair_instance* hair = NULL;
     wanted.guides = GUIDES;
     wanted.turn = 0.1f;
-    physics.sleep = sleep;
+    physics.sleep_threshold = sleep;
     desc.physics = &physics;
     desc.solver = solver;
     hair_groom* groom = hair_test_groom(&test->host.host, wanted);
@@ -78,8 +78,8 @@ static float farthest(struct hair_test* test, hair_instance* a, hair_instance* b
 {
     float at[2][3 * MOST], far = 0;
     uint32_t count[2];
-    hair_test_ok(test, hair_read(a, HAIR_READ_SMOOTH, at[0], MOST, &count[0]));
-    hair_test_ok(test, hair_read(b, HAIR_READ_SMOOTH, at[1], MOST, &count[1]));
+    hair_test_ok(test, hair_read_positions(a, HAIR_READ_SMOOTH, at[0], MOST, &count[0]));
+    hair_test_ok(test, hair_read_positions(b, HAIR_READ_SMOOTH, at[1], MOST, &count[1]));
     assert_int_equal(count[0], count[1]);
     assert_in_range(count[0], 2, MOST);
     for (uint32_t i = 0; i < count[0]; ++i)
@@ -87,19 +87,19 @@ static float farthest(struct hair_test* test, hair_instance* a, hair_instance* b
     return far;
 }
 
-static hair_solid ball_at(float x)
+static hair_collider ball_at(float x)
 {
-    hair_solid ball = hair_solid_default();
+    hair_collider ball = hair_collider_default();
     ball.size[0] = 0.05f, ball.position[0] = x, ball.position[1] = -0.01f;
     return ball;
 }
 
 // How far the nearest vertex is from the ball.
-static float nearest(struct hair_test* test, hair_instance* hair, const hair_solid* ball)
+static float nearest(struct hair_test* test, hair_instance* hair, const hair_collider* ball)
 {
     float at[3 * MOST], near = 1;
     uint32_t count;
-    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, at, MOST, &count));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, at, MOST, &count));
     for (uint32_t i = 0; i < count; ++i)
         near = fminf(near, hair_distance(hair_load3(at + 3 * i), hair_load3(ball->position)) - ball->size[0]);
     return near;
@@ -118,23 +118,23 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-// The head is set anew in every frame, and so are solids, as hosts do it.
+// The head is set anew in every frame, and so are colliders, as hosts do it.
 static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
     hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     double us[999];
-    solid.size[0] = 0.08f;
-    hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+    collider.size[0] = 0.08f;
+    hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
     uint32_t frames = let_sleep(test, hair, 1);
     print_message("    asleep after %u frames\n", frames);
     assert_true(frames < PATIENCE);
     hair_test_trace_clear();
     for (size_t i = 0; i < sizeof us / sizeof *us; ++i) {
         turn_head(test, hair, 0, 0);
-        hair_test_ok(test, hair_set_solids(hair, &solid, 1, sizeof solid));
+        hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
         double start = now_us();
         step(test, hair);
         us[i] = now_us() - start;
@@ -151,7 +151,7 @@ static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(voi
 // Shaken, left alone for seconds, and shaken again: the hair that sleeps meanwhile beside hair that never does. With a ball
 // against which it lies, which then moves too.
 static void check_waking(struct hair_test* test, hair_context* context, hair_solver solver, float bound,
-                         int solids)
+                         int colliders)
 {
     enum { CALM = 7 * FPS, END = CALM + FPS / 4 };
     hair_instance* hair[2] = {make(test, context, solver, bound), make(test, context, solver, 0)};
@@ -160,19 +160,19 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
     for (uint32_t frame = 0; frame < END; ++frame) {
         float time = (float)frame / FPS, later = fmaxf(time - (float)CALM / FPS, 0);
         float angle = frame < FPS / 2 ? 0.4f * sinf(12.566371f * time) : 0.5f * sinf(24 * later);
-        hair_solid ball = ball_at(0.2f + 0.2f * later);
+        hair_collider ball = ball_at(0.2f + 0.2f * later);
         for (int i = 0; i < 2; ++i) {
-            if (solids) hair_test_ok(test, hair_set_solids(hair[i], &ball, 1, sizeof ball));
+            if (colliders) hair_test_ok(test, hair_set_colliders(hair[i], &ball, 1, sizeof ball));
             turn_head(test, hair[i], angle, 0.2f * later);
             show(test, hair[i], frame, 1);
         }
         slept += (uint32_t)hair[0]->sim.sleep.asleep;
-        if (frame + 1 == CALM && solids) assert_true(nearest(test, hair[0], &ball) < 2e-3f);
+        if (frame + 1 == CALM && colliders) assert_true(nearest(test, hair[0], &ball) < 2e-3f);
         if (hair[0]->sim.sleep.asleep) asleep = fmaxf(asleep, farthest(test, hair[0], hair[1]));
         if (frame >= CALM) awake = fmaxf(awake, farthest(test, hair[0], hair[1]));
     }
-    print_message("    solver %d, %d solids: slept %u frames of %u; off by %.1e m then, by %.1e m awake\n",
-                  (int)solver, solids, slept, (unsigned)CALM, (double)asleep, (double)awake);
+    print_message("    solver %d, %d colliders: slept %u frames of %u; off by %.1e m then, by %.1e m awake\n",
+                  (int)solver, colliders, slept, (unsigned)CALM, (double)asleep, (double)awake);
     assert_true(slept > FPS);
     assert_false(hair[0]->sim.sleep.asleep);
     assert_true(asleep <= bound);
@@ -207,18 +207,18 @@ static void check_stir(struct dozing* d, const char* what, int stirs)
         fail_msg("%s: the hair %s", what, stirs ? "sleeps on" : "wakes");
     if (!stirs) return;
     hair_test_ok(d->test, hair_load(d->hair, d->blob.bytes, d->blob.size));
-    hair_test_ok(d->test, hair_set_solids(d->hair, NULL, 0, sizeof(hair_solid)));
+    hair_test_ok(d->test, hair_set_colliders(d->hair, NULL, 0, sizeof(hair_collider)));
     step(d->test, d->hair);
     assert_true(d->hair->sim.sleep.asleep);
 }
 
 static void put_ball(struct dozing* d, float x)
 {
-    hair_solid ball = ball_at(x);
-    hair_test_ok(d->test, hair_set_solids(d->hair, &ball, 1, sizeof ball));
+    hair_collider ball = ball_at(x);
+    hair_test_ok(d->test, hair_set_colliders(d->hair, &ball, 1, sizeof ball));
 }
 
-static void check_solids(struct dozing* d)
+static void check_colliders(struct dozing* d)
 {
     put_ball(d, 5);
     check_stir(d, "a ball has come into being far off", 0);
@@ -228,16 +228,16 @@ static void check_solids(struct dozing* d)
     check_stir(d, "a ball flies right through", 1);
     put_ball(d, 0.4f);
     check_stir(d, "a ball has come into being near by", 1);
-    hair_solid plane = hair_solid_default();
+    hair_collider plane = hair_collider_default();
     plane.shape = HAIR_SHAPE_PLANE, plane.position[1] = -50;
-    hair_test_ok(d->test, hair_set_solids(d->hair, &plane, 1, sizeof plane));
+    hair_test_ok(d->test, hair_set_colliders(d->hair, &plane, 1, sizeof plane));
     check_stir(d, "there is a plane, which is everywhere", 1);
 }
 
 static void check_settings(struct dozing* d)
 {
     hair_physics physics = d->hair->sim.physics;
-    hair_tie tie = hair_tie_default();
+    hair_pin pin = hair_pin_default();
     hair_wind wind = hair_wind_default();
     hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
     check_stir(d, "the same physics", 0);
@@ -249,10 +249,10 @@ static void check_settings(struct dozing* d)
     wind.velocity[2] = 0.01f;
     hair_test_ok(d->test, hair_set_wind(d->hair, &wind));
     check_stir(d, "wind", 1);
-    hair_test_ok(d->test, hair_set_ties(d->hair, NULL, 0, sizeof tie));
-    check_stir(d, "no ties once more", 0);
-    hair_test_ok(d->test, hair_set_ties(d->hair, &tie, 1, sizeof tie));
-    check_stir(d, "a tie", 1);
+    hair_test_ok(d->test, hair_set_pins(d->hair, NULL, 0, sizeof pin));
+    check_stir(d, "no pins once more", 0);
+    hair_test_ok(d->test, hair_set_pins(d->hair, &pin, 1, sizeof pin));
+    check_stir(d, "a pin", 1);
     hair_test_ok(d->test, hair_reset(d->hair));
     check_stir(d, "a reset", 1);
     float head[16];
@@ -276,7 +276,7 @@ static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
     check_stir(&d, "the head moves by a third of the bound", 1);
     turn_head(d.test, d.hair, 1e-3f, 0);
     check_stir(&d, "the head turns", 1);
-    check_solids(&d);
+    check_colliders(&d);
     check_settings(&d);
     hair_destroy(d.hair);
     hair_context_destroy(context);

@@ -102,8 +102,8 @@ static hair_result create(struct fixture* f)
 {
     hair_desc desc = hair_test_way(f->way);
     if (desc.solver == HAIR_SOLVER_REDBLACK)
-        desc.mapping = HAIR_MAPPING_FEEDBACK; // It touches more than compute.
-    desc.first_hit = f->way % 2 ? HAIR_FIRST_HIT_PREPASS : HAIR_FIRST_HIT_COMPUTE;
+        desc.thread_mapping = HAIR_THREAD_MAPPING_FEEDBACK; // It touches more than compute.
+    desc.hit_method = f->way % 2 ? HAIR_HIT_METHOD_PREPASS : HAIR_HIT_METHOD_COMPUTE;
     return hair_create(f->context, f->groom, &desc, &f->hair);
 }
 static hair_result step(struct fixture* f)
@@ -124,7 +124,7 @@ static hair_result set_all(struct fixture* f)
     hair_look look = hair_look_default();
     hair_desc desc = hair_desc_default();
     hair_wind wind = hair_wind_default();
-    hair_solid solid = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
+    hair_collider collider = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
     wind.model = HAIR_WIND_FLUID;
     wind.resolution = 16;
     wind.velocity[0] = 1;
@@ -134,7 +134,7 @@ static hair_result set_all(struct fixture* f)
     if (!result) result = hair_set_look(f->hair, &look);
     if (!result) result = hair_set_wind(f->hair, &wind);
     if (!result) result = hair_set_transform(f->hair, desc.transform);
-    return result ? result : hair_set_solids(f->hair, &solid, 1, sizeof solid);
+    return result ? result : hair_set_colliders(f->hair, &collider, 1, sizeof collider);
 }
 static hair_result teleport(struct fixture* f)
 {
@@ -150,20 +150,21 @@ static hair_result draw_as(struct fixture* f, int i)
     hair_light lights[4];
     hair_lod lod = hair_lod_default();
     int path = i / 5, lit = i % 5 == 4;
-    view.path = (hair_path)path;
+    view.render_path = (hair_render_path)path;
     view.pass = (hair_pass)(i % 5 % 4);
-    view.primitive = path == HAIR_PATH_COMPUTED ? HAIR_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
+    view.primitive =
+        path == HAIR_RENDER_PATH_COMPUTE ? HAIR_PRIMITIVE_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
     view.slice = (hair_slice)(i % 2);
-    view.lod = path >= HAIR_PATH_EXPANDED && i % 5 == 0 ? &lod : NULL;
+    view.lod = path >= HAIR_RENDER_PATH_CACHED && i % 5 == 0 ? &lod : NULL;
     for (int k = 0; k < 4; ++k) {
         lights[k] = hair_light_default();
-        lights[k].shadow_texture = f->shadow;
-        lights[k].body_texture = f->shadow;
+        lights[k].hair_shadow_map = f->shadow;
+        lights[k].opaque_shadow_map = f->shadow;
     }
     view.lights = lit ? lights : NULL;
     view.light_count = lit ? 4 : 1;
     // Of each path once alone, once with lights.
-    view.depth_texture = view.pass == HAIR_PASS_COLOR ? f->shadow : 0;
+    view.occluder_depth = view.pass == HAIR_PASS_COLOR ? f->shadow : 0;
     return hair_draw(f->hair, &view);
 }
 static hair_result draw_again(struct fixture* f)
@@ -176,7 +177,7 @@ static hair_result draw_again(struct fixture* f)
 // However hair is simulated it is drawn the same: all ways to draw are seen of one, for they compile for long.
 static hair_result draw(struct fixture* f)
 {
-    int all = !f->way && f->promise == HAIR_GL_RESTORE;
+    int all = !f->way && f->promise == HAIR_GL_STATE_RESTORE;
     hair_result result = all ? HAIR_OK : draw_again(f);
     for (int i = 0; i < DRAWS && !result && all; ++i) result = draw_as(f, i);
     hair_view other = hair_view_default();
@@ -191,15 +192,15 @@ static hair_result read_all(struct fixture* f)
     uint32_t count;
     hair_result result = HAIR_OK;
     for (int what = 0; what < 3 && !result; ++what)
-        result = hair_read(f->hair, (hair_read_what)what, positions, 100, &count);
+        result = hair_read_positions(f->hair, (hair_read_source)what, positions, 100, &count);
     return result;
 }
 static hair_result prepare(struct fixture* f)
 {
     hair_view view = hair_view_default();
     uint32_t ready = 0;
-    view.path = HAIR_PATH_EXPANDED;
-    return hair_prepare(f->hair, &view, &ready);
+    view.render_path = HAIR_RENDER_PATH_CACHED;
+    return hair_precompile(f->hair, &view, &ready);
 }
 static hair_result ask_field(struct fixture* f)
 {
@@ -217,12 +218,12 @@ static hair_result save_and_load(struct fixture* f)
 static hair_result time_all(struct fixture* f)
 {
     hair_timing timings[32];
-    return hair_timings(f->context, timings, 32) > 0 ? HAIR_OK : HAIR_ERROR_OPENGL;
+    return hair_get_timings(f->context, timings, 32) > 0 ? HAIR_OK : HAIR_ERROR_OPENGL;
 }
-static hair_result ask_health(struct fixture* f)
+static hair_result ask_solver_stats(struct fixture* f)
 {
-    hair_health health = hair_health_default();
-    return hair_get_health(f->hair, &health);
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    return hair_get_solver_stats(f->hair, &solver_stats);
 }
 static hair_result destroy(struct fixture* f)
 {
@@ -244,16 +245,16 @@ static const struct {
     {"hair_step", step},
     {"hair_step without a substep", step_without_substep},
     {"setters", set_all},
-    {"hair_prepare", prepare},
-    {"hair_step with a solid", step},
+    {"hair_precompile", prepare},
+    {"hair_step with a collider", step},
     {"hair_get_field", ask_field},
     {"hair_draw", draw},
-    {"hair_read", read_all},
+    {"hair_read_positions", read_all},
     {"hair_teleport", teleport},
     {"hair_reset", reset},
     {"hair_save and hair_load", save_and_load},
-    {"hair_timings", time_all},
-    {"hair_get_health", ask_health},
+    {"hair_get_timings", time_all},
+    {"hair_get_solver_stats", ask_solver_stats},
     {"hair_context_reload", reload},
     {"hair_draw after a reload", draw_again},
     {"hair_destroy", destroy},
@@ -267,7 +268,7 @@ static void plant_an_error(struct fixture* f)
     f->planting = 0;
 }
 
-// What a context with HAIR_GL_CLOBBER may change, as hair.h lists it.
+// What a context with HAIR_GL_STATE_CLOBBER may change, as hair.h lists it.
 static int may_change(const char* name)
 {
     static const char* const listed[] = {"GL_CURRENT_PROGRAM",
@@ -305,7 +306,8 @@ static void check_calls(struct fixture* f, const struct hair_test_glstate* befor
         hair_test_glstate_read(&after);
         for (size_t k = 0; k < before->count; ++k) {
             k = hair_test_glstate_differ(before, &after, k);
-            if (k == before->count || (f->promise == HAIR_GL_CLOBBER && may_change(before->values[k].name)))
+            if (k == before->count ||
+                (f->promise == HAIR_GL_STATE_CLOBBER && may_change(before->values[k].name)))
                 continue;
             fail_msg("%s changed %s from %lld to %lld", calls[i].name, before->values[k].name,
                      (long long)before->values[k].value, (long long)after.values[k].value);
@@ -327,12 +329,12 @@ static void check_all_calls(struct fixture* f, hair_gl_state promise)
 
 static void every_call_leaves_all_state_and_the_error_flag_as_they_were(void** state)
 {
-    check_all_calls(*state, HAIR_GL_RESTORE);
+    check_all_calls(*state, HAIR_GL_STATE_RESTORE);
 }
 
 static void a_clobbering_context_changes_only_what_is_listed(void** state)
 {
-    check_all_calls(*state, HAIR_GL_CLOBBER);
+    check_all_calls(*state, HAIR_GL_STATE_CLOBBER);
 }
 
 // Also where nothing at all is bound.
@@ -360,7 +362,7 @@ static void in_an_untouched_context_nothing_is_left_bound(void** state)
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
     glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
     glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
-    check_all_calls(f, HAIR_GL_RESTORE);
+    check_all_calls(f, HAIR_GL_STATE_RESTORE);
     eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug);
     eglDestroyContext(f->display, fresh);
 }

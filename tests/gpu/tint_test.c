@@ -84,8 +84,8 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
-    look.red.at[4] = 3;
-    look.blue = hair_curve_line(0, 40.0f / 7);
+    look.tint_red.at[4] = 3;
+    look.tint_blue = hair_curve_line(0, 40.0f / 7);
     for (int i = 0; i <= 14; ++i) {
         float t = (float)i / 14;
         const struct strand* strand = look_at(&f, &look, t);
@@ -93,7 +93,9 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
             double at[2];
             for (int end = 0; end < 2; ++end) { // Between two of eight places.
                 int n = i / 2 + (i % 2 ? end : 0);
-                double way = n / 7.0, factor = k == 0 ? look.red.at[n] : k == 2 ? look.blue.at[n] : 1;
+                double way = n / 7.0, factor = k == 0   ? look.tint_red.at[n]
+                                               : k == 2 ? look.tint_blue.at[n]
+                                                        : 1;
                 double mixed = look.root_color[k] + way * (look.tip_color[k] - look.root_color[k]);
                 at[end] = fmin(factor * mixed, 1);
             }
@@ -101,12 +103,12 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
                            1e-5);
         }
     }
-    look.root_shade = 0.75f, look.root_shade_length = 0.5f;
+    look.root_darkening = 0.75f, look.root_darkening_length = 0.5f;
     double shaded = (double)look_at(&f, &look, 0)[0].color[1], whole = (double)look.root_color[1];
     hair_test_near("at the root", 0, shaded, 0.25 * whole, 1e-6);
     double half = (double)look_at(&f, &look, 0.25f)[0].color[1],
            beyond = (double)look_at(&f, &look, 0.5f)[0].color[1];
-    look.root_shade = 0;
+    look.root_darkening = 0;
     hair_test_near("half way", 0, half / (double)look_at(&f, &look, 0.25f)[0].color[1], 0.625, 1e-5);
     hair_test_near("beyond", 0, beyond, (double)look_at(&f, &look, 0.5f)[0].color[1], 1e-7);
     finish(&f);
@@ -118,7 +120,7 @@ static void as_many_strands_are_streaks_as_are_asked_for(void** state)
     hair_look look = even_look();
     look.streaks = 0.3f;
     for (int locks = 0; locks < 2; ++locks) {
-        look.streak_locks = (float)locks;
+        look.streak_clumping = (float)locks;
         const struct strand* strand = look_at(&f, &look, 0.5f);
         double sum = 0, mixed = 0;
         for (uint32_t i = 0; i < STRANDS; i += 16) {
@@ -190,7 +192,7 @@ static void wet_hair_is_darker_smoother_and_more_together_and_dry_hair_as_it_was
         assert_true(wet.root_color[k] < dry.root_color[k] && wet.tip_color[k] < dry.tip_color[k]);
     for (int i = 1; i < 8; ++i)
         assert_true(wet.clump.at[i] > dry.clump.at[i] && wet.clump_width.at[i] < dry.clump_width.at[i]);
-    assert_true(wet.roughness[0] < dry.roughness[0] && wet.strays < dry.strays);
+    assert_true(wet.roughness[0] < dry.roughness[0] && wet.stray_fraction < dry.stray_fraction);
     hair_look steep = dry;
     steep.wetness = 1, steep.gloss[0] = 1000, steep.specular[0] = 4, steep.roughness[0] = 0.05f;
     hair_look_soak(&steep);

@@ -19,7 +19,7 @@ extern "C" {
 #include <cmocka.h>
 #include "tests/support/host.h"
 
-double hair_distance_to_solid(const hair_solid* solid, const double point[3], double gradient[3]);
+double hair_distance_to_collider(const hair_collider* collider, const double point[3], double gradient[3]);
 }
 
 // State of each test: a host and a converter.
@@ -46,10 +46,10 @@ static int stop(void**)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, start, stop)
 
 // Return the list of colliders, which must have the given length.
-static inline const hair_solid* solids(uint32_t expected)
+static inline const hair_collider* colliders(uint32_t expected)
 {
     uint32_t count;
-    const hair_solid* list = hair_bullet_solids(test.bullet, &count);
+    const hair_collider* list = hair_bullet_colliders(test.bullet, &count);
     assert_int_equal(count, expected);
     return list;
 }
@@ -57,11 +57,11 @@ static inline const hair_solid* solids(uint32_t expected)
 static inline double nearest(const btVector3& p)
 {
     uint32_t count;
-    const hair_solid* list = hair_bullet_solids(test.bullet, &count);
+    const hair_collider* list = hair_bullet_colliders(test.bullet, &count);
     double distance = INFINITY;
     const double at[3] = {p.x(), p.y(), p.z()};
     for (uint32_t i = 0; i < count; ++i)
-        distance = std::fmin(distance, hair_distance_to_solid(&list[i], at, nullptr));
+        distance = std::fmin(distance, hair_distance_to_collider(&list[i], at, nullptr));
     return distance;
 }
 

@@ -20,9 +20,9 @@ hair_physics hair_test_only_crowd(float cohesion, float volume)
     hair_physics physics = hair_test_bare();
     memset(physics.gravity, 0, sizeof physics.gravity);
     physics.damping = 0;
-    physics.young = 0;
+    physics.youngs_modulus = 0;
     physics.cohesion = cohesion;
-    physics.volume = volume;
+    physics.pressure_stiffness = volume;
     return physics;
 }
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-struct hair_test_field hair_test_field_read(const struct hair_solid_field* field)
+struct hair_test_field hair_test_field_read(const struct hair_collider_field* field)
 {
     struct hair_test_field read;
     for (int i = 0; i < 3; ++i) read.size[i] = HAIR_BRICK * field->box.bricks[i];
@@ -39,12 +39,13 @@ static void turn(const double q[4], const double v[3], double out[3])
     }
 }
 
-double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number)
+double hair_test_nearest(const hair_collider* colliders, uint32_t count, const double point[3],
+                         uint32_t* number)
 {
     double nearest = INFINITY;
-    *number = HAIR_NO_SOLID;
+    *number = HAIR_NO_COLLIDER;
     for (uint32_t i = 0; i < count; ++i) {
-        double distance = hair_distance_to_solid(&solids[i], point, NULL);
+        double distance = hair_distance_to_collider(&colliders[i], point, NULL);
         if (!(distance < nearest)) continue;
         nearest = distance;
         *number = i;
@@ -71,11 +72,11 @@ static float between(uint32_t* random, float least, float most)
     return least + (most - least) * hair_random(random);
 }
 
-hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
-                               uint32_t* random)
+hair_collider hair_test_any_collider(const struct hair_field_box* box, const struct hair_pose* head,
+                                     float reach, uint32_t* random)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
+    hair_collider collider = hair_collider_default();
+    collider.shape = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
     hair_vec3 side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 at = hair_add(hair_add(box->lower, side),
@@ -85,9 +86,9 @@ hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct ha
     hair_quat q = hair_quat_normalize((hair_quat){between(random, -1, 1), between(random, -1, 1),
                                                   between(random, -1, 1), between(random, -1, 1)});
     const float place[] = {turned.x, turned.y, turned.z}, way[] = {q.x, q.y, q.z, q.w};
-    for (int i = 0; i < 3; ++i) solid.position[i] = (float)(head->position[i] + (double)place[i]);
-    for (int i = 0; i < 4; ++i) solid.rotation[i] = way[i];
-    for (int i = 0; i < 3; ++i) solid.size[i] = between(random, 2, 8) * box->voxel;
-    if (hair_random(random) < 0.3f) solid.rounding = between(random, 0, 3) * box->voxel;
-    return solid;
+    for (int i = 0; i < 3; ++i) collider.position[i] = (float)(head->position[i] + (double)place[i]);
+    for (int i = 0; i < 4; ++i) collider.rotation[i] = way[i];
+    for (int i = 0; i < 3; ++i) collider.size[i] = between(random, 2, 8) * box->voxel;
+    if (hair_random(random) < 0.3f) collider.rounding = between(random, 0, 3) * box->voxel;
+    return collider;
 }

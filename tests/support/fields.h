@@ -13,7 +13,7 @@ struct hair_test_field {
 };
 
 // Read back a field that exists.
-struct hair_test_field hair_test_field_read(const struct hair_solid_field* field);
+struct hair_test_field hair_test_field_read(const struct hair_collider_field* field);
 void hair_test_field_free(struct hair_test_field* read);
 
 static inline size_t hair_test_field_count(const struct hair_test_field* read)
@@ -23,7 +23,8 @@ static inline size_t hair_test_field_count(const struct hair_test_field* read)
 
 // Return the distance to the nearest collider, or INFINITY without colliders. `number` receives the
 // collider's index.
-double hair_test_nearest(const hair_solid* solids, uint32_t count, const double point[3], uint32_t* number);
+double hair_test_nearest(const hair_collider* colliders, uint32_t count, const double point[3],
+                         uint32_t* number);
 
 // Compute the position of the centre of the i-th voxel in the world.
 void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* head, size_t i,
@@ -31,7 +32,7 @@ void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* h
 
 // Return a random collider of any shape except a plane or a collision mesh, within `reach` of the
 // middle of the box.
-hair_solid hair_test_any_solid(const struct hair_field_box* box, const struct hair_pose* head, float reach,
-                               uint32_t* random);
+hair_collider hair_test_any_collider(const struct hair_field_box* box, const struct hair_pose* head,
+                                     float reach, uint32_t* random);
 
 #endif

@@ -149,7 +149,7 @@ struct hair_test_file hair_test_tfx2(void)
 
 hair_import hair_test_import(void)
 {
-    return (hair_import){.scale = 1, .share = 1, .seed = 1};
+    return (hair_import){.scale = 1, .keep_fraction = 1, .seed = 1};
 }
 
 static void assert_fit(const struct hair_strands* strands)

@@ -22,7 +22,7 @@ static hair_groom* make_groom(struct hair_test* test)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 6;
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_vertices = 4;
     desc.follower_count = 0;
     hair_test_ok(test, hair_groom_create(&desc, &groom));
@@ -38,22 +38,24 @@ void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc*
                            struct hair_test_fluid* out)
 {
     static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
-    hair_solid solid = hair_solid_default();
-    solid.size[0] = HAIR_TEST_FLUID_BALL;
+    hair_collider collider = hair_collider_default();
+    collider.size[0] = HAIR_TEST_FLUID_BALL;
     *out = (struct hair_test_fluid){.test = test, .cells = desc->cells};
     out->groom = make_groom(test);
     hair_gl_enter(&test->context->gl);
     hair_field_create(&out->field, &test->context->forms, out->groom, 0.005f);
-    hair_test_ok(test, hair_solids_set(&test->host.host, &out->solids, &solid, (uint32_t)ball, sizeof solid));
-    hair_test_ok(test, hair_field_update(&out->field, out->solids.now.solid, out->solids.now.count, &origin));
+    hair_test_ok(test, hair_colliders_set(&test->host.host, &out->colliders, &collider, (uint32_t)ball,
+                                          sizeof collider));
+    hair_test_ok(
+        test, hair_field_update(&out->field, out->colliders.now.collider, out->colliders.now.count, &origin));
     hair_test_ok(test, hair_fluid_create(&out->fluid, &test->context->gl, desc));
     hair_test_ok(test, hair_fluid_make_room(&out->fluid, 1));
     out->now = (struct hair_fluid_now){.head = origin,
                                        .wind = {5, 0, 0},
                                        .dt = 1.0 / 60,
                                        .field = &out->field,
-                                       .solids = &out->solids,
-                                       .solids_dt = 1.0 / 60};
+                                       .colliders = &out->colliders,
+                                       .colliders_dt = 1.0 / 60};
     out->faces = 3 * hair_fluid_slots(&out->fluid);
     out->count = (size_t)desc->cells * desc->cells * desc->cells;
 }
@@ -63,7 +65,7 @@ void hair_test_fluid_end(struct hair_test_fluid* f)
     hair_fluid_destroy(&f->fluid);
     hair_field_destroy(&f->field);
     hair_gl_leave(&f->test->context->gl);
-    hair_solids_free(&f->test->host.host, &f->solids);
+    hair_colliders_free(&f->test->host.host, &f->colliders);
     hair_groom_destroy(f->groom);
 }
 

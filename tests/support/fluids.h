@@ -13,8 +13,8 @@
 struct hair_test_fluid {
     struct hair_test* test;
     hair_groom* groom; // The field is around it.
-    struct hair_solid_field field;
-    struct hair_solids solids; // one ball at most
+    struct hair_collider_field field;
+    struct hair_colliders colliders; // one ball at most
     struct hair_fluid fluid;
     struct hair_fluid_now now; // wind of 5 m/s along x, steps of 1/60 s
     uint32_t cells;

@@ -84,7 +84,7 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
 
 void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp)
 {
-    desc->strands_are = HAIR_STRANDS_GUIDES;
+    desc->strand_set = HAIR_STRAND_SET_GUIDES;
     desc->scalp_positions = scalp->positions;
     desc->scalp_triangles = scalp->triangles;
     desc->scalp_vertex_count = scalp->vertex_count;

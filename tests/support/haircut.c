@@ -9,7 +9,7 @@ hair_groom* hair_test_haircut(struct hair_test* test, const hair_style_desc* sty
     hair_groom* groom = NULL;
     of.host = desc.host = &test->host.host;
     hair_test_ok(test, hair_asset_generate(&of, &asset));
-    hair_test_ok(test, hair_asset_fill(asset, &desc));
+    hair_test_ok(test, hair_asset_to_groom_desc(asset, &desc));
     desc.follower_count = followers;
     hair_test_ok(test, hair_groom_create(&desc, &groom));
     hair_asset_destroy(asset);

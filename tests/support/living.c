@@ -12,7 +12,7 @@ void hair_test_live(struct hair_test* test, const struct hair_test_strands* stra
     *out = (struct hair_test_living){
         .test = test, .physics = hair_physics_default(), .wind = hair_wind_default()};
     hair_groom_desc of = hair_test_groom_desc(&test->host, strands);
-    of.strands_are = HAIR_STRANDS_GUIDES;
+    of.strand_set = HAIR_STRAND_SET_GUIDES;
     of.follower_count = strands->count;
     of.guide_vertices = 2;
     for (uint32_t i = 0; i < strands->count; ++i)
@@ -91,7 +91,8 @@ void hair_test_read_guides(struct hair_test_living* living)
     uint32_t count = 0;
     living->before = living->positions;
     living->positions = later;
-    hair_test_ok(living->test, hair_read(living->hair, HAIR_READ_GUIDES, later, living->vertices, &count));
+    hair_test_ok(living->test,
+                 hair_read_positions(living->hair, HAIR_READ_GUIDES, later, living->vertices, &count));
     assert_int_equal(count, living->vertices);
     for (uint32_t i = 0; i < 3 * count; ++i)
         if (!isfinite(later[i])) fail_msg("coordinate %u of vertex %u is %g", i % 3, i / 3, (double)later[i]);
@@ -147,28 +148,28 @@ double hair_test_from_rest(const struct hair_test_living* living)
     return most;
 }
 
-hair_solid hair_test_body(hair_shape shape, float x, float y, float z)
+hair_collider hair_test_body(hair_shape shape, float x, float y, float z)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = shape;
-    solid.position[0] = x;
-    solid.position[1] = y;
-    solid.position[2] = z;
-    return solid;
+    hair_collider collider = hair_collider_default();
+    collider.shape = shape;
+    collider.position[0] = x;
+    collider.position[1] = y;
+    collider.position[2] = z;
+    return collider;
 }
 
-void hair_test_turn(hair_solid* solid, int axis, double angle)
+void hair_test_turn(hair_collider* collider, int axis, double angle)
 {
-    for (int k = 0; k < 3; ++k) solid->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
-    solid->rotation[3] = (float)cos(angle / 2);
+    for (int k = 0; k < 3; ++k) collider->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
+    collider->rotation[3] = (float)cos(angle / 2);
 }
 
-void hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count)
+void hair_test_set_colliders(struct hair_test_living* living, const hair_collider* colliders, uint32_t count)
 {
-    hair_test_ok(living->test, hair_set_solids(living->hair, solids, count, sizeof *solids));
+    hair_test_ok(living->test, hair_set_colliders(living->hair, colliders, count, sizeof *colliders));
 }
 
-double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid)
+double hair_test_depth(const struct hair_test_living* living, const hair_collider* collider)
 {
     double most = -INFINITY;
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
@@ -176,26 +177,26 @@ double hair_test_depth(const struct hair_test_living* living, const hair_solid* 
              ++i) {
             hair_vec3 p = hair_test_at(living, g, i);
             const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
-            most = fmax(most, -hair_distance_to_solid(solid, xyz, NULL));
+            most = fmax(most, -hair_distance_to_collider(collider, xyz, NULL));
         }
     return most;
 }
 
-hair_health hair_test_health(struct hair_test_living* living)
+hair_solver_stats hair_test_solver_stats(struct hair_test_living* living)
 {
-    hair_health health = hair_health_default();
-    hair_test_ok(living->test, hair_get_health(living->hair, &health));
-    return health;
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    hair_test_ok(living->test, hair_get_solver_stats(living->hair, &solver_stats));
+    return solver_stats;
 }
 
 void hair_test_healthy(struct hair_test_living* living)
 {
-    hair_health health = hair_test_health(living);
-    assert_int_equal(health.euler, 0);
-    assert_int_equal(health.parts, 0);
-    assert_int_equal(health.overstretched, 0);
-    assert_int_equal(health.follow, 0);
-    assert_int_equal(health.reset, 0);
+    hair_solver_stats solver_stats = hair_test_solver_stats(living);
+    assert_int_equal(solver_stats.euler_fallbacks, 0);
+    assert_int_equal(solver_stats.parts, 0);
+    assert_int_equal(solver_stats.overstretched, 0);
+    assert_int_equal(solver_stats.follow_fallbacks, 0);
+    assert_int_equal(solver_stats.reset, 0);
 }
 
 // Arrays that hair_reference_rod_desc points to.
@@ -211,14 +212,14 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
     double total = 0, so_far = 0;
     for (uint32_t i = 0; i + 1 < count; ++i) total += (double)rest[i].position.w;
     for (uint32_t i = 0; i < count; ++i) {
-        double root = (double)physics->stiffness_root, pull = (double)physics->pull_root;
+        double root = (double)physics->stiffness_root, pull = (double)physics->shape_frequency_root;
         out->positions[3 * i] = (double)rest[i].position.x;
         out->positions[3 * i + 1] = (double)rest[i].position.y;
         out->positions[3 * i + 2] = (double)rest[i].position.z;
         out->lengths[i] = (double)rest[i].position.w;
         out->scale[i] = root + so_far / total * ((double)physics->stiffness_tip - root);
-        out->pull[i] =
-            6.283185307179586 * (pull + (double)i / (count - 1) * ((double)physics->pull_tip - pull));
+        out->pull[i] = 6.283185307179586 *
+                       (pull + (double)i / (count - 1) * ((double)physics->shape_frequency_tip - pull));
         so_far += (double)rest[i].position.w;
     }
 }
@@ -227,12 +228,12 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
 static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
 {
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
-    double bend = (double)physics->young * radius * radius / (4 * (double)physics->fiber_density);
+    double bend = (double)physics->youngs_modulus * radius * radius / (4 * (double)physics->fiber_density);
     out->line_density = 1;
     out->tip_mass = (double)physics->tip_mass * length;
     out->bend[0] = bend * flat;
     out->bend[1] = bend / flat;
-    out->twist = bend * 2 / ((1 + (double)physics->poisson) * (flat + 1 / flat));
+    out->twist = bend * 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
     out->damping = (double)physics->damping;
     for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
 }
@@ -263,13 +264,13 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
     desc.positions = arrays->positions;
     desc.lengths = arrays->lengths;
     desc.scale = arrays->scale;
-    if (physics->pull_root > 0 || physics->pull_tip > 0) desc.pull = arrays->pull;
+    if (physics->shape_frequency_root > 0 || physics->shape_frequency_tip > 0) desc.pull = arrays->pull;
     desc.root = (enum hair_reference_rod_root)physics->root;
     desc.root_frame[0] = (double)frame.x, desc.root_frame[1] = (double)frame.y;
     desc.root_frame[2] = (double)frame.z, desc.root_frame[3] = (double)frame.w;
     if (head) desc.head = *head;
     desc.rest_strain = arrays->strain;
-    if (physics->hold > 0) {
+    if (physics->gravity_preload > 0) {
         assert_true(hair_reference_rod_hold(&desc, arrays->strain, arrays->real));
         desc.rest_real = arrays->real;
     } else
@@ -310,29 +311,29 @@ struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 a
 hair_physics hair_test_bare(void)
 {
     hair_physics physics = hair_physics_default();
-    physics.young = 3e9f;
+    physics.youngs_modulus = 3e9f;
     physics.fiber_radius = 5e-5f;
     physics.damping = 1;
-    physics.hold = 0;
-    physics.pull_root = physics.pull_tip = physics.sleep = 0;
+    physics.gravity_preload = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = physics.sleep_threshold = 0;
     return physics;
 }
 
 hair_physics hair_test_loose(float friction)
 {
     hair_physics physics = hair_physics_default();
-    physics.hold = 0;
-    physics.pull_root = physics.pull_tip = 0;
+    physics.gravity_preload = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
     physics.friction = friction;
     return physics;
 }
 
-hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
+hair_desc hair_test_rods(hair_solver solver, hair_thread_mapping mapping, double substep,
                          const hair_physics* physics)
 {
     hair_desc desc = hair_desc_default();
     desc.solver = solver;
-    desc.mapping = mapping;
+    desc.thread_mapping = mapping;
     desc.substep = (float)substep;
     desc.physics = physics;
     return desc;

@@ -27,7 +27,7 @@ void hair_test_die(struct hair_test_living* living);
 hair_physics hair_test_bare(void);
 // Return the defaults without the gravity preload.
 hair_physics hair_test_loose(float friction);
-hair_desc hair_test_rods(hair_solver solver, hair_mapping mapping, double substep,
+hair_desc hair_test_rods(hair_solver solver, hair_thread_mapping mapping, double substep,
                          const hair_physics* physics);
 
 // Return a straight strand from `root` along `way`, which need not be a unit vector, with even
@@ -57,20 +57,20 @@ double hair_test_moved(const struct hair_test_living* living);
 double hair_test_from_rest(const struct hair_test_living* living);
 
 // Return a collider at a place, without rotation and size.
-hair_solid hair_test_body(hair_shape shape, float x, float y, float z);
+hair_collider hair_test_body(hair_shape shape, float x, float y, float z);
 // Rotate a collider about one of its axes.
-void hair_test_turn(hair_solid* solid, int axis, double angle);
-void hair_test_set_solids(struct hair_test_living* living, const hair_solid* solids, uint32_t count);
+void hair_test_turn(hair_collider* collider, int axis, double angle);
+void hair_test_set_colliders(struct hair_test_living* living, const hair_collider* colliders, uint32_t count);
 // Return the maximum depth of a vertex in a collider, m. A negative value is the distance. Roots
 // fixed to the scalp do not count.
-double hair_test_depth(const struct hair_test_living* living, const hair_solid* solid);
+double hair_test_depth(const struct hair_test_living* living, const hair_collider* collider);
 
-hair_health hair_test_health(struct hair_test_living* living);
+hair_solver_stats hair_test_solver_stats(struct hair_test_living* living);
 // Check that no guide's substep was repeated and none was reset.
 void hair_test_healthy(struct hair_test_living* living);
 
 // Return the guide as a rod of the reference, with its rest shape and physics under the head
-// `head`. NULL is the head at the origin. `hold` of the physics must be 0, or 1 for a clamped
+// `head`. NULL is the head at the origin. `gravity_preload` of the physics must be 0, or 1 for a clamped
 // guide.
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
                                                const struct hair_reference_rod_pose* head);

@@ -17,12 +17,12 @@ struct hair_test_subject hair_test_subject_of(uint32_t kind)
     if (kind == 1) { // Guides of many lengths, in many short substeps.
         subject.groom.guides = 5, subject.groom.fewest = 4, subject.groom.most = 9;
         subject.desc.substep = 1.0f / 500;
-        subject.physics.damping = 12, subject.physics.bend = 0.4f;
+        subject.physics.damping = 12, subject.physics.redblack.bend = 0.4f;
     }
     if (kind == 2) { // Long guides, each in a work group of 64.
         subject.groom.guides = 3, subject.groom.fewest = 40, subject.groom.most = 40;
         subject.groom.segment = 0.004f;
-        subject.physics.gravity[0] = 3, subject.physics.iterations = 7;
+        subject.physics.gravity[0] = 3, subject.physics.redblack.iterations = 7;
     }
     if (kind == 3) // In the solver's own substeps.
         subject.desc.substep = 0, subject.hardens = 1;
@@ -62,7 +62,7 @@ void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hai
                    uint32_t i)
 {
     hair_physics physics = subject->physics;
-    if (subject->hardens && i / 6 % 2) physics.young *= 5, physics.damping += 1;
+    if (subject->hardens && i / 6 % 2) physics.youngs_modulus *= 5, physics.damping += 1;
     hair_test_ok(test, hair_set_physics(hair, &physics));
 }
 
@@ -72,29 +72,29 @@ void hair_test_move(struct hair_test* test, hair_instance* hair, const struct ha
 {
     float transform[16], time = 0.11f * (float)i + (float)subject->seed;
     hair_quat q = turn(time);
-    hair_solid solids[] = {{HAIR_SHAPE_SPHERE,
-                            {0.15f * cosf(2 * time), 0.1f, 0.15f * sinf(2 * time)},
-                            {0, 0, 0, 1},
-                            {0.08f, NAN},
-                            .scale = 1,
-                            .friction = 1},
-                           {HAIR_SHAPE_CAPSULE,
-                            {0.1f * sinf(time), 0.1f, 0},
-                            {q.x, q.y, q.z, q.w},
-                            {0.05f, 0.04f},
-                            .scale = 1,
-                            .friction = 1},
-                           {HAIR_SHAPE_SPHERE,
-                            {-0.1f, 0.2f * cosf(time), 0.1f},
-                            {0, 0, 0, 1},
-                            {0.07f, 0},
-                            .scale = 1,
-                            .friction = 1}};
+    hair_collider colliders[] = {{HAIR_SHAPE_SPHERE,
+                                  {0.15f * cosf(2 * time), 0.1f, 0.15f * sinf(2 * time)},
+                                  {0, 0, 0, 1},
+                                  {0.08f, NAN},
+                                  .scale = 1,
+                                  .friction = 1},
+                                 {HAIR_SHAPE_CAPSULE,
+                                  {0.1f * sinf(time), 0.1f, 0},
+                                  {q.x, q.y, q.z, q.w},
+                                  {0.05f, 0.04f},
+                                  .scale = 1,
+                                  .friction = 1},
+                                 {HAIR_SHAPE_SPHERE,
+                                  {-0.1f, 0.2f * cosf(time), 0.1f},
+                                  {0, 0, 0, 1},
+                                  {0.07f, 0},
+                                  .scale = 1,
+                                  .friction = 1}};
     if (i % 6 == 0) hair_test_set(test, hair, subject, i);
     if (i % 3 == 2) return;
     hair_test_pose(time, transform);
     hair_test_ok(test, hair_set_transform(hair, transform));
-    hair_test_ok(test, hair_set_solids(hair, solids, i / 2 % 4, sizeof *solids));
+    hair_test_ok(test, hair_set_colliders(hair, colliders, i / 2 % 4, sizeof *colliders));
     hair_test_pose(time + 2, transform);
     if (i % 13 == 12) hair_test_ok(test, hair_teleport(hair, transform));
     if (i % 29 == 28) hair_test_ok(test, hair_reset(hair));
@@ -134,7 +134,8 @@ void hair_test_look(struct hair_test* test, hair_instance* hair, struct hair_tes
     look_at(hair->sim.material, out);
     for (int what = 0; what <= HAIR_READ_FOLLOWERS; ++what) {
         uint32_t most = (uint32_t)(HAIR_TEST_SEEN - out->count) / 3, count;
-        hair_test_ok(test, hair_read(hair, (hair_read_what)what, out->number + out->count, most, &count));
+        hair_test_ok(
+            test, hair_read_positions(hair, (hair_read_source)what, out->number + out->count, most, &count));
         assert_in_range(count, 1, most);
         out->count += 3 * (size_t)count;
     }

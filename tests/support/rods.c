@@ -56,7 +56,7 @@ struct hair_test_rod* hair_test_rod_make(void)
 {
     struct hair_test_rod* f = calloc(1, sizeof *f);
     f->physics = hair_physics_default();
-    f->physics.young = 3e9f;
+    f->physics.youngs_modulus = 3e9f;
     f->physics.fiber_radius = 5e-5f;
     return f;
 }
@@ -64,7 +64,7 @@ struct hair_test_rod* hair_test_rod_make(void)
 double hair_test_rod_bend(const hair_physics* p)
 {
     double r = (double)p->fiber_radius;
-    return (double)p->young * r * r / (4 * (double)p->fiber_density);
+    return (double)p->youngs_modulus * r * r / (4 * (double)p->fiber_density);
 }
 
 void hair_test_rod_hold(struct hair_test_rod* f)

@@ -7,7 +7,8 @@ hair_desc hair_test_way(int way)
 
     hair_desc desc = hair_desc_default();
     desc.solver = (hair_solver)(way / 2);
-    desc.mapping = way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP;
+    desc.thread_mapping =
+        way % 2 ? HAIR_THREAD_MAPPING_THREAD_PER_GUIDE : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
     desc.substep = substeps[desc.solver];
     return desc;
 }

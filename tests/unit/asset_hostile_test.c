@@ -39,7 +39,7 @@ static bool survives(const void* bytes, size_t size)
     imports[1].up = HAIR_UP_X;
     imports[1].strand_vertices = 8;
     imports[2].scale = 1e6f;
-    imports[2].share = 1e-6f;
+    imports[2].keep_fraction = 1e-6f;
     uint32_t accepted = 0;
     for (int i = 0; i < 3; ++i) {
         hair_asset* asset = NULL;
@@ -298,7 +298,7 @@ static void more_strands_than_a_groom_can_hold_need_a_share(void** state)
     for (uint32_t more = 0; more < 3; ++more) {
         hair_import import = hair_test_import();
         hair_asset* asset = NULL;
-        if (more == 2) import.share = 0.5f;
+        if (more == 2) import.keep_fraction = 0.5f;
         hair_test_set_u32(&file, 4, most + (more > 0));
         hair_test_set_u32(&file, 8, 2 * (most + (more > 0)));
         hair_result result = hair_test_read(&test, &import, file.bytes, file.size, &asset);
@@ -315,7 +315,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
                                      hair_test_tfx2()};
     hair_import import = hair_test_import();
     import.strand_vertices = 2;
-    import.share = 0.4f;
+    import.keep_fraction = 0.4f;
     for (size_t i = 0; i < 4; ++i) {
         uint32_t failures = 0;
         for (uint32_t refuse = 1;; ++refuse, ++failures) {

@@ -60,7 +60,7 @@ static void hair_holds_strands_of_any_number_of_vertices(void** state)
     (void)state;
     hair_asset* asset = read_file(hair_test_hair(1 | 2));
     assert_int_equal(asset->format, HAIR_FORMAT_HAIR);
-    assert_int_equal(asset->strands_are, HAIR_STRANDS_ALL);
+    assert_int_equal(asset->strand_set, HAIR_STRAND_SET_FULL);
     assert_strands(asset, (uint32_t[3]){3, 2, 4});
     assert_null(asset->strands.radii);
     assert_int_equal(test.warnings, 0);
@@ -215,14 +215,14 @@ static void tfx_holds_guides_wherever_its_sections_lie(void** state)
     (void)state;
     hair_asset* asset = read_file(hair_test_tfx4());
     assert_int_equal(asset->format, HAIR_FORMAT_TFX4);
-    assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
+    assert_int_equal(asset->strand_set, HAIR_STRAND_SET_GUIDES);
     assert_null(asset->strands.radii); // Its thickness is a factor.
     assert_strands(asset, (uint32_t[3]){4, 4, 4});
     hair_asset_free(asset);
 
     asset = read_file(hair_test_tfx3());
     assert_int_equal(asset->format, HAIR_FORMAT_TFX3);
-    assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
+    assert_int_equal(asset->strand_set, HAIR_STRAND_SET_GUIDES);
     assert_strands(asset, (uint32_t[3]){4, 4, 4});
     hair_asset_free(asset);
 }
@@ -260,7 +260,7 @@ static void import_options_are_used(void** state)
     import.up = HAIR_UP_Z;
     import.tip_first = 1;
     import.strand_vertices = 16;
-    import.share = 0.34f;
+    import.keep_fraction = 0.34f;
     hair_asset* asset = read_with(&import, hair_test_tfx3());
     assert_int_equal(asset->strands.strand_count, 1);
     assert_int_equal(asset->strands.vertices[0], 16);

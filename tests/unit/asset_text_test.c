@@ -34,7 +34,7 @@ static hair_asset* read_text(const char* text)
     hair_asset* asset = NULL;
     assert_int_equal(hair_test_read(&test, &import, text, strlen(text), &asset), HAIR_OK);
     assert_int_equal(asset->format, HAIR_FORMAT_TFX2);
-    assert_int_equal(asset->strands_are, HAIR_STRANDS_GUIDES);
+    assert_int_equal(asset->strand_set, HAIR_STRAND_SET_GUIDES);
     return asset;
 }
 

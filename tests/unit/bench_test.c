@@ -40,7 +40,7 @@ static void wrong_use_exits_with_2(void** state)
          "its cases are shake, swing, contact, whip, taut, wave, curl, coil, static"},
         {"accuracy --case sha", "its cases are"},
         {"accuracy --method dance", "--method is dance"},
-        {"accuracy --mapping dance", "--mapping is dance"},
+        {"accuracy --thread-mapping dance", "--thread-mapping is dance"},
         {"accuracy --strands 0", "--strands is 0"},
         {"accuracy --strands 262145", "--strands is 262145"},
         {"accuracy --strands x", "--strands is x"},
@@ -162,7 +162,7 @@ static void a_row_says_what_was_measured_and_how(void** state)
     json_t* root = hair_test_shell_json("r.json");
     const json_t* row = json_array_get(json_object_get(root, "rows"), 0);
     assert_string_equal(json_string_value(json_object_get(row, "solver")), "accurate");
-    assert_true(json_number_value(json_object_get(row, "young")) == 3e9);
+    assert_true(json_number_value(json_object_get(row, "youngs_modulus")) == 3e9);
     assert_true(json_number_value(json_object_get(row, "substeps")) == 16);
     assert_true(json_number_value(json_object_get(row, "strands")) == 4);
     assert_true(json_is_true(json_object_get(row, "alike")));
@@ -191,7 +191,7 @@ static void the_other_suites_run(void** state)
     expect(0, "$T skip --quick --case 'idle head' --strands 100 --csv - | grep -cE ',0,[0-9]+,[0-9]+,3'",
            "1");
     // Of 4,000 followers in two frames, none that was inside is left there.
-    expect(0, "$T collision --quick --case shoulders --method push --csv -", ",0,1,");
+    expect(0, "$T collision --quick --case shoulders --method push_out --csv -", ",0,1,");
 }
 
 static json_t* find_row(json_t* rows, const char* primitive, int segments, int samples)

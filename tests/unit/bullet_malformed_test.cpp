@@ -13,19 +13,19 @@ static const btScalar none = NAN, inf = INFINITY, huge = btScalar(1e30), tiny = 
 
 static hair_result take(const btCollisionShape& shape)
 {
-    assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
+    assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
     const uint32_t before = test.host.errors;
-    hair_result result = hair_bullet_take_shape(test.bullet, &shape, nullptr);
+    hair_result result = hair_bullet_add_shape(test.bullet, &shape, nullptr);
     assert_true(result == HAIR_OK || test.host.errors > before); // Never without a sentence.
     return result;
 }
 
-// An error, or solids of finite numbers.
+// An error, or colliders of finite numbers.
 static bool is_borne(const btCollisionShape& shape)
 {
     hair_result result = take(shape);
     uint32_t count;
-    const hair_solid* list = hair_bullet_solids(test.bullet, &count);
+    const hair_collider* list = hair_bullet_colliders(test.bullet, &count);
     if (result == HAIR_ERROR_ARGUMENT) return count == 0;
     bool ok = result == HAIR_OK;
     for (uint32_t i = 0; i < count; ++i) {
@@ -42,7 +42,7 @@ static void refused(const btCollisionShape& shape, const char* words)
     if (take(shape) != HAIR_ERROR_ARGUMENT) fail_msg("not refused: %s", words);
     if (!std::strstr(test.host.sentence, words))
         fail_msg("\"%s\" does not say \"%s\"", test.host.sentence, words);
-    solids(0);
+    colliders(0);
 }
 
 static std::vector<std::unique_ptr<btCollisionShape>> make_all(btScalar size)
@@ -63,7 +63,7 @@ static std::vector<std::unique_ptr<btCollisionShape>> make_all(btScalar size)
     return shapes;
 }
 
-static void no_number_leads_to_solids_that_are_not_finite(void**)
+static void no_number_leads_to_colliders_that_are_not_finite(void**)
 {
     hair_bullet_set_resolution(test.bullet, 8);
     const btScalar numbers[] = {0, -1, none, inf, -inf, huge, tiny, btScalar(1e7), btScalar(0.1)};
@@ -77,7 +77,7 @@ static void no_number_leads_to_solids_that_are_not_finite(void**)
                     if (!is_borne(*shape))
                         fail_msg("%s of %g with %g (%d) is not borne", shape->getName(), double(size),
                                  double(other), what);
-                    hair_bullet_solids(test.bullet, &count);
+                    hair_bullet_colliders(test.bullet, &count);
                     taken += count;
                 }
     assert_true(taken > 50); // Some are right.
@@ -101,7 +101,7 @@ static void meshes_with_vertices_that_are_no_numbers_are_errors(void**)
         btBvhTriangleMeshShape shape(mesh.get(), false);
         assert_int_equal(take(shape), HAIR_ERROR_ARGUMENT);
         assert_int_equal(take(shape), HAIR_ERROR_ARGUMENT); // And so it stays.
-        solids(0);
+        colliders(0);
     }
     test.host.errors = 0;
 }
@@ -112,7 +112,7 @@ static void meshes_scaled_to_nothing_are_errors(void**)
     btBvhTriangleMeshShape shape(mesh.get(), true);
     const btVector3 nothing(0, 0, 0);
     btScaledBvhTriangleMeshShape scaled(&shape, nothing);
-    refused(scaled, "has triangles that make no form");
+    refused(scaled, "has triangles that make no collision mesh");
     scaled.setLocalScaling(btVector3(none, 1, 1));
     assert_int_equal(take(scaled), HAIR_ERROR_ARGUMENT);
     scaled.setLocalScaling(btVector3(tiny, tiny, tiny));
@@ -132,14 +132,14 @@ static void degenerate_triangles_are_left_out(void**)
     for (int i = 0; i < 1000; ++i) mesh->addTriangle(a, b, i % 2 ? b : a);
     btBvhTriangleMeshShape shape(mesh.get(), true);
     assert_int_equal(take(shape), HAIR_OK);
-    hair_form_info info = hair_form_info_default();
-    hair_form_describe(solids(1)[0].form, &info);
+    hair_collision_mesh_info info = hair_collision_mesh_info_default();
+    hair_collision_mesh_describe(colliders(1)[0].mesh, &info);
     assert_int_equal(info.closed, 1);
     assert_int_equal(info.unused, 1000);
     btTriangleMesh points;
     for (int i = 0; i < 1000; ++i) points.addTriangle(a, b, i % 2 ? b : a);
     btBvhTriangleMeshShape dots(&points, true);
-    refused(dots, "has triangles that make no form");
+    refused(dots, "has triangles that make no collision mesh");
     btTriangleMesh line; // Its corners differ: a thin shell.
     line.addTriangle(a, b, c);
     btBvhTriangleMeshShape thread(&line, true);
@@ -195,7 +195,7 @@ struct many : btConcaveShape {
 
 static void a_mesh_of_no_triangles_is_an_error(void**)
 {
-    refused(many(0), "has triangles that make no form");
+    refused(many(0), "has triangles that make no collision mesh");
     test.host.errors = 0;
 }
 
@@ -208,7 +208,7 @@ static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
     print_message("    %.2f s, %zu bytes\n", passed.count(), test.host.peak);
     assert_true(test.host.peak < 1 << 16);
-    for (int i = 0; i < 10; ++i) refused(mesh, "has triangles that make no form");
+    for (int i = 0; i < 10; ++i) refused(mesh, "has triangles that make no collision mesh");
     assert_int_equal(mesh.rounds, 1);
     test.host.errors = 0;
 }
@@ -227,9 +227,9 @@ static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
     world.addCollisionObject(&objects[0]), world.addCollisionObject(&objects[1]);
     const float lower[] = {-1, -1, -1}, upper[] = {1, 1, 1};
     for (int i = 0; i < 5; ++i) {
-        assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
-        assert_int_equal(hair_bullet_take_world(test.bullet, &world, lower, upper, -1), HAIR_OK);
-        solids(1);
+        assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+        assert_int_equal(hair_bullet_add_world(test.bullet, &world, lower, upper, -1), HAIR_OK);
+        colliders(1);
     }
     assert_int_equal(mesh.rounds, 1);
     assert_int_equal(test.host.warnings, 1);
@@ -239,7 +239,7 @@ static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(no_number_leads_to_solids_that_are_not_finite),
+        TEST(no_number_leads_to_colliders_that_are_not_finite),
         TEST(meshes_with_vertices_that_are_no_numbers_are_errors),
         TEST(meshes_scaled_to_nothing_are_errors),
         TEST(degenerate_triangles_are_left_out),

@@ -1,4 +1,4 @@
-// bullet_shape_test.cpp - every shape of Bullet as solids, against Bullet's own distance with its margin.
+// bullet_shape_test.cpp - every shape of Bullet as colliders, against Bullet's own distance with its margin.
 #include "tests/support/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
@@ -14,8 +14,8 @@ static void take(const btCollisionShape& shape, const btTransform& where)
 {
     float matrix[16];
     where.getOpenGLMatrix(matrix);
-    assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
-    assert_int_equal(hair_bullet_take_shape(test.bullet, &shape, matrix), HAIR_OK);
+    assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+    assert_int_equal(hair_bullet_add_shape(test.bullet, &shape, matrix), HAIR_OK);
 }
 
 // m: of Bullet's own over what is curved, where it stops early; measured against closed forms.
@@ -49,7 +49,7 @@ static error compare(const char* what, const btConvexShape& shape, double limit,
             const double exact = gjk(&shape, where, p), own = nearest(p);
             if (std::isinf(exact)) continue; // GJK has no answer here.
             if (std::fabs(exact) > 2 * limit + 1e-4 && (own < 0) != (exact < 0))
-                fail_msg("%s: GJK says %g at point %d, the solids %g", what, exact, i, own);
+                fail_msg("%s: GJK says %g at point %d, the colliders %g", what, exact, i, own);
             if (exact > -0.9 * static_cast<double>(shape.getMargin()) && exact < band)
                 error.add(std::fmax(std::fabs(own - exact) - 0.01 * std::fabs(exact), 0));
         }
@@ -85,7 +85,7 @@ static void primitives_are_as_far_as_gjk_says(void**)
                 shape->setLocalScaling(btVector3(scale, scale, scale));
                 if (!is_round) shape->setMargin(margin); // Of round ones the margin is the radius.
                 worst = std::fmax(worst, compare(shape->getName(), *shape, GJK_ERROR, 1).worst);
-                solids(1);
+                colliders(1);
             }
     print_message("    off by up to %.2g m\n", worst);
 }
@@ -100,19 +100,19 @@ static void boxes_and_cylinders_may_be_scaled_unevenly(void**)
     compare("cylinder", cylinder, GJK_ERROR, 1);
 }
 
-static double voxel_of(const hair_solid& solid)
+static double voxel_of(const hair_collider& collider)
 {
-    hair_form_info info = hair_form_info_default();
-    assert_int_equal(hair_form_describe(solid.form, &info), HAIR_OK);
+    hair_collision_mesh_info info = hair_collision_mesh_info_default();
+    assert_int_equal(hair_collision_mesh_describe(collider.mesh, &info), HAIR_OK);
     assert_int_equal(info.closed, 1);
-    return static_cast<double>(info.voxel * solid.scale);
+    return static_cast<double>(info.voxel_size * collider.scale);
 }
 
 // Near the surface, in voxels. Interpolated distances are wrong by up to 0.87 of one over a sharp edge.
 static void compare_form(const char* what, const btConvexShape& shape)
 {
     take(shape, btTransform::getIdentity());
-    const double voxel = voxel_of(solids(1)[0]);
+    const double voxel = voxel_of(colliders(1)[0]);
     const error error = compare(what, shape, std::fmax(0.9 * voxel, GJK_ERROR),
                                 static_cast<double>(shape.getMargin()) + 2 * voxel);
     const double rms = std::sqrt(error.squares / error.count);
@@ -142,7 +142,7 @@ static void convex_shapes_are_as_far_as_gjk_says(void**)
     compare_form("convex mesh", mesh);
     btUniformScalingShape scaled(&hull, btScalar(0.5));
     compare_form("uniform scaling", scaled);
-    hair_bullet_forget(test.bullet, nullptr);
+    hair_bullet_invalidate(test.bullet, nullptr);
 }
 
 static void spheres_together_are_as_far_as_gjk_says(void**)
@@ -153,9 +153,9 @@ static void spheres_together_are_as_far_as_gjk_says(void**)
                    uneven[] = {btScalar(0.1), btScalar(0.2), btScalar(0.05), btScalar(0.12)};
     btMultiSphereShape one(at, uneven, 1), two(at, even, 2), four(at, even, 4), others(at, uneven, 4);
     compare("one sphere", one, GJK_ERROR, 1);
-    assert_int_equal(solids(1)[0].shape, HAIR_SHAPE_SPHERE);
+    assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_SPHERE);
     compare("two spheres", two, GJK_ERROR, 1);
-    assert_int_equal(solids(1)[0].shape, HAIR_SHAPE_CAPSULE);
+    assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_CAPSULE);
     compare_form("spheres of one radius", four);
     compare_form("spheres of several", others);
     others.setLocalScaling(btVector3(2, 2, 2));
@@ -197,7 +197,7 @@ static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar
     randoms random;
     btVector3 lower, upper;
     take(shape, btTransform::getIdentity());
-    const double voxel = voxel_of(solids(1)[0]);
+    const double voxel = voxel_of(colliders(1)[0]);
     shape.getAabb(btTransform::getIdentity(), lower, upper);
     double worst = 0;
     int count = 0;
@@ -226,13 +226,13 @@ static void triangle_meshes_are_as_far_as_their_triangles(void**)
     mesh.setMargin(btScalar(0.02));
     compare_mesh("mesh", mesh, btScalar(0.6));
     assert_true(nearest(btVector3(0, 0, 0)) < -0.38);
-    const hair_form* form = solids(1)[0].form;
+    const hair_collision_mesh* form = colliders(1)[0].mesh;
     btScaledBvhTriangleMeshShape twice(&mesh, btVector3(2, 2, 2)),
         uneven(&mesh, btVector3(1, 2, btScalar(0.5)));
     compare_mesh("mesh twice as large", twice, btScalar(0.6));
-    assert_ptr_equal(solids(1)[0].form, form); // The same one, scaled.
+    assert_ptr_equal(colliders(1)[0].mesh, form); // The same one, scaled.
     compare_mesh("mesh scaled unevenly", uneven, btScalar(0.6));
-    assert_ptr_not_equal(solids(1)[0].form, form);
+    assert_ptr_not_equal(colliders(1)[0].mesh, form);
 }
 
 static void a_height_field_is_solid_below(void**)
@@ -288,7 +288,7 @@ static void compounds_are_their_children_wherever_they_are(void**)
     outer.addChildShape(d, &capsule);
     outer.setLocalScaling(btVector3(btScalar(1.5), btScalar(1.5), btScalar(1.5)));
     take(outer, where);
-    const hair_solid* list = solids(3);
+    const hair_collider* list = colliders(3);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < i; ++k) assert_true(list[i].key != list[k].key && list[i].key && list[k].key);
     auto grown = [](const btTransform& t) {
@@ -307,9 +307,9 @@ static void compounds_are_their_children_wherever_they_are(void**)
     btEmptyShape nothing;
     btCompoundShape hollow;
     take(nothing, where);
-    solids(0);
+    colliders(0);
     take(hollow, where);
-    solids(0);
+    colliders(0);
 }
 
 // Points in a plane, in a line, and one.
@@ -326,21 +326,21 @@ static void flat_hulls_are_plates_capsules_and_spheres(void**)
     compare("plate", plate, 0.9 / 64, 0.1);
     compare("triangle", triangle, 0.9 / 64, 0.1);
     compare("rod", rod, GJK_ERROR, 1);
-    assert_int_equal(solids(1)[0].shape, HAIR_SHAPE_CAPSULE);
+    assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_CAPSULE);
     compare("dot", dot, GJK_ERROR, 1);
-    assert_int_equal(solids(1)[0].shape, HAIR_SHAPE_SPHERE);
+    assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_SPHERE);
 }
 
 static void refused(const btCollisionShape& shape, const char* words)
 {
     test.host.errors = 0;
-    assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
-    if (hair_bullet_take_shape(test.bullet, &shape, nullptr) != HAIR_ERROR_ARGUMENT)
+    assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+    if (hair_bullet_add_shape(test.bullet, &shape, nullptr) != HAIR_ERROR_ARGUMENT)
         fail_msg("not refused: %s", words);
     assert_true(test.host.errors >= 1);
     if (!std::strstr(test.host.sentence, words))
         fail_msg("\"%s\" does not say \"%s\"", test.host.sentence, words);
-    solids(0);
+    colliders(0);
     test.host.errors = 0;
 }
 
@@ -371,13 +371,13 @@ static void malformed_shapes_are_errors(void**)
     btStaticPlaneShape plane(btVector3(0, 1, 0), nan);
     refused(plane, "has no place that is finite");
     soft body;
-    refused(body, "cannot be a solid");
+    refused(body, "cannot be a collider");
     btTriangleMesh triangles;
     triangles.addTriangle(btVector3(0, 0, 0), btVector3(1, 0, 0), btVector3(2, 0, 0));
     triangles.addTriangle(btVector3(0, 0, 0), btVector3(0, 0, 0), btVector3(0, 0, 0));
     btBvhTriangleMeshShape dots(&triangles, true);
     dots.setLocalScaling(btVector3(btScalar(1e-9), btScalar(1e-9), btScalar(1e-9)));
-    refused(dots, "has triangles that make no form");
+    refused(dots, "has triangles that make no collision mesh");
     btCompoundShape self(false);
     self.addChildShape(btTransform::getIdentity(), &nothing);
     self.removeChildShapeByIndex(0);
@@ -388,11 +388,11 @@ static void malformed_shapes_are_errors(void**)
     refused(self, "is nested deeper than 16");
     child.m_childShape = &ball;
     float matrix[16] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1};
-    assert_int_equal(hair_bullet_take_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);
     matrix[0] = NAN;
-    assert_int_equal(hair_bullet_take_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_shape(test.bullet, nullptr, nullptr), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_shape(nullptr, &ball, nullptr), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_shape(test.bullet, &ball, matrix), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_shape(test.bullet, nullptr, nullptr), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_shape(nullptr, &ball, nullptr), HAIR_ERROR_ARGUMENT);
     test.host.errors = 0;
 }
 

@@ -34,8 +34,8 @@ static const float lower[] = {-0.5f, -0.5f, -0.5f}, upper[] = {0.5f, 0.5f, 0.5f}
 
 static void take(const world& world, int groups)
 {
-    assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
-    assert_int_equal(hair_bullet_take_world(test.bullet, &world.bullet, lower, upper, groups), HAIR_OK);
+    assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, lower, upper, groups), HAIR_OK);
 }
 
 static void only_what_touches_the_bounds_is_taken(void**)
@@ -52,7 +52,7 @@ static void only_what_touches_the_bounds_is_taken(void**)
         touching += touches;
     }
     take(world, -1);
-    solids(touching);
+    colliders(touching);
     assert_true(touching > 20 && touching < 200);
 }
 
@@ -69,8 +69,8 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
     for (int i = 0; i < 30; ++i)
         world.add(i % 3 ? static_cast<btCollisionShape*>(&box) : &both, random.vector(btScalar(0.4)));
     take(world, -1);
-    const hair_solid* list = solids(40);
-    std::vector<hair_solid> before(list, list + 40);
+    const hair_collider* list = colliders(40);
+    std::vector<hair_collider> before(list, list + 40);
     for (int i = 0; i < 40; ++i)
         for (int k = 0; k < i; ++k) assert_true(before[i].key != before[k].key);
     btCollisionObject* gone = world.objects[4];
@@ -78,9 +78,9 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
     world.add(&ball, btVector3(0, 0, 0));
     world.bullet.updateAabbs();
     take(world, -1);
-    list = solids(40);
+    list = colliders(40);
     uint32_t at = 0;
-    for (const hair_solid& one : before) { // All but the one that has gone, in the same order.
+    for (const hair_collider& one : before) { // All but the one that has gone, in the same order.
         bool is_gone = true;
         for (uint32_t i = 0; i < 40; ++i) is_gone = is_gone && list[i].key != one.key;
         if (is_gone) continue;
@@ -103,18 +103,18 @@ static void groups_friction_and_contact_response_are_heeded(void**)
     rough->setFriction(btScalar(0.9));
     ghost->setCollisionFlags(ghost->getCollisionFlags() | btCollisionObject::CF_NO_CONTACT_RESPONSE);
     take(world, -1);
-    assert_true(solids(2)[0].friction == 0.9f);
-    assert_true(solids(2)[1].friction == 0.5f); // Bullet's default.
+    assert_true(colliders(2)[0].friction == 0.9f);
+    assert_true(colliders(2)[1].friction == 0.5f); // Bullet's default.
     take(world, 1);
-    solids(1);
+    colliders(1);
     take(world, 64);
-    solids(1);
+    colliders(1);
     rough->setFriction(-1);
-    assert_int_equal(hair_bullet_take_object(test.bullet, rough), HAIR_OK);
-    assert_true(solids(2)[1].friction == 0);
+    assert_int_equal(hair_bullet_add_object(test.bullet, rough), HAIR_OK);
+    assert_true(colliders(2)[1].friction == 0);
 }
 
-static void a_solid_moves_with_its_object(void**)
+static void a_collider_moves_with_its_object(void**)
 {
     world world;
     randoms random;
@@ -124,10 +124,11 @@ static void a_solid_moves_with_its_object(void**)
         object->setWorldTransform(random.transform(btScalar(0.4)));
         world.bullet.updateAabbs();
         take(world, -1);
-        const hair_solid* solid = solids(1);
+        const hair_collider* collider = colliders(1);
         const btTransform& where = object->getWorldTransform();
-        const btQuaternion q(solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]);
-        for (int k = 0; k < 3; ++k) assert_true(solid->position[k] == where.getOrigin()[k]);
+        const btQuaternion q(collider->rotation[0], collider->rotation[1], collider->rotation[2],
+                             collider->rotation[3]);
+        for (int k = 0; k < 3; ++k) assert_true(collider->position[k] == where.getOrigin()[k]);
         assert_true(std::fabs(q.dot(where.getRotation())) > 1 - 1e-6f);
     }
 }
@@ -137,7 +138,7 @@ struct soft : btSphereShape {
 };
 
 // The rest of the world still counts.
-static void what_can_be_no_solid_is_warned_of_once_and_left_out(void**)
+static void what_can_be_no_collider_is_warned_of_once_and_left_out(void**)
 {
     world world;
     soft body;
@@ -146,12 +147,12 @@ static void what_can_be_no_solid_is_warned_of_once_and_left_out(void**)
     btCollisionObject* other = world.add(&ball, btVector3(0, 0, 0));
     for (int i = 0; i < 5; ++i) {
         take(world, -1);
-        solids(1);
+        colliders(1);
     }
     assert_int_equal(test.host.warnings, 1);
     other->setWorldTransform(
         btTransform(btQuaternion::getIdentity(), btVector3(0, btScalar(0.1), btScalar(NAN))));
-    assert_int_equal(hair_bullet_take_object(test.bullet, other), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_object(test.bullet, other), HAIR_ERROR_ARGUMENT);
     assert_non_null(std::strstr(test.host.sentence, "has no place that is finite"));
     test.host.errors = 0;
 }
@@ -167,22 +168,22 @@ static void arguments_are_checked(void**)
     assert_non_null(std::strstr(test.host.sentence, "btScalar is of 8 bytes, that of libhair_bullet of 4"));
     assert_null(other);
     assert_int_equal(hair_bullet_create(&test.host.host, sizeof(btScalar), nullptr), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_object(test.bullet, nullptr), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_object(test.bullet, &bare), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_object(test.bullet, nullptr), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_object(test.bullet, &bare), HAIR_ERROR_ARGUMENT);
     assert_non_null(std::strstr(test.host.sentence, "the object has no shape"));
-    assert_int_equal(hair_bullet_take_world(test.bullet, nullptr, lower, upper, -1), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_world(test.bullet, &world.bullet, nullptr, upper, -1),
+    assert_int_equal(hair_bullet_add_world(test.bullet, nullptr, lower, upper, -1), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, nullptr, upper, -1),
                      HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_world(test.bullet, &world.bullet, nan, upper, -1), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_world(test.bullet, &world.bullet, least, upper, -1),
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, nan, upper, -1), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, least, upper, -1),
                      HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_take_world(test.bullet, &world.bullet, lower, far, -1), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, lower, far, -1), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_bullet_set_resolution(test.bullet, 7), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_bullet_set_resolution(test.bullet, 257), HAIR_ERROR_ARGUMENT);
     assert_int_equal(test.host.errors, 11);
-    assert_int_equal(hair_bullet_begin(nullptr), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_forget(nullptr, nullptr), HAIR_ERROR_ARGUMENT);
-    assert_null(hair_bullet_solids(nullptr, nullptr));
+    assert_int_equal(hair_bullet_clear(nullptr), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_bullet_invalidate(nullptr, nullptr), HAIR_ERROR_ARGUMENT);
+    assert_null(hair_bullet_colliders(nullptr, nullptr));
     hair_bullet_destroy(nullptr);
     test.host.errors = 0;
 }
@@ -194,24 +195,24 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
     btConvexHullShape hull(corners, 5, 3 * sizeof(btScalar));
     assert_int_equal(hair_bullet_set_resolution(test.bullet, 8), HAIR_OK);
     auto take_hull = [&hull] {
-        assert_int_equal(hair_bullet_begin(test.bullet), HAIR_OK);
-        assert_int_equal(hair_bullet_take_shape(test.bullet, &hull, nullptr), HAIR_OK);
-        return solids(1)[0].form;
+        assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+        assert_int_equal(hair_bullet_add_shape(test.bullet, &hull, nullptr), HAIR_OK);
+        return colliders(1)[0].mesh;
     };
-    const hair_form* form = take_hull();
+    const hair_collision_mesh* form = take_hull();
     const uint32_t blocks = test.host.blocks, made = test.host.allocations;
     assert_ptr_equal(take_hull(), form);
     assert_true(test.host.allocations - made < 10); // Its points only.
     hull.setLocalScaling(btVector3(2, 2, 2));
     take_hull();
     assert_int_equal(test.host.blocks, blocks); // The other one is free.
-    hair_form_info info = hair_form_info_default();
-    hair_form_describe(solids(1)[0].form, &info);
+    hair_collision_mesh_info info = hair_collision_mesh_info_default();
+    hair_collision_mesh_describe(colliders(1)[0].mesh, &info);
     assert_true(info.upper[0] > 1.9f);
-    hair_bullet_forget(test.bullet, &hull);
+    hair_bullet_invalidate(test.bullet, &hull);
     assert_true(test.host.blocks < blocks);
     take_hull();
-    for (int i = 0; i < 700; ++i) hair_bullet_begin(test.bullet);
+    for (int i = 0; i < 700; ++i) hair_bullet_clear(test.bullet);
     assert_true(test.host.blocks < blocks);
 }
 
@@ -230,16 +231,16 @@ static void every_refused_allocation_is_borne(void**)
         hair_result result = hair_bullet_create(&test.host.host, sizeof(btScalar), &bullet);
         const uint32_t blocks = test.host.blocks;
         if (!result) hair_bullet_set_resolution(bullet, 8);
-        if (!result) result = hair_bullet_take_world(bullet, &world.bullet, lower, upper, -1);
+        if (!result) result = hair_bullet_add_world(bullet, &world.bullet, lower, upper, -1);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_MEMORY);
         refusals += result == HAIR_ERROR_MEMORY;
         goes_on = test.host.allocations >= n;
         test.host.refuse = 0;
         if (bullet) { // And then it goes on.
             uint32_t count = 0;
-            hair_bullet_begin(bullet);
-            assert_int_equal(hair_bullet_take_world(bullet, &world.bullet, lower, upper, -1), HAIR_OK);
-            hair_bullet_solids(bullet, &count);
+            hair_bullet_clear(bullet);
+            assert_int_equal(hair_bullet_add_world(bullet, &world.bullet, lower, upper, -1), HAIR_OK);
+            hair_bullet_colliders(bullet, &count);
             assert_int_equal(count, 41);
         }
         hair_bullet_destroy(bullet);
@@ -280,7 +281,7 @@ static void ten_thousand_objects_cost_as_much_as_the_dozen_that_touch(void**)
         many.add(&ball, at);
     }
     const double alone = cost(few), among = cost(many);
-    solids(12);
+    colliders(12);
     print_message("    12 alone %.2f us, among 10,000 %.2f us: %.2f times\n", 1e6 * alone, 1e6 * among,
                   among / alone);
     assert_true(among < 3 * alone);
@@ -292,8 +293,8 @@ int main(void)
         TEST(only_what_touches_the_bounds_is_taken),
         TEST(the_order_and_the_keys_stay_as_objects_go_and_come),
         TEST(groups_friction_and_contact_response_are_heeded),
-        TEST(a_solid_moves_with_its_object),
-        TEST(what_can_be_no_solid_is_warned_of_once_and_left_out),
+        TEST(a_collider_moves_with_its_object),
+        TEST(what_can_be_no_collider_is_warned_of_once_and_left_out),
         TEST(arguments_are_checked),
         TEST(a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_unseen),
         TEST(every_refused_allocation_is_borne),

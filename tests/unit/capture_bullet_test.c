@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
-#define QUICK "--size 64x48 --samples 1 --show solids"
+#define QUICK "--size 64x48 --samples 1 --show colliders"
 #define REST                                                                                                 \
     "\"fur\": {\"strands\": 200, \"length\": 0.3}, \"settings\": {\"guides\": 32}, "                         \
     "\"camera\": {\"eye\": [0, 0.3, 1], \"target\": [0, 0, 0]}, \"fps\": 30"
@@ -48,7 +48,7 @@ static int is_without_bullet(void)
 }
 
 // Bullet's sphere, capsule and plane are those of the library to the bit.
-static void objects_are_where_solids_would_be(void** state)
+static void objects_are_where_colliders_would_be(void** state)
 {
     (void)state;
     static const char* const pairs[][2] = {
@@ -69,11 +69,11 @@ static void objects_are_where_solids_would_be(void** state)
     if (is_without_bullet()) return;
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; ++i) {
         char list[512];
-        snprintf(list, sizeof list, "\"solids\": [%s]", pairs[i][0]);
-        capture(list, "solids.png");
+        snprintf(list, sizeof list, "\"colliders\": [%s]", pairs[i][0]);
+        capture(list, "colliders.png");
         snprintf(list, sizeof list, "\"bullet\": [%s]", pairs[i][1]);
         capture(list, "bullet.png");
-        expect(0, "cmp $D/solids.png $D/bullet.png", "");
+        expect(0, "cmp $D/colliders.png $D/bullet.png", "");
     }
     capture("\"bullet\": []", "none.png");
     expect(0, "! cmp -s $D/none.png $D/bullet.png", "");
@@ -178,13 +178,13 @@ static void the_scene_that_comes_along_can_be_shown(void** state)
     expect(0,
            "$T tools/scenes/bullet.json --size 64x48 --samples 1 --followers 300 --frames 0:2 --verbose -o "
            "$D/b_%d.png",
-           "a form's mesh of 84 triangles is not closed");
+           "a collision mesh of 84 triangles is not closed");
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(objects_are_where_solids_would_be),
+        cmocka_unit_test(objects_are_where_colliders_would_be),
         cmocka_unit_test(every_shape_can_be_there),
         cmocka_unit_test(what_is_wrong_is_named_with_its_range),
         cmocka_unit_test(the_scene_that_comes_along_can_be_shown),

@@ -36,14 +36,16 @@ static void write_scene(const char* name, int light, const char* shadow)
     fprintf(file, "\"settle\": 0, \"background\": {\"centre\": [0, 0, 0], \"edge\": [0, 0, 0]}, \"motion\": "
                   "\"still\", \"camera\": {\"eye\": [0, 0, 0.6], \"target\": [0, "
                   "0, 0], \"fov\": 30}, ");
-    fprintf(file, "\"light\": {\"to\": [0, 1, 1], \"color\": [%d, 0, 0], \"ambient\": [0, 0, 0]%s%s}, ",
-            light == 0, light ? "" : shadow, light ? ", \"shadow\": false" : "");
-    fprintf(file, "\"lights\": [{\"to\": [0, 1, 1], \"color\": [%d, 0, 0]%s}, ", light == 1,
-            light == 1 ? shadow : "");
     fprintf(file,
-            "{\"kind\": \"spot\", \"position\": [0, 0.5, 0.5], \"to\": [0, 1, 1], \"color\": [%s, 0, 0], "
-            "\"outer\": 1%s}]}",
-            light == 2 ? "0.4" : "0", light == 2 ? shadow : "");
+            "\"light\": {\"direction\": [0, 1, 1], \"color\": [%d, 0, 0], \"ambient\": [0, 0, 0]%s%s}, ",
+            light == 0, light ? "" : shadow, light ? ", \"shadow\": false" : "");
+    fprintf(file, "\"lights\": [{\"direction\": [0, 1, 1], \"color\": [%d, 0, 0]%s}, ", light == 1,
+            light == 1 ? shadow : "");
+    fprintf(
+        file,
+        "{\"kind\": \"spot\", \"position\": [0, 0.5, 0.5], \"direction\": [0, 1, 1], \"color\": [%s, 0, 0], "
+        "\"outer_angle\": 1%s}]}",
+        light == 2 ? "0.4" : "0", light == 2 ? shadow : "");
     fclose(file);
 }
 

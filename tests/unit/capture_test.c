@@ -15,7 +15,7 @@
 // As little hair and as few pixels as show the point; the head takes longest of all to make.
 #define SMALL "$D/small.json --samples 1"
 #define FEW "--size 64x36 --followers 300 --samples 1"
-#define WITH_HEAD "--size 64x36 --followers 300 --guides 32 --samples 1 --set iterations=2"
+#define WITH_HEAD "--size 64x36 --followers 300 --guides 32 --samples 1 --set redblack.iterations=2"
 
 // Nothing but what was there before: no temporary left.
 #define ANY "[A-Za-z0-9]"
@@ -56,7 +56,8 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --motion dance", "no motion dance"},
         {"-o $D/a.png --solver dance", "not one of: direct, accurate, follow, redblack"},
         {"-o $D/a.png --set root=held", "not one of: clamped, hinged, free"},
-        {"-o $D/a.png --set mapping=", "mapping is empty, not one of: auto, group, thread"},
+        {"-o $D/a.png --set thread_mapping=",
+         "thread_mapping is empty, not one of: auto, workgroup_per_guide, thread_per_guide"},
         {"-o $D/a.png --set preset=dry", "not one of: natural, fine, thick, wet, frizzy"},
         {"-o $D/a.png --set look=dry", "not one of: natural, straight, wavy, curly, coily, frizzy, short"},
         {"-o $D/a.png --set color=plaid", "not one of: brown, dark_brown, black, blond,"},
@@ -64,7 +65,7 @@ static void wrong_use_exits_with_2(void** state)
          "taper is 1,,2, not one to eight finite numbers with commas between"},
         {"-o $D/a.png --set clump=1,2,3,4,5,6,7,8,9", "not one to eight finite numbers"},
         {"-o $D/a.png --set clump=0,2", "hair_look.clump.at[4] is 1.14"},
-        {"-o $D/a.png --set curl_like=$D/none.hair", "none.hair"},
+        {"-o $D/a.png --set fit_curl=$D/none.hair", "none.hair"},
         {"-o $D/a.png --set wind.x=1001", "hair_wind.velocity[0] is 1001"},
         {"-o $D/a.png --set substep=1e-6", "hair_desc.substep is 1e-06"},
         {"-o $D/a.png --primitive dance", "not one of: ribbons, lines"},
@@ -74,11 +75,11 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set damping=", "damping is empty"},
         {"-o $D/a.png --set damping=nan", "not a finite number"},
         {"-o $D/a.png --set damping=1e999", "not a finite number"},
-        {"-o $D/a.png --set iterations=1.5", "not a whole number"},
-        {"-o $D/a.png --set iterations=-1", "not a whole number"},
+        {"-o $D/a.png --set redblack.iterations=1.5", "not a whole number"},
+        {"-o $D/a.png --set redblack.iterations=-1", "not a whole number"},
         {"-o $D/a.png --set damping=-1", "hair_physics.damping is -1"},
         {"-o $D/a.png --set segments=257", "hair_look.segments"},
-        {"-o $D/a.png --share 2 --groom $D/x.hair", "hair_import.share"},
+        {"-o $D/a.png --keep-fraction 2 --groom $D/x.hair", "hair_import.keep_fraction"},
         {"-o $D/a.png --guides 99999", "guide_count"},
         {"-o $D/a.png --groom a --style bob", "too many"},
         {"-o $D/a.png --scene demo a.json", "too many"},
@@ -87,7 +88,7 @@ static void wrong_use_exits_with_2(void** state)
         {"-o - --stats -", "standard output"},
         {"--dance", "--help"},
         {"--groom", "--help"},
-        {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides, solids and wind"},
+        {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides, colliders and wind"},
         {"--show hair, --hash", "--show is hair,"},
     };
     assert_int_equal(hair_test_shell("printf 'HAIR' >$D/x.hair; head -c 124 /dev/zero >>$D/x.hair"), 0);
@@ -102,7 +103,7 @@ static void wrong_use_exits_with_2(void** state)
 static void help_and_version_are_printed_on_the_standard_output(void** state)
 {
     (void)state;
-    expect(0, "$T --help 2>/dev/null", "gravity.y        -9.81");
+    expect(0, "$T --help 2>/dev/null", "gravity.y                    -9.81");
     assert_non_null(strstr(hair_test_said, "Scenes: demo"));
     expect(0, "$T --version 2>/dev/null", "hair-capture 0.");
     hair_test_shell_expect_full("--help");
@@ -170,13 +171,14 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
         {"{\"motion\": \"dance\"}", "no motion dance"},
         {"{\"motion\": [{\"time\": 1}, {\"time\": 1}]}", "in order of time"},
         {"{\"motion\": [{\"time\": 1, \"dance\": 1}]}", "motion[0].dance"},
-        {"{\"solids\": [{\"shape\": \"cube\"}]}", "solids[0].shape"},
-        {"{\"solids\": [{\"motion\": [{\"time\": 1}, {\"time\": 0}]}]}", "solids[0].motion must be in order"},
+        {"{\"colliders\": [{\"shape\": \"cube\"}]}", "colliders[0].shape"},
+        {"{\"colliders\": [{\"motion\": [{\"time\": 1}, {\"time\": 0}]}]}",
+         "colliders[0].motion must be in order"},
         {"{\"wind\": {\"velocity\": [1, 2]}}", "wind.velocity must be three numbers"},
         {"{\"wind\": {\"gust\": 1}}", "no setting wind.gust"},
         {"{\"wind\": {\"sources\": [{\"speed\": 2000}]}}", "wind.sources[0].speed must be"},
-        {"{\"solids\": [{\"stays\": 1}]}", "solids[0].stays must be true or false"},
-        {"{\"solids\": [{\"spin\": 1}]}", "solids[0].spin must be 3 numbers"},
+        {"{\"colliders\": [{\"stays\": 1}]}", "colliders[0].stays must be true or false"},
+        {"{\"colliders\": [{\"spin\": 1}]}", "colliders[0].spin must be 3 numbers"},
         {"{\"settings\": {\"dance\": 1}}", "no setting dance"},
         {"{\"maps\": [{\"density\": [\"01\", \"0\"]}]}", "maps[0].density must be rows of digits"},
         {"{\"maps\": [{\"thickness\": 3}]}", "maps[0].thickness must be rows of digits"},
@@ -256,12 +258,13 @@ static void a_frame_is_the_same_alone_as_among_others(void** state)
 static void what_is_shown_is_what_was_asked_for(void** state)
 {
     (void)state;
-    static const char* const what[] = {"hair",        "solids",      "head",
-                                       "hair,guides", "hair,solids", "solids --set slice=z"};
-    expect(0,
-           "sed 's/{/{\"solids\": [{\"shape\": \"sphere\", \"position\": [0, 1.6, 0.1]}], /' $D/small.json "
-           ">$D/ball.json",
-           "");
+    static const char* const what[] = {"hair",        "colliders",      "head",
+                                       "hair,guides", "hair,colliders", "colliders --set slice=z"};
+    expect(
+        0,
+        "sed 's/{/{\"colliders\": [{\"shape\": \"sphere\", \"position\": [0, 1.6, 0.1]}], /' $D/small.json "
+        ">$D/ball.json",
+        "");
     for (size_t i = 0; i < sizeof what / sizeof *what; ++i) {
         char command[256];
         snprintf(command, sizeof command,
@@ -274,12 +277,13 @@ static void what_is_shown_is_what_was_asked_for(void** state)
     expect(0, "rm $D/shown $D/ball.json", "");
 }
 
-// Every way to move leads to the same place: the picture is that of a solid which stands there.
+// Every way to move leads to the same place: the picture is that of a collider which stands there.
 // Of the pixels' hash: hair, also of a step in wind; and the wind itself, which a source has, or the scene's velocity.
 static void wind_of_a_scene_blows_and_is_shown(void** state)
 {
     (void)state;
-    static const char* const winds[] = {"\"velocity\": [4, 0, 0]", "\"velocity\": [4, 0, 0], \"gusts\": 0.5",
+    static const char* const winds[] = {"\"velocity\": [4, 0, 0]",
+                                        "\"velocity\": [4, 0, 0], \"turbulence_intensity\": 0.5",
                                         "\"sources\": [{\"position\": [0.3, 1.6, 0], \"speed\": 9}]"};
     for (int i = 0; i < 3; ++i) {
         char command[512];
@@ -294,7 +298,7 @@ static void wind_of_a_scene_blows_and_is_shown(void** state)
     expect(0, "test $(sort -u $D/shown | wc -l) = 7 && rm $D/shown $D/blown.json", "");
 }
 
-static void solids_are_where_their_motion_says(void** state)
+static void colliders_are_where_their_motion_says(void** state)
 {
     (void)state;
     static const char* const ways[] = {
@@ -305,11 +309,11 @@ static void solids_are_where_their_motion_says(void** state)
     for (int i = 0; i < 3; ++i) {
         char command[640];
         snprintf(command, sizeof command,
-                 "sed 's/{/{\"solids\": [{\"shape\": \"cone\", \"radius\": 0.05, \"half_length\": 0.1, "
+                 "sed 's/{/{\"colliders\": [{\"shape\": \"cone\", \"radius\": 0.05, \"half_length\": 0.1, "
                  "\"rounding\": 0.01, \"stays\": true, %s}], /' $D/small.json >$D/moved.json",
                  ways[i]);
         expect(0, command, "");
-        expect(0, "$T $D/moved.json --samples 1 --frames 3:4 --show solids -o $D/way.png", "");
+        expect(0, "$T $D/moved.json --samples 1 --frames 3:4 --show colliders -o $D/way.png", "");
         snprintf(command, sizeof command, "mv $D/way.png $D/way%d.png", i);
         expect(0, command, "");
     }
@@ -423,10 +427,10 @@ static void stats_tell_what_was_drawn(void** state)
     assert_non_null(strstr(hair_test_said, "\"method\": \"sim/mixed"));
     assert_null(strstr(hair_test_said, "redblack")); // nor any other pass that has not run
     assert_null(strstr(hair_test_said, "\"runs\": 0"));
-    assert_non_null(strstr(hair_test_said, "\"health\": {\n    \"euler\": "));
+    assert_non_null(strstr(hair_test_said, "\"solver_stats\": {\n    \"euler_fallbacks\": "));
     assert_non_null(strstr(hair_test_said, "\"reset\": 0"));
     assert_non_null(strstr(hair_test_said, "\"substep\": 0.00416667"));
-    assert_non_null(strstr(hair_test_said, "\"repairs\""));
+    assert_non_null(strstr(hair_test_said, "\"import_stats\""));
     expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
 }
 
@@ -441,8 +445,9 @@ static void each_solver_can_be_asked_for(void** state)
         snprintf(method, sizeof method, "\"method\": \"sim/%s", passes[i]);
         expect(0, command, method);
     }
-    expect(0, "$T " SMALL " --frames 0:2 --set mapping=group --stats -", "\"method\": \"sim/mixed_32");
-    expect(0, "$T " SMALL " --frames 0:2 --set mapping=thread --stats -",
+    expect(0, "$T " SMALL " --frames 0:2 --set thread_mapping=workgroup_per_guide --stats -",
+           "\"method\": \"sim/mixed_32");
+    expect(0, "$T " SMALL " --frames 0:2 --set thread_mapping=thread_per_guide --stats -",
            "\"method\": \"sim/mixed_thread_32");
 }
 
@@ -455,14 +460,14 @@ static void scene_files_say_what_options_say(void** state)
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}, \"light\": {\"color\": [2, 2, 2]},"
         " \"settings\": {\"followers\": 300, \"gravity.y\": -5, \"primitive\": \"lines\", \"solver\": "
         "\"follow\","
-        " \"preset\": \"wet\", \"young\": 1e9, \"root\": \"hinged\", \"wind.z\": 2}}' >$D/s.json",
+        " \"preset\": \"wet\", \"youngs_modulus\": 1e9, \"root\": \"hinged\", \"wind.z\": 2}}' >$D/s.json",
         "");
     expect(
         0,
         "$T $D/s.json --hash >$D/1 && echo '{\"style\": \"bob\", \"motion\": \"turn\", \"frames\": 2,"
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}}' >$D/t.json && $T $D/t.json --hash"
         " --size 64x36 --fps 20 --followers 300 --set gravity.y=-5 --primitive lines --solver follow"
-        " --set preset=wet --set young=1e9 --set root=hinged --set wind.z=2 --set light.r=2"
+        " --set preset=wet --set youngs_modulus=1e9 --set root=hinged --set wind.z=2 --set light.r=2"
         " --set light.g=2 --set light.b=2 >$D/2 && cmp $D/1 $D/2",
         "");
 }
@@ -505,8 +510,9 @@ static int start(void** state)
 {
     (void)state;
     if (hair_test_shell_start(TOOL)) return -1;
-    return hair_test_shell("echo '{\"head\": false, \"motion\": \"demo\", \"size\": [64, 36], \"settings\":"
-                           " {\"followers\": 300, \"guides\": 32, \"iterations\": 2}}' >$D/small.json");
+    return hair_test_shell(
+        "echo '{\"head\": false, \"motion\": \"demo\", \"size\": [64, 36], \"settings\":"
+        " {\"followers\": 300, \"guides\": 32, \"redblack.iterations\": 2}}' >$D/small.json");
 }
 
 int main(void)
@@ -523,7 +529,7 @@ int main(void)
         cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
         cmocka_unit_test(what_is_shown_is_what_was_asked_for),
         cmocka_unit_test(wind_of_a_scene_blows_and_is_shown),
-        cmocka_unit_test(solids_are_where_their_motion_says),
+        cmocka_unit_test(colliders_are_where_their_motion_says),
         cmocka_unit_test(pictures_and_videos_are_in_their_formats),
         cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),
         cmocka_unit_test(an_encoder_that_fails_leaves_no_video),

@@ -1,4 +1,4 @@
-// cells_test.c - the lists of solids that guides look up: nothing that can be met is missing, and none is too long.
+// cells_test.c - the lists of colliders that guides look up: nothing that can be met is missing, and none is too long.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,9 +9,9 @@
 #define MOST 3000
 
 static struct hair_test_host test;
-static struct hair_solids solids;
+static struct hair_colliders colliders;
 static struct hair_cells cells;
-static hair_solid given[MOST];
+static hair_collider given[MOST];
 static uint32_t seed;
 
 static const struct hair_pose before = {{10, -3, 2}, {0, 0, 0, 1}}, now = {{10.02, -3, 2.01}, {0, 0, 0, 1}};
@@ -29,7 +29,7 @@ static int stop(void** state)
 {
     (void)state;
     hair_cells_free(&test.host, &cells);
-    hair_solids_free(&test.host, &solids);
+    hair_colliders_free(&test.host, &colliders);
     return test.blocks != 0;
 }
 
@@ -39,26 +39,28 @@ static float random_in(float least, float most)
     return least + (most - least) * (float)(seed >> 8) / 16777216.0f;
 }
 
-static void move(hair_solid* solid, float way, float angle)
+static void move(hair_collider* collider, float way, float angle)
 {
-    hair_quat q = {solid->rotation[0], solid->rotation[1], solid->rotation[2], solid->rotation[3]};
+    hair_quat q = {collider->rotation[0], collider->rotation[1], collider->rotation[2],
+                   collider->rotation[3]};
     hair_quat r = hair_quat_normalize(
         (hair_quat){random_in(-angle, angle), random_in(-angle, angle), random_in(-angle, angle), 2});
     q = hair_quat_normalize(hair_quat_multiply(r, q));
-    solid->rotation[0] = q.x, solid->rotation[1] = q.y, solid->rotation[2] = q.z, solid->rotation[3] = q.w;
-    for (int k = 0; k < 3; ++k) solid->position[k] += random_in(-way, way);
+    collider->rotation[0] = q.x, collider->rotation[1] = q.y, collider->rotation[2] = q.z,
+    collider->rotation[3] = q.w;
+    for (int k = 0; k < 3; ++k) collider->position[k] += random_in(-way, way);
 }
 
 static void set(uint32_t count)
 {
-    assert_int_equal(hair_solids_set(&test.host, &solids, given, count, sizeof *given), HAIR_OK);
+    assert_int_equal(hair_colliders_set(&test.host, &colliders, given, count, sizeof *given), HAIR_OK);
 }
 
 // Of every shape but forms, as large as `size` at most; they move and turn in the step.
 static void scatter(uint32_t count, float size)
 {
     for (uint32_t i = 0; i < count; ++i) {
-        given[i] = hair_solid_default();
+        given[i] = hair_collider_default();
         given[i].shape = (hair_shape)(i % (i % 60 == 5 ? 6 : 5));
         for (int k = 0; k < 3; ++k) {
             given[i].size[k] = random_in(0.2f * size, size);
@@ -68,7 +70,7 @@ static void scatter(uint32_t count, float size)
         move(&given[i], 0, 3);
     }
     set(count);
-    hair_solids_settle(&solids);
+    hair_colliders_settle(&colliders);
     for (uint32_t i = 0; i < count; ++i) move(&given[i], 0.05f, 0.3f);
     set(count);
 }
@@ -76,7 +78,7 @@ static void scatter(uint32_t count, float size)
 static int fill(const struct hair_cells_desc* desc)
 {
     int changed = -1;
-    assert_int_equal(hair_cells_gather(&test.host, &cells, &solids, &before, &now, desc), HAIR_OK);
+    assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &before, &now, desc), HAIR_OK);
     assert_int_equal(hair_cells_list(&test.host, &cells, desc, &changed), HAIR_OK);
     return changed;
 }
@@ -107,7 +109,7 @@ static hair_vec4 mix(hair_vec4 a, hair_vec4 b, float t)
 }
 
 // From a place that is from the head's origin, when that share of the step is done.
-static double distance_of(const struct hair_contact* contact, const hair_solid* solid, float share,
+static double distance_of(const struct hair_contact* contact, const hair_collider* collider, float share,
                           hair_vec3 place)
 {
     const struct hair_body* body = &contact->body;
@@ -116,7 +118,7 @@ static double distance_of(const struct hair_contact* contact, const hair_solid* 
     hair_quat turn = hair_quat_normalize((hair_quat){r.x, r.y, r.z, r.w});
     hair_vec3 p = hair_rotate(hair_quat_conjugate(turn), hair_sub(place, hair_v3(at.x, at.y, at.z)));
     const double own[] = {(double)p.x, (double)p.y, (double)p.z};
-    return hair_distance_to_shape(solid->shape, solid->size, own, NULL) - (double)solid->rounding;
+    return hair_distance_to_shape(collider->shape, collider->size, own, NULL) - (double)collider->rounding;
 }
 
 static void check(const struct hair_cells_desc* desc, uint32_t places)
@@ -128,15 +130,15 @@ static void check(const struct hair_cells_desc* desc, uint32_t places)
         for (uint32_t i = 0; i < cells.contacts; ++i)
             for (int s = 0; s < 5; ++s) {
                 float share = desc->share_start + (1 - desc->share_start) * (float)s / 4;
-                if (distance_of(&cells.contact[i], &given[cells.solid[i]], share, place) >
+                if (distance_of(&cells.contact[i], &given[cells.collider[i]], share, place) >
                     (double)(desc->give + desc->margin))
                     continue;
                 ++met;
-                if (!lists(cell, i)) fail_msg("solid %u is missing at place %u", cells.solid[i], n);
+                if (!lists(cell, i)) fail_msg("collider %u is missing at place %u", cells.collider[i], n);
             }
     }
     print_message(
-        "    %u of a step's moments of %u solids met in %u x %u x %u cells, the longest list is %u\n", met,
+        "    %u of a step's moments of %u colliders met in %u x %u x %u cells, the longest list is %u\n", met,
         cells.contacts, cells.cells[0], cells.cells[1], cells.cells[2], cells.longest);
     assert_true(met > 100);
 }
@@ -160,16 +162,16 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < 500; ++i) {
-        given[i] = hair_solid_default();
+        given[i] = hair_collider_default();
         given[i].position[0] = 10 + 0.0005f * (float)((i * 77) % 500);
         given[i].position[1] = -3;
         given[i].position[2] = 2;
         given[i].size[0] = 0.001f;
     }
     set(500);
-    hair_solids_settle(&solids);
+    hair_colliders_settle(&colliders);
     fill(&usual);
-    assert_int_equal(cells.longest, HAIR_CELL_SOLIDS);
+    assert_int_equal(cells.longest, HAIR_CELL_COLLIDERS);
     assert_true(cells.left_out > 0);
     for (uint32_t c = 0; c < cells.cells[0]; ++c)
         for (uint32_t i = cells.entry[c]; i + 1 < cells.entry[c + 1]; ++i)
@@ -179,7 +181,7 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
         for (int k = 0; k < 3; ++k) given[i].size[k] = 0.001f;
     }
     set(500);
-    hair_solids_settle(&solids);
+    hair_colliders_settle(&colliders);
     struct hair_cells_desc few = usual;
     few.most_rounds = 250;
     fill(&few);
@@ -195,17 +197,17 @@ static void lists_are_made_again_only_when_something_has_moved(void** state)
     later.share_start = -0.1f;
     assert_int_equal(fill(&usual), 0);
     assert_int_equal(fill(&later), 1); // It moves: from when on matters.
-    hair_solids_settle(&solids);
-    assert_int_equal(hair_cells_gather(&test.host, &cells, &solids, &now, &now, &later), HAIR_OK);
+    hair_colliders_settle(&colliders);
+    assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &later), HAIR_OK);
     int changed;
     assert_int_equal(hair_cells_list(&test.host, &cells, &later, &changed), HAIR_OK);
     assert_int_equal(changed, 1);
-    assert_int_equal(hair_cells_gather(&test.host, &cells, &solids, &now, &now, &usual), HAIR_OK);
+    assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &usual), HAIR_OK);
     assert_int_equal(hair_cells_list(&test.host, &cells, &usual, &changed), HAIR_OK);
     assert_int_equal(changed, 0); // It stands still.
     given[50].size[0] *= 1.5f;
     set(100);
-    assert_int_equal(hair_cells_gather(&test.host, &cells, &solids, &now, &now, &usual), HAIR_OK);
+    assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &usual), HAIR_OK);
     assert_int_equal(hair_cells_list(&test.host, &cells, &usual, &changed), HAIR_OK);
     assert_int_equal(changed, 1);
 }
@@ -214,15 +216,15 @@ static void as_many_and_as_large_as_may_be_take_bounded_room(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < MOST; ++i) {
-        given[i] = hair_solid_default();
+        given[i] = hair_collider_default();
         given[i].shape = i % 2 ? HAIR_SHAPE_PLANE : HAIR_SHAPE_BOX;
         for (int k = 0; k < 3; ++k) given[i].size[k] = 1e6f, given[i].position[k] = i % 3 ? 0 : 1e9f;
     }
     set(MOST);
-    hair_solids_settle(&solids);
+    hair_colliders_settle(&colliders);
     fill(&usual);
     assert_true(cells.entries < (1u << 22));
-    assert_true(cells.longest <= HAIR_CELL_SOLIDS);
+    assert_true(cells.longest <= HAIR_CELL_COLLIDERS);
 }
 
 int main(void)

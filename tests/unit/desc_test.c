@@ -7,7 +7,7 @@
 #include "lib/base/desc.h"
 
 struct sample {
-    hair_made made;
+    hair_struct_header header;
     float share;
     uint32_t count;
     float newer; // not in the struct of an older caller
@@ -33,7 +33,7 @@ static struct sample defaults(void)
 {
     struct sample sample;
     memset(&sample, 0xff, sizeof sample);
-    hair_fields_init(&sample, (hair_made){sizeof sample, HAIR_VERSION}, fields);
+    hair_fields_init(&sample, (hair_struct_header){sizeof sample, HAIR_VERSION}, fields);
     return sample;
 }
 
@@ -49,8 +49,8 @@ static void defaults_are_those_of_the_table(void** state)
     assert_true(sample.share == 0.3f);
     assert_int_equal(sample.count, 5);
     assert_true(sample.newer == -1);
-    assert_int_equal(sample.made.size, sizeof sample);
-    assert_int_equal(sample.made.version, HAIR_VERSION);
+    assert_int_equal(sample.header.size, sizeof sample);
+    assert_int_equal(sample.header.version, HAIR_VERSION);
 }
 
 static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** state)
@@ -59,7 +59,7 @@ static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** sta
     struct sample sample;
     memset(&sample, 0x55, sizeof sample);
     struct sample untouched = sample;
-    hair_fields_init(&sample, (hair_made){offsetof(struct sample, newer), HAIR_VERSION}, fields);
+    hair_fields_init(&sample, (hair_struct_header){offsetof(struct sample, newer), HAIR_VERSION}, fields);
     assert_int_equal(sample.count, 5);
     assert_memory_equal(&sample.newer, &untouched.newer, sizeof sample.newer);
 }
@@ -68,7 +68,7 @@ static void what_an_older_caller_does_not_know_has_its_default(void** state)
 {
     (void)state;
     struct sample old = defaults(), own;
-    old.made.size = offsetof(struct sample, newer);
+    old.header.size = offsetof(struct sample, newer);
     old.newer = NAN;
     old.count = 77;
     assert_int_equal(take(&old, &own), HAIR_OK);
@@ -86,7 +86,7 @@ static void what_only_a_newer_caller_knows_is_not_read(void** state)
     struct sample own[2];
     memset(&larger, 0xff, sizeof larger);
     larger.known = defaults();
-    larger.known.made.size = sizeof larger;
+    larger.known.header.size = sizeof larger;
     memset(own, 0x55, sizeof own);
     struct sample beyond = own[1];
     assert_int_equal(take(&larger.known, own), HAIR_OK);
@@ -130,13 +130,13 @@ static void what_no_default_function_filled_in_is_refused(void** state)
     (void)state;
     struct sample zero = {{0, 0}, 0.5f, 5, 0}, own;
     assert_int_equal(take(&zero, &own), HAIR_ERROR_VERSION);
-    assert_string_equal(test.sentence, "sample.made is (0, 0), not from sample_default()");
+    assert_string_equal(test.sentence, "sample.header is (0, 0), not from sample_default()");
     struct sample other = defaults();
-    other.made.version = HAIR_VERSION + 10000;
+    other.header.version = HAIR_VERSION + 10000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
     assert_non_null(strstr(test.sentence, "of another major version"));
     other = defaults();
-    other.made.size = 5000;
+    other.header.size = 5000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
 }
 
@@ -144,7 +144,7 @@ static void another_minor_version_is_taken(void** state)
 {
     (void)state;
     struct sample other = defaults(), own;
-    other.made.version = HAIR_VERSION_MAJOR * 10000 + 9999;
+    other.header.version = HAIR_VERSION_MAJOR * 10000 + 9999;
     assert_int_equal(take(&other, &own), HAIR_OK);
 }
 

@@ -67,7 +67,7 @@ static hair_vec3 wavy(float t, uint32_t strand, const void* user)
     return hair_add(p, hair_scale(hair_v3(sinf(phase), 0, cosf(phase)), 0.004f * fminf(30 * s, 1)));
 }
 
-// What `strands_are` HAIR_STRANDS_ALL makes of strands, against the strands: found by their roots.
+// What `strand_set` HAIR_STRAND_SET_FULL makes of strands, against the strands: found by their roots.
 struct fit {
     double rms, worst, root; // as shares of each strand's length; root: m
     double own; // rms when every follower were a copy of its guide, moved to its root
@@ -177,7 +177,7 @@ static void strands_of_a_real_haircut_are_followed_closely(void** state)
     assert_int_equal(hair_asset_read(&asset_desc, bytes, size, &asset), HAIR_OK);
     hair_asset_info info = hair_asset_info_default();
     hair_asset_describe(asset, &info);
-    struct hair_test_strands strands = hair_test_strands_make(info.strand_count, info.most);
+    struct hair_test_strands strands = hair_test_strands_make(info.strand_count, info.max_vertices);
     memcpy(strands.positions, info.positions, 3 * info.vertex_count * sizeof(float));
     memcpy(strands.vertices, info.strand_vertices, info.strand_count * sizeof(uint32_t));
     strands.count = info.strand_count;
@@ -245,7 +245,7 @@ static void without_followers_asked_for_each_guide_is_drawn(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 0;
     hair_groom* groom = make(&desc);
     bool drawn[100] = {false};
@@ -266,7 +266,7 @@ static void followers_surround_their_guides_evenly_within_the_clump_radius(void*
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5050;
     desc.clump_radius = 0.004f;
     hair_groom* groom = make(&desc);

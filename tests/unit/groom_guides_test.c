@@ -68,7 +68,7 @@ static void strands_given_as_guides_are_the_guides_in_their_order(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_count = 10;
     hair_groom* groom = make(&desc);
     assert_int_equal(groom->info.guide_count, 100);
@@ -207,7 +207,7 @@ static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_m
     for (int i = 0; i < 8; ++i) hair_test_strands_add(&strands, given[i], curl, NULL);
     for (int k = 0; k < 8; ++k) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-        desc.strands_are = HAIR_STRANDS_GUIDES;
+        desc.strand_set = HAIR_STRAND_SET_GUIDES;
         desc.guide_vertices = asked[k];
         hair_groom* groom = make(&desc);
         uint32_t first = 0, most = 0;
@@ -249,7 +249,7 @@ static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samp
     hair_test_strands_add(&strands, 32, curl, NULL);
     hair_test_strands_add(&strands, 200, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     hair_groom* groom = make(&desc);
     assert_float_equal(groom->guides[0].arc_length / length_of(strands.positions, 3), 1, 1e-6);
     assert_float_equal(groom->guides[1].arc_length / length_of(strands.positions + 9, 32), 1, 1e-6);
@@ -270,7 +270,7 @@ static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** st
     struct hair_test_strands strands = hair_test_strands_make(1000, 5);
     for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 1000; ++i) {
         hair_quat q = frame_of(&groom->guides[i]);
@@ -292,7 +292,7 @@ static void root_frames_vary_as_smoothly_as_the_roots(void** state)
     struct hair_test_strands strands = hair_test_strands_make(2000, 5);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 2000; ++i)
         for (uint32_t j = 0; j < i; ++j) {
@@ -318,7 +318,7 @@ static void lengths_and_directions_give_the_guide_back(void** state)
     struct hair_test_strands strands = hair_test_strands_make(20, 60);
     for (uint32_t i = 0; i < 20; ++i) hair_test_strands_add(&strands, 3 + 3 * i, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     hair_groom* groom = make(&desc);
     for (uint32_t i = 0; i < 20; ++i) {
         const struct hair_rest* rest = groom->rest + groom->guides[i].first;
@@ -410,7 +410,7 @@ static void vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does(void
     struct hair_test_strands strands = hair_test_strands_make(3, 24);
     for (int k = 0; k < 3; ++k) hair_test_strands_add(&strands, 24, bunch, &last);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     hair_groom* groom = make(&desc);
     for (uint32_t g = 0; g < 3; ++g) {
         float mean = groom->guides[g].arc_length / last;

@@ -63,7 +63,7 @@ static void invent(struct hostile* h, uint32_t seed)
         if (seed % 3 == 1 && below(h, 2)) h->positions[i] = h->positions[i - 6];
     h->desc.positions = h->positions;
     h->desc.strand_vertices = h->vertices;
-    h->desc.strands_are = (hair_strands_are)below(h, 2);
+    h->desc.strand_set = (hair_strand_set)below(h, 2);
     h->desc.guide_count = below(h, 2) * below(h, 50);
     h->desc.guide_vertices = 2 + below(h, below(h, 4) ? 63 : 255);
     h->desc.follower_count = below(h, 500);

@@ -61,7 +61,7 @@ static void prepare(struct grown* grown, uint32_t followers, int all)
         hair_test_strands_add(&grown->strands, 6, all ? strewn : at_vertex, NULL);
     grown->desc = hair_test_groom_desc(&test, &grown->strands);
     hair_test_set_scalp(&grown->desc, &grown->scalp);
-    if (all) grown->desc.strands_are = HAIR_STRANDS_ALL;
+    if (all) grown->desc.strand_set = HAIR_STRAND_SET_FULL;
     grown->desc.follower_count = followers;
     for (uint32_t i = 0; i < VERTICES; ++i) {
         grown->uvs[2 * i] = grown->scalp.positions[3 * i] / SIDE;
@@ -96,7 +96,7 @@ static void assert_refused(const hair_groom_desc* desc, const char* words)
 
 static hair_map image(const float* values, uint32_t width, uint32_t height)
 {
-    return (hair_map){HAIR_MAP_IMAGE, values, width, height};
+    return (hair_map){HAIR_MAP_SOURCE_IMAGE, values, width, height};
 }
 
 static hair_vec3 root_of(const hair_groom* groom, uint32_t follower)
@@ -216,7 +216,7 @@ static void a_linear_map_is_the_same_as_image_and_by_vertices(void** state)
     for (int i = 0; i < VERTICES; ++i) values[i] = 0.1f + 0.8f * grown.uvs[2 * i];
     for (int i = 0; i < 200; ++i) wide[i] = 0.1f + 0.8f * ((float)i + 0.5f) / 200;
     grown.desc.map_sets[0] = &grown.set[0];
-    grown.set[0].thickness = (hair_map){HAIR_MAP_VERTICES, values, 0, 0};
+    grown.set[0].thickness = (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
     hair_groom* by_vertices = make(&grown.desc);
     grown.set[0].thickness = image(wide, 200, 1);
     hair_groom* by_image = make(&grown.desc);
@@ -255,7 +255,7 @@ static void patches_tell_of_every_set(void** state)
     grown.set[0].density = image(left, 2, 1);
     grown.set[1].density = image(right, 2, 1);
     grown.set[1].thickness = image(thick, 2, 2);
-    grown.set[2].density = (hair_map){HAIR_MAP_TRIANGLES, values, 0, 0};
+    grown.set[2].density = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, values, 0, 0};
     for (int i = 0; i < 3; ++i) grown.desc.map_sets[i] = &grown.set[i];
     hair_groom* groom = make(&grown.desc);
     assert_int_equal(groom->map_sets, 3);
@@ -292,11 +292,11 @@ static void maps_are_refused_by_set_index_value_and_range(void** state)
     grown.desc.map_sets[1] = &grown.set[1];
     assert_refused(&grown.desc, "map_sets[0] is NULL but [1] is not");
     grown.desc.map_sets[0] = set;
-    set->density = (hair_map){HAIR_MAP_VERTICES, NULL, 0, 0};
+    set->density = (hair_map){HAIR_MAP_SOURCE_VERTICES, NULL, 0, 0};
     assert_refused(&grown.desc, "map_sets[0]->density.values is NULL");
-    set->density.of = (hair_map_of)7;
-    assert_refused(&grown.desc, "map_sets[0]->density.of is 7, not in [0, 3]");
-    set->density = (hair_map){HAIR_MAP_VERTICES, values, 0, 0};
+    set->density.source = (hair_map_source)7;
+    assert_refused(&grown.desc, "map_sets[0]->density.source is 7, not in [0, 3]");
+    set->density = (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
     values[7] = 1.5f;
     assert_refused(&grown.desc, "map_sets[0]->density.values[7] is 1.5, not in [0, 1]");
     values[7] = NAN;

@@ -76,7 +76,7 @@ static void followers_between_guides_have_what_lies_between(void** state)
     hair_groom* groom = make(&strands, &desc, colors, radii);
     hair_groom_destroy(groom);
     hair_test_set_scalp(&desc, &scalp);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 2000;
     assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {

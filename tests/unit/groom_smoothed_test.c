@@ -105,7 +105,7 @@ static void compare_guides(const struct fixture* fixture)
 static void compare_followers(const struct fixture* fixture)
 {
     hair_look look = hair_look_default();
-    look.tip_strays = look.strays = 0;
+    look.tip_stray_fraction = look.stray_fraction = 0;
     look.interpolation = HAIR_INTERPOLATION_SINGLE;
     for (uint32_t i = 0; i < fixture->groom->info.follower_count; ++i)
         for (uint32_t j = 0; j <= 16; ++j) {

@@ -55,9 +55,9 @@ static struct example make_example(uint32_t strands)
 {
     struct example example = {hair_test_fur(strands), hair_test_scalp_make(4, 1), {{.host = NULL}}};
     for (int i = 0; i < 4; ++i) example.desc[i] = hair_test_groom_desc(&test, &example.strands);
-    example.desc[1].strands_are = HAIR_STRANDS_GUIDES;
+    example.desc[1].strand_set = HAIR_STRAND_SET_GUIDES;
     example.desc[1].follower_count = 0;
-    example.desc[2].strands_are = HAIR_STRANDS_GUIDES;
+    example.desc[2].strand_set = HAIR_STRAND_SET_GUIDES;
     example.desc[2].follower_count = 3000;
     hair_test_set_scalp(&example.desc[3], &example.scalp);
     example.desc[3].follower_count = 5000;
@@ -103,7 +103,7 @@ static void more_guides_than_262144_are_refused(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(HAIR_MAX_GUIDES + 1);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     assert_refused(&desc, "262145 guides, not in [1, 262144]");
     hair_test_strands_free(&strands);
 }
@@ -263,7 +263,7 @@ static void a_groom_describes_its_strands(void** state)
     assert_int_equal(info->guide_vertex_count, 8);
     assert_int_equal(info->follower_count, 2);
     assert_int_equal(info->patch_count, 1);
-    assert_int_equal(info->repairs.dropped_single, 1);
+    assert_int_equal(info->import_stats.dropped_single, 1);
     assert_float_equal(info->length[0], 1, 1e-6);
     assert_float_equal(info->length[1], 2, 1e-6);
     assert_float_equal(info->length[2], 3, 1e-6);
@@ -326,7 +326,7 @@ static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(500);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5000;
     hair_groom* groom = make(&desc);
     // Of ten followers of a guide, some but not all are in the first half of the patch.
@@ -377,7 +377,7 @@ static void built_in_haircuts_become_grooms(void** state)
         assert_int_equal(hair_asset_generate(&style_desc, &asset), HAIR_OK);
         hair_groom_desc desc = hair_groom_desc_default();
         desc.host = &test.host;
-        assert_int_equal(hair_asset_fill(asset, &desc), HAIR_OK);
+        assert_int_equal(hair_asset_to_groom_desc(asset, &desc), HAIR_OK);
         double before = now();
         hair_groom* groom = make(&desc);
         uint32_t parted = 0;

@@ -46,7 +46,7 @@ static void info_tells_what_is_in_a_haircut(void** state)
     assert_non_null(strstr(said, "guides of"));
     expect(0, "$T info --scale 0.01 --up z $D/a3.tfx", "x 0 to 0.02, y 0 to 0.00375, z -0.03 to 0 m");
     expect(0, "$T info $D/a2.tfx", "tfx2");
-    expect(0, "$T info --share 0.4 $D/a4.tfx", "strands:   1, of 3 in the file");
+    expect(0, "$T info --keep-fraction 0.4 $D/a4.tfx", "strands:   1, of 3 in the file");
 }
 
 static void info_tells_what_was_repaired(void** state)
@@ -115,7 +115,7 @@ static void wrong_use_exits_with_2(void** state)
                            "info --scale one $D/a.hair",
                            "info --scale 0 $D/a.hair",
                            "info --scale nan $D/a.hair",
-                           "info --share 2 $D/a.hair",
+                           "info --keep-fraction 2 $D/a.hair",
                            "info --up w $D/a.hair",
                            "info --up yz $D/a.hair",
                            "info --vertices 257 $D/a.hair",

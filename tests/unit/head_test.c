@@ -1,4 +1,4 @@
-// head_test.c - the bust that tools draw: on the built-in scalp, and around its solids.
+// head_test.c - the bust that tools draw: on the built-in scalp, and around its colliders.
 #include "tests/support/host.h"
 
 #include <hair/hair_asset.h>
@@ -81,43 +81,44 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
     head_mesh_free(&mesh);
 }
 
-static float solid_distance(const hair_solid* solid, point p)
+static float collider_distance(const hair_collider* collider, point p)
 {
     // The axis is +y turned by the quaternion.
-    const float* q = solid->rotation;
+    const float* q = collider->rotation;
     point axis = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
                   2 * (q[1] * q[2] + q[3] * q[0])};
-    point d = sub(p, load_point(solid->position));
-    float t = clamp(dot(d, axis), -solid->size[1], solid->size[1]);
-    return length(sub(d, (point){axis.x * t, axis.y * t, axis.z * t})) - solid->size[0];
+    point d = sub(p, load_point(collider->position));
+    float t = clamp(dot(d, axis), -collider->size[1], collider->size[1]);
+    return length(sub(d, (point){axis.x * t, axis.y * t, axis.z * t})) - collider->size[0];
 }
 
 // The roots have to be outside, and hair must find the skull where it is seen.
-static void solids_fill_the_scalp_from_inside(void** state)
+static void colliders_fill_the_scalp_from_inside(void** state)
 {
     (void)state;
-    hair_solid solids[HEAD_SOLIDS];
-    uint32_t count = head_solids(solids, HEAD_SOLIDS);
+    hair_collider colliders[HEAD_COLLIDERS];
+    uint32_t count = head_colliders(colliders, HEAD_COLLIDERS);
     hair_asset_info info;
     hair_asset* asset = make_scalp(&info);
-    assert_in_range(count, 1, HEAD_SOLIDS);
+    assert_in_range(count, 1, HEAD_COLLIDERS);
     for (uint32_t i = 0; i < info.scalp_vertex_count; ++i) {
         float nearest = INFINITY;
         for (uint32_t k = 0; k < count; ++k)
-            nearest = fminf(nearest, solid_distance(&solids[k], load_point(info.scalp_positions + 3 * i)));
+            nearest =
+                fminf(nearest, collider_distance(&colliders[k], load_point(info.scalp_positions + 3 * i)));
         assert_true(nearest > -0.0005f && nearest < 0.0035f);
     }
     hair_asset_destroy(asset);
 }
 
-static void solids_beyond_the_capacity_are_only_counted(void** state)
+static void colliders_beyond_the_capacity_are_only_counted(void** state)
 {
     (void)state;
-    hair_solid solids[2];
-    memset(solids, 0, sizeof solids);
-    assert_int_equal(head_solids(solids, 1), head_solids(NULL, 0));
-    assert_true(solids[0].size[0] > 0);
-    assert_true(solids[1].size[0] == 0);
+    hair_collider colliders[2];
+    memset(colliders, 0, sizeof colliders);
+    assert_int_equal(head_colliders(colliders, 1), head_colliders(NULL, 0));
+    assert_true(colliders[0].size[0] > 0);
+    assert_true(colliders[1].size[0] == 0);
 }
 
 int main(void)
@@ -125,8 +126,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roots_lie_on_the_skin),
         cmocka_unit_test(the_mesh_lies_on_the_surface_and_faces_outwards),
-        cmocka_unit_test(solids_fill_the_scalp_from_inside),
-        cmocka_unit_test(solids_beyond_the_capacity_are_only_counted),
+        cmocka_unit_test(colliders_fill_the_scalp_from_inside),
+        cmocka_unit_test(colliders_beyond_the_capacity_are_only_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,7 +13,7 @@ static void the_first_kind_and_the_first_color_are_the_defaults(void** state)
 {
     (void)state;
     hair_look look = hair_look_default(), untouched = look;
-    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_NATURAL), HAIR_OK);
+    assert_int_equal(hair_look_apply_preset(&look, HAIR_LOOK_NATURAL), HAIR_OK);
     assert_int_equal(hair_look_color(&look, HAIR_COLOR_BROWN), HAIR_OK);
     assert_memory_equal(&look, &untouched, sizeof look);
 }
@@ -29,7 +29,8 @@ static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
         kind[i].density = 0.5f;
         for (int again = 0; again < 2; ++again) // Whatever was set before.
             assert_int_equal(
-                hair_look_preset(&kind[i], (hair_look_kind)(again ? i : (i + 1) % HAIR_LOOK_COUNT)), HAIR_OK);
+                hair_look_apply_preset(&kind[i], (hair_look_preset)(again ? i : (i + 1) % HAIR_LOOK_COUNT)),
+                HAIR_OK);
         assert_memory_equal(kind[i].root_color, red.root_color, sizeof red.root_color);
         assert_true(kind[i].density == 0.5f && kind[i].color_spread == red.color_spread);
         for (int k = 0; k < i; ++k)
@@ -51,7 +52,7 @@ static void each_has_a_name_of_its_own(void** state)
     (void)state;
     for (int i = 0; i < HAIR_LOOK_COUNT; ++i)
         for (int k = 0; k < i; ++k)
-            assert_string_not_equal(hair_look_name((hair_look_kind)i), hair_look_name((hair_look_kind)k));
+            assert_string_not_equal(hair_look_name((hair_look_preset)i), hair_look_name((hair_look_preset)k));
     for (int i = 0; i < HAIR_COLOR_COUNT; ++i)
         for (int k = 0; k < i; ++k)
             assert_string_not_equal(hair_color_name((hair_color)i), hair_color_name((hair_color)k));
@@ -77,15 +78,16 @@ static void a_turn_of_a_helix_is_recognized(void** state)
     static float positions[3 * 200];
     hair_look look = hair_look_default();
     make_helix(positions, 200, 0.007, 0.04);
-    assert_int_equal(hair_look_curl_like(&look, positions, 200), HAIR_OK);
-    assert_int_equal(look.curls, HAIR_CURLS_EXAMPLE);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 200), HAIR_OK);
+    assert_int_equal(look.curl_shape, HAIR_CURL_SHAPE_EXAMPLE);
     hair_test_near("radius", 0, look.curl_radius, 0.007, 2e-5);
     hair_test_near("wavelength", 0, look.curl_wavelength, 0.04, 1e-6);
-    double start = atan2((double)look.curl_z[0], (double)look.curl_x[0]), hand = 0;
+    double start = atan2((double)look.curl_profile_z[0], (double)look.curl_profile_x[0]), hand = 0;
     for (int i = 0; i < 16; ++i) {
-        double angle = atan2((double)look.curl_z[i], (double)look.curl_x[i]) - start;
+        double angle = atan2((double)look.curl_profile_z[i], (double)look.curl_profile_x[i]) - start;
         if (i == 1) hand = sin(angle) > 0 ? 1 : -1;
-        hair_test_near("radius", i, hypot((double)look.curl_x[i], (double)look.curl_z[i]), 1, 0.003);
+        hair_test_near("radius", i, hypot((double)look.curl_profile_x[i], (double)look.curl_profile_z[i]), 1,
+                       0.003);
         hair_test_near("angle", i, cos(hand * angle - 6.283185307179586 * i / 16), 1, 1e-4);
     }
 }
@@ -96,31 +98,31 @@ static void examples_that_are_none_are_refused(void** state)
     static float positions[3 * 70000];
     hair_look look = hair_look_default(), untouched = look;
     make_helix(positions, 70000, 0.007, 0.04);
-    assert_int_equal(hair_look_curl_like(NULL, positions, 20), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_look_curl_like(&look, NULL, 20), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_look_curl_like(&look, positions, 2), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_look_curl_like(&look, positions, 70000), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(NULL, positions, 20), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, NULL, 20), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 2), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 70000), HAIR_ERROR_ARGUMENT);
     make_helix(positions, 30, 0.007, 0.0001); // As good as closed.
-    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     make_helix(positions, 30, 0.2, 0.04);
-    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     static const float wrong[] = {NAN, INFINITY, -INFINITY, 1e30f};
     for (int i = 0; i < 4; ++i) {
         make_helix(positions, 30, 0.007, 0.04);
         positions[40] = wrong[i];
-        assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+        assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     }
     assert_memory_equal(&look, &untouched, sizeof look);
     make_helix(positions, 30, 0, 0.04); // Straight: no curl, and nothing that is not a number.
-    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_OK);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_OK);
     assert_true(look.curl_radius < 1e-6f);
     for (int i = 0; i < 30; ++i) memcpy(positions + 3 * i, positions, 12); // No length.
-    assert_int_equal(hair_look_curl_like(&look, positions, 30), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_COUNT), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_look_preset(NULL, HAIR_LOOK_CURLY), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_apply_preset(&look, HAIR_LOOK_COUNT), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_look_apply_preset(NULL, HAIR_LOOK_CURLY), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_color(&look, HAIR_COLOR_COUNT), HAIR_ERROR_ARGUMENT);
     memset(&look, 0, sizeof look); // Not made by the default function.
-    assert_int_equal(hair_look_preset(&look, HAIR_LOOK_CURLY), HAIR_ERROR_VERSION);
+    assert_int_equal(hair_look_apply_preset(&look, HAIR_LOOK_CURLY), HAIR_ERROR_VERSION);
     assert_int_equal(hair_look_color(&look, HAIR_COLOR_RED), HAIR_ERROR_VERSION);
 }
 
@@ -179,11 +181,11 @@ static void tangents_are_the_slopes_of_positions(void** state)
     for (int kind = 0; kind < HAIR_LOOK_COUNT; ++kind)
         for (int mode = 0; mode <= HAIR_INTERPOLATION_MULTI; ++mode) {
             hair_look look = hair_look_default();
-            assert_int_equal(hair_look_preset(&look, (hair_look_kind)kind), HAIR_OK);
+            assert_int_equal(hair_look_apply_preset(&look, (hair_look_preset)kind), HAIR_OK);
             look.interpolation = (hair_interpolation)mode;
             double straight = worst_tangent(look, 0, 1e-6), bent = worst_tangent(look, 10, 1e-6);
             print_message("    %s %d: %.2g rad, with bent guides %.2g\n",
-                          hair_look_name((hair_look_kind)kind), mode, straight, bent);
+                          hair_look_name((hair_look_preset)kind), mode, straight, bent);
             assert_true(straight < 1e-3);
             // Positions go straight from sample to sample of a guide, tangents do not: half of 10 rad/m times 3.5 mm.
             assert_true(bent < 0.05);

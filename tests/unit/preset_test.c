@@ -18,9 +18,9 @@ static void presets_differ_and_leave_what_is_not_of_a_hair(void** state)
     for (int i = 0; i < HAIR_PRESET_COUNT; ++i) {
         all[i] = hair_physics_default();
         all[i].gravity[1] = -1.62f;
-        all[i].iterations = 7;
+        all[i].redblack.iterations = 7;
         assert_int_equal(hair_physics_preset(&all[i], (hair_preset)i), HAIR_OK);
-        assert_true(all[i].gravity[1] == -1.62f && all[i].iterations == 7);
+        assert_true(all[i].gravity[1] == -1.62f && all[i].redblack.iterations == 7);
         // Checked against its own ranges when it is taken again.
         assert_int_equal(hair_physics_preset(&all[i], (hair_preset)i), HAIR_OK);
         for (int k = 0; k < i; ++k) assert_memory_not_equal(&all[i], &all[k], sizeof all[i]);
@@ -44,7 +44,7 @@ static void wrong_presets_and_physics_are_refused(void** state)
     hair_physics physics = hair_physics_default();
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_COUNT), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_physics_preset(NULL, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
-    physics.young = -1;
+    physics.youngs_modulus = -1;
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
     memset(&physics, 0, sizeof physics); // Not made by the default function.
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_VERSION);

@@ -155,7 +155,7 @@ static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
     f.params.gravity.w = 0.125f;
-    f.params.pull_root = f.params.pull_tip = 8;
+    f.params.shape_frequency_root = f.params.shape_frequency_tip = 8;
     f.state[3].position[0] = 0.5;
     double p[3 * MOST];
     hair_reference_integrate(whole(&f), 0, f.state, p);
@@ -207,9 +207,9 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
-    f.params.solids = 1;
-    f.params.margin = 0.25f;
-    f.params.solid[0] =
+    f.params.colliders = 1;
+    f.params.collision_margin = 0.25f;
+    f.params.collider[0] =
         (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
     f.params.substep[0].displacement.w = 0.5f; // half way: its axis is at x = 4
     double p[3 * 4] = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
@@ -360,7 +360,7 @@ static hair_look plain_look(float radius)
 {
     hair_look look = hair_look_default();
     look.radius = radius;
-    look.tip_strays = look.strays = 0;
+    look.tip_stray_fraction = look.stray_fraction = 0;
     look.clump = hair_curve_line(0, 0);
     return look;
 }

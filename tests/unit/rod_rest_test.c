@@ -271,7 +271,7 @@ static void what_no_strain_can_hold_is_said(void** state)
 }
 
 // The tip tied by a spring that the chain's pull stretches as far as puts the tip where it is to be.
-static void a_chain_tied_at_its_tip_is_a_catenary(void** state)
+static void a_chain_pinned_at_its_tip_is_a_catenary(void** state)
 {
     (void)state;
     for (uint32_t links = 32; links <= 64; links *= 2) {
@@ -318,7 +318,7 @@ int main(void)
         cmocka_unit_test(a_bent_hinge_has_the_energy_of_the_angle_from_its_rest),
         cmocka_unit_test(a_coarse_curl_comes_to_rest_in_few_steps),
         cmocka_unit_test(what_no_strain_can_hold_is_said),
-        cmocka_unit_test(a_chain_tied_at_its_tip_is_a_catenary),
+        cmocka_unit_test(a_chain_pinned_at_its_tip_is_a_catenary),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

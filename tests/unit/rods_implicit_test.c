@@ -127,7 +127,7 @@ static void leave_out(hair_root root)
     static const uint32_t lengths[] = {2, 3, 20, 32, 65, 256};
     static const double steps[] = {1.0 / 120, 1.0 / 240, 1.0 / 480, 1.0 / 960};
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.hold = 0;
+    f->physics.gravity_preload = 0;
     f->physics.root = root;
     for (int k = 0; k < 6; ++k) {
         uint32_t n = lengths[k], rounds[4], all = hair_rods_rounds(n) - 1;
@@ -193,7 +193,8 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     double(*a)[MOST] = calloc(MOST, sizeof *a);
-    f->physics.hold = f->physics.damping = f->physics.pull_root = f->physics.pull_tip = 0;
+    f->physics.gravity_preload = f->physics.damping = f->physics.shape_frequency_root =
+        f->physics.shape_frequency_tip = 0;
     for (uint32_t count = 4; count <= 100; count += 8) {
         hair_test_rod_straight(f, count, 0.3, PI / 2);
         double h = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE),
@@ -218,7 +219,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     // What is stiffened to hold needs shorter ones still.
     hair_test_rod_straight(f, 40, 0.3, PI / 2);
     double before = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
-    f->physics.hold = 1;
+    f->physics.gravity_preload = 1;
     assert_true(hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE) < before / 1.7);
     hair_test_near("direct", 0, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
     hair_test_near("follow", 0, hair_test_rod_substep(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
@@ -249,9 +250,10 @@ static void solve(const struct hair_test_rod* f, float* x)
 // Straight, as stiff as can be asked for, and free of all else.
 static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, double length)
 {
-    f->physics.damping = f->physics.pull_root = f->physics.pull_tip = f->physics.hold = 0;
+    f->physics.damping = f->physics.shape_frequency_root = f->physics.shape_frequency_tip =
+        f->physics.gravity_preload = 0;
     f->physics.root = root;
-    f->physics.young = 1e12f;
+    f->physics.youngs_modulus = 1e12f;
     hair_test_rod_straight(f, count, length, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
 }
@@ -323,7 +325,7 @@ static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.hold = 0;
+    f->physics.gravity_preload = 0;
     hair_test_rod_straight(f, 32, 0.31, PI / 2);
     for (int k = 0; k < 4; ++k) {
         const float masses[] = {0, 10, 100, 1000};

@@ -9,7 +9,7 @@
 
 #include "lib/groom/groom.h"
 #include "lib/sim/statics.h"
-#include "lib/sim/ties.h"
+#include "lib/sim/pins.h"
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793
@@ -57,7 +57,7 @@ static hair_groom* haircut(hair_style style, uint32_t vertices)
     of.style = style;
     of.strand_vertices = vertices;
     assert_int_equal(hair_asset_generate(&of, &asset), HAIR_OK);
-    assert_int_equal(hair_asset_fill(asset, &desc), HAIR_OK);
+    assert_int_equal(hair_asset_to_groom_desc(asset, &desc), HAIR_OK);
     desc.follower_count = 0;
     desc.guide_vertices = vertices;
     assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
@@ -112,7 +112,7 @@ static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
             hair_physics physics = hair_physics_default();
             compare(hair_style_name((hair_style)style), groom, &physics);
             if (vertices == 32) {
-                physics.pull_root = physics.pull_tip = 0;
+                physics.shape_frequency_root = physics.shape_frequency_tip = 0;
                 physics.flatness = 0.6f;
                 physics.tip_mass = 0.1f;
                 compare("without pull, flat, with tips", groom, &physics);
@@ -126,7 +126,7 @@ static void an_upright_strand_that_is_too_long_leans(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.pull_root = f->physics.pull_tip = 0;
+    f->physics.shape_frequency_root = f->physics.shape_frequency_tip = 0;
     for (int k = 0; k < 2; ++k) {
         hair_test_rod_straight(f, 32, k ? 0.3 : 0.21, PI);
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
@@ -140,7 +140,7 @@ static void an_upright_strand_that_is_too_long_leans(void** state)
     free(f);
 }
 
-static void what_sags_bears_what_it_bore_when_it_is_tied(void** state)
+static void what_sags_bears_what_it_bore_when_it_is_pinned(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -149,7 +149,7 @@ static void what_sags_bears_what_it_bore_when_it_is_tied(void** state)
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.sagging, 1);
     struct hair_rod* rod = calloc(MOST, sizeof *rod);
-    hair_rods_tie(&f->guide, f->rest, f->borne, &knot, 1, &f->physics, HAIR_SOLVER_DIRECT, 0, 1.0 / 240, rod);
+    hair_rods_pin(&f->guide, f->rest, f->borne, &knot, 1, &f->physics, HAIR_SOLVER_DIRECT, 0, 1.0 / 240, rod);
     for (uint32_t i = 0; i < 32; ++i) assert_memory_equal(&rod[i].strain, &f->rod[i].strain, 16);
     free(rod);
     free(f);
@@ -160,7 +160,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(built_in_haircuts_rest_in_their_groom_or_where_is_said),
         cmocka_unit_test(an_upright_strand_that_is_too_long_leans),
-        cmocka_unit_test(what_sags_bears_what_it_bore_when_it_is_tied),
+        cmocka_unit_test(what_sags_bears_what_it_bore_when_it_is_pinned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,8 +47,8 @@ static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     hair_test_rod_straight(f, 5, 0.1, 0);
-    f->physics.pull_root = 5;
-    f->physics.pull_tip = 1;
+    f->physics.shape_frequency_root = 5;
+    f->physics.shape_frequency_tip = 1;
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     for (uint32_t i = 0; i < 5; ++i)
         hair_test_near("pull", i, (double)f->rod[i].segment.z, pow(2 * PI * (5 - i), 2), 1e-4);
@@ -69,7 +69,8 @@ static void ratios_are_those_of_an_elliptic_section(void** state)
         hair_test_near("about x", i, ratio[0], a * b * b * b, 1e-12);
         hair_test_near("about z", i, ratio[2], a * a * a * b, 1e-12);
         hair_test_near("twist", i, ratio[1],
-                       4 * a * a * a * b * b * b / (a * a + b * b) / (2 * (1 + (double)p.poisson)), 1e-12);
+                       4 * a * a * a * b * b * b / (a * a + b * b) / (2 * (1 + (double)p.poisson_ratio)),
+                       1e-12);
     }
     hair_test_near("of hair", 0, ratio[1], 0.68966, 1e-5);
 }
@@ -80,7 +81,7 @@ static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
     struct hair_test_rod* f = hair_test_rod_make();
     f->physics.stiffness_root = 2;
     f->physics.stiffness_tip = 0.5f;
-    f->physics.hold = 0;
+    f->physics.gravity_preload = 0;
     hair_test_rod_curl(f, 12, 0.01);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     double bend = hair_test_rod_bend(&f->physics), so_far = 0, weight = 0;
@@ -116,19 +117,19 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
     uint32_t random = 7;
     for (int run = 0; run < 3000; ++run) {
         hair_physics* p = &f->physics;
-        p->young = within(&random, 0, 1e12);
-        p->poisson = within(&random, 0, 0.5);
+        p->youngs_modulus = within(&random, 0, 1e12);
+        p->poisson_ratio = within(&random, 0, 0.5);
         p->fiber_radius = within(&random, 1e-6, 1e-3);
         p->fiber_density = within(&random, 1, 1e5);
         p->flatness = within(&random, 0.03, 1);
         p->stiffness_root = within(&random, 0, 1e4);
         p->stiffness_tip = within(&random, 0, 1e4);
-        p->hold = within(&random, 0, 1);
+        p->gravity_preload = within(&random, 0, 1);
         p->root = (hair_root)(run % 3);
         p->tip_mass = within(&random, 0, 1e4);
         p->damping = within(&random, 0, 1000);
-        p->pull_root = within(&random, 0, 30);
-        p->pull_tip = within(&random, 0, 30);
+        p->shape_frequency_root = within(&random, 0, 30);
+        p->shape_frequency_tip = within(&random, 0, 30);
         for (int k = 0; k < 3; ++k)
             p->gravity[k] = within(&random, 0, 1000) * (hair_random(&random) < 0.5f ? -1 : 1);
         float at[3 * MOST] = {0}, size = within(&random, 1e-9, 1e4);
@@ -200,13 +201,23 @@ static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     const hair_physics d = hair_physics_default();
-    float* in[] = {&f->physics.gravity[0],    &f->physics.gravity[1], &f->physics.gravity[2],
-                   &f->physics.damping,       &f->physics.pull_root,  &f->physics.pull_tip,
-                   &f->physics.young,         &f->physics.poisson,    &f->physics.fiber_radius,
-                   &f->physics.fiber_density, &f->physics.flatness,   &f->physics.stiffness_root,
-                   &f->physics.stiffness_tip, &f->physics.hold,       &f->physics.tip_mass};
-    float* out[] = {&f->physics.angular, &f->physics.bend, &f->physics.margin, &f->physics.drag,
-                    &f->physics.friction};
+    float* in[] = {&f->physics.gravity[0],
+                   &f->physics.gravity[1],
+                   &f->physics.gravity[2],
+                   &f->physics.damping,
+                   &f->physics.shape_frequency_root,
+                   &f->physics.shape_frequency_tip,
+                   &f->physics.youngs_modulus,
+                   &f->physics.poisson_ratio,
+                   &f->physics.fiber_radius,
+                   &f->physics.fiber_density,
+                   &f->physics.flatness,
+                   &f->physics.stiffness_root,
+                   &f->physics.stiffness_tip,
+                   &f->physics.gravity_preload,
+                   &f->physics.tip_mass};
+    float* out[] = {&f->physics.redblack.angular_hz, &f->physics.redblack.bend, &f->physics.collision_margin,
+                    &f->physics.drag, &f->physics.friction};
     hair_test_rod_curl(f, 20, 0.01);
     f->physics = d;
     assert_false(hair_rods_differ(&f->physics, &d));

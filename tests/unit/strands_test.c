@@ -11,11 +11,11 @@
 #include <cmocka.h>
 
 static struct hair_test_host test;
-static hair_repairs repairs;
+static hair_import_stats repairs;
 
 static hair_import defaults(void)
 {
-    return (hair_import){.scale = 1, .share = 1, .seed = 1};
+    return (hair_import){.scale = 1, .keep_fraction = 1, .seed = 1};
 }
 
 static int start(void** state)
@@ -85,7 +85,7 @@ static void clean_strands_are_left_as_they_are(void** state)
     assert_int_equal(strands.strand_count, 10);
     assert_memory_equal(strands.positions, same.positions, 12 * 200);
     assert_memory_equal(strands.vertices, same.vertices, 40);
-    hair_repairs none = {0};
+    hair_import_stats none = {0};
     assert_memory_equal(&repairs, &none, sizeof none);
     drop(&strands);
     drop(&same);
@@ -150,7 +150,7 @@ static void a_share_keeps_so_many_strands_evenly(void** state)
     for (size_t s = 0; s < 8; ++s)
         for (size_t c = 0; c < 6; ++c) {
             hair_import import = defaults();
-            import.share = shares[s];
+            import.keep_fraction = shares[s];
             struct hair_strands strands = make(counts[c], 3);
             clean(&import, &strands);
             double wanted = (double)shares[s] * counts[c];
@@ -172,7 +172,7 @@ static void the_seed_alone_decides_which_strands_are_kept(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    import.share = 0.1f;
+    import.keep_fraction = 0.1f;
     struct hair_strands strands[3];
     for (uint32_t i = 0; i < 3; ++i) {
         import.seed = i / 2;
@@ -427,7 +427,7 @@ static void any_bits_whatever_come_out_fit(void** state)
         import.strand_vertices = round % 3 ? 0 : round % 257;
         import.tip_first = round & 1;
         import.up = (hair_up)(round % 3);
-        import.share = round % 5 ? 1 : 0.5f;
+        import.keep_fraction = round % 5 ? 1 : 0.5f;
         uint32_t each = 1 + hair_hash(round) % (round % 50 ? 12 : 600);
         struct hair_strands strands = make(20, each);
         for (uint32_t i = 0; i < 3 * strands.vertex_count; ++i) strands.positions[i] = random_float(&random);
@@ -453,7 +453,7 @@ static void four_million_strands_take_no_longer_than_their_number(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    import.share = 0.5f;
+    import.keep_fraction = 0.5f;
     import.scale = 0.1f; // So that none lies beyond 1e6 m.
     struct hair_strands strands = make(4194304, 2);
     size_t before = test.live;
@@ -467,7 +467,7 @@ static void memory_that_is_no_longer_needed_is_given_back(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    import.share = 0.01f;
+    import.keep_fraction = 0.01f;
     struct hair_strands strands = make(10000, 10);
     clean(&import, &strands);
     assert_true(test.live < 100 * 10 * 12 + 100 * 8 + 3 * 16 + 16);
@@ -481,7 +481,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     for (uint32_t refuse = 1;; ++refuse) {
         hair_import import = defaults();
         import.strand_vertices = 8;
-        import.share = 0.1f;
+        import.keep_fraction = 0.1f;
         struct hair_strands strands = make(1000, 16);
         test.allocations = 0;
         test.refuse = refuse;

@@ -85,7 +85,7 @@ static void guides_are_finite_and_of_equal_segments(void** state)
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
         struct cut cut = cut_style((hair_style)style);
         assert_int_equal(cut.info.strand_count, 166);
-        assert_int_equal(cut.info.strands_are, HAIR_STRANDS_GUIDES);
+        assert_int_equal(cut.info.strand_set, HAIR_STRAND_SET_GUIDES);
         assert_int_equal(cut.info.format, HAIR_FORMAT_NONE);
         for (uint32_t guide = 0; guide < cut.info.strand_count; ++guide) {
             float mean = guide_length(&cut, guide) / (float)(cut.each - 1);
@@ -112,8 +112,8 @@ static void guides_have_the_vertices_asked_for(void** state)
         desc.strand_vertices = counts[i];
         assert_int_equal(hair_asset_generate(&desc, &asset), HAIR_OK);
         assert_int_equal(hair_asset_describe(asset, &info), HAIR_OK);
-        assert_int_equal(info.fewest, counts[i]);
-        assert_int_equal(info.most, counts[i]);
+        assert_int_equal(info.min_vertices, counts[i]);
+        assert_int_equal(info.max_vertices, counts[i]);
         hair_asset_destroy(asset);
     }
 }

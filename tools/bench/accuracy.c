@@ -65,7 +65,8 @@ static const struct setting settings[] = {
 static bool bring_to_life(struct bench* bench, const struct bench_motion* motion, struct bench_living* out)
 {
     if (!bench_live(bench, &motion->scene, out)) return false;
-    if (!hair_set_solids(out->hair, motion->solids, motion->solid_count, sizeof *motion->solids)) return true;
+    if (!hair_set_colliders(out->hair, motion->colliders, motion->collider_count, sizeof *motion->colliders))
+        return true;
     bench_die(out);
     return false;
 }
@@ -89,7 +90,7 @@ static bool run_finely(struct bench* bench, const struct bench_motion* motion, u
     return whole;
 }
 
-static bool find_truth_among_solids(struct bench* bench, struct bench_motion* motion)
+static bool find_truth_among_colliders(struct bench* bench, struct bench_motion* motion)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
     double* half = malloc(count * sizeof *half);
@@ -117,7 +118,7 @@ static bool find_truth(struct bench* bench, struct bench_motion* motion)
     if (motion->truth) return true;
     size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
     motion->truth = malloc(count * sizeof *motion->truth);
-    if (motion->truth && motion->solid_count) return find_truth_among_solids(bench, motion);
+    if (motion->truth && motion->collider_count) return find_truth_among_colliders(bench, motion);
     struct hair_reference_rod* rod = bench_reference(&motion->scene);
     if (!motion->truth || !rod) {
         hair_reference_rod_destroy(rod);
@@ -165,9 +166,10 @@ static bool run_all(struct bench_living* living, struct bench_motion* motion, st
     bool whole = true;
     *out = (struct error){0};
     for (uint32_t run = motion->runs; run-- > 0 && whole;) {
-        if (motion->solid_count) bench_set_shoulder(motion, run);
+        if (motion->collider_count) bench_set_shoulder(motion, run);
         whole = bench_restart(living) &&
-                !hair_set_solids(living->hair, motion->solids, motion->solid_count, sizeof *motion->solids) &&
+                !hair_set_colliders(living->hair, motion->colliders, motion->collider_count,
+                                    sizeof *motion->colliders) &&
                 run_frames(living, motion, motion->truth + run * count, out);
     }
     return whole;
@@ -210,9 +212,9 @@ static bool settle_substep(struct bench* bench, struct bench_motion* motion)
     motion->scene.substep = 0;
     if (!bring_to_life(bench, motion, &living)) return false;
     // Colliders shorten the substep from the first step on.
-    hair_health health = hair_health_default();
-    if (bench_step(&living, NULL, FRAME) && !hair_get_health(living.hair, &health))
-        living.substep = (double)health.substep;
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    if (bench_step(&living, NULL, FRAME) && !hair_get_solver_stats(living.hair, &solver_stats))
+        living.substep = (double)solver_stats.substep;
     motion->scene.substep = FRAME / ceil(FRAME / living.substep - 1e-3);
     bench_die(&living);
     return true;
@@ -227,9 +229,10 @@ static void measure(struct bench* bench, struct bench_motion* motion, const stru
     struct error error;
     struct bench_times times;
     scene->solver = setting->solver;
-    scene->physics.iterations = setting->iterations ? setting->iterations : 1;
+    scene->physics.redblack.iterations = setting->iterations ? setting->iterations : 1;
     scene->substep = setting->substeps ? FRAME / setting->substeps : 0;
-    scene->mapping = setting->solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene->mapping =
+        setting->solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     if ((!setting->substeps && !settle_substep(bench, motion)) || !bring_to_life(bench, motion, &living)) {
         bench_refuse(bench, motion->name, method);
         return;
@@ -266,7 +269,8 @@ static void add_static_row(struct bench_living* living, const double* positions)
     bench_set_count(row, "vertices", scene->vertices);
     bench_set_number(row, "length", length);
     bench_set_number(row, "substeps", bench_substeps(living));
-    if (scene->solver == HAIR_SOLVER_REDBLACK) bench_set_count(row, "iterations", scene->physics.iterations);
+    if (scene->solver == HAIR_SOLVER_REDBLACK)
+        bench_set_count(row, "iterations", scene->physics.redblack.iterations);
     bench_set_number(row, "tip_error", error);
     bench_set_number(row, "max_stretch", bench_stretch(living, positions));
     bench_set_text(row, "reference", "elastica");
@@ -285,12 +289,12 @@ static void measure_static(struct bench* bench, hair_solver solver, double lengt
     bench_scene_straight(&scene, 32, length, root, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.young = 4e9f;
+    scene.physics.youngs_modulus = 4e9f;
     scene.physics.fiber_radius = 4e-5f;
     scene.physics.fiber_density = 1300;
     scene.physics.damping = 10;
     if (solver == HAIR_SOLVER_REDBLACK) {
-        scene.mapping = HAIR_MAPPING_AUTO;
+        scene.mapping = HAIR_THREAD_MAPPING_AUTO;
         scene.substep = FRAME;
     }
     if (!bench_live(bench, &scene, &living)) {

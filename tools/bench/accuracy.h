@@ -16,8 +16,8 @@ struct bench_motion {
     uint32_t frames;
     struct hair_reference_rod_pose heads[BENCH_MOTION_FRAMES];
     bool moves; // uses `heads`
-    hair_solid solids[2];
-    uint32_t solid_count;
+    hair_collider colliders[2];
+    uint32_t collider_count;
     uint32_t runs; // number of runs, one for each shoulder of contact, else 1
     double* truth; // per run, frame and vertex, NULL until computed
     char reference[96];

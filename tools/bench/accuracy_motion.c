@@ -26,7 +26,7 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
     out->scene = make_scene(bench, vertices, -BENCH_PI / 6);
     hair_physics* p = &out->scene.physics;
     p->damping = 1;
-    p->young = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
+    p->youngs_modulus = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
     p->fiber_radius = 5e-5f;
     p->fiber_density = 1300;
     const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
@@ -53,7 +53,7 @@ static const struct {
 
 void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
 {
-    hair_solid* shoulder = &motion->solids[1];
+    hair_collider* shoulder = &motion->colliders[1];
     shoulder->position[0] = shoulders[run].x;
     shoulder->position[1] = shoulders[run].y;
     shoulder->size[0] = shoulders[run].radius;
@@ -65,15 +65,15 @@ void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     bench_make_shake(bench, vertices, out);
-    hair_solid head = hair_solid_default(), shoulder = head;
+    hair_collider head = hair_collider_default(), shoulder = head;
     head.size[0] = 0.095f;
     shoulder.shape = HAIR_SHAPE_CAPSULE; // The axis is along z.
     shoulder.rotation[0] = shoulder.rotation[3] = (float)sqrt(0.5);
     shoulder.size[1] = 0.12f;
     out->name = "contact";
-    out->solids[0] = head;
-    out->solids[1] = shoulder;
-    out->solid_count = 2;
+    out->colliders[0] = head;
+    out->colliders[1] = shoulder;
+    out->collider_count = 2;
     out->runs = SHOULDERS;
     bench_set_shoulder(out, 0);
 }
@@ -84,8 +84,8 @@ void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench
 {
     *out = (struct bench_motion){.name = "swing", .length = LENGTH, .frames = 24, .runs = 1};
     out->scene = make_scene(bench, vertices, 0);
-    out->scene.physics.young = 0;
-    out->scene.physics.bend = 0;
+    out->scene.physics.youngs_modulus = 0;
+    out->scene.physics.redblack.bend = 0;
 }
 
 // Make a level strand with bending stiffness and without damping that is released.

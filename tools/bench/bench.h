@@ -8,7 +8,7 @@
 
 #define BENCH_TOOL "hair-bench"
 
-#define BENCH_MOST_PASSES 256 // maximum of hair_timings, more than any suite needs
+#define BENCH_MOST_PASSES 256 // maximum of hair_get_timings, more than any suite needs
 
 struct bench_suite;
 
@@ -19,7 +19,7 @@ struct bench_options {
     const char* csv;
     const char* only_case; // NULL selects all
     const char* only_method;
-    hair_mapping mapping;
+    hair_thread_mapping mapping;
     uint32_t strands; // 0 uses the suite's number
     uint32_t scene; // first random scene
     uint32_t scenes; // number of random scenes, 0 uses the suite's number

@@ -125,7 +125,7 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
     if (hair_report(studio->hair, 1, &info, rows, sizeof *rows, MOST_WORKS, count)) return false;
     for (uint32_t i = 0; i < *count && i < MOST_WORKS; ++i) {
         struct work* work = &works[i];
-        work->name = rows[i].work;
+        work->name = rows[i].stage;
         work->bytes = rows[i].bytes;
         if (!rows[i].runs || work->times == FRAMES) continue;
         work->runs = rows[i].runs;
@@ -149,7 +149,7 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
     if (!bench_studio_make(bench, &desc, &studio)) return false;
     struct bench_shot shot = bench_studio_shot(&studio);
     shot.samples = 4;
-    shot.view.path = HAIR_PATH_AUTO;
+    shot.view.render_path = HAIR_RENDER_PATH_AUTO;
     bool done = bench_studio_set(&studio, &shot);
     for (int i = 0; i < FRAMES + 2 && done; ++i) { // The first two frames compile shaders.
         if (i == 2) done = bench_studio_warm_up(&studio, WARM);

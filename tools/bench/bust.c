@@ -25,19 +25,19 @@ static bool place(struct bench_bust* bust, float transform[16])
 {
     float time = (float)bust->frame / BUST_FPS;
     hair_motion_at(&bust->scene.motion, time, transform);
-    bust->solid_count = hair_rig_solids(&bust->scene, time, transform, bust->solids);
+    bust->collider_count = hair_rig_colliders(&bust->scene, time, transform, bust->colliders);
     return !bust->hair ||
            (!hair_set_transform(bust->hair, transform) &&
-            !hair_set_solids(bust->hair, bust->solids, bust->solid_count, sizeof *bust->solids));
+            !hair_set_colliders(bust->hair, bust->colliders, bust->collider_count, sizeof *bust->colliders));
 }
 
-static bool bring_to_life(struct bench_bust* bust, hair_first_hit first_hit)
+static bool bring_to_life(struct bench_bust* bust, hair_hit_method hit_method)
 {
     hair_groom_info info = hair_groom_info_default();
     hair_desc desc = bust->scene.settings.desc;
     desc.physics = &bust->scene.settings.physics;
     desc.look = &bust->look;
-    desc.first_hit = first_hit;
+    desc.hit_method = hit_method;
     if (!place(bust, desc.transform)) return false;
     if (hair_create(bust->bench->context, bust->groom, &desc, &bust->hair)) return false;
     if (hair_groom_describe(bust->groom, &info) || !place(bust, desc.transform)) return false;
@@ -46,12 +46,12 @@ static bool bring_to_life(struct bench_bust* bust, hair_first_hit first_hit)
     for (int i = 0; i < BUST_FPS / 2; ++i)
         if (hair_step(bust->hair, 1.0f / BUST_FPS)) return false;
     uint32_t smooth;
-    if (hair_read(bust->hair, HAIR_READ_SMOOTH, NULL, 0, &smooth)) return false;
+    if (hair_read_positions(bust->hair, HAIR_READ_SMOOTH, NULL, 0, &smooth)) return false;
     bust->smooth = smooth / bust->guides;
     return make_target(bust);
 }
 
-bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_first_hit first_hit,
+bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_hit_method hit_method,
                      struct bench_bust* out)
 {
     memset(out, 0, sizeof *out);
@@ -62,10 +62,10 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     if (followers) out->scene.settings.groom.follower_count = followers;
     out->look = out->scene.settings.look;
     // Only interpolation and colliders may turn strands.
-    out->look.tip_strays = out->look.strays = 0;
+    out->look.tip_stray_fraction = out->look.stray_fraction = 0;
     if (segments) out->look.segments = segments;
     if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
-        bring_to_life(out, first_hit))
+        bring_to_life(out, hit_method))
         return true;
     bench_bust_free(out);
     return false;
@@ -88,19 +88,19 @@ bool bench_bust_step(struct bench_bust* bust)
     return place(bust, transform) && !hair_step(bust->hair, 1.0f / BUST_FPS);
 }
 
-bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* followers)
+bool bench_bust_read(struct bench_bust* bust, hair_follower_collision collision, float* followers)
 {
     uint32_t count = bust->followers * (bust->look.segments + 1), there;
-    bust->look.collision = collision;
+    bust->look.follower_collision = collision;
     return !hair_set_look(bust->hair, &bust->look) &&
-           !hair_read(bust->hair, HAIR_READ_FOLLOWERS, followers, count, &there) && there == count;
+           !hair_read_positions(bust->hair, HAIR_READ_FOLLOWERS, followers, count, &there) && there == count;
 }
 
 bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
 {
     uint32_t count = bust->guides * bust->smooth, there, each = bust->look.segments + 1;
     float* all = malloc(3 * sizeof *all * count);
-    bool ok = all && !hair_read(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
+    bool ok = all && !hair_read_positions(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
     for (uint32_t i = 0; i < bust->guides * each && ok; ++i) {
         float at = (float)(i % each) / (float)(each - 1) * (float)(bust->smooth - 1);
         uint32_t k = (uint32_t)at < bust->smooth - 2 ? (uint32_t)at : bust->smooth - 2;
@@ -118,21 +118,21 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
 double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 {
     double least = INFINITY;
-    for (uint32_t i = 0; i < bust->solid_count; ++i) {
-        const hair_solid* solid = &bust->solids[i];
-        const float* q = solid->rotation;
+    for (uint32_t i = 0; i < bust->collider_count; ++i) {
+        const hair_collider* collider = &bust->colliders[i];
+        const float* q = collider->rotation;
         double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
         double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3],
                along = 0;
-        double half = (double)solid->size[1];
+        double half = (double)collider->size[1];
         for (int k = 0; k < 3; ++k) {
-            arm[k] = (double)at[k] - (double)solid->position[k];
+            arm[k] = (double)at[k] - (double)collider->position[k];
             along += arm[k] * axis[k];
         }
         along = fmin(fmax(along, -half), half);
         double square = 0;
         for (int k = 0; k < 3; ++k) square += (arm[k] - along * axis[k]) * (arm[k] - along * axis[k]);
-        least = fmin(least, sqrt(square) - (double)solid->size[0]);
+        least = fmin(least, sqrt(square) - (double)collider->size[0]);
     }
     return least;
 }
@@ -142,7 +142,7 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 static double time_of_passes(hair_context* context)
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    uint32_t count = hair_get_timings(context, now, BENCH_MOST_PASSES);
     double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (strstr(now[i].pass, "interpolate/hit") || strstr(now[i].pass, "interpolate/repair"))
@@ -157,9 +157,8 @@ static bool ask_for_frame(struct bench_bust* bust, bool again)
     hair_look look = bust->look;
     hair_view view = hair_view_default();
     view.pass = HAIR_PASS_DEPTH;
-    view.primitive = HAIR_LINES;
-    for (int k = 0; k < 3; ++k)
-        view.projection[5 * k] = 0.01f; // Hits are not searched for hair out of view.
+    view.primitive = HAIR_PRIMITIVE_LINES;
+    for (int k = 0; k < 3; ++k) view.projection[5 * k] = 0.01f; // Hits are not searched for hair out of view.
     // Hits are not searched for unchanged hair, therefore alternate the density.
     bust->turn = again ? bust->turn : !bust->turn;
     look.density = bust->turn ? 1e-6f : 2e-6f;
@@ -192,10 +191,10 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* ms, uint32_t* runs)
+bool bench_bust_time(struct bench_bust* bust, hair_follower_collision collision, double* ms, uint32_t* runs)
 {
     double all[MOST_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
-    bust->look.collision = collision;
+    bust->look.follower_collision = collision;
     *runs = 0;
     if (!warm_up(bust)) return false;
     for (int k = -2; k < MOST_RUNS; ++k) { // The first two runs compile shaders.

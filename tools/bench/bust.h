@@ -13,8 +13,8 @@ struct bench_bust {
     hair_groom* groom;
     hair_instance* hair;
     hair_look look;
-    hair_solid solids[HAIR_RIG_SOLIDS]; // in world space
-    uint32_t solid_count;
+    hair_collider colliders[HAIR_RIG_COLLIDERS]; // in world space
+    uint32_t collider_count;
     uint32_t followers, guides, smooth; // `smooth` is the number of vertices of a smoothed guide
     uint32_t frame;
     bool turn; // alternates to change the look
@@ -23,19 +23,19 @@ struct bench_bust {
 
 // Make the scene and simulate half a second of hanging. 0 followers or segments uses the scene's
 // numbers. Return false after writing the reason to bench->sentence.
-bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_first_hit first_hit,
+bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments, hair_hit_method hit_method,
                      struct bench_bust* out);
 void bench_bust_free(struct bench_bust* bust);
 bool bench_bust_step(struct bench_bust* bust); // Advance to the next frame.
 
 // Read the vertices of all followers, look.segments + 1 each.
-bool bench_bust_read(struct bench_bust* bust, hair_collision collision, float* followers);
+bool bench_bust_read(struct bench_bust* bust, hair_follower_collision collision, float* followers);
 // Read the guides, interpolated to look.segments + 1 vertices each.
 bool bench_bust_read_guides(struct bench_bust* bust, float* guides);
 
 // Measure the time of finding hits and, if requested, of pushing followers out of colliders. `ms`
 // is the median over `runs` runs.
-bool bench_bust_time(struct bench_bust* bust, hair_collision collision, double* ms, uint32_t* runs);
+bool bench_bust_time(struct bench_bust* bust, hair_follower_collision collision, double* ms, uint32_t* runs);
 
 // Make the rows of a Bullet world with many objects around the hair. Defined in world.c.
 void bench_measure_world(struct bench* bench);

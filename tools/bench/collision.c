@@ -28,7 +28,7 @@ static const char* const columns[] = {"case",
                                       "jump",
                                       "jump_of_strands",
                                       "dropped",
-                                      "solids",
+                                      "colliders",
                                       "objects",
                                       "ms",
                                       "ms_host",
@@ -38,7 +38,8 @@ static const char* const columns[] = {"case",
                                       "pass",
                                       NULL};
 
-static const char* const names[] = {"push", "switch", "none"}; // in the order of hair_collision
+static const char* const names[] = {"push_out", "single_guide",
+                                    "none"}; // in the order of hair_follower_collision
 
 // Effects of the treatment on followers, summed over frames.
 struct found {
@@ -111,11 +112,11 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
     found->length_error = fmax(found->length_error, fabs(after / before - 1));
 }
 
-static bool look_at_frame(struct bench_bust* bust, hair_collision collision, struct frame* frame,
+static bool look_at_frame(struct bench_bust* bust, hair_follower_collision collision, struct frame* frame,
                           double voxel, bool follows, struct found* found)
 {
     size_t each = 3 * (size_t)(bust->look.segments + 1);
-    if (!bench_bust_read(bust, HAIR_COLLISION_NONE, frame->before)) return false;
+    if (!bench_bust_read(bust, HAIR_FOLLOWER_COLLISION_NONE, frame->before)) return false;
     if (!bench_bust_read(bust, collision, frame->after)) return false;
     if (!bench_bust_read_guides(bust, frame->guides)) return false;
     for (size_t i = 0; i < bust->guides; ++i)
@@ -131,7 +132,7 @@ static bool look_at_frame(struct bench_bust* bust, hair_collision collision, str
     return true;
 }
 
-static void add_row(struct bench_bust* bust, hair_collision collision, uint32_t frames, double voxel,
+static void add_row(struct bench_bust* bust, hair_follower_collision collision, uint32_t frames, double voxel,
                     const struct found* found, double ms, uint32_t runs)
 {
     json_t* row = bench_rows_add(&bust->bench->rows);
@@ -161,7 +162,7 @@ static void add_row(struct bench_bust* bust, hair_collision collision, uint32_t 
 }
 
 // Examine the followers three times a second, and again 1/240 s later to detect jumps.
-static bool run_frames(struct bench_bust* bust, hair_collision collision, struct frame* frame)
+static bool run_frames(struct bench_bust* bust, hair_follower_collision collision, struct frame* frame)
 {
     enum { EVERY = BUST_FPS / 3 };
     uint32_t frames = bust->bench->options.quick ? EVERY + 1 : 11 * EVERY + 1, looked_at = 0, runs = 0;
@@ -175,16 +176,17 @@ static bool run_frames(struct bench_bust* bust, hair_collision collision, struct
         if (!look_at_frame(bust, collision, frame, (double)field.voxel, i % EVERY == 1, &found)) return false;
         ++looked_at;
     }
-    if (collision != HAIR_COLLISION_NONE && !bench_bust_time(bust, collision, &ms, &runs)) return false;
+    if (collision != HAIR_FOLLOWER_COLLISION_NONE && !bench_bust_time(bust, collision, &ms, &runs))
+        return false;
     add_row(bust, collision, looked_at, (double)field.voxel, &found, ms, runs);
     return true;
 }
 
-static void measure_shoulders(struct bench* bench, hair_collision collision)
+static void measure_shoulders(struct bench* bench, hair_follower_collision collision)
 {
     struct bench_bust bust;
     if (!bench_begin(bench, "shoulders", names[collision])) return;
-    if (!bench_bust_make(bench, bench->options.quick ? 4000 : 0, 0, HAIR_FIRST_HIT_AUTO, &bust)) {
+    if (!bench_bust_make(bench, bench->options.quick ? 4000 : 0, 0, HAIR_HIT_METHOD_AUTO, &bust)) {
         bench_refuse(bench, "shoulders", names[collision]);
         return;
     }
@@ -202,7 +204,7 @@ static void measure_shoulders(struct bench* bench, hair_collision collision)
 }
 
 // Time one method on the scene that all methods use. Return the time in ms, or 0.
-static double measure_first_hit(struct bench* bench, hair_first_hit way, double compute)
+static double measure_first_hit(struct bench* bench, hair_hit_method way, double compute)
 {
     static const char* const ways[] = {"auto", "compute", "prepass"};
     struct bench_bust bust;
@@ -213,7 +215,7 @@ static double measure_first_hit(struct bench* bench, hair_first_hit way, double 
         bench_refuse(bench, "first hit", ways[way]);
         return 0;
     }
-    if (bench_bust_time(&bust, HAIR_COLLISION_SWITCH, &ms, &runs)) {
+    if (bench_bust_time(&bust, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE, &ms, &runs)) {
         json_t* row = bench_rows_add(&bench->rows);
         bench_set_text(row, "case", "first hit");
         bench_set_text(row, "method", ways[way]);
@@ -230,13 +232,13 @@ static double measure_first_hit(struct bench* bench, hair_first_hit way, double 
 
 static void run_suite(struct bench* bench)
 {
-    measure_shoulders(bench, HAIR_COLLISION_NONE);
-    measure_shoulders(bench, HAIR_COLLISION_SWITCH);
-    measure_shoulders(bench, HAIR_COLLISION_PUSH);
-    double compute = measure_first_hit(bench, HAIR_FIRST_HIT_COMPUTE, 0);
-    measure_first_hit(bench, HAIR_FIRST_HIT_PREPASS, compute);
+    measure_shoulders(bench, HAIR_FOLLOWER_COLLISION_NONE);
+    measure_shoulders(bench, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
+    measure_shoulders(bench, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
+    double compute = measure_first_hit(bench, HAIR_HIT_METHOD_COMPUTE, 0);
+    measure_first_hit(bench, HAIR_HIT_METHOD_PREPASS, compute);
     bench_measure_world(bench);
-    bench_many_solids(bench);
+    bench_many_colliders(bench);
 }
 
 const struct bench_suite bench_collision = {

@@ -58,7 +58,7 @@ bool bench_extent_fits(const struct bench_studio* studio, const struct hair_matr
 {
     const struct bench_shot* shot = &studio->shot;
     float wide = 2 * shot->look.radius;
-    if (shot->has_lod && !shot->lod.dynamic) wide /= fmaxf(shot->lod.strands, 1e-3f);
+    if (shot->has_lod && !shot->lod.per_patch) wide /= fmaxf(shot->lod.strand_fraction, 1e-3f);
     return shot->map_fits && wide * scale_of(light, 1, size) >= 1;
 }
 
@@ -67,7 +67,7 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
 {
     uint32_t size = HAIR_SHADOW_SIZE;
     while (size > LEAST_MAP && bench_extent_fits(studio, light, size / 2)) size /= 2;
-    if (!studio->shot.has_lod || !studio->shot.lod.dynamic) return size;
+    if (!studio->shot.has_lod || !studio->shot.lod.per_patch) return size;
     while (size > LEAST_MAP && TEXELS * bench_extent_texel(studio, camera, light, size / 2) <= 1) size /= 2;
     return size;
 }

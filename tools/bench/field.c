@@ -19,7 +19,7 @@
 #define MIXED 20
 #define MANY 10000
 
-static const char* const columns[] = {"case",      "method",    "shape",      "resolution",   "solids",
+static const char* const columns[] = {"case",      "method",    "shape",      "resolution",   "colliders",
                                       "ms",        "ms_min",    "ms_max",     "runs",         "max_error",
                                       "rms_error", "max_limit", "max_centre", "centre_limit", "wrong_sign",
                                       "ratio",     "limit",     "passes_run", "pass",         NULL};
@@ -51,7 +51,7 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 6;
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_vertices = VERTICES;
     desc.follower_count = 0;
     return hair_groom_create(&desc, out);
@@ -75,9 +75,9 @@ static bool live(struct bench* bench, uint32_t resolution, struct subject* out)
     return false;
 }
 
-static bool update(struct subject* subject, const hair_solid* solids, uint32_t count)
+static bool update(struct subject* subject, const hair_collider* colliders, uint32_t count)
 {
-    return !hair_set_solids(subject->hair, solids, count, sizeof *solids) &&
+    return !hair_set_colliders(subject->hair, colliders, count, sizeof *colliders) &&
            !hair_get_field(subject->hair, &subject->info);
 }
 
@@ -85,7 +85,7 @@ static bool update(struct subject* subject, const hair_solid* solids, uint32_t c
 static double sum_passes(struct bench* bench, uint32_t* runs)
 {
     hair_timing timings[BENCH_MOST_PASSES];
-    uint32_t count = hair_timings(bench->context, timings, BENCH_MOST_PASSES);
+    uint32_t count = hair_get_timings(bench->context, timings, BENCH_MOST_PASSES);
     double sum = 0;
     *runs = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
@@ -98,13 +98,13 @@ static double sum_passes(struct bench* bench, uint32_t* runs)
 
 // Measure an update. If the driver's timers do not measure compute shaders, wall time is used,
 // which includes CPU work. Return NAN if the library refused.
-static double time_update(struct subject* subject, const hair_solid* solids, uint32_t count)
+static double time_update(struct subject* subject, const hair_collider* colliders, uint32_t count)
 {
     struct bench* bench = subject->bench;
     uint32_t runs;
     glFinish();
     double gpu = sum_passes(bench, &runs), start = hair_now();
-    if (!update(subject, solids, count)) return NAN;
+    if (!update(subject, colliders, count)) return NAN;
     glFinish();
     double wall = hair_now() - start;
     return bench->software ? wall : sum_passes(bench, &runs) - gpu;
@@ -130,13 +130,13 @@ static void set_times(json_t* row, double* ms, uint32_t count)
     bench_set_count(row, "runs", count);
 }
 
-static json_t* new_row(struct subject* subject, const char* name, uint32_t solids)
+static json_t* new_row(struct subject* subject, const char* name, uint32_t colliders)
 {
     json_t* row = bench_rows_add(&subject->bench->rows);
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", "voxelise");
     bench_set_count(row, "resolution", subject->info.size[0]);
-    bench_set_count(row, "solids", solids);
+    bench_set_count(row, "colliders", colliders);
     return row;
 }
 
@@ -153,31 +153,31 @@ static double between(uint32_t* seed, double least, double most)
     return least + (most - least) * (random_of(seed) % 65536) / 65535;
 }
 
-static hair_solid any_solid(hair_shape shape, double size, double reach, uint32_t* seed)
+static hair_collider any_collider(hair_shape shape, double size, double reach, uint32_t* seed)
 {
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     double norm = 0, q[4];
     for (int i = 0; i < 4; ++i) {
         q[i] = between(seed, -1, 1);
         norm += q[i] * q[i];
     }
-    solid.shape = shape;
-    for (int i = 0; i < 4; ++i) solid.rotation[i] = (float)(q[i] / sqrt(norm));
-    for (int i = 0; i < 3; ++i) solid.position[i] = (float)between(seed, -reach, reach);
-    for (int i = 0; i < 3; ++i) solid.size[i] = (float)(size * between(seed, 0.8, 1.2));
-    return solid;
+    collider.shape = shape;
+    for (int i = 0; i < 4; ++i) collider.rotation[i] = (float)(q[i] / sqrt(norm));
+    for (int i = 0; i < 3; ++i) collider.position[i] = (float)between(seed, -reach, reach);
+    for (int i = 0; i < 3; ++i) collider.size[i] = (float)(size * between(seed, 0.8, 1.2));
+    return collider;
 }
 
 #define ROWS 128u
 
 // Make a ball with enough triangles to be round to 1e-4 of its radius.
-static hair_form* make_ball(struct bench* bench, double radius)
+static hair_collision_mesh* make_ball(struct bench* bench, double radius)
 {
     size_t vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
     float* positions = malloc(vertices * 3 * sizeof *positions);
     uint32_t* indices = malloc(2 * vertices * 3 * sizeof *indices);
-    hair_form* form = NULL;
-    hair_form_desc desc = hair_form_desc_default();
+    hair_collision_mesh* form = NULL;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     const double pi = 3.14159265358979323846;
     for (uint32_t i = 0; positions && indices && i < vertices; ++i) {
         uint32_t row = i / (2 * ROWS), column = i % (2 * ROWS);
@@ -198,7 +198,7 @@ static hair_form* make_ball(struct bench* bench, double radius)
     desc.vertex_count = (uint32_t)vertices;
     desc.triangle_count = (uint32_t)triangles;
     desc.resolution = 128;
-    if (positions && indices && hair_form_create(&desc, &form)) form = NULL;
+    if (positions && indices && hair_collision_mesh_create(&desc, &form)) form = NULL;
     free(positions);
     free(indices);
     return form;
@@ -232,7 +232,7 @@ static double interpolate(const struct subject* subject, const float* texels, co
 }
 
 // Compare the field with the exact distance to `exact`, the ideal shape of the collider.
-static void measure(const struct subject* subject, const float* texels, const hair_solid* exact,
+static void measure(const struct subject* subject, const float* texels, const hair_collider* exact,
                     uint32_t points, struct errors* out)
 {
     const hair_field_info* info = &subject->info;
@@ -251,7 +251,7 @@ static void measure(const struct subject* subject, const float* texels, const ha
             point[k] =
                 (at[k] / info->size[k] - (double)info->transform[12 + k]) / (double)info->transform[5 * k];
         }
-        double right = hair_distance_to_solid(exact, point, NULL);
+        double right = hair_distance_to_collider(exact, point, NULL);
         if (fabs(right) > BAND * voxel) continue;
         double found = interpolate(subject, texels, at), off = fabs(found - right) / voxel;
         if (centre) out->centre = fmax(out->centre, off);
@@ -272,7 +272,7 @@ struct shape_row {
 static void set_errors(json_t* row, const struct shape_row* shape, const struct errors* errors)
 {
     // A field that is sampled from a grid has errors at voxel centres too.
-    double centre = shape->shape == HAIR_SHAPE_FORM ? shape->limit : 0.05;
+    double centre = shape->shape == HAIR_SHAPE_MESH ? shape->limit : 0.05;
     bench_set_text(row, "shape", shape->name);
     bench_set_number(row, "max_error", errors->most);
     bench_set_number(row, "rms_error", sqrt(errors->square / (double)errors->points));
@@ -283,24 +283,25 @@ static void set_errors(json_t* row, const struct shape_row* shape, const struct 
     bench_set_flag(row, "pass", errors->most <= shape->limit && errors->centre <= centre && !errors->wrong);
 }
 
-static bool run_shape(struct subject* subject, const struct shape_row* shape, hair_form* ball)
+static bool run_shape(struct subject* subject, const struct shape_row* shape, hair_collision_mesh* ball)
 {
     uint32_t seed = 5, runs = subject->bench->options.quick ? 9 : 21;
     double ms[MOST_RUNS], size = 0.08;
-    hair_solid solid = any_solid(shape->shape, size, 0.02, &seed), moved = solid, exact = solid;
-    solid.rounding = (float)(shape->rounding * size);
-    if (shape->shape == HAIR_SHAPE_FORM) {
-        solid.form = ball;
+    hair_collider collider = any_collider(shape->shape, size, 0.02, &seed), moved = collider,
+                  exact = collider;
+    collider.rounding = (float)(shape->rounding * size);
+    if (shape->shape == HAIR_SHAPE_MESH) {
+        collider.mesh = ball;
         exact.shape = HAIR_SHAPE_SPHERE;
         exact.size[0] = (float)size;
     } else
-        exact = solid;
-    moved = solid;
+        exact = collider;
+    moved = collider;
     moved.position[0] += 0.05f;
-    if (!update(subject, &moved, 1) || !update(subject, &solid, 1)) return false;
+    if (!update(subject, &moved, 1) || !update(subject, &collider, 1)) return false;
     for (uint32_t i = 0; i < runs; ++i)
-        if (isnan(ms[i] = time_update(subject, i % 2 ? &solid : &moved, 1))) return false;
-    if (!update(subject, &solid, 1)) return false;
+        if (isnan(ms[i] = time_update(subject, i % 2 ? &collider : &moved, 1))) return false;
+    if (!update(subject, &collider, 1)) return false;
     const uint32_t* n = subject->info.size;
     size_t bytes = (size_t)n[0] * n[1] * n[2] * sizeof(float);
     float* texels = malloc(bytes);
@@ -324,9 +325,9 @@ static void run_shapes(struct bench* bench)
         {"sphere", HAIR_SHAPE_SPHERE, 0, 0.5},     {"capsule", HAIR_SHAPE_CAPSULE, 0, 0.5},
         {"box", HAIR_SHAPE_BOX, 0, 0.9},           {"rounded box", HAIR_SHAPE_BOX, 1, 0.5},
         {"cylinder", HAIR_SHAPE_CYLINDER, 0, 0.9}, {"cone", HAIR_SHAPE_CONE, 0, 0.9},
-        {"plane", HAIR_SHAPE_PLANE, 0, 0.5},       {"form of a ball", HAIR_SHAPE_FORM, 0, 0.5}};
+        {"plane", HAIR_SHAPE_PLANE, 0, 0.5},       {"mesh of a ball", HAIR_SHAPE_MESH, 0, 0.5}};
     static const uint32_t resolutions[] = {32, 64, 128, 256};
-    hair_form* ball = NULL;
+    hair_collision_mesh* ball = NULL;
     for (int r = 0; r < (bench->options.quick ? 2 : 4); ++r)
         for (size_t i = 0; i < sizeof shapes / sizeof *shapes; ++i) {
             struct subject subject;
@@ -336,33 +337,33 @@ static void run_shapes(struct bench* bench)
             if (!lives || !run_shape(&subject, &shapes[i], ball)) bench_refuse(bench, "shape", "voxelise");
             if (lives) die(&subject);
         }
-    hair_form_destroy(ball);
+    hair_collision_mesh_destroy(ball);
 }
 
 // Moving colliders --------------------------------------------------------------------------------
 
-static void make_mixed(hair_solid* solids, uint32_t count, double size)
+static void make_mixed(hair_collider* colliders, uint32_t count, double size)
 {
     uint32_t seed = 11;
     for (uint32_t i = 0; i < count; ++i)
-        solids[i] = any_solid((hair_shape)(i % HAIR_SHAPE_PLANE), size, 0.26, &seed);
+        colliders[i] = any_collider((hair_shape)(i % HAIR_SHAPE_PLANE), size, 0.26, &seed);
 }
 
 // Move each collider in turn among the others and alone. The two runs alternate, so that both see
 // the same state of the machine.
 static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t count)
 {
-    hair_solid solids[MIXED];
+    hair_collider colliders[MIXED];
     uint32_t runs = mixed->bench->options.quick ? 5 : 15;
     double sums[2] = {0}, least[2] = {0}, ms[2][MOST_RUNS];
-    make_mixed(solids, count, 0.04);
-    if (!update(mixed, solids, count)) return false;
+    make_mixed(colliders, count, 0.04);
+    if (!update(mixed, colliders, count)) return false;
     for (uint32_t k = 0; k < count; ++k) {
-        if (!update(alone, &solids[k], 1)) return false;
+        if (!update(alone, &colliders[k], 1)) return false;
         for (uint32_t i = 0; i < runs; ++i) {
-            solids[k].position[1] += i % 2 ? 0.02f : -0.02f;
-            ms[0][i] = time_update(mixed, solids, count);
-            ms[1][i] = time_update(alone, &solids[k], 1);
+            colliders[k].position[1] += i % 2 ? 0.02f : -0.02f;
+            ms[0][i] = time_update(mixed, colliders, count);
+            ms[1][i] = time_update(alone, &colliders[k], 1);
             if (isnan(ms[0][i]) || isnan(ms[1][i])) return false;
         }
         for (int i = 0; i < 2; ++i) {
@@ -386,19 +387,19 @@ static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t cou
 
 static bool run_all(struct subject* subject, const char* name, uint32_t count, double size, bool still)
 {
-    hair_solid* solids = malloc(count * sizeof *solids);
+    hair_collider* colliders = malloc(count * sizeof *colliders);
     uint32_t runs = 9, before, after;
     double ms[MOST_RUNS];
-    bool ok = solids;
-    if (ok) make_mixed(solids, count, size);
-    ok = ok && update(subject, solids, count);
+    bool ok = colliders;
+    if (ok) make_mixed(colliders, count, size);
+    ok = ok && update(subject, colliders, count);
     sum_passes(subject->bench, &before);
     for (uint32_t k = 0; k < runs && ok; ++k) {
-        for (uint32_t i = 0; i < count && !still; ++i) solids[i].position[2] += k % 2 ? 0.02f : -0.02f;
-        ok = !isnan(ms[k] = time_update(subject, solids, count));
+        for (uint32_t i = 0; i < count && !still; ++i) colliders[i].position[2] += k % 2 ? 0.02f : -0.02f;
+        ok = !isnan(ms[k] = time_update(subject, colliders, count));
     }
     sum_passes(subject->bench, &after);
-    free(solids);
+    free(colliders);
     if (!ok) return false;
     json_t* row = new_row(subject, name, count);
     set_times(row, ms, runs);
@@ -428,5 +429,5 @@ static void run_suite(struct bench* bench)
     run_scenes(bench);
 }
 
-const struct bench_suite bench_field = {"field", "solids as a field, against their exact distances", columns,
-                                        run_suite};
+const struct bench_suite bench_field = {"field", "colliders as a field, against their exact distances",
+                                        columns, run_suite};

@@ -24,7 +24,7 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 6;
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_vertices = VERTICES;
     desc.follower_count = 0;
     return hair_groom_create(&desc, out);
@@ -34,15 +34,15 @@ bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bo
                      struct bench_flow* out)
 {
     struct hair_gl* gl = &bench->context->gl;
-    hair_solid solid = hair_solid_default();
-    solid.size[0] = FLOW_BALL;
+    hair_collider collider = hair_collider_default();
+    collider.size[0] = FLOW_BALL;
     *out = (struct bench_flow){.bench = bench};
     hair_result result = make_groom(bench, &out->groom);
     if (result) return false;
     hair_gl_enter(gl);
     hair_field_create(&out->field, &bench->context->forms, out->groom, 0.005f);
-    result = hair_solids_set(&bench->context->host, &out->solids, &solid, ball, sizeof solid);
-    if (!result) result = hair_field_update(&out->field, out->solids.now.solid, ball, &origin);
+    result = hair_colliders_set(&bench->context->host, &out->colliders, &collider, ball, sizeof collider);
+    if (!result) result = hair_field_update(&out->field, out->colliders.now.collider, ball, &origin);
     if (!result) result = hair_fluid_create(&out->fluid, gl, desc);
     if (!result) result = hair_fluid_make_room(&out->fluid, 1);
     if (result) {
@@ -53,7 +53,7 @@ bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bo
                                        .wind = {(float)FLOW_WIND, 0, 0},
                                        .dt = 1.0 / 60,
                                        .field = &out->field,
-                                       .solids = &out->solids};
+                                       .colliders = &out->colliders};
     out->faces = 3 * hair_fluid_slots(&out->fluid);
     out->cells = (size_t)desc->cells * desc->cells * desc->cells;
     return true;
@@ -63,7 +63,7 @@ void bench_flow_die(struct bench_flow* flow)
 {
     hair_fluid_destroy(&flow->fluid);
     hair_field_destroy(&flow->field);
-    hair_solids_free(&flow->bench->context->host, &flow->solids);
+    hair_colliders_free(&flow->bench->context->host, &flow->colliders);
     hair_gl_leave(&flow->bench->context->gl);
     hair_groom_destroy(flow->groom);
 }

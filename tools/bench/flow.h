@@ -14,8 +14,8 @@
 struct bench_flow {
     struct bench* bench;
     hair_groom* groom; // the field is around this groom
-    struct hair_solid_field field;
-    struct hair_solids solids;
+    struct hair_collider_field field;
+    struct hair_colliders colliders;
     struct hair_fluid fluid;
     struct hair_fluid_now now;
     size_t faces, cells; // numbers of velocity components and of cells

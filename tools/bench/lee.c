@@ -71,11 +71,11 @@ void bench_lee_compare(const struct bench_flow* flow, const double* mean)
 static bool measure(struct bench* bench, struct bench_scene* scene, struct bench_times* times)
 {
     struct bench_living living;
-    hair_solid ball = hair_solid_default();
+    hair_collider ball = hair_collider_default();
     ball.size[0] = 0.1f;
     ball.position[1] = -0.15f;
     if (!bench_live(bench, scene, &living)) return false;
-    bool ok = hair_set_solids(living.hair, &ball, 1, sizeof ball) == HAIR_OK;
+    bool ok = hair_set_colliders(living.hair, &ball, 1, sizeof ball) == HAIR_OK;
     for (int i = 0; i < 10 && ok; ++i) ok = bench_step(&living, NULL, 1.0 / 60);
     ok = ok && bench_time(&living, FRAMES, NULL, 1.0 / 60, times);
     bench_die(&living);
@@ -96,7 +96,7 @@ void bench_lee_cost(struct bench* bench)
         scene.mapping = bench->options.mapping;
         scene.wind.velocity[0] = i > 0 ? 3 : 0;
         scene.wind.model = i > 1 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT;
-        scene.wind.strands = i > 2 ? 100000 : 0;
+        scene.wind.drag_strand_count = i > 2 ? 100000 : 0;
         if (!measure(bench, &scene, &times)) {
             bench_refuse(bench, "a step in wind", methods[i]);
             continue;

@@ -24,7 +24,7 @@ static hair_result make_groom(struct bench_living* living)
         desc.positions = positions;
         desc.strand_vertices = vertices;
         desc.strand_count = scene->strands;
-        desc.strands_are = HAIR_STRANDS_GUIDES;
+        desc.strand_set = HAIR_STRAND_SET_GUIDES;
         desc.guide_vertices = scene->vertices;
         desc.follower_count = 0;
         result = hair_groom_create(&desc, &living->groom);
@@ -54,7 +54,7 @@ static hair_result make_instance(struct bench_living* living)
     hair_desc desc = hair_desc_default();
     desc.label = bench_solver_name(scene->solver);
     desc.solver = scene->solver;
-    desc.mapping = scene->mapping;
+    desc.thread_mapping = scene->mapping;
     desc.substep = (float)scene->substep;
     desc.max_dt = (float)scene->max_dt;
     desc.physics = &scene->physics;
@@ -66,13 +66,13 @@ static hair_result make_instance(struct bench_living* living)
     float head[16];
     uint32_t count;
     bench_matrix(&scene->head, head);
-    result = hair_read(living->hair, HAIR_READ_GUIDES, living->positions, scene->vertices, &count);
+    result = hair_read_positions(living->hair, HAIR_READ_GUIDES, living->positions, scene->vertices, &count);
     if (!result) result = hair_set_transform(living->hair, head);
     if (!result) result = hair_reset(living->hair);
     if (result) return result;
-    hair_health health = hair_health_default();
-    result = hair_get_health(living->hair, &health);
-    living->substep = (double)health.substep;
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    result = hair_get_solver_stats(living->hair, &solver_stats);
+    living->substep = (double)solver_stats.substep;
     return result;
 }
 
@@ -125,7 +125,7 @@ bool bench_step(struct bench_living* living, const struct hair_reference_rod_pos
 bool bench_read(struct bench_living* living, double* positions)
 {
     uint32_t count, vertices = living->scene->vertices;
-    if (hair_read(living->hair, HAIR_READ_GUIDES, living->read, vertices, &count)) return false;
+    if (hair_read_positions(living->hair, HAIR_READ_GUIDES, living->read, vertices, &count)) return false;
     for (uint32_t i = 0; i < 3 * vertices; ++i) positions[i] = (double)living->read[i];
     return true;
 }
@@ -156,7 +156,7 @@ bool bench_strands_are_alike(struct bench_living* living)
     const struct bench_scene* scene = living->scene;
     uint32_t count, all = scene->strands * scene->vertices;
     size_t size = 3 * (size_t)scene->vertices;
-    if (hair_read(living->hair, HAIR_READ_GUIDES, living->read, all, &count)) return false;
+    if (hair_read_positions(living->hair, HAIR_READ_GUIDES, living->read, all, &count)) return false;
     for (uint32_t i = 1; i < scene->strands; ++i)
         if (memcmp(living->read, living->read + i * size, size * sizeof *living->read)) return false;
     return true;
@@ -187,7 +187,7 @@ bool bench_are_finite(const double* positions, uint32_t vertices)
 static double passes_since(hair_context* context, hair_timing before[BENCH_MOST_PASSES])
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    uint32_t count = hair_get_timings(context, now, BENCH_MOST_PASSES);
     double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i) {
         ms += now[i].total_ms - before[i].total_ms;
@@ -250,17 +250,17 @@ bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_
 
 void bench_set_material(json_t* row, const struct bench_living* living)
 {
-    static const char* const mappings[] = {"auto", "group", "thread"};
+    static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide"};
     const struct bench_scene* scene = living->scene;
     const hair_physics* p = &scene->physics;
     bool rod = scene->solver != HAIR_SOLVER_REDBLACK;
     bench_set_text(row, "solver", bench_solver_name(scene->solver));
-    bench_set_text(row, "mapping", mappings[scene->mapping]);
+    bench_set_text(row, "thread_mapping", mappings[scene->mapping]);
     bench_set_number(row, "substep", living->substep);
     bench_set_number(row, "damping", (double)p->damping);
     if (!rod) return; // redblack has no material
-    bench_set_number(row, "young", (double)p->young);
-    bench_set_number(row, "poisson", (double)p->poisson);
+    bench_set_number(row, "youngs_modulus", (double)p->youngs_modulus);
+    bench_set_number(row, "poisson_ratio", (double)p->poisson_ratio);
     bench_set_number(row, "fiber_radius", (double)p->fiber_radius);
     bench_set_number(row, "fiber_density", (double)p->fiber_density);
     bench_set_number(row, "flatness", (double)p->flatness);

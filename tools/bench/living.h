@@ -56,7 +56,8 @@ bool bench_time(struct bench_living* living, uint32_t frames, const struct hair_
 
 // Columns of solver and material that every row has.
 #define BENCH_MATERIAL_COLUMNS                                                                               \
-    "solver", "mapping", "substep", "young", "poisson", "fiber_radius", "fiber_density", "flatness", "damping"
+    "solver", "thread_mapping", "substep", "youngs_modulus", "poisson_ratio", "fiber_radius",                \
+        "fiber_density", "flatness", "damping"
 void bench_set_material(json_t* row, const struct bench_living* living);
 
 #endif

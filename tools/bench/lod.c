@@ -88,8 +88,8 @@ static bool compare_coverage(struct scene* scene, float share, const char* metho
               bench_picture_make(scene->studio.size, &thin) && take(&scene->studio, &shot, &full) &&
               bench_picture_cover(&full);
     shot.has_lod = true;
-    shot.lod.dynamic = 0;
-    shot.lod.strands = share;
+    shot.lod.per_patch = 0;
+    shot.lod.strand_fraction = share;
     ok = ok && take(&scene->studio, &shot, &thin) && bench_picture_compare(&full, &full, &thin, &error);
     if (ok) {
         json_t* row = add_row(scene, "coverage", method);

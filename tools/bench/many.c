@@ -27,8 +27,8 @@ struct subject {
     struct bench* bench;
     hair_groom* groom;
     hair_instance* hair;
-    hair_form* form;
-    hair_solid* solids;
+    hair_collision_mesh* form;
+    hair_collider* colliders;
     enum kind kind;
     uint32_t count, guides, frame;
 };
@@ -59,7 +59,7 @@ static hair_result make_groom(struct subject* subject)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = count;
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_vertices = VERTICES;
     desc.follower_count = 0;
     hair_result result =
@@ -89,51 +89,51 @@ static hair_result make_form(struct subject* subject)
         for (uint32_t t = 0; t < 4; ++t)
             for (uint32_t k = 0; k < 3; ++k) triangles[3 * (4 * f + t) + k] = 6 * f + cut[t][k];
     }
-    hair_form_desc desc = hair_form_desc_default();
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &subject->bench->host;
     desc.positions = positions;
     desc.triangles = triangles;
     desc.vertex_count = 8 * 6;
     desc.triangle_count = 8 * 4;
     desc.resolution = 24;
-    return hair_form_create(&desc, &subject->form);
+    return hair_collision_mesh_create(&desc, &subject->form);
 }
 
 static void die(struct subject* subject)
 {
     hair_destroy(subject->hair);
-    hair_form_destroy(subject->form);
+    hair_collision_mesh_destroy(subject->form);
     hair_groom_destroy(subject->groom);
-    free(subject->solids);
+    free(subject->colliders);
 }
 
 // Return a collider at a random place among the hair, or a part of posts in two rows. Each post is
 // one capsule or a stack of balls.
-static hair_solid solid_of(const struct subject* subject, enum kind kind, uint32_t i, uint32_t* random)
+static hair_collider collider_of(const struct subject* subject, enum kind kind, uint32_t i, uint32_t* random)
 {
-    hair_solid solid = hair_solid_default();
+    hair_collider collider = hair_collider_default();
     if (kind == BALLS || kind == FORMS) {
-        solid.shape = kind == FORMS ? HAIR_SHAPE_FORM : HAIR_SHAPE_SPHERE;
-        solid.form = subject->form;
-        solid.size[0] = kind == FORMS ? 0 : RADIUS;
-        solid.position[0] = random_in(random, -SIDE / 2, SIDE / 2);
-        solid.position[1] = random_in(random, -LENGTH, -0.03f);
-        solid.position[2] = random_in(random, -SIDE / 2, SIDE / 2);
-        return solid;
+        collider.shape = kind == FORMS ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE;
+        collider.mesh = subject->form;
+        collider.size[0] = kind == FORMS ? 0 : RADIUS;
+        collider.position[0] = random_in(random, -SIDE / 2, SIDE / 2);
+        collider.position[1] = random_in(random, -LENGTH, -0.03f);
+        collider.position[2] = random_in(random, -SIDE / 2, SIDE / 2);
+        return collider;
     }
     uint32_t per_post = subject->count / POSTS, post = i / per_post;
     float half = 0.5f * LENGTH - 3 * POST_RADIUS, share = (float)(i % per_post) / (float)(per_post - 1);
-    solid.size[0] = POST_RADIUS;
-    solid.position[0] = SIDE * ((float)(post % 5) - 2) / 5;
-    solid.position[1] = -0.5f * LENGTH;
-    solid.position[2] = post < 5 ? -0.25f * SIDE : 0.25f * SIDE;
+    collider.size[0] = POST_RADIUS;
+    collider.position[0] = SIDE * ((float)(post % 5) - 2) / 5;
+    collider.position[1] = -0.5f * LENGTH;
+    collider.position[2] = post < 5 ? -0.25f * SIDE : 0.25f * SIDE;
     if (kind == POSTS_OF_BALLS) {
-        solid.position[1] += half * (2 * share - 1);
+        collider.position[1] += half * (2 * share - 1);
     } else {
-        solid.shape = HAIR_SHAPE_CAPSULE;
-        solid.size[1] = half;
+        collider.shape = HAIR_SHAPE_CAPSULE;
+        collider.size[1] = half;
     }
-    return solid;
+    return collider;
 }
 
 static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind kind, struct subject* out)
@@ -142,12 +142,12 @@ static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind
     hair_desc desc = hair_desc_default();
     uint32_t random = 7;
     hair_result result;
-    desc.mapping = bench->options.mapping;
-    out->solids = malloc(sizeof *out->solids * count);
-    result = out->solids ? make_groom(out) : HAIR_ERROR_MEMORY;
+    desc.thread_mapping = bench->options.mapping;
+    out->colliders = malloc(sizeof *out->colliders * count);
+    result = out->colliders ? make_groom(out) : HAIR_ERROR_MEMORY;
     if (!result && kind == FORMS) result = make_form(out);
     if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
-    for (uint32_t i = 0; i < count && !result; ++i) out->solids[i] = solid_of(out, kind, i, &random);
+    for (uint32_t i = 0; i < count && !result; ++i) out->colliders[i] = collider_of(out, kind, i, &random);
     if (!result) return true;
     die(out);
     out->hair = NULL;
@@ -157,7 +157,7 @@ static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind
 static double time_of_passes(hair_context* context)
 {
     hair_timing now[BENCH_MOST_PASSES];
-    uint32_t count = hair_timings(context, now, BENCH_MOST_PASSES);
+    uint32_t count = hair_get_timings(context, now, BENCH_MOST_PASSES);
     double ms = 0;
     for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
         if (strncmp(now[i].pass, "sim/", 4) == 0) ms += now[i].total_ms;
@@ -170,9 +170,10 @@ static bool ask_for_frame(struct subject* subject, double* ms_host)
     float way = 0.05f / 60 * (++subject->frame % 120 < 60 ? 1.0f : -1.0f); // 5 cm/s
     double start = hair_now();
     for (uint32_t i = 0; i < subject->count; ++i)
-        subject->solids[i].position[subject->kind >= POSTS_WHOLE ? 0 : i % 3] += way;
-    bool whole = !hair_set_solids(subject->hair, subject->solids, subject->count, sizeof *subject->solids) &&
-                 !hair_step(subject->hair, 1.0f / 60);
+        subject->colliders[i].position[subject->kind >= POSTS_WHOLE ? 0 : i % 3] += way;
+    bool whole =
+        !hair_set_colliders(subject->hair, subject->colliders, subject->count, sizeof *subject->colliders) &&
+        !hair_step(subject->hair, 1.0f / 60);
     *ms_host = hair_now() - start;
     return whole;
 }
@@ -199,11 +200,11 @@ static void add_row(struct subject* subject, double* ms, double* host, uint32_t 
     qsort(ms, runs, sizeof *ms, compare);
     qsort(host, runs, sizeof *host, compare);
     json_t* row = bench_rows_add(&subject->bench->rows);
-    bench_set_text(row, "case", "many solids");
+    bench_set_text(row, "case", "many colliders");
     bench_set_text(row, "method", names[subject->kind]);
     bench_set_count(row, "strands", subject->guides);
     bench_set_count(row, "vertices", VERTICES);
-    bench_set_count(row, "solids", subject->count);
+    bench_set_count(row, "colliders", subject->count);
     bench_set_number(row, "ms", ms[runs / 2]);
     bench_set_number(row, "ms_host", host[runs / 2]);
     bench_set_count(row, "runs", runs);
@@ -233,9 +234,9 @@ static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind
     double ms[2][MOST_RUNS], host[2][MOST_RUNS], none;
     uint32_t runs = 0, most = bench->options.quick ? 3 : MOST_RUNS;
     uint32_t guides = bench->options.strands ? bench->options.strands : bench->options.quick ? 16 : 1024;
-    if (!bench_begin(bench, "many solids", names[kind])) return;
+    if (!bench_begin(bench, "many colliders", names[kind])) return;
     if (!live(bench, guides, POSTS, few_kind, &few)) {
-        bench_refuse(bench, "many solids", names[few_kind]);
+        bench_refuse(bench, "many colliders", names[few_kind]);
         return;
     }
     bool whole = bench->software || live(bench, guides, POSTS, few_kind, &other);
@@ -249,14 +250,14 @@ static void compare_with(struct bench* bench, enum kind few_kind, enum kind kind
         add_row(&few, ms[0], host[0], runs, 0, 0);
         add_row(&many, ms[1], host[1], runs, ms[0][runs / 2], limit);
     } else {
-        bench_refuse(bench, "many solids", names[kind]);
+        bench_refuse(bench, "many colliders", names[kind]);
     }
     if (other.hair) die(&other);
     if (many.hair) die(&many);
     die(&few);
 }
 
-void bench_many_solids(struct bench* bench)
+void bench_many_colliders(struct bench* bench)
 {
     bool quick = bench->options.quick;
     // The bodies have the same shape, so that many colliders are touched as often as a few.

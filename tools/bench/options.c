@@ -42,11 +42,12 @@ static const struct row {
     {"case", CASE, "NAME", "only this case of the suite; a name that ends with * is any that begins so"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
-     "                   none, switch, push, compute or prepass; of render, only this path:\n"
-     "                   tessellation, instanced, expanded or computed; of shadow, only depth, strands,\n"
+     "                   none, single_guide, push_out, compute or prepass; of render, only this path:\n"
+     "                   tessellation, instanced, cached or compute; of shadow, only depth, strands,\n"
      "                   grid, mean or layers; of wind, only this projection:\n"
      "                   multigrid, relaxation or jacobi"},
-    {"mapping", MAPPING, "NAME", "of guides to GPU threads: auto, group or thread"},
+    {"thread-mapping", MAPPING, "NAME",
+     "of guides to GPU threads: auto, workgroup_per_guide or thread_per_guide"},
     {"strands", STRANDS, "N",
      "copies of the strand that are timed; 1000; of render and table, strands\n"
      "                   of the haircut"},
@@ -63,11 +64,11 @@ static const struct row {
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
 static const char* const methods[] = {
-    "direct",  "accurate",     "follow",    "redblack", "none",     "switch",    "push",       "compute",
-    "prepass", "tessellation", "instanced", "expanded", "computed", "multigrid", "relaxation", "jacobi",
-    "depth",   "strands",      "grid",      "mean",     "layers",   NULL};
-// In the order of hair_mapping.
-static const char* const mappings[] = {"auto", "group", "thread", NULL};
+    "direct",  "accurate", "follow",       "redblack",  "none",   "single_guide", "push_out",
+    "compute", "prepass",  "tessellation", "instanced", "cached", "multigrid",    "relaxation",
+    "jacobi",  "depth",    "strands",      "grid",      "mean",   "layers",       NULL};
+// In the order of hair_thread_mapping.
+static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide", NULL};
 
 static int print_help(void)
 {
@@ -141,7 +142,7 @@ static bool take(const struct row* row, const char* value, struct bench_options*
     case METHOD: out->only_method = value; return parse_name(row->name, value, methods, &number);
     case MAPPING:
         if (!parse_name(row->name, value, mappings, &number)) return false;
-        out->mapping = (hair_mapping)number;
+        out->mapping = (hair_thread_mapping)number;
         return true;
     case STRANDS: return parse_count(row->name, value, 1, 262144, &out->strands);
     case SIZE: return parse_count(row->name, value, 16, 4096, &out->size);

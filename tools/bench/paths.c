@@ -1,5 +1,5 @@
 // paths.c - Suite `paths`, the fastest drawing path on this driver. lib/draw/paths.inl stores its
-// rows, which HAIR_PATH_AUTO uses.
+// rows, which HAIR_RENDER_PATH_AUTO uses.
 //
 // The paths take turns, so that a slowdown of the machine affects all of them. On a software
 // rasterizer the CPU time of all threads is measured, because other processes affect it less.
@@ -22,22 +22,22 @@ static const char* const columns[] = {"case",   "method",  "strands", "size", "s
 
 static const struct way {
     const char* name;
-    hair_path path;
-} ways[] = {{"tessellation", HAIR_PATH_TESSELLATION},
-            {"instanced", HAIR_PATH_INSTANCED},
-            {"expanded", HAIR_PATH_EXPANDED},
-            {"computed", HAIR_PATH_COMPUTED}};
+    hair_render_path path;
+} ways[] = {{"tessellation", HAIR_RENDER_PATH_TESSELLATION},
+            {"instanced", HAIR_RENDER_PATH_INSTANCED},
+            {"cached", HAIR_RENDER_PATH_CACHED},
+            {"compute", HAIR_RENDER_PATH_COMPUTE}};
 
 // A column of lib/draw/paths.inl.
 static const struct kind {
     const char* name;
     hair_primitive primitive;
     bool has_lod, of_depth; // `of_depth` measures the depth pass instead of the colour pass
-} kinds[] = {{"ribbons", HAIR_RIBBONS, false, false},
-             {"lines", HAIR_LINES, false, false},
-             {"ribbons, lod", HAIR_RIBBONS, true, false},
-             {"lines, lod", HAIR_LINES, true, false},
-             {"depth", HAIR_RIBBONS, false, true}};
+} kinds[] = {{"ribbons", HAIR_PRIMITIVE_RIBBONS, false, false},
+             {"lines", HAIR_PRIMITIVE_LINES, false, false},
+             {"ribbons, lod", HAIR_PRIMITIVE_RIBBONS, true, false},
+             {"lines, lod", HAIR_PRIMITIVE_LINES, true, false},
+             {"depth", HAIR_PRIMITIVE_RIBBONS, false, true}};
 
 enum { WAYS = sizeof ways / sizeof *ways, KINDS = sizeof kinds / sizeof *kinds };
 
@@ -67,16 +67,16 @@ static double now(const struct bench* bench)
     return bench->software ? 1e3 * (double)clock() / CLOCKS_PER_SEC : hair_now();
 }
 
-// Draw the picture by `path` and its shadow map by HAIR_PATH_AUTO, or vice versa if kind->of_depth.
+// Draw the picture by `path` and its shadow map by HAIR_RENDER_PATH_AUTO, or vice versa if kind->of_depth.
 // Hair moves between frames, so that vertices that a path caches are recomputed.
-static bool run_frames(struct scene* scene, const struct kind* kind, hair_path path, uint32_t frames,
+static bool run_frames(struct scene* scene, const struct kind* kind, hair_render_path path, uint32_t frames,
                        double* ms)
 {
     struct bench_studio* studio = &scene->studio;
     struct bench_shot shot = bench_studio_shot(studio);
     shot.samples = 4;
-    shot.view.path = kind->of_depth ? HAIR_PATH_AUTO : path;
-    shot.map_path = kind->of_depth ? path : HAIR_PATH_AUTO;
+    shot.view.render_path = kind->of_depth ? HAIR_RENDER_PATH_AUTO : path;
+    shot.map_path = kind->of_depth ? path : HAIR_RENDER_PATH_AUTO;
     shot.map_apart = true;
     shot.view.primitive = kind->primitive;
     shot.has_lod = kind->has_lod;
@@ -99,7 +99,7 @@ static const char* drawn_by(struct scene* scene, const struct kind* kind)
     uint32_t count = 0;
     if (hair_report(scene->studio.hair, 1, &info, rows, sizeof *rows, 32, &count)) return "";
     for (uint32_t i = 0; i < count && i < 32; ++i)
-        if (!strcmp(rows[i].work, kind->of_depth ? "depth" : "color") && rows[i].pass) return rows[i].pass;
+        if (!strcmp(rows[i].stage, kind->of_depth ? "depth" : "color") && rows[i].pass) return rows[i].pass;
     return "";
 }
 
@@ -107,7 +107,7 @@ static bool compare(struct scene* scene, const struct kind* kind)
 {
     double ms[WAYS][ROUNDS], first;
     struct bench_times times[WAYS];
-    const char *passes[WAYS], *taken; // `taken` is the pass that HAIR_PATH_AUTO chose
+    const char *passes[WAYS], *taken; // `taken` is the pass that HAIR_RENDER_PATH_AUTO chose
     bool software = scene->bench->software;
     uint32_t frames = software ? 1 : 60, rounds = scene->bench->options.quick ? 2 : ROUNDS, fastest = 0;
     if (!need(scene)) return false;
@@ -115,7 +115,7 @@ static bool compare(struct scene* scene, const struct kind* kind)
         if (!run_frames(scene, kind, ways[i].path, 1, &first)) return false;
         passes[i] = drawn_by(scene, kind);
     }
-    if (!run_frames(scene, kind, HAIR_PATH_AUTO, 1, &first)) return false;
+    if (!run_frames(scene, kind, HAIR_RENDER_PATH_AUTO, 1, &first)) return false;
     taken = drawn_by(scene, kind);
     for (uint32_t k = 0; k < rounds; ++k)
         for (uint32_t i = 0; i < WAYS; ++i)

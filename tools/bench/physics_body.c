@@ -52,7 +52,7 @@ static bool spin_up(struct body* body, const double axis[3])
 {
     struct bench_living* living = &body->living;
     hair_physics calm = living->scene->physics, pulled = calm;
-    pulled.pull_root = pulled.pull_tip = PULL;
+    pulled.shape_frequency_root = pulled.shape_frequency_tip = PULL;
     pulled.damping = DRAG;
     if (hair_set_physics(living->hair, &pulled)) return false;
     for (double time = STEP; time < SECONDS_UP + STEP / 2; time += STEP) {

@@ -53,10 +53,10 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
     scene.physics.root = HAIR_ROOT_FREE;
-    scene.physics.young = 0;
+    scene.physics.youngs_modulus = 0;
     scene.physics.damping = 4;
     scene.physics.friction = (float)friction;
-    scene.physics.margin = (float)margin;
+    scene.physics.collision_margin = (float)margin;
     return scene;
 }
 
@@ -89,7 +89,7 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
     double first[3 * BENCH_MOST_VERTICES], middle[3 * BENCH_MOST_VERTICES], last[3 * BENCH_MOST_VERTICES];
     struct bench_scene scene = make_scene(bench, solver, vertices, friction, fraction);
     struct bench_living living;
-    hair_solid cylinder = hair_solid_default();
+    hair_collider cylinder = hair_collider_default();
     cylinder.shape = HAIR_SHAPE_CAPSULE;
     cylinder.size[0] = (float)RADIUS;
     cylinder.size[1] = 0.2f;
@@ -99,7 +99,7 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
         return;
     }
     uint32_t tip = 3 * (vertices - 1) + 1;
-    if (!hair_set_solids(living.hair, &cylinder, 1, sizeof cylinder) && bench_read(&living, first) &&
+    if (!hair_set_colliders(living.hair, &cylinder, 1, sizeof cylinder) && bench_read(&living, first) &&
         wait_and_read(&living, 60, middle) && wait_and_read(&living, 60, last))
         add_row(&living, friction, fraction, first[tip] - last[tip], fabs(middle[tip] - last[tip]));
     else

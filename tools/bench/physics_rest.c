@@ -159,19 +159,19 @@ static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t v
     double positions[3 * BENCH_MOST_VERTICES], lowest = 0;
     struct bench_living living;
     struct bench_scene scene = bench_scene_default();
-    hair_tie tie = hair_tie_default();
+    hair_pin pin = hair_pin_default();
     bench_scene_straight(&scene, vertices, length, nowhere, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
     scene.physics.damping = 6;
-    scene.physics.young = 0;
+    scene.physics.youngs_modulus = 0;
     scene.physics.root = HAIR_ROOT_HINGED;
-    tie.position[0] = (float)(span * length);
+    pin.position[0] = (float)(span * length);
     if (!bench_live(bench, &scene, &living)) {
         bench_refuse(bench, "catenary", method);
         return;
     }
-    if (!hair_set_ties(living.hair, &tie, 1, sizeof tie) && bench_settle(&living, positions)) {
+    if (!hair_set_pins(living.hair, &pin, 1, sizeof pin) && bench_settle(&living, positions)) {
         for (uint32_t i = 0; i < vertices; ++i) lowest = fmin(lowest, positions[3 * i + 1]);
         bench_physics_row(&living, "catenary", catenary_sag(span), -lowest / length, 0.005,
                           span < 0.6 ? "catenary of span 0.5, sag/L" : "catenary of span 0.8, sag/L");
@@ -297,11 +297,11 @@ void bench_lateral_buckling(struct bench* bench)
             p->fiber_radius = 1e-4f;
             p->damping = 10;
             p->flatness = 0.1f;
-            p->poisson = 0.43493f;
+            p->poisson_ratio = 0.43493f;
             // Stiffness is proportional to Young's modulus.
             struct bench_section section = bench_section_of(p);
             double root = sqrt(section.bend[0] * section.twist);
-            p->young *=
+            p->youngs_modulus *=
                 (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) / (root * critical * b.share));
             measure_buckling(bench, bench_rod_solvers[s], &b);
         }

@@ -58,12 +58,13 @@ static bool find_truth(const struct bench_scene* scene, double rate, double* tru
 
 static void add_row(struct bench_living* living, double rate, double error)
 {
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     json_t* row = bench_physics_row(living, "head_spin", 0, error, 0.005,
                                     "rod in double precision, farthest over the length");
     bench_set_number(row, "rate", rate);
-    if (hair_get_health(living->hair, &health)) return;
-    uint64_t fallbacks = (uint64_t)health.euler + health.parts + health.follow + health.reset;
+    if (hair_get_solver_stats(living->hair, &solver_stats)) return;
+    uint64_t fallbacks = (uint64_t)solver_stats.euler_fallbacks + solver_stats.parts +
+                         solver_stats.follow_fallbacks + solver_stats.reset;
     bench_set_count(row, "fallbacks", fallbacks);
     if (fallbacks > 0) bench_set_flag(row, "pass", false);
 }

@@ -50,19 +50,19 @@ static const struct subject {
 
 static const struct path {
     const char* name;
-    hair_path path;
-} paths[] = {{"tessellation", HAIR_PATH_TESSELLATION},
-             {"instanced", HAIR_PATH_INSTANCED},
-             {"expanded", HAIR_PATH_EXPANDED},
-             {"computed", HAIR_PATH_COMPUTED}};
+    hair_render_path path;
+} paths[] = {{"tessellation", HAIR_RENDER_PATH_TESSELLATION},
+             {"instanced", HAIR_RENDER_PATH_INSTANCED},
+             {"cached", HAIR_RENDER_PATH_CACHED},
+             {"compute", HAIR_RENDER_PATH_COMPUTE}};
 
 static const struct primitive {
     const char* name;
     hair_primitive primitive;
     hair_coverage coverage;
-} primitives[] = {{"ribbons", HAIR_RIBBONS, HAIR_COVERAGE_SAMPLES},
-                  {"lines", HAIR_LINES, HAIR_COVERAGE_SAMPLES},
-                  {"shares", HAIR_RIBBONS, HAIR_COVERAGE_SHARES}};
+} primitives[] = {{"ribbons", HAIR_PRIMITIVE_RIBBONS, HAIR_COVERAGE_MSAA},
+                  {"lines", HAIR_PRIMITIVE_LINES, HAIR_COVERAGE_MSAA},
+                  {"shares", HAIR_PRIMITIVE_RIBBONS, HAIR_COVERAGE_ALPHA}};
 
 // Level of detail with fewer and wider strands. A share of 0 selects dynamic level of detail.
 static const struct lod {
@@ -202,13 +202,13 @@ static bool look(struct scene* scene, const struct setting* setting)
     struct bench_picture picture;
     struct bench_times times;
     struct hair_image_error error;
-    shot.view.path = setting->path->path;
+    shot.view.render_path = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
     shot.view.coverage = setting->primitive->coverage;
     shot.look.segments = setting->segments;
     shot.has_lod = setting->lod->share < 1;
-    shot.lod.dynamic = setting->lod->share > 0 ? 0 : 1;
-    if (setting->lod->share > 0) shot.lod.strands = setting->lod->share;
+    shot.lod.per_patch = setting->lod->share > 0 ? 0 : 1;
+    if (setting->lod->share > 0) shot.lod.strand_fraction = setting->lod->share;
     shot.samples = setting->samples->msaa;
     shot.supersample = setting->samples->supersample;
     if (!bench_picture_make(scene->studio.size, &picture)) return false;
@@ -240,7 +240,7 @@ static bool is_wanted_closely(const struct bench* bench, const struct subject* s
                               const struct setting* setting)
 {
     bool every = subject->width >= 0.5f && setting->primitive == primitives && setting->lod == lods;
-    return bench->software && !bench->options.quick && setting->path->path == HAIR_PATH_EXPANDED &&
+    return bench->software && !bench->options.quick && setting->path->path == HAIR_RENDER_PATH_CACHED &&
            setting->lod->share > 0 && setting->segments >= FEWEST_OF_CLOSE &&
            setting->segments <= MOST_OF_CLOSE &&
            (setting->samples->supersample == 1 || setting->samples->of_software) &&
@@ -255,10 +255,10 @@ static bool is_wanted_of_width(const struct bench* bench, const struct subject* 
     bool usual = setting->segments == 32, all = setting->lod == lods;
     if (is_wanted_closely(bench, subject, setting)) return true;
     if (is_between(setting->segments)) return false;
-    if (setting->path->path == HAIR_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
+    if (setting->path->path == HAIR_RENDER_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
-                 (setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED ||
-                  setting->primitive->coverage == HAIR_COVERAGE_SHARES);
+                 (setting->path == paths || setting->path->path == HAIR_RENDER_PATH_COMPUTE ||
+                  setting->primitive->coverage == HAIR_COVERAGE_ALPHA);
     if (bench->options.quick && !quick) return false;
     if (setting->samples->supersample > 1) return usual && all;
     return all ? setting->segments >= FEWEST_OF_CLOSE && setting->segments <= MOST_OF_CLOSE : usual;
@@ -278,14 +278,14 @@ static bool is_computed(const struct bench* bench, const struct setting* setting
 // additional samples.
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
-    bool shares = setting->primitive->coverage == HAIR_COVERAGE_SHARES;
+    bool shares = setting->primitive->coverage == HAIR_COVERAGE_ALPHA;
     if (setting->samples->of_software && (!bench->software || setting->primitive != primitives)) return false;
-    if (shares && (setting->path->path != HAIR_PATH_EXPANDED || setting->samples->supersample > 1))
+    if (shares && (setting->path->path != HAIR_RENDER_PATH_CACHED || setting->samples->supersample > 1))
         return false;
-    if (setting->path->path == HAIR_PATH_COMPUTED && !is_computed(bench, setting)) return false;
+    if (setting->path->path == HAIR_RENDER_PATH_COMPUTE && !is_computed(bench, setting)) return false;
     if (subject->width > 0) return is_wanted_of_width(bench, subject, setting);
     if (is_between(setting->segments)) return false;
-    bool whole = setting->path == paths || setting->path->path == HAIR_PATH_COMPUTED;
+    bool whole = setting->path == paths || setting->path->path == HAIR_RENDER_PATH_COMPUTE;
     return (!bench->options.quick && whole) ||
            (setting->lod->quick && is_quick(setting->segments) && setting->samples->quick);
 }

@@ -24,7 +24,7 @@ bool bench_is_asleep(hair_instance* hair)
     uint32_t count = 0;
     if (hair_report(hair, 1, &info, rows, sizeof *rows, MAX_ROWS, &count)) return false;
     for (uint32_t i = 0; i < count && i < MAX_ROWS; ++i)
-        if (!strcmp(rows[i].work, "solve")) return rows[i].why == HAIR_WHY_ASLEEP;
+        if (!strcmp(rows[i].stage, "solve")) return rows[i].skip_reason == HAIR_SKIP_REASON_ASLEEP;
     return false;
 }
 
@@ -45,7 +45,7 @@ static bool has_to_stop(const struct state* state)
 static bool read_guides(struct state* state)
 {
     uint32_t count, all = state->guides * state->vertices;
-    return !hair_read(state->hair, HAIR_READ_GUIDES, state->now, all, &count) && count == all;
+    return !hair_read_positions(state->hair, HAIR_READ_GUIDES, state->now, all, &count) && count == all;
 }
 
 // Simulate until the time `until` or until the hair is asleep.
@@ -75,9 +75,9 @@ static void compare(struct state* state, double passed, struct bench_rest* out)
 // Return the interval of a speed, an odd number of substeps. Hair moves in whole substeps only.
 static double find_interval(hair_instance* hair)
 {
-    hair_health health = hair_health_default();
-    if (hair_get_health(hair, &health) || !(health.substep > 0)) return FRAME;
-    double substep = (double)health.substep, count = ceil(MIN_INTERVAL / substep - 1e-3);
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    if (hair_get_solver_stats(hair, &solver_stats) || !(solver_stats.substep > 0)) return FRAME;
+    double substep = (double)solver_stats.substep, count = ceil(MIN_INTERVAL / substep - 1e-3);
     return substep * (fmod(count, 2) == 0 ? count + 1 : count);
 }
 

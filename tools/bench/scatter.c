@@ -31,8 +31,8 @@ static const struct lit {
 
 static const struct method {
     const char* name;
-    hair_shadow shadow;
-} methods[] = {{"strands", HAIR_SHADOW_STRANDS}, {"depth", HAIR_SHADOW_DEPTH}};
+    hair_self_shadow shadow;
+} methods[] = {{"strands", HAIR_SELF_SHADOW_STRANDS}, {"depth", HAIR_SELF_SHADOW_DEPTH}};
 
 #define COLORS (sizeof colors / sizeof *colors)
 #define LITS (sizeof lits / sizeof *lits)
@@ -58,14 +58,14 @@ static bool make(struct scatter* scatter)
     struct bench_studio_desc desc = {
         .scene = "still", .size = size ? size : SIZE, .followers = strands ? strands : STRANDS};
     if (!bench_studio_make(scatter->bench, &desc, studio)) return false;
-    hair_set_solids(studio->hair, NULL, 0, 0); // Paths hit no colliders.
+    hair_set_colliders(studio->hair, NULL, 0, 0); // Paths hit no colliders.
     studio->bare = true;
     scatter->shot = bench_studio_shot(studio);
     hair_look* look = &scatter->shot.look;
     look->taper = hair_curve_line(1, 1);
     look->segments = SEGMENTS;
     look->radius = look->radius * studio->fewer; // Keep the total amount of hair.
-    look->tilt_spread = 0;
+    look->cuticle_tilt_spread = 0;
     scatter->shot.samples = 4;
     scatter->shot.supersample = 2;
     memset(scatter->shot.view.ambient, 0, sizeof scatter->shot.view.ambient);
@@ -140,17 +140,18 @@ static bool trace(struct scatter* scatter)
     for (size_t i = 0; i < 3 * COLORS; ++i)
         mu[i] = absorption_of((double)scatter->colors[i / 3][i % 3], (double)look->roughness[1]);
     bool ok = positions && make_rays(scatter, rays) && bench_studio_set(&scatter->studio, &scatter->shot) &&
-              !hair_read(scatter->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &there) &&
+              !hair_read_positions(scatter->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &there) &&
               there == count;
-    struct hair_reference_hair hair = {.positions = positions,
-                                       .count = scatter->studio.info.follower_count,
-                                       .each = SEGMENTS + 1,
-                                       .radius = (double)look->radius,
-                                       .fibre = {&table[0][0][0], (double)variance[0], (double)look->tilt},
-                                       .mu = mu,
-                                       .colors = 3 * COLORS,
-                                       .to_light = scatter->to_light[0],
-                                       .lights = LITS};
+    struct hair_reference_hair hair = {
+        .positions = positions,
+        .count = scatter->studio.info.follower_count,
+        .each = SEGMENTS + 1,
+        .radius = (double)look->radius,
+        .fibre = {&table[0][0][0], (double)variance[0], (double)look->cuticle_tilt},
+        .mu = mu,
+        .colors = 3 * COLORS,
+        .to_light = scatter->to_light[0],
+        .lights = LITS};
     if (ok) hair_reference_paths(&hair, scatter->from, scatter->way, rays, 1, &scatter->glow);
     free(positions);
     return ok && scatter->glow.met > 0;
@@ -198,10 +199,10 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     hair_light* light = &scatter->studio.scene.settings.light;
     size_t of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
     double all[3], once[3], truth[3], alone[3], error = 0;
-    look->shadow = method->shadow;
+    look->self_shadow = method->shadow;
     memcpy(look->root_color, scatter->colors[of / 3], sizeof look->root_color);
     memcpy(look->tip_color, scatter->colors[of / 3], sizeof look->tip_color);
-    for (int k = 0; k < 3; ++k) light->to[k] = (float)scatter->to_light[from][k];
+    for (int k = 0; k < 3; ++k) light->direction[k] = (float)scatter->to_light[from][k];
     if (!measure_light(scatter, 1, all) || !measure_light(scatter, 0, once)) return false;
     for (size_t k = 0; k < 3; ++k) {
         truth[k] = scatter->glow.often[from][of + k];

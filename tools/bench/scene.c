@@ -12,8 +12,9 @@ struct bench_scene bench_scene_default(void)
     hair_physics* p = &scene.physics;
     *p = hair_physics_default();
     scene.wind = hair_wind_default();
-    p->damping = p->pull_root = p->pull_tip = p->margin = p->hold = p->sleep = 0;
-    p->angular = 0;
+    p->damping = p->shape_frequency_root = p->shape_frequency_tip = p->collision_margin = p->gravity_preload =
+        p->sleep_threshold = 0;
+    p->redblack.angular_hz = 0;
     return scene;
 }
 
@@ -45,8 +46,8 @@ void bench_scene_set_gamma(struct bench_scene* scene, double length, double gamm
 {
     hair_physics* p = &scene->physics;
     double radius = (double)p->fiber_radius;
-    p->young = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
-                       (gamma * radius * radius));
+    p->youngs_modulus = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
+                                (gamma * radius * radius));
 }
 
 double bench_scene_length(const struct bench_scene* scene)
@@ -66,10 +67,10 @@ double bench_scene_length(const struct bench_scene* scene)
 struct bench_section bench_section_of(const hair_physics* physics)
 {
     double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
-    double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->young;
+    double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->youngs_modulus;
     return (struct bench_section){
         .bend = {round * flat, round / flat},
-        .twist = 2 * round / (1 + (double)physics->poisson) * flat / (1 + flat * flat),
+        .twist = 2 * round / (1 + (double)physics->poisson_ratio) * flat / (1 + flat * flat),
         .line_density = (double)physics->fiber_density * BENCH_PI * radius * radius};
 }
 
@@ -162,7 +163,7 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
     for (uint32_t i = 0; i < scene->vertices; ++i) {
         scale[i] = between(p->stiffness_root, p->stiffness_tip, i, scene->vertices);
-        pull[i] = 2 * BENCH_PI * between(p->pull_root, p->pull_tip, i, scene->vertices);
+        pull[i] = 2 * BENCH_PI * between(p->shape_frequency_root, p->shape_frequency_tip, i, scene->vertices);
     }
     find_root_frame(positions, desc.root_frame);
     hair_reference_rod_strain(scene->vertices, positions, desc.root_frame, strain);

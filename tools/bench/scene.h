@@ -16,7 +16,7 @@ struct bench_scene {
     uint32_t vertices;
     uint32_t strands; // identical strands
     hair_solver solver;
-    hair_mapping mapping;
+    hair_thread_mapping mapping;
     double substep; // s, 0 uses the solver's default
     double max_dt; // s
     hair_physics physics;

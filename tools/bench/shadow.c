@@ -131,11 +131,12 @@ static bool read_strands(struct scene* scene)
     uint32_t count = scene->studio.info.follower_count * (SEGMENTS + 1);
     float* positions = malloc(3 * sizeof *positions * count);
     hair_light_direction(&scene->studio.scene, to);
-    hair_set_solids(scene->studio.hair, NULL, 0, 0); // Rays hit no colliders.
-    bool ok = positions && bench_studio_set(&scene->studio, &scene->shot) &&
-              !hair_read(scene->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &scene->vertices) &&
-              bench_strands_make(positions, scene->studio.info.follower_count, SEGMENTS + 1,
-                                 scene->shot.look.radius, to, &scene->strands);
+    hair_set_colliders(scene->studio.hair, NULL, 0, 0); // Rays hit no colliders.
+    bool ok =
+        positions && bench_studio_set(&scene->studio, &scene->shot) &&
+        !hair_read_positions(scene->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &scene->vertices) &&
+        bench_strands_make(positions, scene->studio.info.follower_count, SEGMENTS + 1,
+                           scene->shot.look.radius, to, &scene->strands);
     free(positions);
     scene->light = malloc((scene->vertices + 1) * sizeof(float));
     return ok && scene->light;
@@ -181,17 +182,17 @@ static const struct method {
     bool (*find)(struct scene* scene, const float* with); // NULL uses the library's method
     float with[3];
     uint32_t count; // number of layers
-    hair_shadow shadow; // setting of the library
+    hair_self_shadow shadow; // setting of the library
     bool unmapped;
-} methods[] = {{"depth", NULL, {0}, 0, HAIR_SHADOW_DEPTH, false},
-               {"strands", NULL, {0.004f}, 0, HAIR_SHADOW_STRANDS, false},
-               {"grid", NULL, {0.012f}, 0, HAIR_SHADOW_STRANDS, true},
-               {"grid", NULL, {0.008f}, 0, HAIR_SHADOW_STRANDS, true},
-               {"grid", NULL, {0.004f}, 0, HAIR_SHADOW_STRANDS, true},
-               {"mean", by_none, {0}, 0, HAIR_SHADOW_DEPTH, false},
-               {"layers", by_layers, {0.001f, 4, 0.005f}, 4, HAIR_SHADOW_DEPTH, false},
-               {"layers", by_layers, {0.001f, 8, 0.002f}, 8, HAIR_SHADOW_DEPTH, false},
-               {"layers", by_layers, {0.002f, 8, 0.002f}, 8, HAIR_SHADOW_DEPTH, false}};
+} methods[] = {{"depth", NULL, {0}, 0, HAIR_SELF_SHADOW_DEPTH, false},
+               {"strands", NULL, {0.004f}, 0, HAIR_SELF_SHADOW_STRANDS, false},
+               {"grid", NULL, {0.012f}, 0, HAIR_SELF_SHADOW_STRANDS, true},
+               {"grid", NULL, {0.008f}, 0, HAIR_SELF_SHADOW_STRANDS, true},
+               {"grid", NULL, {0.004f}, 0, HAIR_SELF_SHADOW_STRANDS, true},
+               {"mean", by_none, {0}, 0, HAIR_SELF_SHADOW_DEPTH, false},
+               {"layers", by_layers, {0.001f, 4, 0.005f}, 4, HAIR_SELF_SHADOW_DEPTH, false},
+               {"layers", by_layers, {0.001f, 8, 0.002f}, 8, HAIR_SELF_SHADOW_DEPTH, false},
+               {"layers", by_layers, {0.002f, 8, 0.002f}, 8, HAIR_SELF_SHADOW_DEPTH, false}};
 
 // Return the time of finding the light and drawing, the minimum of a few runs, because other load
 // lengthens times.
@@ -206,9 +207,9 @@ static bool look(struct scene* scene, const struct method* method)
 {
     struct bench_picture picture = {0};
     struct hair_image_error error;
-    scene->shot.look.shadow = method->shadow;
+    scene->shot.look.self_shadow = method->shadow;
     scene->shot.unmapped = method->unmapped;
-    if (method->shadow == HAIR_SHADOW_STRANDS) scene->shot.look.voxel = method->with[0];
+    if (method->shadow == HAIR_SELF_SHADOW_STRANDS) scene->shot.look.self_shadow_cell = method->with[0];
     bool ok = (!method->find || method->find(scene, method->with)) &&
               take(scene, method->find ? scene->by_table : scene->by_library, &picture) &&
               bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);

@@ -20,7 +20,7 @@ static const char* const columns[] = {"case",       "method",         "scene", "
 // A row of heads. The first `moving` heads shake, the first `seen` heads are in view.
 struct scene {
     uint32_t heads, moving, seen;
-    bool sleeps, solids, fluid, blind; // `blind` disables drawing
+    bool sleeps, colliders, fluid, blind; // `blind` disables drawing
     uint32_t lights;
     enum { NO_DEPTH, NO_WALL, WALL } before; // content of the depth buffer before hair is drawn
     bool lends; // passes the depth buffer to the view
@@ -34,8 +34,8 @@ static const struct pair {
      {1, 0, 1, .blind = true, .lights = 1},
      {1, 0, 1, .sleeps = true, .blind = true, .lights = 1}},
     {"off screen", {1, 1, 1, .sleeps = true, .lights = 1}, {1, 1, 0, .sleeps = true, .lights = 1}},
-    {"no solids",
-     {1, 1, 1, .sleeps = true, .solids = true, .lights = 1},
+    {"no colliders",
+     {1, 1, 1, .sleeps = true, .colliders = true, .lights = 1},
      {1, 1, 1, .sleeps = true, .lights = 1}},
     {"no wind",
      {1, 1, 1, .sleeps = true, .fluid = true, .lights = 1},
@@ -67,7 +67,7 @@ static hair_result make_groom(struct bench* bench, hair_groom** out)
     style.host = desc.host = &bench->host;
     style.guide_count = 64;
     hair_result result = hair_asset_generate(&style, &asset);
-    if (!result) result = hair_asset_fill(asset, &desc);
+    if (!result) result = hair_asset_to_groom_desc(asset, &desc);
     desc.follower_count = bench->options.strands ? bench->options.strands : 2000;
     if (!result) result = hair_groom_create(&desc, out);
     hair_asset_destroy(asset);
@@ -88,14 +88,14 @@ static hair_result live(struct heads* heads)
     hair_physics physics = hair_physics_default();
     hair_desc desc = hair_desc_default();
     desc.physics = &physics;
-    physics.sleep = heads->scene.sleeps ? 1e-3f : 0;
+    physics.sleep_threshold = heads->scene.sleeps ? 1e-3f : 0;
     hair_result result = make_groom(heads->bench, &heads->groom);
     for (uint32_t i = 0; i < heads->scene.heads && !result; ++i) {
         result = hair_create(heads->bench->context, heads->groom, &desc, &heads->hair[i]);
-        if (!result && heads->scene.solids) {
-            hair_solid solid = hair_solid_default();
-            solid.size[0] = 0.1f, solid.position[0] = 2 * (float)i + 0.1f, solid.position[1] = 1.4f;
-            result = hair_set_solids(heads->hair[i], &solid, 1, sizeof solid);
+        if (!result && heads->scene.colliders) {
+            hair_collider collider = hair_collider_default();
+            collider.size[0] = 0.1f, collider.position[0] = 2 * (float)i + 0.1f, collider.position[1] = 1.4f;
+            result = hair_set_colliders(heads->hair[i], &collider, 1, sizeof collider);
         }
         if (!result && heads->scene.fluid) {
             hair_wind wind = hair_wind_default();
@@ -127,7 +127,7 @@ static hair_result run_frame(struct heads* heads, bool draws)
     view.light_count = heads->scene.lights;
     glBindFramebuffer(GL_FRAMEBUFFER, heads->frame);
     glViewport(0, 0, SIZE, SIZE);
-    view.depth_texture = heads->scene.lends ? heads->depth : 0;
+    view.occluder_depth = heads->scene.lends ? heads->depth : 0;
     // Before the hair, the depth buffer contains a wall of depth 0 or nothing.
     if (heads->scene.before) {
         float depth = heads->scene.before == WALL ? 0 : 1;
@@ -178,7 +178,7 @@ static bool measure(struct bench* bench, const struct scene* scene, double* ms, 
     hair_report_row works[64];
     uint32_t count = 0, ran = 0;
     if (!result) result = hair_report(heads.hair[0], 1, &info, works, sizeof *works, 64, &count);
-    for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].why == HAIR_WHY_DONE;
+    for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].skip_reason == HAIR_SKIP_REASON_NONE;
     if (!result) {
         qsort(times, *runs, sizeof *times, compare);
         *ms = times[*runs / 2];

@@ -16,8 +16,8 @@ static const char* const columns[] = {"case",
                                       "max_penetration",
                                       "recovered",
                                       "seconds_to_recover",
-                                      "euler",
-                                      "follow",
+                                      "euler_fallbacks",
+                                      "follow_fallbacks",
                                       "reset",
                                       "parts",
                                       "gaining",
@@ -39,16 +39,16 @@ static const char* const columns[] = {"case",
                                       BENCH_MATERIAL_COLUMNS,
                                       NULL};
 
-void bench_set_health(json_t* row, const hair_health* health)
+void bench_set_solver_stats(json_t* row, const hair_solver_stats* solver_stats)
 {
-    bench_set_count(row, "euler", health->euler);
-    bench_set_count(row, "follow", health->follow);
-    bench_set_count(row, "reset", health->reset);
-    bench_set_count(row, "parts", health->parts);
-    bench_set_count(row, "gaining", health->gaining);
-    bench_set_count(row, "restless", health->restless);
-    bench_set_count(row, "overstretched", health->overstretched);
-    bench_set_number(row, "softest", (double)health->softest);
+    bench_set_count(row, "euler_fallbacks", solver_stats->euler_fallbacks);
+    bench_set_count(row, "follow_fallbacks", solver_stats->follow_fallbacks);
+    bench_set_count(row, "reset", solver_stats->reset);
+    bench_set_count(row, "parts", solver_stats->parts);
+    bench_set_count(row, "gaining", solver_stats->gaining);
+    bench_set_count(row, "restless", solver_stats->restless);
+    bench_set_count(row, "overstretched", solver_stats->overstretched);
+    bench_set_number(row, "softest", (double)solver_stats->softest);
 }
 
 // Watching ----------------------------------------------------------------------------------------
@@ -83,12 +83,12 @@ static double depth_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_scene* scene = watch->living->scene;
     double most = 0;
-    for (uint32_t s = 0; s < watch->solid_count; ++s) {
-        const hair_solid* solid = &watch->solids[s];
-        const double centre[3] = {(double)solid->position[0], (double)solid->position[1],
-                                  (double)solid->position[2]};
+    for (uint32_t s = 0; s < watch->collider_count; ++s) {
+        const hair_collider* collider = &watch->colliders[s];
+        const double centre[3] = {(double)collider->position[0], (double)collider->position[1],
+                                  (double)collider->position[2]};
         for (uint32_t i = scene->solver == HAIR_SOLVER_REDBLACK ? 2 : 1; i < scene->vertices; ++i)
-            most = fmax(most, (double)solid->size[0] - distance(positions + 3 * i, centre));
+            most = fmax(most, (double)collider->size[0] - distance(positions + 3 * i, centre));
     }
     return most;
 }
@@ -118,11 +118,12 @@ bool bench_watch_step(struct bench_watch* watch, double dt)
     double now[3 * BENCH_MOST_VERTICES];
     // Hair moves in whole substeps, therefore a speed uses the time of the completed substeps.
     double done = floor(watch->time / living->substep + 1e-4);
-    if (hair_set_solids(living->hair, watch->solids, watch->solid_count, sizeof *watch->solids)) return false;
+    if (hair_set_colliders(living->hair, watch->colliders, watch->collider_count, sizeof *watch->colliders))
+        return false;
     if (!bench_step(living, &watch->head, dt) || !bench_read(living, now)) return false;
     watch->time += fmin(dt, living->scene->max_dt);
     watch->spared -= dt;
-    watch->had_solids = watch->had_solids || watch->solid_count > 0;
+    watch->had_colliders = watch->had_colliders || watch->collider_count > 0;
     look(watch, now, (floor(watch->time / living->substep + 1e-4) - done) * living->substep);
     memcpy(watch->before, now, 3 * sizeof *now * living->scene->vertices);
     return !bench_was_interrupted();
@@ -137,7 +138,7 @@ json_t* bench_stability_row(struct bench_living* living, const char* name, const
     bench_set_flag(row, "finite", watch->finite);
     bench_set_number(row, "max_stretch", watch->finite ? watch->stretch : NAN);
     bench_set_number(row, "max_speed", watch->finite ? watch->speed : NAN);
-    if (watch->had_solids) bench_set_number(row, "max_penetration", watch->penetration);
+    if (watch->had_colliders) bench_set_number(row, "max_penetration", watch->penetration);
     bench_set_flag(row, "pass", watch->finite && (!rod || watch->stretch <= BENCH_MOST_STRETCH));
     bench_set_material(row, living);
     return row;
@@ -166,7 +167,7 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
 static bool recover(struct bench_watch* watch, const double* rest, double* seconds)
 {
     struct bench_living* living = watch->living;
-    watch->solid_count = 0;
+    watch->collider_count = 0;
     *seconds = 0;
     if (hair_set_physics(living->hair, &watch->calm) || hair_set_wind(living->hair, NULL)) return false;
     for (int k = 1; k <= 360; ++k) {
@@ -184,15 +185,15 @@ static bool recover(struct bench_watch* watch, const double* rest, double* secon
 static void add_row(struct bench_watch* watch, const char* name, const double* rest)
 {
     struct bench_living* living = watch->living;
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     double seconds = NAN;
-    if (hair_get_health(living->hair, &health) || (rest && !recover(watch, rest, &seconds))) {
+    if (hair_get_solver_stats(living->hair, &solver_stats) || (rest && !recover(watch, rest, &seconds))) {
         bench_refuse(living->bench, name, bench_solver_name(living->scene->solver));
         return;
     }
     json_t* row = bench_stability_row(living, name, watch);
     bench_set_count(row, "vertices", living->scene->vertices);
-    bench_set_health(row, &health);
+    bench_set_solver_stats(row, &solver_stats);
     if (!rest) return;
     bool recovered = seconds <= 3;
     bench_set_flag(row, "recovered", recovered);
@@ -206,11 +207,11 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, 32, 0.3, root, along);
     scene.solver = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     scene.substep = solver == HAIR_SOLVER_REDBLACK ? FRAME : 0;
     scene.physics.damping = 4;
-    scene.physics.margin = 0.001f;
-    scene.physics.young = 3e9f;
+    scene.physics.collision_margin = 0.001f;
+    scene.physics.youngs_modulus = 3e9f;
     scene.physics.fiber_radius = 5e-5f;
     return scene;
 }

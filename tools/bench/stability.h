@@ -6,15 +6,15 @@
 #include "tools/bench/rest.h"
 
 #define BENCH_MOST_STRETCH 0.02 // limit under any stress, for rod solvers
-#define BENCH_MOST_SOLIDS 128
+#define BENCH_MOST_COLLIDERS 128
 
 struct bench_watch {
     struct bench_living* living;
     hair_physics calm; // physics after the stress, initially the scene's own
     struct hair_reference_rod_pose head;
-    hair_solid solids[BENCH_MOST_SOLIDS];
-    uint32_t solid_count;
-    bool had_solids;
+    hair_collider colliders[BENCH_MOST_COLLIDERS];
+    uint32_t collider_count;
+    bool had_colliders;
     double spared; // time in s during which depth in colliders is ignored
 
     bool finite;
@@ -42,8 +42,8 @@ void bench_rest_contacts(struct bench* bench);
 
 // Set the speed of the hair and whether it fell asleep, and whether both pass.
 void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest);
-// Set the counters of hair_get_health().
-void bench_set_health(json_t* row, const hair_health* health);
+// Set the counters of hair_get_solver_stats().
+void bench_set_solver_stats(json_t* row, const hair_solver_stats* solver_stats);
 // Return the maximum vertex speed that counts as rest, m/s.
 double bench_rest_limit(hair_solver solver);
 // Return whether hair of this solver must fall asleep.

@@ -72,7 +72,7 @@ static hair_result make_groom(struct bench* bench, const struct contact* contact
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = STRANDS;
-    desc.strands_are = HAIR_STRANDS_GUIDES;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_vertices = contact->vertices;
     desc.follower_count = 0;
     return hair_groom_create(&desc, out);
@@ -80,31 +80,31 @@ static hair_result make_groom(struct bench* bench, const struct contact* contact
 
 static hair_result add_collider(const struct contact* contact, hair_instance* hair)
 {
-    hair_solid solid = hair_solid_default();
-    solid.shape = contact->shape;
-    memcpy(solid.position, contact->position, sizeof solid.position);
-    memcpy(solid.rotation, contact->rotation, sizeof solid.rotation);
-    memcpy(solid.size, contact->size, sizeof solid.size);
-    return hair_set_solids(hair, &solid, 1, sizeof solid);
+    hair_collider collider = hair_collider_default();
+    collider.shape = contact->shape;
+    memcpy(collider.position, contact->position, sizeof collider.position);
+    memcpy(collider.rotation, contact->rotation, sizeof collider.rotation);
+    memcpy(collider.size, contact->size, sizeof collider.size);
+    return hair_set_colliders(hair, &collider, 1, sizeof collider);
 }
 
 static bool run(struct bench* bench, const char* name, hair_instance* hair, const struct bench_scene* scene)
 {
     struct bench_rest_desc desc = {20, 0.5, 30, bench_was_interrupted};
     struct bench_living living = {.bench = bench, .scene = scene};
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     struct bench_rest rest;
     if (!bench_measure_rest(hair, STRANDS, scene->vertices, &desc, &rest)) return false;
-    if (hair_get_health(hair, &health)) return false;
+    if (hair_get_solver_stats(hair, &solver_stats)) return false;
     json_t* row = bench_rows_add(&bench->rows);
-    living.substep = (double)health.substep;
+    living.substep = (double)solver_stats.substep;
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
     bench_set_count(row, "guides", STRANDS);
     bench_set_flag(row, "colliders", true);
     bench_set_rest(row, scene->solver, &rest);
-    bench_set_health(row, &health);
+    bench_set_solver_stats(row, &solver_stats);
     bench_set_material(row, &living);
     return true;
 }
@@ -120,15 +120,16 @@ static void measure(struct bench* bench, const struct contact* contact, hair_sol
     struct bench_scene scene = bench_scene_default();
     hair_desc desc = hair_desc_default();
     scene.physics = hair_physics_default();
-    scene.physics.pull_root = scene.physics.pull_tip = scene.physics.hold = 0;
+    scene.physics.shape_frequency_root = scene.physics.shape_frequency_tip = scene.physics.gravity_preload =
+        0;
     scene.physics.damping = 4;
     scene.physics.root = contact->is_free ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
     scene.vertices = contact->vertices;
     scene.solver = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     desc.physics = &scene.physics;
     desc.solver = solver;
-    desc.mapping = scene.mapping;
+    desc.thread_mapping = scene.mapping;
     if (make_groom(bench, contact, &groom) || hair_create(bench->context, groom, &desc, &hair) ||
         add_collider(contact, hair) || !run(bench, name, hair, &scene))
         bench_refuse(bench, name, method);

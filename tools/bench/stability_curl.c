@@ -97,7 +97,7 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
     static const char* const roots[] = {"clamped", "hinged", "free"};
     struct bench_living* living = &curl->living;
     const struct bench_scene* scene = living->scene;
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     json_t* row = bench_rows_add(&living->bench->rows);
     bool damped = scene->physics.damping > 0, pass = curl->finite;
     double ratio = curl->max_energy / curl->start;
@@ -114,7 +114,7 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
     if (damped) bench_set_number(row, "limit", bench_rest_limit(scene->solver));
     if (damped) pass = pass && curl->max_speed <= bench_rest_limit(scene->solver);
     bench_set_flag(row, "pass", pass);
-    if (!hair_get_health(living->hair, &health)) { bench_set_health(row, &health); }
+    if (!hair_get_solver_stats(living->hair, &solver_stats)) { bench_set_solver_stats(row, &solver_stats); }
     bench_set_material(row, living);
 }
 
@@ -125,9 +125,10 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     struct bench_scene scene = bench_scene_default();
     bench_scene_coil(&scene, &coil);
     scene.solver = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     scene.physics.gravity[1] = 0;
-    if (solver == HAIR_SOLVER_REDBLACK) scene.physics.angular = hair_physics_default().angular;
+    if (solver == HAIR_SOLVER_REDBLACK)
+        scene.physics.redblack.angular_hz = hair_physics_default().redblack.angular_hz;
     return scene;
 }
 

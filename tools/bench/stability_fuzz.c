@@ -60,20 +60,20 @@ static void any_vector(uint64_t* state, double longest, float out[3])
 static void any_physics(uint64_t* state, hair_physics* p, hair_wind* wind)
 {
     p->damping = any(state, 4, 0, 1000);
-    p->pull_root = any(state, 4, 0, 30);
-    p->pull_tip = any(state, 1, 0, 30);
-    p->angular = any(state, 8, 0, 30);
-    p->bend = any(state, 0.1, 0, 1);
-    p->iterations = 1 + one_of(state, 30);
-    p->margin = any(state, 0.001, 0, 0.1);
-    p->young = any(state, 4e9, 0, 1e12);
-    p->poisson = any(state, 0.45, 0, 0.5);
+    p->shape_frequency_root = any(state, 4, 0, 30);
+    p->shape_frequency_tip = any(state, 1, 0, 30);
+    p->redblack.angular_hz = any(state, 8, 0, 30);
+    p->redblack.bend = any(state, 0.1, 0, 1);
+    p->redblack.iterations = 1 + one_of(state, 30);
+    p->collision_margin = any(state, 0.001, 0, 0.1);
+    p->youngs_modulus = any(state, 4e9, 0, 1e12);
+    p->poisson_ratio = any(state, 0.45, 0, 0.5);
     p->fiber_radius = any(state, 4e-5, 1e-6, 1e-3);
     p->fiber_density = any(state, 1300, 1, 1e5);
     p->flatness = any(state, 0.8, 0.03, 1);
     p->stiffness_root = any(state, 1, 0, 1e4);
     p->stiffness_tip = any(state, 1, 0, 1e4);
-    p->hold = any(state, 1, 0, 1);
+    p->gravity_preload = any(state, 1, 0, 1);
     p->root = one_of(state, 4) ? HAIR_ROOT_CLAMPED : (hair_root)one_of(state, 3);
     p->tip_mass = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
     p->friction = any(state, 0.3, 0, 10);
@@ -117,48 +117,48 @@ static struct bench_scene any_scene(uint64_t* state, const struct bench* bench, 
     any_physics(state, &scene.physics, &scene.wind);
     scene.strands = 1 + one_of(state, 4);
     scene.solver = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     scene.substep = one_of(state, 3) ? 0 : exp(even(state, log(3e-4), log(0.1)));
     scene.max_dt = one_of(state, 8) ? 0.1 : 1;
     return scene;
 }
 
-static hair_solid any_solid(uint64_t* state)
+static hair_collider any_collider(uint64_t* state)
 {
     double axis[3], angle = even(state, 0, BENCH_PI);
-    hair_solid solid = hair_solid_default();
-    solid.shape = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
+    hair_collider collider = hair_collider_default();
+    collider.shape = one_of(state, 2) ? HAIR_SHAPE_SPHERE : HAIR_SHAPE_CAPSULE;
     any_direction(state, axis);
     for (int k = 0; k < 3; ++k) {
-        solid.position[k] = (float)even(state, -0.3, 0.3);
-        solid.rotation[k] = (float)(sin(angle / 2) * axis[k]);
+        collider.position[k] = (float)even(state, -0.3, 0.3);
+        collider.rotation[k] = (float)(sin(angle / 2) * axis[k]);
     }
-    solid.rotation[3] = (float)cos(angle / 2);
-    solid.size[0] = any(state, 0.05, 0.001, 1);
-    solid.size[1] = any(state, 0.05, 0, 1);
-    return solid;
+    collider.rotation[3] = (float)cos(angle / 2);
+    collider.size[0] = any(state, 0.05, 0.001, 1);
+    collider.size[1] = any(state, 0.05, 0, 1);
+    return collider;
 }
 
 // Return a small collider of any shape except collision meshes, for a group where the hair is.
-static hair_solid any_small_solid(uint64_t* state)
+static hair_collider any_small_collider(uint64_t* state)
 {
-    hair_solid solid = any_solid(state);
-    solid.shape = (hair_shape)one_of(state, HAIR_SHAPE_PLANE);
-    solid.friction = any(state, 1, 0, 100);
-    solid.rounding = one_of(state, 3) ? 0 : (float)even(state, 0, 0.01);
-    for (int k = 0; k < 3; ++k) solid.size[k] = (float)exp(even(state, log(0.002), log(0.03)));
-    return solid;
+    hair_collider collider = any_collider(state);
+    collider.shape = (hair_shape)one_of(state, HAIR_SHAPE_PLANE);
+    collider.friction = any(state, 1, 0, 100);
+    collider.rounding = one_of(state, 3) ? 0 : (float)even(state, 0, 0.01);
+    for (int k = 0; k < 3; ++k) collider.size[k] = (float)exp(even(state, log(0.002), log(0.03)));
+    return collider;
 }
 
 // Update a group of colliders after the first `few`. They move slowly and sometimes jump.
 static void any_crowd(uint64_t* state, struct bench_watch* watch, uint32_t few, uint32_t count)
 {
     for (uint32_t s = few; s < few + count; ++s) {
-        hair_solid* solid = &watch->solids[s];
-        if (s >= watch->solid_count || one_of(state, 16) == 0) *solid = any_small_solid(state);
-        for (int k = 0; k < 3; ++k) solid->position[k] += (float)even(state, -0.005, 0.005);
+        hair_collider* collider = &watch->colliders[s];
+        if (s >= watch->collider_count || one_of(state, 16) == 0) *collider = any_small_collider(state);
+        for (int k = 0; k < 3; ++k) collider->position[k] += (float)even(state, -0.005, 0.005);
     }
-    watch->solid_count = few + count;
+    watch->collider_count = few + count;
 }
 
 // Return a random time step, mostly of usual frames. One second is rare, because it takes many
@@ -196,7 +196,7 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
     hair_instance* hair = watch->living->hair;
     uint32_t count = 24 + one_of(state, 12), few = 0;
     uint64_t own = ~*state;
-    uint32_t crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_SOLIDS - FEWEST - 4);
+    uint32_t crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_COLLIDERS - FEWEST - 4);
     float matrix[16];
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
@@ -207,7 +207,7 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
         }
         if (one_of(state, 8) == 0) few = one_of(state, 5);
         for (uint32_t s = 0; s < few; ++s)
-            if (one_of(state, 2)) watch->solids[s] = any_solid(state);
+            if (one_of(state, 2)) watch->colliders[s] = any_collider(state);
         any_crowd(&own, watch, few, crowd);
         if (one_of(state, 64) == 0 && hair_reset(hair)) return false;
         bench_matrix(&watch->head, matrix);
@@ -219,32 +219,32 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
 
 // Simulate one random scene. Return false for a scene that the library or the groom refuses.
 static bool live_through(struct bench* bench, hair_solver solver, uint32_t number, struct bench_watch* all,
-                         hair_health* health, uint32_t* worst)
+                         hair_solver_stats* solver_stats, uint32_t* worst)
 {
     uint64_t state = SEED + (uint64_t)number * 0x100000001b3u;
     struct bench_scene scene = any_scene(&state, bench, solver);
     struct bench_living living;
     struct bench_watch watch;
     if (!bench_live(bench, &scene, &living)) return false;
-    hair_solid none = {
+    hair_collider none = {
         .shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}, .scale = 1, .friction = 1};
     bool ok = bench_watch(&living, &watch);
-    hair_health own = hair_health_default();
-    for (int s = 0; s < 4; ++s) watch.solids[s] = none;
-    if (ok && any_steps(&state, &watch) && !hair_get_health(living.hair, &own)) {
+    hair_solver_stats own = hair_solver_stats_default();
+    for (int s = 0; s < 4; ++s) watch.colliders[s] = none;
+    if (ok && any_steps(&state, &watch) && !hair_get_solver_stats(living.hair, &own)) {
         if (solver != HAIR_SOLVER_REDBLACK && (!watch.finite || watch.stretch > BENCH_MOST_STRETCH))
-            hair_complain(BENCH_TOOL,
-                          "scene %u, %s: %s, stretch %.3g, %u vertices, %u euler, %u follow, %u reset",
-                          number, bench_solver_name(solver), watch.finite ? "finite" : "not finite",
-                          watch.stretch, scene.vertices, own.euler, own.follow, own.reset);
+            hair_complain(
+                BENCH_TOOL, "scene %u, %s: %s, stretch %.3g, %u vertices, %u euler, %u follow, %u reset",
+                number, bench_solver_name(solver), watch.finite ? "finite" : "not finite", watch.stretch,
+                scene.vertices, own.euler_fallbacks, own.follow_fallbacks, own.reset);
         if (all->finite && (!watch.finite || watch.stretch >= all->stretch)) *worst = number;
         all->finite = all->finite && watch.finite;
         all->stretch = fmax(all->stretch, watch.stretch);
         all->speed = fmax(all->speed, watch.speed);
-        health->euler += own.euler;
-        health->parts += own.parts;
-        health->follow += own.follow;
-        health->reset += own.reset;
+        solver_stats->euler_fallbacks += own.euler_fallbacks;
+        solver_stats->parts += own.parts;
+        solver_stats->follow_fallbacks += own.follow_fallbacks;
+        solver_stats->reset += own.reset;
     } else
         ok = false;
     bench_die(&living);
@@ -256,12 +256,12 @@ static void fuzz(struct bench* bench, hair_solver solver)
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "fuzz", method)) return;
     struct bench_watch all = {.finite = true};
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     struct bench_scene scene = bench_scene_default();
     uint32_t first = bench->options.scene, worst = first, lived = 0;
     uint32_t count = bench->options.scenes ? bench->options.scenes : bench->options.quick ? 200 : 10000;
     for (uint32_t i = 0; i < count && !bench_was_interrupted(); ++i)
-        lived += live_through(bench, solver, first + i, &all, &health, &worst);
+        lived += live_through(bench, solver, first + i, &all, &solver_stats, &worst);
     if (lived <= count / 2) {
         bench_refuse(bench, "fuzz", method);
         return;
@@ -270,14 +270,14 @@ static void fuzz(struct bench* bench, hair_solver solver)
     scene.mapping = bench->options.mapping;
     struct bench_living living = {.bench = bench, .scene = &scene, .substep = NAN};
     json_t* row = bench_stability_row(&living, "fuzz", &all);
-    bench_set_count(row, "euler", health.euler);
-    bench_set_count(row, "parts", health.parts);
-    bench_set_count(row, "follow", health.follow);
-    bench_set_count(row, "reset", health.reset);
+    bench_set_count(row, "euler_fallbacks", solver_stats.euler_fallbacks);
+    bench_set_count(row, "parts", solver_stats.parts);
+    bench_set_count(row, "follow_fallbacks", solver_stats.follow_fallbacks);
+    bench_set_count(row, "reset", solver_stats.reset);
     bench_set_count(row, "scenes", lived);
     bench_set_count(row, "worst_scene", worst);
-    static const char* const random[] = {"substep",       "young",    "poisson", "fiber_radius",
-                                         "fiber_density", "flatness", "damping"};
+    static const char* const random[] = {"substep",       "youngs_modulus", "poisson_ratio", "fiber_radius",
+                                         "fiber_density", "flatness",       "damping"};
     for (size_t i = 0; i < sizeof random / sizeof *random; ++i) bench_set_null(row, random[i]);
 }
 

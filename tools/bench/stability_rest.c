@@ -32,7 +32,7 @@ static hair_result make_groom(struct bench* bench, hair_style style, uint32_t gu
     desc.guide_count = guides;
     desc.strand_vertices = vertices;
     hair_result result = hair_asset_generate(&desc, &asset);
-    if (!result) result = hair_asset_fill(asset, &groom);
+    if (!result) result = hair_asset_to_groom_desc(asset, &groom);
     groom.guide_vertices = vertices;
     groom.follower_count = 0;
     if (!result) result = hair_groom_create(&groom, out);
@@ -44,17 +44,17 @@ static hair_result make_groom(struct bench* bench, hair_style style, uint32_t gu
 static hair_result add_head(hair_instance* hair)
 {
     struct hair_scene scene;
-    hair_solid solids[HAIR_RIG_SOLIDS];
+    hair_collider colliders[HAIR_RIG_COLLIDERS];
     const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_scene_default(&scene);
     scene.head = true;
-    uint32_t count = hair_rig_solids(&scene, 0, still, solids);
-    return hair_set_solids(hair, solids, count, sizeof *solids);
+    uint32_t count = hair_rig_colliders(&scene, 0, still, colliders);
+    return hair_set_colliders(hair, colliders, count, sizeof *colliders);
 }
 
 static void add_row(struct bench* bench, const char* name, const struct bench_scene* scene, double substep,
                     const hair_groom_info* info, bool collides, const struct bench_rest* rest,
-                    const hair_health* health)
+                    const hair_solver_stats* solver_stats)
 {
     struct bench_living living = {.bench = bench, .scene = scene, .substep = substep};
     json_t* row = bench_rows_add(&bench->rows);
@@ -64,7 +64,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
     bench_set_count(row, "guides", info->guide_count);
     bench_set_flag(row, "colliders", collides);
     bench_set_rest(row, scene->solver, rest);
-    bench_set_health(row, health);
+    bench_set_solver_stats(row, solver_stats);
     bench_set_material(row, &living);
 }
 
@@ -85,14 +85,14 @@ static bool run(struct bench* bench, const char* name, hair_groom* groom, hair_i
 {
     struct bench_rest_desc desc = bench_rest_desc_default();
     hair_groom_info info = hair_groom_info_default();
-    hair_health health = hair_health_default();
+    hair_solver_stats solver_stats = hair_solver_stats_default();
     struct bench_rest rest;
     desc.stop = bench_was_interrupted;
     if (hair_groom_describe(groom, &info) || (collides && add_head(hair))) return false;
     uint32_t vertices = info.guide_vertex_count / info.guide_count;
     if (!bench_measure_rest(hair, info.guide_count, vertices, &desc, &rest)) return false;
-    if (hair_get_health(hair, &health)) return false;
-    add_row(bench, name, scene, (double)health.substep, &info, collides, &rest, &health);
+    if (hair_get_solver_stats(hair, &solver_stats)) return false;
+    add_row(bench, name, scene, (double)solver_stats.substep, &info, collides, &rest, &solver_stats);
     return true;
 }
 
@@ -111,9 +111,9 @@ static void measure(struct bench* bench, hair_style style, uint32_t vertices, ha
     if (bench->options.strands) guides = bench->options.strands;
     scene.physics = hair_physics_default();
     scene.solver = solver;
-    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_MAPPING_AUTO : bench->options.mapping;
+    scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     desc.solver = solver;
-    desc.mapping = scene.mapping;
+    desc.thread_mapping = scene.mapping;
     desc.diagnose = 1;
     if (make_groom(bench, style, guides, vertices, &groom) ||
         hair_create(bench->context, groom, &desc, &hair) || !run(bench, name, groom, hair, &scene, collides))

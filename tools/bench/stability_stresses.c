@@ -167,12 +167,12 @@ static void hang_thousand(struct bench_scene* scene)
 }
 static void make_stiff(struct bench_scene* scene)
 {
-    scene->physics.young = 1e12f; // Use the maximum, and a section that makes up for the rest.
+    scene->physics.youngs_modulus = 1e12f; // Use the maximum, and a section that makes up for the rest.
     scene->physics.fiber_radius *= sqrtf(3);
 }
 static void make_limp(struct bench_scene* scene)
 {
-    scene->physics.young = 0;
+    scene->physics.youngs_modulus = 0;
 }
 
 static bool shake_under(struct bench_watch* watch, const hair_physics* physics)
@@ -201,7 +201,7 @@ static bool shake_in_crowd(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
     physics.cohesion = 1000;
-    physics.volume = 100;
+    physics.pressure_stiffness = 100;
     return shake_under(watch, &physics);
 }
 static bool weigh(struct bench_watch* watch)
@@ -258,14 +258,14 @@ static void gather_at_root(struct bench_scene* scene)
 
 // Colliders ---------------------------------------------------------------------------------------
 
-static hair_solid ball_at(double x, double y, double z)
+static hair_collider ball_at(double x, double y, double z)
 {
-    return (hair_solid){.shape = HAIR_SHAPE_SPHERE,
-                        .position = {(float)x, (float)y, (float)z},
-                        .rotation = {0, 0, 0, 1},
-                        .size = {0.05f, 0},
-                        .scale = 1,
-                        .friction = 1};
+    return (hair_collider){.shape = HAIR_SHAPE_SPHERE,
+                           .position = {(float)x, (float)y, (float)z},
+                           .rotation = {0, 0, 0, 1},
+                           .size = {0.05f, 0},
+                           .scale = 1,
+                           .friction = 1};
 }
 
 // Move a ball past the hair at 5 m/s.
@@ -273,8 +273,8 @@ static bool sweep(struct bench_watch* watch)
 {
     if (!stay(watch, 2, FRAME)) return false;
     for (int k = 0; k < 24; ++k) {
-        watch->solids[0] = ball_at(0.15, -0.2, -1 + 5 * k * FRAME);
-        watch->solid_count = 1;
+        watch->colliders[0] = ball_at(0.15, -0.2, -1 + 5 * k * FRAME);
+        watch->collider_count = 1;
         if (!bench_watch_step(watch, FRAME)) return false;
     }
     return true;
@@ -283,8 +283,8 @@ static bool sweep(struct bench_watch* watch)
 // Start with the middle of the strand inside a ball. The strand has a second to come out.
 static bool start_inside(struct bench_watch* watch)
 {
-    watch->solids[0] = ball_at(0.1 + 0.15 * cos(BENCH_PI / 6), -0.15 * sin(BENCH_PI / 6) - 0.01, 0.005);
-    watch->solid_count = 1;
+    watch->colliders[0] = ball_at(0.1 + 0.15 * cos(BENCH_PI / 6), -0.15 * sin(BENCH_PI / 6) - 0.01, 0.005);
+    watch->collider_count = 1;
     watch->spared = 1;
     return stay(watch, 3, FRAME);
 }
@@ -312,8 +312,8 @@ const struct bench_stress bench_stresses[] = {
     {"gravity_1000", NULL, weigh, false},
     {"coincident_vertices", let_three_coincide, shake_ordinarily, false},
     {"vertices_at_root", gather_at_root, shake_ordinarily, false},
-    {"solid_at_5_m_s", NULL, sweep, false},
-    {"started_in_solid", NULL, start_inside, false},
+    {"collider_at_5_m_s", NULL, sweep, false},
+    {"started_in_collider", NULL, start_inside, false},
     {"vertices_2", have_2, shake_ordinarily, false},
     {"vertices_3", have_3, shake_ordinarily, false},
     {"vertices_64", have_64, shake_ordinarily, false},

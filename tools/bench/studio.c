@@ -70,13 +70,13 @@ static bool make_head(struct bench_studio* studio)
 
 static bool place(struct bench_studio* studio)
 {
-    hair_solid solids[HAIR_RIG_SOLIDS];
+    hair_collider colliders[HAIR_RIG_COLLIDERS];
     float time = (float)studio->frame / STUDIO_FPS;
     hair_motion_at(&studio->scene.motion, time, studio->transform);
     if (!studio->hair) return true;
-    uint32_t count = hair_rig_solids(&studio->scene, time, studio->transform, solids);
+    uint32_t count = hair_rig_colliders(&studio->scene, time, studio->transform, colliders);
     return !hair_set_transform(studio->hair, studio->transform) &&
-           !hair_set_solids(studio->hair, solids, count, sizeof *solids);
+           !hair_set_colliders(studio->hair, colliders, count, sizeof *colliders);
 }
 
 static bool bring_to_life(struct bench_studio* studio, const struct bench_studio_desc* asked)
@@ -85,7 +85,7 @@ static bool bring_to_life(struct bench_studio* studio, const struct bench_studio
     hair_desc desc = scene->settings.desc;
     desc.solver = asked->solver;
     desc.substep = (float)asked->substep;
-    if (asked->mapping) desc.mapping = asked->mapping;
+    if (asked->mapping) desc.thread_mapping = asked->mapping;
     desc.physics = &scene->settings.physics;
     desc.look = &scene->settings.look;
     place(studio);
@@ -229,8 +229,8 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     hair_light lit = studio->scene.settings.light;
     hair_light_clip(light, lit.shadow_matrix);
     if (view->pass == HAIR_PASS_COLOR && !studio->shot.unmapped) {
-        lit.shadow_texture = studio->map.texture[HAIR_SHADOW_HAIR];
-        lit.body_texture = shows_head(studio) ? studio->map.texture[HAIR_SHADOW_BODY] : 0;
+        lit.hair_shadow_map = studio->map.texture[HAIR_SHADOW_HAIR];
+        lit.opaque_shadow_map = shows_head(studio) ? studio->map.texture[HAIR_SHADOW_BODY] : 0;
     }
     view->lights = &lit;
     memcpy(view->view, matrices->view, sizeof view->view);
@@ -249,8 +249,8 @@ static bool draw_shadow(struct bench_studio* studio, const struct hair_matrices*
     hair_view view = studio->shot.view;
     hair_lod lod = studio->shot.lod;
     view.pass = HAIR_PASS_DEPTH;
-    if (studio->shot.map_apart) view.path = studio->shot.map_path;
-    if (bench_extent_fits(studio, light, size)) view.primitive = HAIR_LINES;
+    if (studio->shot.map_apart) view.render_path = studio->shot.map_path;
+    if (bench_extent_fits(studio, light, size)) view.primitive = HAIR_PRIMITIVE_LINES;
     lod.importance *= fminf(1, bench_extent_texel(studio, camera, light, size));
     if (studio->shot.has_lod) view.lod = &lod;
     if (!hair_shadow_map_make(&studio->map, HAIR_SHADOW_OPACITY, (int)size)) return false;

@@ -21,7 +21,7 @@ struct bench_shot {
     hair_view view; // path and primitive, other members are set elsewhere
     bool unmapped; // disables the light's shadow map
     bool map_apart; // draws the shadow map by map_path instead of the view's path
-    hair_path map_path; // path of the shadow map if map_apart
+    hair_render_path map_path; // path of the shadow map if map_apart
     bool map_fits; // makes the shadow map as coarse as strands are wide, with one-texel lines
     bool has_lod; // enables `lod`
     hair_lod lod;
@@ -61,7 +61,7 @@ struct bench_studio_desc {
     const char* scene; // name of a built-in scene
     uint32_t size, guides, followers, segments;
     hair_solver solver;
-    hair_mapping mapping;
+    hair_thread_mapping mapping;
     double substep;
 };
 

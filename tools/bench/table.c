@@ -22,7 +22,7 @@
 #define SIZE 720
 #define SIZE_OF_SOFTWARE 256
 #define AWAY 8 // factor of the near distance, for a picture of SIZE_OF_SOFTWARE
-#define RATE_AWAY 0.0625f // value of hair_physics.rate
+#define RATE_AWAY 0.0625f // value of hair_physics.substep_rate
 #define SHOTS 4 // pictures that the distant comparison averages
 #define WIND 2 // m/s
 #define RATE 60 // frames per second of simulated time
@@ -38,23 +38,27 @@ static const char* const columns[] = {"case",      "method",  "solver",        "
 static const struct way {
     const char* name;
     hair_solver solver;
-    hair_path path;
+    hair_render_path path;
     double paper[4]; // fps by cell, 0 if there is none
-    hair_mapping mapping;
+    hair_thread_mapping mapping;
 } ways[] = {
     {"tessellation, compute",
      HAIR_SOLVER_REDBLACK,
-     HAIR_PATH_TESSELLATION,
+     HAIR_RENDER_PATH_TESSELLATION,
      {57, 77, 720, 930},
-     HAIR_MAPPING_AUTO},
-    {"instanced, compute", HAIR_SOLVER_REDBLACK, HAIR_PATH_INSTANCED, {44, 60, 624, 77}, HAIR_MAPPING_AUTO},
+     HAIR_THREAD_MAPPING_AUTO},
+    {"instanced, compute",
+     HAIR_SOLVER_REDBLACK,
+     HAIR_RENDER_PATH_INSTANCED,
+     {44, 60, 624, 77},
+     HAIR_THREAD_MAPPING_AUTO},
     {"instanced, feedback",
      HAIR_SOLVER_REDBLACK,
-     HAIR_PATH_INSTANCED,
+     HAIR_RENDER_PATH_INSTANCED,
      {44, 60, 624, 77},
-     HAIR_MAPPING_FEEDBACK},
-    {"default", HAIR_SOLVER_DIRECT, HAIR_PATH_TESSELLATION, {0, 0, 0, 0}, HAIR_MAPPING_AUTO},
-    {"auto", HAIR_SOLVER_DIRECT, HAIR_PATH_AUTO, {0, 0, 0, 0}, HAIR_MAPPING_AUTO},
+     HAIR_THREAD_MAPPING_FEEDBACK},
+    {"default", HAIR_SOLVER_DIRECT, HAIR_RENDER_PATH_TESSELLATION, {0, 0, 0, 0}, HAIR_THREAD_MAPPING_AUTO},
+    {"auto", HAIR_SOLVER_DIRECT, HAIR_RENDER_PATH_AUTO, {0, 0, 0, 0}, HAIR_THREAD_MAPPING_AUTO},
 };
 
 // A row of the table.
@@ -93,14 +97,14 @@ static bool need(struct bench* bench, struct column* column)
     column->studio.bare = true;
     struct hair_settings* settings = &column->studio.scene.settings;
     settings->wind.velocity[0] = WIND;
-    settings->physics.iterations = 20;
+    settings->physics.redblack.iterations = 20;
     return !hair_set_physics(column->studio.hair, &settings->physics) &&
            !hair_set_wind(column->studio.hair, &settings->wind);
 }
 
 static bool set_rate(struct bench_studio* studio, float rate)
 {
-    studio->scene.settings.physics.rate = rate;
+    studio->scene.settings.physics.substep_rate = rate;
     return !hair_set_physics(studio->hair, &studio->scene.settings.physics);
 }
 
@@ -161,7 +165,7 @@ static bool compare_far(struct bench_studio* studio, const struct bench_shot* sh
 static json_t* add_row(struct column* column, const struct cell* cell, uint32_t frames,
                        const struct bench_times* times)
 {
-    static const char* const paths[] = {"tessellation", "instanced", "expanded", "computed", "auto"};
+    static const char* const paths[] = {"tessellation", "instanced", "cached", "compute", "auto"};
     const struct bench_studio* studio = &column->studio;
     const double* paper = column->way->paper;
     size_t number = (size_t)(cell - cells);
@@ -199,7 +203,7 @@ static bool run_cell(struct bench* bench, struct column* column, const struct ce
     if (!need(bench, column)) return false;
     struct bench_shot shot = bench_studio_shot(&column->studio);
     shot.samples = 4;
-    shot.view.path = column->way->path;
+    shot.view.render_path = column->way->path;
     shot.away = cell->is_far ? AWAY * (float)column->studio.size / SIZE_OF_SOFTWARE : 1;
     shot.has_lod = cell->is_far;
     if (!set_rate(&column->studio, cell->is_far ? RATE_AWAY : 1)) return false;

@@ -21,22 +21,22 @@
 // Drawing methods. Methods with the same shadow have one truth.
 static const struct way {
     const char* method;
-    hair_shadow shadow;
+    hair_self_shadow shadow;
     hair_coverage coverage;
     uint32_t msaa, supersample;
     bool has_lod, quick;
-} ways[] = {{"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 1, 1, false, false},
-            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 4, 1, false, false},
-            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 8, 1, false, false},
-            {"depth", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SAMPLES, 4, 2, false, false},
-            {"depth shares", HAIR_SHADOW_DEPTH, HAIR_COVERAGE_SHARES, 1, 1, false, false},
-            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 1, 1, false, true},
-            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 1, false, true},
-            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 8, 1, false, true},
-            {"strands", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 2, false, true},
-            {"strands lod", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SAMPLES, 4, 1, true, false},
-            {"strands shares", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SHARES, 1, 1, false, true},
-            {"strands shares", HAIR_SHADOW_STRANDS, HAIR_COVERAGE_SHARES, 4, 1, false, false}};
+} ways[] = {{"depth", HAIR_SELF_SHADOW_DEPTH, HAIR_COVERAGE_MSAA, 1, 1, false, false},
+            {"depth", HAIR_SELF_SHADOW_DEPTH, HAIR_COVERAGE_MSAA, 4, 1, false, false},
+            {"depth", HAIR_SELF_SHADOW_DEPTH, HAIR_COVERAGE_MSAA, 8, 1, false, false},
+            {"depth", HAIR_SELF_SHADOW_DEPTH, HAIR_COVERAGE_MSAA, 4, 2, false, false},
+            {"depth shares", HAIR_SELF_SHADOW_DEPTH, HAIR_COVERAGE_ALPHA, 1, 1, false, false},
+            {"strands", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_MSAA, 1, 1, false, true},
+            {"strands", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_MSAA, 4, 1, false, true},
+            {"strands", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_MSAA, 8, 1, false, true},
+            {"strands", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_MSAA, 4, 2, false, true},
+            {"strands lod", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_MSAA, 4, 1, true, false},
+            {"strands shares", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_ALPHA, 1, 1, false, true},
+            {"strands shares", HAIR_SELF_SHADOW_STRANDS, HAIR_COVERAGE_ALPHA, 4, 1, false, false}};
 
 #define WAYS (sizeof ways / sizeof *ways)
 
@@ -57,7 +57,7 @@ struct turn {
     uint32_t pairs;
 };
 
-static bool is_wanted(struct turn* turn, hair_shadow shadow)
+static bool is_wanted(struct turn* turn, hair_self_shadow shadow)
 {
     for (size_t i = 0; i < WAYS; ++i)
         if (turn->wanted[i] && ways[i].shadow == shadow) return true;
@@ -91,9 +91,9 @@ static struct bench_shot shot_of(const struct turn* turn, const struct way* way)
 {
     struct bench_shot shot = bench_studio_shot(&turn->studio);
     shot.look.radius *= turn->studio.fewer;
-    shot.look.shadow = way->shadow;
+    shot.look.self_shadow = way->shadow;
     shot.view.coverage = way->coverage;
-    shot.view.path = HAIR_PATH_EXPANDED;
+    shot.view.render_path = HAIR_RENDER_PATH_CACHED;
     shot.samples = way->msaa;
     shot.supersample = way->supersample;
     shot.has_lod = way->has_lod;
@@ -132,7 +132,7 @@ static bool cover_both(struct bench_picture* now, const struct bench_picture* be
     return true;
 }
 
-static bool compare(struct turn* turn, hair_shadow shadow)
+static bool compare(struct turn* turn, hair_self_shadow shadow)
 {
     const struct bench_truth *now = &turn->truth[shadow][0], *before = &turn->truth[shadow][1];
     const struct bench_picture* where = &now->whole;
@@ -174,7 +174,7 @@ static bool take_frame(struct turn* turn, bool is_first)
     pass_on(turn);
     for (size_t i = 0; i < WAYS; ++i)
         if (turn->wanted[i] && !take(turn, &ways[i], &turn->record[i])) return false;
-    for (hair_shadow s = HAIR_SHADOW_DEPTH; s <= HAIR_SHADOW_STRANDS; ++s) {
+    for (hair_self_shadow s = HAIR_SELF_SHADOW_DEPTH; s <= HAIR_SELF_SHADOW_STRANDS; ++s) {
         struct way way = {.shadow = s, .msaa = 1, .supersample = 1};
         struct bench_truth* truth = turn->truth[s];
         if (!is_wanted(turn, s)) continue;

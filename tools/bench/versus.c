@@ -35,7 +35,7 @@ void bench_versus_free(struct bench_versus* versus)
 
 static bool is_of_lines(const struct bench_contender* contender)
 {
-    return contender->shot.view.primitive == HAIR_LINES;
+    return contender->shot.view.primitive == HAIR_PRIMITIVE_LINES;
 }
 
 // Draw once. The alternation and the number of rounds make the comparison reliable.

@@ -85,7 +85,7 @@ static void run_parts(struct bench* bench)
         const char* name;
         void (*run)(struct bench_flow* flow);
     } parts[] = {
-        {"solids", open_faces}, {"carry", carry}, {"solve", solve}, {"project", project}, {"step", step}};
+        {"colliders", open_faces}, {"carry", carry}, {"solve", solve}, {"project", project}, {"step", step}};
     for (uint32_t cells = 32; cells <= (bench->options.quick ? 32u : 128u); cells *= 2)
         for (int i = 0; i < 5; ++i) {
             struct bench_flow flow;

@@ -43,18 +43,18 @@ static bool fill(struct hair_scene* scene, uint32_t count)
         bool near = i < TOUCHING;
         object->shape = (struct hair_bullet_shape){
             .kind = HAIR_BULLET_SPHERE, .radius = near ? 0.02f : 0.2f, .scale = {1, 1, 1}, .margin = -1};
-        object->body = (struct hair_scene_solid){.solid = hair_solid_default(), .stays = true};
-        float* at = object->body.solid.position;
+        object->body = (struct hair_scene_collider){.collider = hair_collider_default(), .stays = true};
+        float* at = object->body.collider.position;
         for (int k = 0; k < 3; ++k) at[k] = random_in(&seed, -20, 20);
         if (!near && at[1] > -2 && at[1] < 4) at[0] += at[0] < 0 ? -4.0f : 4.0f;
         if (!near) continue;
         at[0] = random_in(&seed, -0.15f, 0.15f), at[1] = random_in(&seed, 1.35f, 1.5f);
         at[2] = random_in(&seed, -0.15f, 0.1f);
-        for (uint32_t k = 0; k < HAIR_SCENE_SOLID_KEYS; ++k) {
+        for (uint32_t k = 0; k < HAIR_SCENE_COLLIDER_KEYS; ++k) {
             object->body.key[k].time = 0.25f * (float)k;
             object->body.key[k].position[1] = k % 2 ? 0.03f : 0;
         }
-        object->body.key_count = HAIR_SCENE_SOLID_KEYS;
+        object->body.key_count = HAIR_SCENE_COLLIDER_KEYS;
     }
     return true;
 }
@@ -69,7 +69,7 @@ static void die(struct side* side)
 static bool live(struct bench* bench, uint32_t count, struct side* side)
 {
     memset(side, 0, sizeof *side);
-    bool ok = bench_bust_make(bench, 1000, 0, HAIR_FIRST_HIT_AUTO, &side->bust) &&
+    bool ok = bench_bust_make(bench, 1000, 0, HAIR_HIT_METHOD_AUTO, &side->bust) &&
               fill(&side->scene, count) &&
               !hair_world_create(BENCH_TOOL, name, &side->scene, &bench->host, &side->world) && side->world;
     if (!ok) die(side);
@@ -84,15 +84,15 @@ static double time_frame(struct side* side, uint32_t* touching)
     static const float here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_instance* hair = side->bust.hair;
     hair_field_info field = hair_field_info_default();
-    const hair_solid* solids;
+    const hair_collider* colliders;
     float lower[3], upper[3];
     glFinish();
     double start = hair_now();
-    bool ok =
-        !hair_get_reach(hair, lower, upper) &&
-        !hair_world_solids(side->world, (float)++side->frame / 60, here, lower, upper, &solids, touching) &&
-        !hair_set_solids(hair, solids, *touching, sizeof *solids) && !hair_step(hair, 1.0f / 60) &&
-        !hair_get_field(hair, &field);
+    bool ok = !hair_get_bounds(hair, lower, upper) &&
+              !hair_world_colliders(side->world, (float)++side->frame / 60, here, lower, upper, &colliders,
+                                    touching) &&
+              !hair_set_colliders(hair, colliders, *touching, sizeof *colliders) &&
+              !hair_step(hair, 1.0f / 60) && !hair_get_field(hair, &field);
     glFinish();
     return ok ? hair_now() - start : -1;
 }
@@ -126,7 +126,7 @@ static bool measure(struct side sides[2])
         json_t* row = bench_rows_add(&bench->rows);
         bench_set_text(row, "case", name);
         bench_set_text(row, "method", k ? "among others" : "alone");
-        bench_set_count(row, "solids", touching[k]);
+        bench_set_count(row, "colliders", touching[k]);
         bench_set_count(row, "objects", sides[k].scene.bullet.count);
         bench_set_number(row, "ms", medians[k]);
         bench_set_count(row, "runs", runs);

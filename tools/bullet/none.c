@@ -18,12 +18,12 @@ void hair_world_destroy(struct hair_world* world)
     (void)world;
 }
 
-hair_result hair_world_solids(struct hair_world* world, float time, const float transform[16],
-                              const float lower[3], const float upper[3], const hair_solid** solids,
-                              uint32_t* count)
+hair_result hair_world_colliders(struct hair_world* world, float time, const float transform[16],
+                                 const float lower[3], const float upper[3], const hair_collider** colliders,
+                                 uint32_t* count)
 {
     (void)world, (void)time, (void)transform, (void)lower, (void)upper;
-    *solids = NULL;
+    *colliders = NULL;
     *count = 0;
     return HAIR_OK;
 }

@@ -158,16 +158,16 @@ static btCollisionShape* make_shape(hair_world* world, const hair_bullet_shape& 
 
 // Objects -----------------------------------------------------------------------------------------
 
-static bool moves(const hair_scene_solid& body)
+static bool moves(const hair_scene_collider& body)
 {
     const bool runs = vector(body.velocity) != btVector3(0, 0, 0) || vector(body.spin) != btVector3(0, 0, 0);
     return runs || body.key_count || !body.stays;
 }
 
-static btTransform place_of(const hair_scene_solid& body, float time, const float transform[16])
+static btTransform place_of(const hair_scene_collider& body, float time, const float transform[16])
 {
-    hair_solid at = hair_scene_solid_at(&body, time);
-    if (!body.stays) hair_solid_carry(transform, 1, &at);
+    hair_collider at = hair_scene_collider_at(&body, time);
+    if (!body.stays) hair_collider_carry(transform, 1, &at);
     return pose(at.position, at.rotation);
 }
 
@@ -184,8 +184,8 @@ static void move(hair_world* world, float time, const float transform[16])
 static int try_objects(hair_world* world, const char* name)
 {
     for (uint32_t i = 0; i < world->objects.size(); ++i) {
-        hair_result result = hair_bullet_begin(world->bullet);
-        if (!result) result = hair_bullet_take_object(world->bullet, world->objects[i].get());
+        hair_result result = hair_bullet_clear(world->bullet);
+        if (!result) result = hair_bullet_add_object(world->bullet, world->objects[i].get());
         if (result == HAIR_ERROR_ARGUMENT)
             hair_complain(world->tool, "%s: bullet[%u] must be a shape that hair can collide with", name, i);
         if (result) return result == HAIR_ERROR_ARGUMENT ? HAIR_EXIT_INPUT : HAIR_EXIT_RUNTIME;
@@ -201,7 +201,7 @@ static int fill(hair_world* world, const char* name, const hair_host* host)
         const hair_bullet_object& from = world->scene->bullet.object[i];
         auto object = std::make_unique<btCollisionObject>();
         object->setCollisionShape(make_shape(world, from.shape));
-        object->setFriction(from.body.solid.friction);
+        object->setFriction(from.body.collider.friction);
         object->setWorldTransform(place_of(from.body, 0, here));
         if (moves(from.body)) world->moving.push_back(i);
         world->world.addCollisionObject(object.get());
@@ -231,14 +231,15 @@ void hair_world_destroy(hair_world* world)
     delete world;
 }
 
-hair_result hair_world_solids(hair_world* world, float time, const float transform[16], const float lower[3],
-                              const float upper[3], const hair_solid** solids, uint32_t* count)
+hair_result hair_world_colliders(hair_world* world, float time, const float transform[16],
+                                 const float lower[3], const float upper[3], const hair_collider** colliders,
+                                 uint32_t* count)
 {
     *count = 0;
     if (!world) return HAIR_OK;
     move(world, time, transform);
-    hair_result result = hair_bullet_begin(world->bullet);
-    if (!result) result = hair_bullet_take_world(world->bullet, &world->world, lower, upper, -1);
-    *solids = hair_bullet_solids(world->bullet, count);
+    hair_result result = hair_bullet_clear(world->bullet);
+    if (!result) result = hair_bullet_add_world(world->bullet, &world->world, lower, upper, -1);
+    *colliders = hair_bullet_colliders(world->bullet, count);
     return result;
 }

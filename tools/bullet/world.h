@@ -15,8 +15,8 @@ void hair_world_destroy(struct hair_world* world); // NULL is allowed.
 
 // Move the objects to their poses at `time`, in s, with the head at `transform`. Return the
 // colliders of objects that touch the bounds. The list is valid until the next call.
-hair_result hair_world_solids(struct hair_world* world, float time, const float transform[16],
-                              const float lower[3], const float upper[3], const hair_solid** solids,
-                              uint32_t* count);
+hair_result hair_world_colliders(struct hair_world* world, float time, const float transform[16],
+                                 const float lower[3], const float upper[3], const hair_collider** colliders,
+                                 uint32_t* count);
 
 #endif

@@ -10,11 +10,12 @@
 // A warm key light from the side puts highlights along the hair. A cool light from behind rims the
 // hair.
 #define STUDIO                                                                                               \
-    "'light': {'to': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "          \
-    "'lights': [{'to': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                                   \
-    "'settings': {'shadow': 'strands', 'voxel': 0.006, 'roughness.along': 0.2, 'roughness.round': 0.35, "    \
-    "'thinning': 0.45, 'taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color_spread': 0.5, "                      \
-    "'hue_spread': 0.12, 'roughness_spread': 0.2, 'root_shade': 0.35, 'strays': 0.14}"
+    "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
+    "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                            \
+    "'settings': {'self_shadow': 'strands', 'self_shadow_cell': 0.006, 'roughness.along': 0.2, "             \
+    "'roughness.round': 0.35, "                                                                              \
+    "'length_variation': 0.45, 'taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color_spread': 0.5, "              \
+    "'hue_spread': 0.12, 'roughness_spread': 0.2, 'root_darkening': 0.35, 'stray_fraction': 0.14}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
@@ -27,13 +28,13 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
             " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, "
-            "'guides': 1000, 'iterations': 8, "
-            "'pull_root': 8, 'pull_tip': 6}}"},
-    {"wind",
-     "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
-     " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
-     " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'box': 1, 'gusts': 0.4, 'gust_length': 0.25},"
-     " 'settings': {'drag': 0.5, 'pull_root': 3, 'pull_tip': 0.3}}"},
+            "'guides': 1000, 'redblack.iterations': 8, "
+            "'shape_frequency_root': 8, 'shape_frequency_tip': 6}}"},
+    {"wind", "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
+             " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
+             " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'grid_size': 1, 'turbulence_intensity': "
+             "0.4, 'turbulence_length': 0.25},"
+             " 'settings': {'drag': 0.5, 'shape_frequency_root': 3, 'shape_frequency_tip': 0.3}}"},
     {NULL, NULL},
 };
 
@@ -43,12 +44,13 @@ const struct hair_builtin hair_builtin_scenes[] = {
 #define CURLED "'guide_vertices': 64, 'segments': 64"
 
 const struct hair_builtin hair_builtin_styles[] = {
-    {"long", "{'pull_root': 6, 'pull_tip': 1, 'angular': 8, " SMOOTH "}"},
-    {"bob", "{'pull_root': 8, 'pull_tip': 3, 'angular': 8, " SMOOTH "}"},
-    {"short", "{'pull_root': 10, 'pull_tip': 6, 'angular': 8, " SMOOTH "}"},
-    {"ponytail", "{'pull_root': 12, 'pull_tip': 1.5, 'angular': 8, " SMOOTH "}"},
-    {"curly", "{'pull_root': 8, 'pull_tip': 3, 'angular': 4, " CURLED "}"},
-    {"afro", "{'pull_root': 12, 'pull_tip': 8, 'angular': 8, " CURLED "}"},
+    {"long", "{'shape_frequency_root': 6, 'shape_frequency_tip': 1, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"bob", "{'shape_frequency_root': 8, 'shape_frequency_tip': 3, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"short", "{'shape_frequency_root': 10, 'shape_frequency_tip': 6, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"ponytail",
+     "{'shape_frequency_root': 12, 'shape_frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"curly", "{'shape_frequency_root': 8, 'shape_frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
+    {"afro", "{'shape_frequency_root': 12, 'shape_frequency_tip': 8, 'redblack.angular_hz': 8, " CURLED "}"},
     {NULL, NULL},
 };
 

@@ -93,7 +93,7 @@ void hair_camera_matrices(const struct hair_scene* scene, const float transform[
 
 static void find_direction(const hair_light* light, vec3 out)
 {
-    copy_in(light->to, out);
+    copy_in(light->direction, out);
     if (glm_vec3_norm(out) < 1e-12f) out[1] = 1;
     glm_vec3_normalize(out);
 }

@@ -44,12 +44,12 @@ static const struct row rows[] = {
     {"style", STYLE, "NAME", "show a built-in haircut, below"},
     {"motion", MOTION, "NAME", "move the head so, below"},
     {"head", HEAD, NULL, "draw the built-in head under the haircut of a file"},
-    {"show", SHOW, "WHAT", "draw some of hair, head, guides, solids, wind, by commas; hair,head"},
+    {"show", SHOW, "WHAT", "draw some of hair, head, guides, colliders, wind, by commas; hair,head"},
     {"frames", FRAMES, "A:B", "draw frames A up to, not including, B; those before are simulated only"},
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
     {"solver", SETTING, "NAME", "direct, accurate, follow or redblack"},
-    {"path", SETTING, "NAME", "tessellation, instanced, expanded, computed or auto"},
+    {"render-path", SETTING, "NAME", "tessellation, instanced, cached, compute or auto"},
     {"primitive", SETTING, "NAME", "ribbons or lines"},
     {"samples", SAMPLES, "N", "a pixel, as many as the driver has; 4"},
     {"supersample", SUPERSAMPLE, "N", "pixels drawn for one, in each direction, 1 to 8; 2"},
@@ -57,7 +57,7 @@ static const struct row rows[] = {
     {"scale", SETTING, "X", "of the file's units to metres"},
     {"up", SETTING, "AXIS", "of the file that points up: x, y or z"},
     {"tip-first", SETTING, NULL, "strands of the file run from tip to root"},
-    {"share", SETTING, "X", "of the file's strands to keep"},
+    {"keep-fraction", SETTING, "X", "of the file's strands to keep"},
     {"vertices", SETTING, "N", "of every strand, resampled"},
     {"seed", SETTING, "N", "of every random choice"},
     {"guides", SETTING, "N", "strands to simulate"},
@@ -171,7 +171,7 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
 static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
 {
     // In the order of enum hair_show.
-    static const char* const names[] = {"hair", "head", "guides", "solids", "wind"};
+    static const char* const names[] = {"hair", "head", "guides", "colliders", "wind"};
     const int count = (int)(sizeof names / sizeof *names);
     scene->show = 0;
     for (const char* at = text;;) {
@@ -179,7 +179,7 @@ static bool parse_show(const char* tool, const char* text, struct hair_scene* sc
         int i = 0;
         while (i < count && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
         if (i == count) {
-            hair_complain(tool, "--show is %s, not some of hair, head, guides, solids and wind", text);
+            hair_complain(tool, "--show is %s, not some of hair, head, guides, colliders and wind", text);
             return false;
         }
         scene->show |= 1u << i;

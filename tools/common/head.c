@@ -317,9 +317,9 @@ static const struct pill pills[] = {
     {{-0.075f, 1.316f, 0.014f}, {0.075f, 1.316f, 0.014f}, 0.080f}, // chest
 };
 
-_Static_assert(sizeof pills / sizeof *pills <= HEAD_SOLIDS, "head.h promises how many solids suffice");
+_Static_assert(sizeof pills / sizeof *pills <= HEAD_COLLIDERS, "head.h promises how many colliders suffice");
 
-static hair_solid solid_of(const struct pill* pill)
+static hair_collider collider_of(const struct pill* pill)
 {
     point a = pill->a, b = pill->b, d = {b.x - a.x, b.y - a.y, b.z - a.z};
     float size = sqrtf(d.x * d.x + d.y * d.y + d.z * d.z);
@@ -327,18 +327,18 @@ static hair_solid solid_of(const struct pill* pill)
     float w = 1 + d.y / size, x = d.z / size, z = -d.x / size;
     if (w < 1e-6f) w = 0, x = 1, z = 0; // half a turn
     float norm = sqrtf(w * w + x * x + z * z);
-    hair_solid solid = {HAIR_SHAPE_CAPSULE,
-                        {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2},
-                        {x / norm, 0, z / norm, w / norm},
-                        {pill->radius, size / 2},
-                        .scale = 1,
-                        .friction = 1};
-    return solid;
+    hair_collider collider = {HAIR_SHAPE_CAPSULE,
+                              {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2},
+                              {x / norm, 0, z / norm, w / norm},
+                              {pill->radius, size / 2},
+                              .scale = 1,
+                              .friction = 1};
+    return collider;
 }
 
-uint32_t head_solids(hair_solid* out, uint32_t capacity)
+uint32_t head_colliders(hair_collider* out, uint32_t capacity)
 {
     const uint32_t count = sizeof pills / sizeof *pills;
-    for (uint32_t i = 0; i < count && i < capacity; ++i) out[i] = solid_of(&pills[i]);
+    for (uint32_t i = 0; i < count && i < capacity; ++i) out[i] = collider_of(&pills[i]);
     return count;
 }

@@ -17,10 +17,10 @@ struct head_mesh {
 int head_mesh_create(struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
-#define HEAD_SOLIDS 16
+#define HEAD_COLLIDERS 16
 
-// Write the bust's colliders for hair_set_solids(). No collider extends outside the scalp. Write at
+// Write the bust's colliders for hair_set_colliders(). No collider extends outside the scalp. Write at
 // most `capacity` colliders. Return the total count.
-uint32_t head_solids(hair_solid* out, uint32_t capacity);
+uint32_t head_colliders(hair_collider* out, uint32_t capacity);
 
 #endif

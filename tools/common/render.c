@@ -204,21 +204,21 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
     hair_view view = frame->scene->settings.view;
     hair_light light[HAIR_SCENE_LIGHTS];
     view.pass = pass;
-    view.frame = frame->number; // Tiles of one frame share the lights' data.
+    view.frame_index = frame->number; // Tiles of one frame share the lights' data.
     view.lod = frame->scene->settings.has_lod ? &frame->scene->settings.lod : NULL;
     view.light_count = frame->lights.count;
     view.lights = light;
     memcpy(light, frame->lights.light, sizeof light);
     for (uint32_t i = 0; i < frame->lights.shadows && pass == HAIR_PASS_COLOR; ++i) {
         hair_light* of = &light[frame->lights.shadow[i].light];
-        of->shadow_texture = render->map[i].texture[HAIR_SHADOW_HAIR];
-        of->body_texture = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
+        of->hair_shadow_map = render->map[i].texture[HAIR_SHADOW_HAIR];
+        of->opaque_shadow_map = shows_mesh(render, frame) ? render->map[i].texture[HAIR_SHADOW_BODY] : 0;
         hair_light_clip(&frame->lights.shadow[i].matrices, of->shadow_matrix);
     }
-    view.depth_texture = pass == HAIR_PASS_COLOR ? frame->depth : 0;
+    view.occluder_depth = pass == HAIR_PASS_COLOR ? frame->depth : 0;
     if (pass == HAIR_PASS_DEPTH && !view.lod)
         // In a depth pass, lines are about as wide as ribbons, at half the cost.
-        view.primitive = HAIR_LINES;
+        view.primitive = HAIR_PRIMITIVE_LINES;
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
     return hair_draw(frame->hair, &view);
@@ -353,7 +353,7 @@ static hair_result draw_tile(struct hair_render* render, struct frame* frame, co
     static const struct {
         uint32_t show;
         hair_pass pass;
-    } passes[] = {{HAIR_SHOW_SOLIDS, HAIR_PASS_SOLIDS},
+    } passes[] = {{HAIR_SHOW_COLLIDERS, HAIR_PASS_COLLIDERS},
                   {HAIR_SHOW_WIND, HAIR_PASS_WIND},
                   {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
                   {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};

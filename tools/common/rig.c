@@ -64,21 +64,21 @@ static float weight(float height)
     return t * t * (3 - 2 * t);
 }
 
-uint32_t hair_rig_solids(const struct hair_scene* scene, float time, const float transform[16],
-                         hair_solid out[HAIR_RIG_SOLIDS])
+uint32_t hair_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
+                            hair_collider out[HAIR_RIG_COLLIDERS])
 {
     uint32_t count = 0;
-    if (scene->head) count = head_solids(out, HEAD_SOLIDS);
-    for (uint32_t i = 0; i < count; ++i) hair_solid_carry(transform, weight(out[i].position[1]), &out[i]);
+    if (scene->head) count = head_colliders(out, HEAD_COLLIDERS);
+    for (uint32_t i = 0; i < count; ++i) hair_collider_carry(transform, weight(out[i].position[1]), &out[i]);
 
     if (scene->subject == HAIR_SUBJECT_FUR) {
-        out[count] = hair_solid_default();
+        out[count] = hair_collider_default();
         out[count].size[0] = scene->ball_radius;
-        hair_solid_carry(transform, 1, &out[count++]);
+        hair_collider_carry(transform, 1, &out[count++]);
     }
-    for (uint32_t i = 0; i < scene->solid_count; ++i) {
-        out[count] = hair_scene_solid_at(&scene->solids[i], time);
-        if (!scene->solids[i].stays) hair_solid_carry(transform, 1, &out[count]);
+    for (uint32_t i = 0; i < scene->collider_count; ++i) {
+        out[count] = hair_scene_collider_at(&scene->colliders[i], time);
+        if (!scene->colliders[i].stays) hair_collider_carry(transform, 1, &out[count]);
         ++count;
     }
     return count;

@@ -10,7 +10,7 @@
 #define HAIR_RIG_MOVES 1.525f
 #define HAIR_RIG_RESTS 1.425f
 
-#define HAIR_RIG_SOLIDS (HEAD_SOLIDS + 1 + HAIR_SCENE_SOLIDS)
+#define HAIR_RIG_COLLIDERS (HEAD_COLLIDERS + 1 + HAIR_SCENE_COLLIDERS)
 
 // Make the ball that fur grows on. Return 0, or -1 if memory runs out. Release the mesh with
 // head_mesh_free().
@@ -18,7 +18,7 @@ int hair_rig_ball(float radius, struct head_mesh* out);
 
 // Compute the scene's colliders in the world at a time, in s, with the head at `transform`. Return
 // the number of colliders.
-uint32_t hair_rig_solids(const struct hair_scene* scene, float time, const float transform[16],
-                         hair_solid out[HAIR_RIG_SOLIDS]);
+uint32_t hair_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
+                            hair_collider out[HAIR_RIG_COLLIDERS]);
 
 #endif

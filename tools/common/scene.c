@@ -96,10 +96,11 @@ static bool read_fur(const place* json, const char* key, const json_t* value, vo
     return hair_json_object(json, key, value, entries, out);
 }
 
-static bool read_solids(const place* json, const char* key, const json_t* value, void* out)
+static bool read_colliders(const place* json, const char* key, const json_t* value, void* out)
 {
     struct hair_scene* scene = out;
-    return hair_scene_read_solids(json, key, value, scene->solids, HAIR_SCENE_SOLIDS, &scene->solid_count);
+    return hair_scene_read_colliders(json, key, value, scene->colliders, HAIR_SCENE_COLLIDERS,
+                                     &scene->collider_count);
 }
 
 static bool read_maps(const place* json, const char* key, const json_t* value, void* out)
@@ -165,17 +166,18 @@ static bool read_settings(const place* json, const char* key, const json_t* valu
 
 // Whole scenes ------------------------------------------------------------------------------------
 
-static const entry light[] = {HAIR_NUMBERS("to", AT(settings.light.to), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
-                              HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
-                              HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR),
-                              HAIR_BOOLEAN("shadow", AT(shadow)), HAIR_END};
+static const entry light[] = {
+    HAIR_NUMBERS("direction", AT(settings.light.direction), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR),
+    HAIR_BOOLEAN("shadow", AT(shadow)), HAIR_END};
 static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
                                    HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
 static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_OTHER("groom", read_groom),
                               HAIR_OTHER("fur", read_fur),
                               HAIR_BOOLEAN("head", AT(head)),
-                              HAIR_OTHER("solids", read_solids),
+                              HAIR_OTHER("colliders", read_colliders),
                               HAIR_OTHER("bullet", read_bullet),
                               HAIR_OTHER("maps", read_maps),
                               HAIR_OTHER("motion", read_motion),

@@ -10,7 +10,7 @@
 #include "tools/common/scene_bullet.h"
 #include "tools/common/scene_lights.h"
 #include "tools/common/scene_maps.h"
-#include "tools/common/scene_solids.h"
+#include "tools/common/scene_colliders.h"
 #include "tools/common/scene_wind.h"
 #include "tools/common/settings.h"
 
@@ -21,12 +21,12 @@ enum hair_show {
     HAIR_SHOW_HAIR = 1,
     HAIR_SHOW_HEAD = 2,
     HAIR_SHOW_GUIDES = 4,
-    HAIR_SHOW_SOLIDS = 8,
+    HAIR_SHOW_COLLIDERS = 8,
     HAIR_SHOW_WIND = 16
 };
 
 #define HAIR_SCENE_PATH 4096
-#define HAIR_SCENE_SOLIDS 32 // The built-in head adds its own colliders.
+#define HAIR_SCENE_COLLIDERS 32 // The built-in head adds its own colliders.
 
 struct hair_scene {
     enum hair_subject subject;
@@ -42,8 +42,8 @@ struct hair_scene {
     float background[2][3]; // linear colours at the centre and at the corners
     float exposure;
     struct hair_motion motion;
-    uint32_t solid_count;
-    struct hair_scene_solid solids[HAIR_SCENE_SOLIDS];
+    uint32_t collider_count;
+    struct hair_scene_collider colliders[HAIR_SCENE_COLLIDERS];
     struct hair_bullet_list bullet;
     struct hair_scene_maps maps;
     bool shadow; // settings.light casts a shadow

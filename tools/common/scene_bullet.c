@@ -139,8 +139,8 @@ _Static_assert(offsetof(struct hair_bullet_object, shape) == 0,
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
 {
-    struct hair_scene_solid* body = &((struct hair_bullet_object*)out)->body;
-    return hair_scene_read_keys(json, key, value, body->key, HAIR_SCENE_SOLID_KEYS, &body->key_count);
+    struct hair_scene_collider* body = &((struct hair_bullet_object*)out)->body;
+    return hair_scene_read_keys(json, key, value, body->key, HAIR_SCENE_COLLIDER_KEYS, &body->key_count);
 }
 
 #define AT(member) offsetof(struct hair_bullet_object, member)
@@ -163,9 +163,9 @@ static const entry of_child[] = {
     HAIR_NUMBERS("rotation", AT(shape.rotation), 4, -1, 1), HAIR_END};
 static const entry of_object[] = {
     SHAPE,
-    HAIR_NUMBERS("position", AT(body.solid.position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
-    HAIR_NUMBERS("rotation", AT(body.solid.rotation), 4, -1, 1),
-    HAIR_NUMBERS("friction", AT(body.solid.friction), 1, 0, 100),
+    HAIR_NUMBERS("position", AT(body.collider.position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("rotation", AT(body.collider.rotation), 4, -1, 1),
+    HAIR_NUMBERS("friction", AT(body.collider.friction), 1, 0, 100),
     HAIR_NUMBERS("velocity", AT(body.velocity), 3, -1e3, 1e3),
     HAIR_NUMBERS("spin", AT(body.spin), 3, -1e5, 1e5),
     HAIR_OTHER("motion", read_motion),
@@ -251,9 +251,9 @@ bool hair_scene_read_bullet(const place* json, const char* key, const json_t* va
     if (!out->object) return hair_json_wrong(json, key, "shorter: memory ran out");
     for (size_t i = 0; i < count; ++i) {
         struct hair_bullet_object* object = &out->object[out->count++];
-        object->body.solid = hair_solid_default();
+        object->body.collider = hair_collider_default();
         set_usual(&object->shape);
-        if (!read_one(json, key, value, i, of_object, &object->shape, object->body.solid.rotation))
+        if (!read_one(json, key, value, i, of_object, &object->shape, object->body.collider.rotation))
             return false;
     }
     return true;

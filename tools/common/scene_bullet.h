@@ -4,7 +4,7 @@
 #define HAIR_TOOLS_COMMON_SCENE_BULLET_H
 
 #include "tools/common/obj.h"
-#include "tools/common/scene_solids.h"
+#include "tools/common/scene_colliders.h"
 
 enum hair_bullet_kind {
     HAIR_BULLET_SPHERE,
@@ -45,7 +45,7 @@ struct hair_bullet_shape {
 
 struct hair_bullet_object {
     struct hair_bullet_shape shape;
-    struct hair_scene_solid body; // pose, motion and friction, its shape and size are ignored
+    struct hair_scene_collider body; // pose, motion and friction, its shape and size are ignored
 };
 
 struct hair_bullet_list {

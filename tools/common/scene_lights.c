@@ -25,13 +25,13 @@ bool hair_scene_read_lights(const struct hair_json* json, const char* key, const
 {
     static const struct hair_json_entry entries[] = {
         HAIR_OTHER("kind", read_kind),
-        HAIR_NUMBERS("to", AT(to), 3, -FAR, FAR),
+        HAIR_NUMBERS("direction", AT(direction), 3, -FAR, FAR),
         HAIR_NUMBERS("position", AT(position), 3, -FAR, FAR),
         HAIR_NUMBERS("color", AT(color), 3, 0, FAR),
         HAIR_NUMBERS("range", AT(range), 1, 0, FAR),
-        HAIR_NUMBERS("size", AT(size), 1, 0.001, 1000),
-        HAIR_NUMBERS("inner", AT(inner), 1, 0, 1.57),
-        HAIR_NUMBERS("outer", AT(outer), 1, 0, 1.57),
+        HAIR_NUMBERS("source_radius", AT(source_radius), 1, 0.001, 1000),
+        HAIR_NUMBERS("inner_angle", AT(inner_angle), 1, 0, 1.57),
+        HAIR_NUMBERS("outer_angle", AT(outer_angle), 1, 0, 1.57),
         HAIR_BOOLEAN("shadow", offsetof(struct hair_scene_light, shadow)),
         HAIR_END};
     for (int i = 0; i < HAIR_SCENE_LIGHTS - 1; ++i)
@@ -42,7 +42,7 @@ bool hair_scene_read_lights(const struct hair_json* json, const char* key, const
 
 struct hair_lit hair_lit_of(const hair_light* light)
 {
-    const float* t = light->to;
+    const float* t = light->direction;
     float l = sqrtf(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
     struct hair_lit lit = {.axis = {0, 0, 0, -1}, .more = {1, 0}};
     l = l > 1e-12f ? 1 / l : 0;
@@ -52,10 +52,10 @@ struct hair_lit hair_lit_of(const hair_light* light)
         if (light->kind == HAIR_LIGHT_SPOT) lit.axis[i] = t[i] * l;
     }
     lit.to[3] = light->kind ? 1 : 0;
-    lit.color[3] = light->kind ? light->size * light->size : 1;
+    lit.color[3] = light->kind ? light->source_radius * light->source_radius : 1;
     if (light->kind == HAIR_LIGHT_SPOT) {
-        lit.axis[3] = cosf(light->outer);
-        lit.more[0] = 1 / fmaxf(cosf(light->inner) - lit.axis[3], 1e-6f);
+        lit.axis[3] = cosf(light->outer_angle);
+        lit.more[0] = 1 / fmaxf(cosf(light->inner_angle) - lit.axis[3], 1e-6f);
     }
     if (light->kind && light->range > 0) lit.more[1] = 1 / (light->range * light->range);
     return lit;

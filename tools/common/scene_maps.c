@@ -64,8 +64,8 @@ static void look_from_above(const hair_groom_desc* desc, float* uvs)
 
 static hair_map map_of(const struct hair_scene_map* map)
 {
-    if (!map->height) return (hair_map){HAIR_MAP_NONE, NULL, 0, 0};
-    return (hair_map){HAIR_MAP_IMAGE, map->value, map->width, map->height};
+    if (!map->height) return (hair_map){HAIR_MAP_SOURCE_NONE, NULL, 0, 0};
+    return (hair_map){HAIR_MAP_SOURCE_IMAGE, map->value, map->width, map->height};
 }
 
 void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[HAIR_SCENE_SETS], float* uvs,

@@ -45,9 +45,9 @@ static json_t* clock_row(const char* name, const char* method, const struct hair
 // Append the passes that ran.
 static void add_passes(json_t* rows, const char* name, hair_context* context)
 {
-    uint32_t count = hair_timings(context, NULL, 0);
+    uint32_t count = hair_get_timings(context, NULL, 0);
     hair_timing* passes = calloc(count, sizeof *passes);
-    if (passes) hair_timings(context, passes, count);
+    if (passes) hair_get_timings(context, passes, count);
     for (uint32_t i = 0; passes && i < count; ++i)
         if (passes[i].runs)
             json_array_append_new(rows, json_pack("{s:s, s:s, s:f, s:f, s:i}", "case", name, "method",
@@ -76,36 +76,38 @@ static json_t* report_of(hair_instance* hair)
     json_t* works = json_array();
     if (hair_report(hair, 1, &info, rows, sizeof *rows, 64, &count)) count = 0;
     for (uint32_t i = 0; i < count && i < 64; ++i)
-        json_array_append_new(works, json_pack("{s:s, s:s, s:s?, s:i, s:f, s:I}", "work", rows[i].work, "why",
-                                               hair_why_string(rows[i].why), "pass", rows[i].pass, "passes",
-                                               rows[i].runs, "ms", (double)rows[i].ms, "bytes",
-                                               (json_int_t)rows[i].bytes));
+        json_array_append_new(works, json_pack("{s:s, s:s, s:s?, s:i, s:f, s:I}", "stage", rows[i].stage,
+                                               "skip_reason", hair_skip_reason_string(rows[i].skip_reason),
+                                               "pass", rows[i].pass, "passes", rows[i].runs, "ms",
+                                               (double)rows[i].ms, "bytes", (json_int_t)rows[i].bytes));
     return json_pack("{s:i, s:f, s:I, s:o}", "frame", info.frame, "ms", (double)info.ms, "bytes",
-                     (json_int_t)info.bytes, "works", works);
+                     (json_int_t)info.bytes, "stages", works);
 }
 
-static json_t* health_of(const hair_health* health)
+static json_t* solver_stats_of(const hair_solver_stats* solver_stats)
 {
     return json_pack("{s:i, s:i, s:i, s:i, s:f, s:i, s:f, s:f, s:i, s:i, s:f, s:i, s:f, s:i, s:i, s:f, s:i}",
-                     "euler", health->euler, "follow", health->follow, "reset", health->reset, "stiffened",
-                     health->stiffened, "stiffest", (double)health->stiffest, "sagging", health->sagging,
-                     "farthest_sag", (double)health->farthest_sag, "substep", (double)health->substep,
-                     "parts", health->parts, "softened", health->softened, "softest", (double)health->softest,
-                     "restless", health->restless, "fastest", (double)health->fastest, "gaining",
-                     health->gaining, "overstretched", health->overstretched, "stretch",
-                     (double)health->stretch, "taut", health->taut);
+                     "euler_fallbacks", solver_stats->euler_fallbacks, "follow_fallbacks",
+                     solver_stats->follow_fallbacks, "reset", solver_stats->reset, "stiffened",
+                     solver_stats->stiffened, "max_stiffening", (double)solver_stats->max_stiffening,
+                     "sagging", solver_stats->sagging, "farthest_sag", (double)solver_stats->farthest_sag,
+                     "substep", (double)solver_stats->substep, "parts", solver_stats->parts, "softened",
+                     solver_stats->softened, "softest", (double)solver_stats->softest, "restless",
+                     solver_stats->restless, "fastest", (double)solver_stats->fastest, "gaining",
+                     solver_stats->gaining, "overstretched", solver_stats->overstretched, "stretch",
+                     (double)solver_stats->stretch, "overextended", solver_stats->overextended);
 }
 
 static json_t* groom_of(const hair_groom_info* groom)
 {
-    const hair_repairs* repairs = &groom->repairs;
+    const hair_import_stats* repairs = &groom->import_stats;
     json_t* mended =
         json_pack("{s:i, s:i, s:i, s:i, s:i}", "dropped_single", repairs->dropped_single, "dropped_short",
                   repairs->dropped_short, "removed_nonfinite", repairs->removed_nonfinite, "removed_repeated",
                   repairs->removed_repeated, "resampled", repairs->resampled);
     return json_pack("{s:i, s:i, s:i, s:i, s:i, s:o}", "strands", groom->strand_count, "guides",
                      groom->guide_count, "guide_vertices", groom->guide_vertex_count, "followers",
-                     groom->follower_count, "patches", groom->patch_count, "repairs", mended);
+                     groom->follower_count, "patches", groom->patch_count, "import_stats", mended);
 }
 
 bool hair_stats_write(const char* tool, const char* path, const struct hair_stats* stats,
@@ -114,11 +116,11 @@ bool hair_stats_write(const char* tool, const char* path, const struct hair_stat
     char version[32];
     uint32_t number = hair_version();
     snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
-    json_t* root =
-        json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o, s:o, s:o}", "suite", "capture", "version",
-                  version, "renderer", stats->renderer, "size", stats->width, stats->height, "frames",
-                  stats->first, stats->end, "groom", groom_of(&stats->groom), "health",
-                  health_of(&stats->health), "report", report_of(hair), "rows", rows_of(stats, context));
+    json_t* root = json_pack("{s:s, s:s, s:s, s:[i,i], s:[i,i], s:o, s:o, s:o, s:o}", "suite", "capture",
+                             "version", version, "renderer", stats->renderer, "size", stats->width,
+                             stats->height, "frames", stats->first, stats->end, "groom",
+                             groom_of(&stats->groom), "solver_stats", solver_stats_of(&stats->solver_stats),
+                             "report", report_of(hair), "rows", rows_of(stats, context));
     struct hair_output output;
     bool ok = root && hair_output_open(tool, path, &output);
     if (ok) {

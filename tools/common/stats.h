@@ -17,7 +17,7 @@ struct hair_stats {
     const char* renderer;
     uint32_t width, height, first, end;
     hair_groom_info groom;
-    hair_health health;
+    hair_solver_stats solver_stats;
     // `draw` includes the shadow maps, the head and reading the picture.
     struct hair_clock step, draw;
 };

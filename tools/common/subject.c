@@ -25,7 +25,7 @@ static int build(const hair_host* host, const struct hair_scene* scene, hair_ass
     float* uvs = NULL;
     hair_groom_desc desc = scene->settings.groom;
     desc.host = host;
-    hair_result result = hair_asset_fill(asset, &desc);
+    hair_result result = hair_asset_to_groom_desc(asset, &desc);
     if (!result && scene->maps.count && desc.scalp_positions) {
         uvs = malloc(2 * (size_t)desc.scalp_vertex_count * sizeof *uvs);
         if (uvs)

@@ -1,10 +1,10 @@
-// tie.glsl - vertices that pins hold to the head or to the world, as the scalp holds the root.
+// pin.glsl - vertices that pins hold to the head or to the world, as the scalp holds the root.
 //
 // A span lies between one held vertex and the next. If these are farther apart than the span is
 // long, its segments are lengthened evenly. They then cover the distance and a thousandth more.
 // Lengths cannot be found in a quite straight strand. In a nearly straight strand, lengths give way
 // a little, so that each step finds what it can without a long way.
-layout(binding = HAIR_UNIT_TIE) uniform samplerBuffer tie_texture; // hair_held[]
+layout(binding = HAIR_UNIT_PIN) uniform samplerBuffer pin_texture; // hair_held[]
 OWN(vec4, target); // hair_held.place of a pinned vertex
 OWN(float, gives); // Fraction by which the length of segment i gives way
 // hair_held.span of the pin at which the span of segment i ends, or 0.
@@ -21,17 +21,17 @@ bool taut;                // A span is stretched beyond its length.
 
 // Return data of a pin by its number. rod[].factor.w has the number of the first pin after a
 // vertex, counted from 1.
-vec4 tie_place(float number) { return texelFetch(tie_texture, 2 * int(number) - 2); }
-vec4 tie_span(float number) { return texelFetch(tie_texture, 2 * int(number) - 1); }
+vec4 pin_place(float number) { return texelFetch(pin_texture, 2 * int(number) - 2); }
+vec4 pin_span(float number) { return texelFetch(pin_texture, 2 * int(number) - 1); }
 
 // Load the pin of vertex i. Writes are unconditional, because one driver loses conditional writes
 // to arrays other than the first.
-void load_tie(uint i)
+void load_pin(uint i)
 {
     uint  at   = guide_first + min(i, guide_count - 1u);
     float here = rod[max(at, 1u) - 1u].factor.w, beyond = rod[at].factor.w;
-    own(target) = tie_place(max(here, 1.0));
-    own(span)   = min(beyond, 1.0) * tie_span(max(beyond, 1.0));
+    own(target) = pin_place(max(here, 1.0));
+    own(span)   = min(beyond, 1.0) * pin_span(max(beyond, 1.0));
 }
 
 // Return the displacement of held vertex i. The vertex moves evenly to its place at the end of the

@@ -1,22 +1,22 @@
-// scene_solids.h - Colliders of a scene, from JSON, and their poses over time.
-#ifndef HAIR_TOOLS_COMMON_SCENE_SOLIDS_H
-#define HAIR_TOOLS_COMMON_SCENE_SOLIDS_H
+// scene_colliders.h - Colliders of a scene, from JSON, and their poses over time.
+#ifndef HAIR_TOOLS_COMMON_SCENE_COLLIDERS_H
+#define HAIR_TOOLS_COMMON_SCENE_COLLIDERS_H
 
 #include <hair/hair.h>
 
 #include "tools/common/json.h"
 #include "tools/common/motion.h"
 
-#define HAIR_SCENE_SOLID_KEYS 32
+#define HAIR_SCENE_COLLIDER_KEYS 32
 #define HAIR_SCENE_FAR 1e6 // maximum of any coordinate, m
 
-struct hair_scene_solid {
-    hair_solid solid; // at time 0
+struct hair_scene_collider {
+    hair_collider collider; // at time 0
     // Fixed in the world. Otherwise the collider is in groom space and moves with the head.
     bool stays;
     float velocity[3]; // m/s
     float spin[3]; // degrees/s about each axis
-    struct hair_key key[HAIR_SCENE_SOLID_KEYS];
+    struct hair_key key[HAIR_SCENE_COLLIDER_KEYS];
     uint32_t key_count;
 };
 
@@ -24,13 +24,13 @@ struct hair_scene_solid {
 bool hair_scene_read_keys(const struct hair_json* json, const char* key, const json_t* value,
                           struct hair_key* keys, uint32_t most, uint32_t* count);
 // Read an array of colliders.
-bool hair_scene_read_solids(const struct hair_json* json, const char* key, const json_t* value,
-                            struct hair_scene_solid* solids, uint32_t most, uint32_t* count);
+bool hair_scene_read_colliders(const struct hair_json* json, const char* key, const json_t* value,
+                               struct hair_scene_collider* colliders, uint32_t most, uint32_t* count);
 
 // Compute the collider at a time, in s.
-hair_solid hair_scene_solid_at(const struct hair_scene_solid* from, float time);
+hair_collider hair_scene_collider_at(const struct hair_scene_collider* from, float time);
 
 // Apply a fraction of a rigid motion to a collider.
-void hair_solid_carry(const float transform[16], float share, hair_solid* solid);
+void hair_collider_carry(const float transform[16], float share, hair_collider* collider);
 
 #endif

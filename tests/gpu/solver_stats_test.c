@@ -1,4 +1,4 @@
-// health_test.c - what hair_health tells: healthy hair is called healthy, hair that thrashes or gains energy is not.
+// solver_stats_test.c - what hair_solver_stats tells: healthy hair is called healthy, hair that thrashes or gains energy is not.
 #include <math.h>
 #include <stdio.h>
 
@@ -10,11 +10,11 @@
 
 enum { FPS = 60, GUIDES = 16, SHAKE = 30 };
 
-static hair_health ask(struct hair_test* test, hair_instance* hair)
+static hair_solver_stats ask(struct hair_test* test, hair_instance* hair)
 {
-    hair_health health = hair_health_default();
-    hair_test_ok(test, hair_get_health(hair, &health));
-    return health;
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    hair_test_ok(test, hair_get_solver_stats(hair, &solver_stats));
+    return solver_stats;
 }
 
 // Turn the head to and fro for half a second, then leave it alone.
@@ -34,10 +34,10 @@ static void add_box(struct hair_test* test, hair_instance* hair)
 {
     static float at[3 * 4096];
     uint32_t tip = hair_sim_guides(&hair->sim, NULL)[0].count - 1, count;
-    hair_test_ok(test, hair_read(hair, HAIR_READ_GUIDES, at, 4096, &count));
-    hair_solid box = hair_test_body(HAIR_SHAPE_BOX, at[3 * tip], at[3 * tip + 1], at[3 * tip + 2]);
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, at, 4096, &count));
+    hair_collider box = hair_test_body(HAIR_SHAPE_BOX, at[3 * tip], at[3 * tip + 1], at[3 * tip + 2]);
     for (int k = 0; k < 3; ++k) box.size[k] = 0.03f;
-    hair_test_ok(test, hair_set_solids(hair, &box, 1, sizeof box));
+    hair_test_ok(test, hair_set_colliders(hair, &box, 1, sizeof box));
 }
 
 static void check_haircut(struct hair_test* test, hair_style style, hair_solver solver, float damping,
@@ -57,13 +57,14 @@ static void check_haircut(struct hair_test* test, hair_style style, hair_solver 
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     if (collides) add_box(test, hair);
     shake(test, hair, SHAKE + 90);
-    hair_health health = ask(test, hair);
+    hair_solver_stats solver_stats = ask(test, hair);
     print_message("    %s by solver %d, damping %g%s: %u gain, %u restless, fastest %.3g m/s, stretch %.2g\n",
-                  hair_style_name(style), solver, (double)damping, collides ? ", box" : "", health.gaining,
-                  health.restless, (double)health.fastest, (double)health.stretch);
-    assert_int_equal(health.gaining, 0);
-    assert_int_equal(health.restless, 0);
-    assert_int_equal(health.overstretched, 0);
+                  hair_style_name(style), solver, (double)damping, collides ? ", box" : "",
+                  solver_stats.gaining, solver_stats.restless, (double)solver_stats.fastest,
+                  (double)solver_stats.stretch);
+    assert_int_equal(solver_stats.gaining, 0);
+    assert_int_equal(solver_stats.restless, 0);
+    assert_int_equal(solver_stats.overstretched, 0);
     hair_destroy(hair);
     hair_groom_destroy(groom);
 }
@@ -120,13 +121,14 @@ static void the_energy_is_that_of_the_reference(void** state)
         static float at[3][3 * 64];
         double h = 1.0 / 960;
         uint32_t count;
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, h, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, h, &physics);
         desc.diagnose = 1;
         hair_test_live(*state, &strands, &desc, &living);
         struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
         for (int n = 0; n < 80; ++n) {
             if (n >= 77)
-                hair_test_ok(*state, hair_read(living.hair, HAIR_READ_GUIDES, at[n - 77], 64, &count));
+                hair_test_ok(*state,
+                             hair_read_positions(living.hair, HAIR_READ_GUIDES, at[n - 77], 64, &count));
             if (n < 79) hair_test_advance(&living, NULL, h);
         }
         set_reference(rod, at, vertices[k], h);
@@ -153,12 +155,12 @@ static void too_stiff_a_guide_is_softened(void** state)
         struct hair_test_living living;
         hair_physics physics = hair_test_bare();
         physics.stiffness_root = physics.stiffness_tip = stiff ? 1e4f : 1;
-        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+        hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        hair_health health = ask(*state, living.hair);
-        print_message("    softened to %.3g\n", (double)health.softest);
-        assert_int_equal(health.softened, stiff);
-        assert_true(stiff ? health.softest > 0 && health.softest < 1 : health.softest == 1);
+        hair_solver_stats solver_stats = ask(*state, living.hair);
+        print_message("    softened to %.3g\n", (double)solver_stats.softest);
+        assert_int_equal(solver_stats.softened, stiff);
+        assert_true(stiff ? solver_stats.softest > 0 && solver_stats.softest < 1 : solver_stats.softest == 1);
         hair_test_die(&living);
         hair_test_strands_free(&strands);
     }
@@ -179,27 +181,28 @@ static hair_context* make_context(struct hair_test* test, const char* change)
     return context;
 }
 
-static hair_health live_with(struct hair_test* test, const char* change, uint32_t vertices, uint32_t diagnose)
+static hair_solver_stats live_with(struct hair_test* test, const char* change, uint32_t vertices,
+                                   uint32_t diagnose)
 {
     struct hair_test_strands strands = hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.1f);
     hair_physics physics = hair_test_bare();
     hair_context *own = make_context(test, change), *context = test->context;
     physics.damping = 20;
-    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_MAPPING_AUTO, 0, &physics);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     struct hair_test_living living;
     desc.diagnose = diagnose;
     test->context = own;
     hair_test_live(test, &strands, &desc, &living);
     hair_test_wait(&living, 210); // It falls, and damping needs 2.7 s.
-    hair_health health = ask(test, living.hair);
+    hair_solver_stats solver_stats = ask(test, living.hair);
     print_message("    %u vertices, %s: %u gain, %u restless, fastest %.3g m/s, stretch %.2g, %u reset\n",
-                  vertices, change, health.gaining, health.restless, (double)health.fastest,
-                  (double)health.stretch, health.reset);
+                  vertices, change, solver_stats.gaining, solver_stats.restless, (double)solver_stats.fastest,
+                  (double)solver_stats.stretch, solver_stats.reset);
     hair_test_die(&living);
     test->context = context;
     hair_context_destroy(own);
     hair_test_strands_free(&strands);
-    return health;
+    return solver_stats;
 }
 
 // A solver that is unchanged, then one that feeds motion where damping should take from it.
@@ -213,9 +216,9 @@ static void a_solver_that_feeds_motion_is_found_out(void** state)
         {16, "sed -i 's/ : b \\* hv;/ : 1.1 * b * hv;/' predict.glsl"},
     };
     for (int k = 0; k < 2; ++k) {
-        hair_health sound = live_with(*state, "true", cases[k].vertices, 1);
+        hair_solver_stats sound = live_with(*state, "true", cases[k].vertices, 1);
         assert_true(!sound.gaining && !sound.restless && sound.fastest < 0.02f && !sound.overstretched);
-        hair_health broken = live_with(*state, cases[k].change, cases[k].vertices, 1);
+        hair_solver_stats broken = live_with(*state, cases[k].change, cases[k].vertices, 1);
         assert_true(broken.gaining > 0 && broken.restless == 1 && broken.fastest > 0.02f);
         assert_int_equal(live_with(*state, cases[k].change, cases[k].vertices, 0).gaining, 0);
     }

@@ -1,4 +1,4 @@
-// solids.glsl - access to colliders. A few colliders are in the step's parameters. Any number of
+// colliders.glsl - access to colliders. A few colliders are in the step's parameters. Any number of
 // them are in a texture, and a grid lists which of them can be met where (lib/collide/cells.h).
 #ifdef HAIR_ANY
 layout(binding = HAIR_UNIT_CONTACT) uniform usamplerBuffer contact_texture;
@@ -10,9 +10,9 @@ vec4  contact_part(uint k, uint part) { return uintBitsToFloat(contact_bits(k, p
 uint  cell_entry(uint i) { return texelFetch(cell_texture, int(i)).x; }
 
 #define NODE(i) texelFetch(node_texture, int(i)).x
-#define SOLID_START(k, n) contact_part(k, uint(n))
-#define SOLID_END(k, n) contact_part(k, 2u + uint(n))
-#define SOLID_SPIN(k) contact_part(k, 4u)
+#define COLLIDER_START(k, n) contact_part(k, uint(n))
+#define COLLIDER_END(k, n) contact_part(k, 2u + uint(n))
+#define COLLIDER_SPIN(k) contact_part(k, 4u)
 #define BODY_POSITION(k, n) contact_part(k, 5u + uint(n))
 #define BODY_ROTATION(k, n) contact_part(k, 7u + uint(n))
 #define BODY_SIZE(k) contact_part(k, 9u)
@@ -28,9 +28,9 @@ uvec2 cell_members(vec3 place)
     return uvec2(cell_entry(i), cell_entry(i + 1u));
 }
 #else
-#define SOLID_START(k, n) params.solid[k].start[n]
-#define SOLID_END(k, n) params.solid[k].end[n]
-#define SOLID_SPIN(k) params.solid[k].spin
+#define COLLIDER_START(k, n) params.collider[k].start[n]
+#define COLLIDER_END(k, n) params.collider[k].end[n]
+#define COLLIDER_SPIN(k) params.collider[k].spin
 #define BODY_POSITION(k, n) params.body[k].position[n]
 #define BODY_ROTATION(k, n) params.body[k].rotation[n]
 #define BODY_SIZE(k) params.body[k].size

@@ -1,13 +1,13 @@
-// ties.h - pins, which hold vertices of guides to the head or to the world, as the scalp holds
+// pins.h - pins, which hold vertices of guides to the head or to the world, as the scalp holds
 // roots.
-#ifndef HAIR_SIM_TIES_H
-#define HAIR_SIM_TIES_H
+#ifndef HAIR_SIM_PINS_H
+#define HAIR_SIM_PINS_H
 
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 
 // Maximum number of pins of an instance. Shaders count pins in floats.
-#define HAIR_MOST_TIES 1048576u
+#define HAIR_MOST_PINS 1048576u
 
 // A pin whose vertex has been found.
 struct hair_knot {
@@ -17,7 +17,7 @@ struct hair_knot {
     uint32_t given; // Index of the pin in the application's array.
 };
 
-struct hair_ties {
+struct hair_pins {
     struct hair_knot* knot; // Array in the order of guides and their vertices.
     uint32_t count;
     uint32_t most; // Maximum number of pins of one guide.
@@ -28,19 +28,19 @@ struct hair_ties {
 struct hair_sim;
 
 // Replace the pins by `count` pins that are `stride` bytes apart. On failure nothing has changed.
-hair_result hair_ties_set(struct hair_sim* sim, const hair_tie* from, uint32_t count, size_t stride);
+hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride);
 
 // Check loaded pins. Fail if the vertex of a pin does not exist, or if the order is wrong.
-hair_result hair_ties_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count);
+hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count);
 // Replace the pins by an allocated array, which the instance then owns.
-void hair_ties_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count);
-void hair_ties_free(struct hair_sim* sim);
+void hair_pins_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count);
+void hair_pins_free(struct hair_sim* sim);
 
 // Write the pins for the solver, for a step to sim->head.
-hair_result hair_ties_write(struct hair_sim* sim);
-void hair_ties_bind(struct hair_sim* sim);
+hair_result hair_pins_write(struct hair_sim* sim);
+void hair_pins_bind(struct hair_sim* sim);
 
 // Move the pins in the world along with the head.
-void hair_ties_teleport(struct hair_sim* sim, const struct hair_pose* from, const struct hair_pose* to);
+void hair_pins_teleport(struct hair_sim* sim, const struct hair_pose* from, const struct hair_pose* to);
 
 #endif

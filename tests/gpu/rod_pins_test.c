@@ -1,4 +1,4 @@
-// rod_ties_test.c - guides whose vertices are tied: to the head, to the world; as chains are known to hang between two
+// rod_pins_test.c - guides whose vertices are tied: to the head, to the world; as chains are known to hang between two
 // ends; too far apart; let go.
 #include "tests/support/living.h"
 #include "tests/support/motion.h"
@@ -15,7 +15,9 @@
 static hair_desc way_of(int way, const hair_physics* physics)
 {
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW};
-    return hair_test_rods(solvers[way / 2], way % 2 ? HAIR_MAPPING_THREAD : HAIR_MAPPING_GROUP, 0, physics);
+    return hair_test_rods(
+        solvers[way / 2],
+        way % 2 ? HAIR_THREAD_MAPPING_THREAD_PER_GUIDE : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, physics);
 }
 
 static int each(int solver)
@@ -23,24 +25,24 @@ static int each(int solver)
     return 2 * solver + solver % 2;
 }
 
-static hair_tie tie_of(uint32_t guide, uint32_t vertex, hair_tie_to to, hair_vec3 position)
+static hair_pin pin_of(uint32_t guide, uint32_t vertex, hair_pin_to to, hair_vec3 position)
 {
-    hair_tie tie = hair_tie_default();
-    tie.guide = guide;
-    tie.vertex = vertex;
-    tie.to = to;
-    hair_store3(tie.position, position);
-    return tie;
+    hair_pin pin = hair_pin_default();
+    pin.guide = guide;
+    pin.vertex = vertex;
+    pin.to = to;
+    hair_store3(pin.position, position);
+    return pin;
 }
 
-static void set_tie(struct hair_test_living* living, hair_tie tie)
+static void set_pin(struct hair_test_living* living, hair_pin pin)
 {
-    hair_test_ok(living->test, hair_set_ties(living->hair, &tie, 1, sizeof tie));
+    hair_test_ok(living->test, hair_set_pins(living->hair, &pin, 1, sizeof pin));
 }
 
-static void tie_tip(struct hair_test_living* living, hair_tie_to to, hair_vec3 position)
+static void pin_tip(struct hair_test_living* living, hair_pin_to to, hair_vec3 position)
 {
-    set_tie(living, tie_of(0, UINT32_MAX, to, position));
+    set_pin(living, pin_of(0, UINT32_MAX, to, position));
 }
 
 static double apart(hair_vec3 a, hair_vec3 b)
@@ -75,8 +77,8 @@ static void hold_tip(struct hair_test_living* living)
         float time = (float)(k * FRAME);
         hair_vec3 hand = hair_v3(0.1f + 0.1f * sinf(6 * time), 0.1f * time, -0.1f), tip;
         head.position[1] = 0.05 * sin(5 * k * FRAME);
-        if (k == 0) tie_tip(living, HAIR_TIE_HEAD, at);
-        if (k >= 30) tie_tip(living, HAIR_TIE_WORLD, hand);
+        if (k == 0) pin_tip(living, HAIR_PIN_HEAD, at);
+        if (k >= 30) pin_tip(living, HAIR_PIN_WORLD, hand);
         hair_test_advance(living, &head, FRAME);
         hair_test_read_guides(living);
         tip = hair_test_tip(living, 0);
@@ -91,7 +93,7 @@ static void hold_tip(struct hair_test_living* living)
     assert_true(of_head < 1e-6 && of_world < 1e-6 && stretch < 0.01);
 }
 
-static void a_tied_tip_is_where_its_tie_has_it(void** state)
+static void a_pinned_tip_is_where_its_pin_has_it(void** state)
 {
     for (int way = 0; way < WAYS; ++way) {
         struct hair_test_living living;
@@ -99,25 +101,25 @@ static void a_tied_tip_is_where_its_tie_has_it(void** state)
         hair_desc desc = way_of(way, &physics);
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
         hold_tip(&living);
-        assert_int_equal(hair_test_health(&living).reset, 0);
+        assert_int_equal(hair_test_solver_stats(&living).reset, 0);
         hair_test_die(&living);
     }
 }
 
 // Other programs.
-static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_solids(void** state)
+static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_colliders(void** state)
 {
     for (int way = 0; way < 2; ++way) {
         struct hair_test_living living;
         hair_physics physics = hair_physics_default();
         hair_desc desc = way_of(way, &physics);
-        hair_solid sphere = hair_solid_default();
+        hair_collider sphere = hair_collider_default();
         physics.flatness = 0.5f;
         physics.cohesion = 5;
         sphere.size[0] = 0.03f;
         sphere.position[0] = 0.1f;
         live(*state, 1, 20, hair_v3(1, -1, 0), &desc, &living);
-        hair_test_ok(*state, hair_set_solids(living.hair, &sphere, 1, sizeof sphere));
+        hair_test_ok(*state, hair_set_colliders(living.hair, &sphere, 1, sizeof sphere));
         hold_tip(&living);
         hair_test_die(&living);
     }
@@ -128,13 +130,13 @@ static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
 {
     static const double rows[][2] = {{0.5, 0.3981941779}, {0.8, 0.2654375091}};
     hair_physics physics = hair_test_bare();
-    physics.young = 0, physics.damping = 6, physics.root = HAIR_ROOT_HINGED;
+    physics.youngs_modulus = 0, physics.damping = 6, physics.root = HAIR_ROOT_HINGED;
     for (int i = 0; i < 2 * SOLVERS; ++i) {
         struct hair_test_living living;
         hair_desc desc = way_of(each(i / 2), &physics);
         double sag = 0, span = rows[i % 2][0], expected = rows[i % 2][1];
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
-        tie_tip(&living, HAIR_TIE_HEAD, hair_v3((float)span * LENGTH, 0, 0));
+        pin_tip(&living, HAIR_PIN_HEAD, hair_v3((float)span * LENGTH, 0, 0));
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
         for (uint32_t k = 0; k < 32; ++k)
@@ -147,33 +149,33 @@ static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
     }
 }
 
-// A ponytail: what is above its tie is held at both ends, what is below hangs from it.
-static void a_guide_can_be_tied_at_several_vertices(void** state)
+// A ponytail: what is above its pin is held at both ends, what is below hangs from it.
+static void a_guide_can_be_pinned_at_several_vertices(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living;
         hair_physics physics = hair_test_bare();
         hair_desc desc = way_of(each(solver), &physics);
-        hair_tie ties[] = {tie_of(0, 20, HAIR_TIE_WORLD, hair_v3(0.15f, 0, 0)),
-                           tie_of(0, 10, HAIR_TIE_HEAD, hair_v3(0.07f, 0.03f, 0))};
+        hair_pin pins[] = {pin_of(0, 20, HAIR_PIN_WORLD, hair_v3(0.15f, 0, 0)),
+                           pin_of(0, 10, HAIR_PIN_HEAD, hair_v3(0.07f, 0.03f, 0))};
         physics.damping = 6;
         live(*state, 2, 32, hair_v3(1, -1, 0), &desc, &living);
-        hair_test_ok(*state, hair_set_ties(living.hair, ties, 2, sizeof *ties));
+        hair_test_ok(*state, hair_set_pins(living.hair, pins, 2, sizeof *pins));
         hair_test_wait(&living, 180);
         hair_test_read_guides(&living);
         for (int i = 0; i < 2; ++i)
-            assert_true(apart(hair_test_at(&living, 0, ties[i].vertex), hair_load3(ties[i].position)) < 1e-6);
+            assert_true(apart(hair_test_at(&living, 0, pins[i].vertex), hair_load3(pins[i].position)) < 1e-6);
         hair_vec3 tip = hair_test_tip(&living, 0);
         print_message("    tip at %.3f %.3f %.3f, stretch %.2g\n", (double)tip.x, (double)tip.y,
                       (double)tip.z, hair_test_stretch(&living));
         hair_test_near("x of the tip", 0, (double)tip.x, 0.15, 0.06);
         assert_true(tip.y < -0.06f && hair_test_stretch(&living) < 1e-3);
-        assert_true(hair_test_tip(&living, 1).y < -0.2f); // Which nothing ties.
+        assert_true(hair_test_tip(&living, 1).y < -0.2f); // Which nothing pins.
         hair_test_die(&living);
     }
 }
 
-static void ties_that_are_too_far_apart_pull_a_guide_straight(void** state)
+static void pins_that_are_too_far_apart_pull_a_guide_straight(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living;
@@ -182,31 +184,32 @@ static void ties_that_are_too_far_apart_pull_a_guide_straight(void** state)
         hair_vec3 far = hair_v3(0.45f, 0, 0);
         double astray = 0;
         live(*state, 1, 32, hair_v3(1, -1, 0), &desc, &living);
-        tie_tip(&living, HAIR_TIE_HEAD, far);
+        pin_tip(&living, HAIR_PIN_HEAD, far);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         for (uint32_t k = 0; k < 32; ++k)
             astray = fmax(astray, apart(hair_test_at(&living, 0, k), hair_scale(far, (float)k / 31)));
-        hair_health pulled = hair_test_health(&living);
+        hair_solver_stats pulled = hair_test_solver_stats(&living);
         print_message("    %.2g m off the straight line, stretch %.4f, %u times taut, %u by Euler, %u led\n",
-                      astray, hair_test_stretch(&living), pulled.taut, pulled.euler, pulled.follow);
-        assert_true(astray < 0.03 && pulled.taut > 0);
+                      astray, hair_test_stretch(&living), pulled.overextended, pulled.euler_fallbacks,
+                      pulled.follow_fallbacks);
+        assert_true(astray < 0.03 && pulled.overextended > 0);
         float lower[3], upper[3];
-        hair_test_ok(*state, hair_get_reach(living.hair, lower, upper));
+        hair_test_ok(*state, hair_get_bounds(living.hair, lower, upper));
         assert_true(upper[0] >= far.x && lower[0] < 0);
         hair_test_near("stretch", 0, hair_test_stretch(&living), 0.5, 0.02);
-        tie_tip(&living, HAIR_TIE_HEAD, hair_v3(0.2f, 0, 0));
+        pin_tip(&living, HAIR_PIN_HEAD, hair_v3(0.2f, 0, 0));
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
-        hair_health after = hair_test_health(&living);
-        assert_true(hair_test_stretch(&living) < 1e-3 && after.taut < pulled.taut + 60);
+        hair_solver_stats after = hair_test_solver_stats(&living);
+        assert_true(hair_test_stretch(&living) < 1e-3 && after.overextended < pulled.overextended + 60);
         hair_test_wait(&living, 10);
-        assert_int_equal(hair_test_health(&living).taut, after.taut);
+        assert_int_equal(hair_test_solver_stats(&living).overextended, after.overextended);
         hair_test_die(&living);
     }
 }
 
-static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied(void** state)
+static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_pinned(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
@@ -214,11 +217,11 @@ static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied(
         hair_desc desc = way_of(each(solver), &physics);
         physics.damping = 6;
         live(*state, 1, 24, hair_v3(1, -1, 0), &desc, &living);
-        tie_tip(&living, HAIR_TIE_WORLD, hair_v3(0.1f, 0.2f, 0));
+        pin_tip(&living, HAIR_PIN_WORLD, hair_v3(0.1f, 0.2f, 0));
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
         assert_true(hair_test_tip(&living, 0).y > 0.19f);
-        hair_test_ok(*state, hair_set_ties(living.hair, NULL, 0, 0));
+        hair_test_ok(*state, hair_set_pins(living.hair, NULL, 0, 0));
         hair_test_wait(&living, 6);
         hair_test_read_guides(&living);
         double fallen = 0.2 - (double)hair_test_tip(&living, 0).y;
@@ -234,7 +237,7 @@ static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied(
     }
 }
 
-static void a_teleport_takes_ties_along(void** state)
+static void a_teleport_takes_pins_along(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_test_bare();
@@ -243,27 +246,27 @@ static void a_teleport_takes_ties_along(void** state)
         hair_test_pose_of(hair_v3(100, 0, 0), hair_v3(0, 1, 0), 1.5707963267948966);
     const float turned[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 100, 0, 0, 1};
     live(*state, 1, 16, hair_v3(1, -1, 0), &desc, &living);
-    tie_tip(&living, HAIR_TIE_WORLD, hair_v3(0.2f, 0, 0));
+    pin_tip(&living, HAIR_PIN_WORLD, hair_v3(0.2f, 0, 0));
     hair_test_wait(&living, 30);
     hair_test_ok(*state, hair_teleport(living.hair, turned));
     hair_test_wait(&living, 30);
     hair_test_read_guides(&living);
     assert_true(apart(hair_test_tip(&living, 0), in_world(&far, hair_v3(0.2f, 0, 0))) < 1e-4);
     assert_true(hair_test_stretch(&living) < 2e-3);
-    assert_int_equal(hair_test_health(&living).taut, 0);
+    assert_int_equal(hair_test_solver_stats(&living).overextended, 0);
     hair_test_die(&living);
 }
 
-static void a_state_with_ties_goes_on_as_if_it_had_not_been_saved(void** state)
+static void a_state_with_pins_goes_on_as_if_it_had_not_been_saved(void** state)
 {
     static struct hair_test_seen seen[2];
     hair_physics physics = hair_physics_default();
     hair_desc desc = way_of(0, &physics);
     struct hair_test_living living[2];
-    hair_tie ties[] = {tie_of(1, UINT32_MAX, HAIR_TIE_WORLD, hair_v3(0.1f, 0.1f, 0)),
-                       tie_of(0, 7, HAIR_TIE_HEAD, hair_v3(0.1f, 0, 0))};
+    hair_pin pins[] = {pin_of(1, UINT32_MAX, HAIR_PIN_WORLD, hair_v3(0.1f, 0.1f, 0)),
+                       pin_of(0, 7, HAIR_PIN_HEAD, hair_v3(0.1f, 0, 0))};
     for (int i = 0; i < 2; ++i) live(*state, 3, 16, hair_v3(1, -1, 0), &desc, &living[i]);
-    hair_test_ok(*state, hair_set_ties(living[0].hair, ties, 2, sizeof *ties));
+    hair_test_ok(*state, hair_set_pins(living[0].hair, pins, 2, sizeof *pins));
     for (int k = 0; k < 20; ++k) hair_test_advance(&living[0], NULL, 0.011);
     struct hair_test_blob blob = hair_test_save(*state, living[0].hair);
     hair_test_ok(*state, hair_load(living[1].hair, blob.bytes, blob.size));
@@ -272,8 +275,8 @@ static void a_state_with_ties_goes_on_as_if_it_had_not_been_saved(void** state)
     assert_memory_equal(again.bytes, blob.bytes, blob.size);
     for (int i = 0; i < 2; ++i) {
         for (int k = 0; k < 20; ++k) {
-            ties[0].position[1] = 0.1f + 0.005f * (float)k;
-            if (k > 5) hair_test_ok(*state, hair_set_ties(living[i].hair, ties, 2, sizeof *ties));
+            pins[0].position[1] = 0.1f + 0.005f * (float)k;
+            if (k > 5) hair_test_ok(*state, hair_set_pins(living[i].hair, pins, 2, sizeof *pins));
             hair_test_advance(&living[i], NULL, 0.011);
         }
         hair_test_look(*state, living[i].hair, &seen[i]);
@@ -283,7 +286,7 @@ static void a_state_with_ties_goes_on_as_if_it_had_not_been_saved(void** state)
     free(blob.bytes), free(again.bytes);
 }
 
-static void ties_that_cannot_be_are_refused_and_leave_those_there_are(void** state)
+static void pins_that_cannot_be_are_refused_and_leave_those_there_are(void** state)
 {
     const float inf = INFINITY;
     struct hair_test* test = *state;
@@ -292,47 +295,47 @@ static void ties_that_cannot_be_are_refused_and_leave_those_there_are(void** sta
     struct hair_test_living living;
     hair_vec3 at = hair_v3(0.1f, 0.1f, 0.1f);
     const struct {
-        hair_tie tie;
+        hair_pin pin;
         const char* words;
     } wrong[] = {
-        {tie_of(2, 3, HAIR_TIE_HEAD, at), "ties[1].guide is 2, not in [0, 1]"},
-        {tie_of(1, 0, HAIR_TIE_HEAD, at), "ties[1].vertex is 0"},
-        {tie_of(1, 3, (hair_tie_to)2, at), "ties[1].to is 2"},
-        {tie_of(1, 3, HAIR_TIE_WORLD, hair_v3(0, NAN, 0)), "ties[1].position[1] is"},
-        {tie_of(1, 3, HAIR_TIE_WORLD, hair_v3(0, 0, -inf)), "ties[1].position[2] is -inf"},
-        {tie_of(0, 15, HAIR_TIE_WORLD, at), "ties[0] and ties[1] both hold vertex 15 of guide 0"},
-        {tie_of(0, 99, HAIR_TIE_WORLD, at), "both hold vertex 15 of guide 0"},
+        {pin_of(2, 3, HAIR_PIN_HEAD, at), "pins[1].guide is 2, not in [0, 1]"},
+        {pin_of(1, 0, HAIR_PIN_HEAD, at), "pins[1].vertex is 0"},
+        {pin_of(1, 3, (hair_pin_to)2, at), "pins[1].to is 2"},
+        {pin_of(1, 3, HAIR_PIN_WORLD, hair_v3(0, NAN, 0)), "pins[1].position[1] is"},
+        {pin_of(1, 3, HAIR_PIN_WORLD, hair_v3(0, 0, -inf)), "pins[1].position[2] is -inf"},
+        {pin_of(0, 15, HAIR_PIN_WORLD, at), "pins[0] and pins[1] both hold vertex 15 of guide 0"},
+        {pin_of(0, 99, HAIR_PIN_WORLD, at), "both hold vertex 15 of guide 0"},
     };
     live(test, 2, 16, hair_v3(1, -1, 0), &desc, &living);
     hair_instance* hair = living.hair;
-    tie_tip(&living, HAIR_TIE_HEAD, hair_v3(0.2f, 0, 0));
+    pin_tip(&living, HAIR_PIN_HEAD, hair_v3(0.2f, 0, 0));
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
-        hair_tie ties[] = {tie_of(0, 15, HAIR_TIE_HEAD, at), wrong[i].tie};
-        hair_test_refused(test, hair_set_ties(hair, ties, 2, sizeof *ties), HAIR_ERROR_ARGUMENT,
+        hair_pin pins[] = {pin_of(0, 15, HAIR_PIN_HEAD, at), wrong[i].pin};
+        hair_test_refused(test, hair_set_pins(hair, pins, 2, sizeof *pins), HAIR_ERROR_ARGUMENT,
                           wrong[i].words);
     }
-    hair_tie one = tie_of(0, 15, HAIR_TIE_HEAD, at);
-    hair_test_refused(test, hair_set_ties(hair, &one, 1, 8), HAIR_ERROR_ARGUMENT, "stride is 8");
-    hair_test_refused(test, hair_set_ties(hair, NULL, 1, sizeof one), HAIR_ERROR_ARGUMENT, "ties is NULL");
-    hair_test_refused(test, hair_set_ties(hair, &one, 1048577, sizeof one), HAIR_ERROR_ARGUMENT, "tie count");
-    assert_int_equal(hair_set_ties(NULL, &one, 1, sizeof one), HAIR_ERROR_ARGUMENT);
+    hair_pin one = pin_of(0, 15, HAIR_PIN_HEAD, at);
+    hair_test_refused(test, hair_set_pins(hair, &one, 1, 8), HAIR_ERROR_ARGUMENT, "stride is 8");
+    hair_test_refused(test, hair_set_pins(hair, NULL, 1, sizeof one), HAIR_ERROR_ARGUMENT, "pins is NULL");
+    hair_test_refused(test, hair_set_pins(hair, &one, 1048577, sizeof one), HAIR_ERROR_ARGUMENT, "pin count");
+    assert_int_equal(hair_set_pins(NULL, &one, 1, sizeof one), HAIR_ERROR_ARGUMENT);
     hair_test_wait(&living, 2);
     hair_test_read_guides(&living);
     assert_true(apart(hair_test_tip(&living, 0), hair_v3(0.2f, 0, 0)) < 1e-6);
 
     // What may be asked for, and cannot be: a place that no hair reaches, and back from it.
-    tie_tip(&living, HAIR_TIE_WORLD, hair_v3(1e9f, -1e9f, 0));
+    pin_tip(&living, HAIR_PIN_WORLD, hair_v3(1e9f, -1e9f, 0));
     hair_test_wait(&living, 10);
     hair_test_read_guides(&living);
-    tie_tip(&living, HAIR_TIE_WORLD, hair_v3(0.1f, 0, 0));
+    pin_tip(&living, HAIR_PIN_WORLD, hair_v3(0.1f, 0, 0));
     hair_test_wait(&living, 60);
     hair_test_read_guides(&living);
     assert_true(hair_test_stretch(&living) < 0.01);
     hair_test_die(&living);
 
-    desc = hair_test_rods(HAIR_SOLVER_REDBLACK, HAIR_MAPPING_AUTO, 0, &physics);
+    desc = hair_test_rods(HAIR_SOLVER_REDBLACK, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     live(test, 2, 16, hair_v3(1, -1, 0), &desc, &living);
-    hair_test_refused(test, hair_set_ties(living.hair, &one, 1, sizeof one), HAIR_ERROR_ARGUMENT, "redblack");
+    hair_test_refused(test, hair_set_pins(living.hair, &one, 1, sizeof one), HAIR_ERROR_ARGUMENT, "redblack");
     hair_test_die(&living);
 }
 
@@ -340,15 +343,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_tied_tip_is_where_its_tie_has_it),
-        HAIR_TEST(so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_solids),
+        HAIR_TEST(a_pinned_tip_is_where_its_pin_has_it),
+        HAIR_TEST(so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_colliders),
         HAIR_TEST(a_chain_hangs_between_two_ends_in_a_catenary),
-        HAIR_TEST(a_guide_can_be_tied_at_several_vertices),
-        HAIR_TEST(ties_that_are_too_far_apart_pull_a_guide_straight),
-        HAIR_TEST(a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_tied),
-        HAIR_TEST(a_teleport_takes_ties_along),
-        HAIR_TEST(a_state_with_ties_goes_on_as_if_it_had_not_been_saved),
-        HAIR_TEST(ties_that_cannot_be_are_refused_and_leave_those_there_are),
+        HAIR_TEST(a_guide_can_be_pinned_at_several_vertices),
+        HAIR_TEST(pins_that_are_too_far_apart_pull_a_guide_straight),
+        HAIR_TEST(a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_pinned),
+        HAIR_TEST(a_teleport_takes_pins_along),
+        HAIR_TEST(a_state_with_pins_goes_on_as_if_it_had_not_been_saved),
+        HAIR_TEST(pins_that_cannot_be_are_refused_and_leave_those_there_are),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -1,4 +1,4 @@
-// forms.cpp - collision meshes of shapes already met, found by the shape's address and a hash of
+// collision_meshes.cpp - collision meshes of shapes already met, found by the shape's address and a hash of
 // its numbers.
 #include "lib/bullet/bullet.h"
 
@@ -36,14 +36,14 @@ static hair_result rebuild(hair_bullet* bullet, uint32_t capacity, uint32_t roun
     hair_met* old = bullet->met;
     uint32_t before = bullet->met_capacity;
     void* memory = hair_alloc(&bullet->host, capacity, sizeof *old);
-    if (!memory) return hair_fail_memory(&bullet->host, "the forms of shapes");
+    if (!memory) return hair_fail_memory(&bullet->host, "the collision meshes of shapes");
     bullet->met = static_cast<hair_met*>(memory);
     bullet->met_capacity = capacity;
     bullet->met_count = 0;
     for (uint32_t i = 0; i < before; ++i) {
         if (!old[i].shape) continue;
         if (bullet->round - old[i].round > rounds || old[i].shape == shape) {
-            hair_form_destroy(old[i].form);
+            hair_collision_mesh_destroy(old[i].form);
             continue;
         }
         bullet->met[place_of(bullet, old[i].shape)] = old[i];
@@ -54,7 +54,7 @@ static hair_result rebuild(hair_bullet* bullet, uint32_t capacity, uint32_t roun
 }
 
 hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                             hair_form* form)
+                             hair_collision_mesh* form)
 {
     if (2 * (bullet->met_count + 1) > bullet->met_capacity) {
         uint32_t capacity = bullet->met_capacity ? 2 * bullet->met_capacity : 64;
@@ -63,7 +63,7 @@ hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape,
     }
     hair_met* met = &bullet->met[place_of(bullet, shape)];
     if (met->shape)
-        hair_form_destroy(met->form); // The shape was another one then.
+        hair_collision_mesh_destroy(met->form); // The shape was another one then.
     else
         ++bullet->met_count;
     *met = {shape, print, form, bullet->round};

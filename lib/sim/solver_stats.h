@@ -1,6 +1,6 @@
-// health.h - diagnosis of hair that thrashes, is stretched, or gains energy without a source.
-#ifndef HAIR_SIM_HEALTH_H
-#define HAIR_SIM_HEALTH_H
+// solver_stats.h - diagnosis of hair that thrashes, is stretched, or gains energy without a source.
+#ifndef HAIR_SIM_SOLVER_STATS_H
+#define HAIR_SIM_SOLVER_STATS_H
 
 #include <hair/hair.h>
 
@@ -33,6 +33,6 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps);
 void hair_diagnosis_forget(struct hair_sim* sim);
 
 // Fill in `health`. Wait for the GPU.
-hair_result hair_sim_health(struct hair_sim* sim, hair_health* health);
+hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solver_stats);
 
 #endif

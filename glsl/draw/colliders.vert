@@ -1,4 +1,4 @@
-// solids.vert - the bounding box of a collider. One instance per collider, 36 vertices.
+// colliders.vert - the bounding box of a collider. One instance per collider, 36 vertices.
 #version 450 core
 #include "shown.glsl"
 
@@ -8,7 +8,7 @@ layout(location = 2) flat out int number;
 
 void main()
 {
-    hair_shown_solid own = params.shown[gl_InstanceID];
+    hair_shown_collider own = params.shown[gl_InstanceID];
     // Two triangles on each of six sides.
     int   side   = gl_VertexID / 6, corner = gl_VertexID % 6, axis = side / 2;
     ivec2 at     = ivec2((0x32 >> corner) & 1, (0x2c >> corner) & 1);
@@ -20,5 +20,5 @@ void main()
     face         = vec3(0.0);
     face[axis]   = side % 2 == 1 ? 1.0 : -1.0;
     number       = gl_InstanceID;
-    gl_Position  = to_clip(own.solid.position.xyz + rotate(own.solid.rotation, box_position));
+    gl_Position  = to_clip(own.collider.position.xyz + rotate(own.collider.rotation, box_position));
 }

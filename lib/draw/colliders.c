@@ -1,4 +1,4 @@
-// solids.c - colliders and a slice of the field, drawn for debugging.
+// colliders.c - colliders and a slice of the field, drawn for debugging.
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
@@ -32,18 +32,18 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
     params->side[1] = (hair_vec4){sides[1][0], sides[1][1], sides[1][2], 0};
 }
 
-static struct hair_shown_solid show(const struct hair_solid_field* field, const hair_solid* solid, uint32_t i,
-                                    const struct hair_pose* head)
+static struct hair_shown_collider show(const struct hair_collider_field* field, const hair_collider* collider,
+                                       uint32_t i, const struct hair_pose* head)
 {
     hair_vec3 lower, upper;
-    struct hair_field_solid own = hair_field_shown(field, solid, i, head, &lower, &upper);
+    struct hair_field_collider own = hair_field_shown(field, collider, i, head, &lower, &upper);
     hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // Rays begin outside the box.
     lower = hair_sub(lower, more);
     upper = hair_add(upper, more);
-    return (struct hair_shown_solid){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
+    return (struct hair_shown_collider){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
 }
 
-static void draw_slice(struct hair_draw* draw, const struct hair_solid_field* field, const hair_view* view,
+static void draw_slice(struct hair_draw* draw, const struct hair_collider_field* field, const hair_view* view,
                        GLuint buffer, const struct hair_shown_params* params)
 {
     if (!view->slice || !hair_field_is_near(field)) return;
@@ -55,34 +55,34 @@ static void draw_slice(struct hair_draw* draw, const struct hair_solid_field* fi
     hair_gl_end(gl, HAIR_GL_SLICE);
 }
 
-static void draw_shapes(struct hair_draw* draw, const struct hair_solid_field* field,
-                        const hair_solid* solids, uint32_t count, const struct hair_pose* head, GLuint buffer,
-                        struct hair_shown_params* params)
+static void draw_shapes(struct hair_draw* draw, const struct hair_collider_field* field,
+                        const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
+                        GLuint buffer, struct hair_shown_params* params)
 {
     struct hair_gl* gl = draw->gl;
-    hair_gl_begin(gl, HAIR_GL_SOLIDS);
-    for (uint32_t first = 0; first < count; first += HAIR_SHOWN_SOLIDS) {
-        uint32_t some = count - first < HAIR_SHOWN_SOLIDS ? count - first : HAIR_SHOWN_SOLIDS;
+    hair_gl_begin(gl, HAIR_GL_COLLIDERS);
+    for (uint32_t first = 0; first < count; first += HAIR_SHOWN_COLLIDERS) {
+        uint32_t some = count - first < HAIR_SHOWN_COLLIDERS ? count - first : HAIR_SHOWN_COLLIDERS;
         for (uint32_t i = 0; i < some; ++i)
-            params->shown[i] = show(field, &solids[first + i], first + i, head);
+            params->shown[i] = show(field, &colliders[first + i], first + i, head);
         hair_gl_write_uniform(gl, buffer, sizeof *params, params);
         gl->DrawArraysInstanced(GL_TRIANGLES, 0, 36, (GLsizei)some);
     }
-    hair_gl_end(gl, HAIR_GL_SOLIDS);
+    hair_gl_end(gl, HAIR_GL_COLLIDERS);
 }
 
-hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_field* field,
-                             const hair_solid* solids, uint32_t count, const struct hair_pose* head,
-                             const hair_view* view)
+hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collider_field* field,
+                                const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
+                                const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
     // Created for each draw, so that no memory stays when colliders are not drawn.
     GLuint buffer = 0;
-    hair_result result = hair_gl_need(gl, HAIR_GL_SOLIDS);
+    hair_result result = hair_gl_need(gl, HAIR_GL_COLLIDERS);
     if (!result && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
     if (result) return result;
     struct hair_shown_params* params = hair_alloc(&gl->host, 1, sizeof *params);
-    if (!params) return hair_fail_memory(&gl->host, "the solids to draw");
+    if (!params) return hair_fail_memory(&gl->host, "the colliders to draw");
     result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
     if (!result) {
         struct hair_draw_params own;
@@ -98,7 +98,7 @@ hair_result hair_draw_solids(struct hair_draw* draw, const struct hair_solid_fie
         gl->Disable(GL_CULL_FACE);
         draw_slice(draw, field, view, buffer, params);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
-        draw_shapes(draw, field, solids, count, head, buffer, params);
+        draw_shapes(draw, field, colliders, count, head, buffer, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1,
                             NULL); // Unbind the buffer before it is deleted. See state.c.
     }

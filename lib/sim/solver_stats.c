@@ -1,6 +1,6 @@
-// health.c - what went wrong in the simulation, and what goes wrong now.
+// solver_stats.c - what went wrong in the simulation, and what goes wrong now.
 //
-// Two passes examine the guides. motion.comp runs when hair_get_health is called, and measures the
+// Two passes examine the guides. motion.comp runs when hair_get_solver_stats is called, and measures the
 // speed and stretch of guides. energy.comp runs after steps in which nothing does work on the
 // guides, if hair_desc.diagnose is set.
 //
@@ -150,29 +150,29 @@ static float float_of(uint32_t bits)
     return value;
 }
 
-hair_result hair_sim_health(struct hair_sim* sim, hair_health* health)
+hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solver_stats)
 {
-    uint32_t count[HAIR_HEALTH_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
+    uint32_t count[HAIR_SOLVER_STATS_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
     struct hair_rods_report held = hair_sim_held(sim);
     hair_result result = find_motion(sim, found);
     if (result) return result;
-    sim->gl->GetNamedBufferSubData(sim->health, 0, sizeof count, count);
-    health->euler = count[HAIR_HEALTH_EULER];
-    health->follow = count[HAIR_HEALTH_FOLLOW];
-    health->reset = count[HAIR_HEALTH_RESET];
-    health->taut = count[HAIR_HEALTH_TAUT];
-    health->parts = count[HAIR_HEALTH_PARTS];
-    health->gaining = count[HAIR_HEALTH_GAINING];
-    health->restless = found[HAIR_FOUND_RESTLESS];
-    health->overstretched = found[HAIR_FOUND_OVERSTRETCHED];
-    health->fastest = float_of(found[HAIR_FOUND_FASTEST]);
-    health->stretch = float_of(found[HAIR_FOUND_STRETCH]);
-    health->substep = (float)sim->substep;
-    health->stiffened = held.stiffened;
-    health->stiffest = held.stiffest;
-    health->sagging = held.sagging;
-    health->farthest_sag = held.farthest_sag;
-    health->softened = held.softened.guides;
-    health->softest = held.softened.factor;
+    sim->gl->GetNamedBufferSubData(sim->solver_stats, 0, sizeof count, count);
+    solver_stats->euler_fallbacks = count[HAIR_SOLVER_STATS_EULER_FALLBACKS];
+    solver_stats->follow_fallbacks = count[HAIR_SOLVER_STATS_FOLLOW_FALLBACKS];
+    solver_stats->reset = count[HAIR_SOLVER_STATS_RESET];
+    solver_stats->overextended = count[HAIR_SOLVER_STATS_OVEREXTENDED];
+    solver_stats->parts = count[HAIR_SOLVER_STATS_PARTS];
+    solver_stats->gaining = count[HAIR_SOLVER_STATS_GAINING];
+    solver_stats->restless = found[HAIR_FOUND_RESTLESS];
+    solver_stats->overstretched = found[HAIR_FOUND_OVERSTRETCHED];
+    solver_stats->fastest = float_of(found[HAIR_FOUND_FASTEST]);
+    solver_stats->stretch = float_of(found[HAIR_FOUND_STRETCH]);
+    solver_stats->substep = (float)sim->substep;
+    solver_stats->stiffened = held.stiffened;
+    solver_stats->max_stiffening = held.stiffest;
+    solver_stats->sagging = held.sagging;
+    solver_stats->farthest_sag = held.farthest_sag;
+    solver_stats->softened = held.softened.guides;
+    solver_stats->softest = held.softened.factor;
     return HAIR_OK;
 }

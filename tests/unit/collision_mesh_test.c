@@ -1,4 +1,4 @@
-// form_test.c - distance fields of triangle meshes: exact near the surface, right about the inside, and made of any
+// collision_mesh_test.c - distance fields of triangle meshes: exact near the surface, right about the inside, and made of any
 // mesh or refused.
 #include "tests/support/support.h"
 
@@ -24,9 +24,9 @@ static int stop(void** state)
     return test.blocks != 0 || test.errors != 0;
 }
 
-static hair_form_desc desc_of(const struct hair_test_mesh* mesh, uint32_t resolution)
+static hair_collision_mesh_desc desc_of(const struct hair_test_mesh* mesh, uint32_t resolution)
 {
-    hair_form_desc desc = hair_form_desc_default();
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &test.host;
     desc.positions = mesh->positions;
     desc.triangles = mesh->triangles;
@@ -36,15 +36,15 @@ static hair_form_desc desc_of(const struct hair_test_mesh* mesh, uint32_t resolu
     return desc;
 }
 
-static hair_form* form_of(const struct hair_test_mesh* mesh, uint32_t resolution)
+static hair_collision_mesh* form_of(const struct hair_test_mesh* mesh, uint32_t resolution)
 {
-    hair_form_desc desc = desc_of(mesh, resolution);
-    hair_form* form = NULL;
-    assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
+    hair_collision_mesh_desc desc = desc_of(mesh, resolution);
+    hair_collision_mesh* form = NULL;
+    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
     return form;
 }
 
-static void node_at(const hair_form* form, size_t node, double out[3])
+static void node_at(const hair_collision_mesh* form, size_t node, double out[3])
 {
     size_t at[3] = {node % form->size[0], node / form->size[0] % form->size[1],
                     node / form->size[0] / form->size[1]};
@@ -53,7 +53,7 @@ static void node_at(const hair_form* form, size_t node, double out[3])
 
 // The largest difference to the exact distance of a shape at the nodes, in voxels: within the band, and beyond as a
 // share of what is beyond. Signs must be right everywhere but on the surface.
-static void compare(const char* what, const hair_form* form, hair_shape shape, const float size[3],
+static void compare(const char* what, const hair_collision_mesh* form, hair_shape shape, const float size[3],
                     double limit)
 {
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
@@ -62,7 +62,8 @@ static void compare(const char* what, const hair_form* form, hair_shape shape, c
         double at[3], own = (double)form->distance[i];
         node_at(form, i, at);
         double exact = hair_distance_to_shape(shape, size, at, NULL);
-        double off = fabs(own - exact) / voxel, beyond = fabs(exact) / voxel - (HAIR_FORM_BAND - 0.1);
+        double off = fabs(own - exact) / voxel,
+               beyond = fabs(exact) / voxel - (HAIR_COLLISION_MESH_BAND - 0.1);
         if (beyond < 0)
             worst = fmax(worst, off);
         else
@@ -80,10 +81,10 @@ static void a_box_of_triangles_is_as_far_as_a_box(void** state)
     (void)state;
     const float size[3] = {0.3f, 0.2f, 0.11f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_form* form = form_of(&mesh, 48);
+    hair_collision_mesh* form = form_of(&mesh, 48);
     assert_int_equal(form->info.closed, 1);
     compare("box", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
 }
 
@@ -93,11 +94,11 @@ static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
     (void)state;
     const float size[3] = {0.1f, 0, 0};
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 64, 128);
-    hair_form* form = form_of(&mesh, 40);
+    hair_collision_mesh* form = form_of(&mesh, 40);
     assert_int_equal(form->info.closed, 1);
     double sag = 0.1 * (1 - cos(3.14159265 / 64)) / (double)form->voxel;
     compare("ball", form, HAIR_SHAPE_SPHERE, size, 1.1 * sag + 1e-3);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
 }
 
@@ -110,9 +111,9 @@ static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
         uint32_t a = mesh.triangles[3 * i];
         mesh.triangles[3 * i] = mesh.triangles[3 * i + 1], mesh.triangles[3 * i + 1] = a;
     }
-    hair_form* form = form_of(&mesh, 16);
+    hair_collision_mesh* form = form_of(&mesh, 16);
     compare("inside out", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
 }
 
@@ -130,10 +131,10 @@ static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
         soup.triangles[i] = i;
         memcpy(soup.positions + 3 * i, mesh.positions + 3 * mesh.triangles[i], 3 * sizeof(float));
     }
-    hair_form* form = form_of(&soup, 16);
+    hair_collision_mesh* form = form_of(&soup, 16);
     assert_int_equal(form->info.closed, 1);
     compare("soup", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&soup);
 }
@@ -145,17 +146,17 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
     const float size[3] = {0.1f, 0.1f, 0.1f}, bare[3] = {0, 0, 0};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
     --mesh.triangle_count;
-    hair_form_desc desc = desc_of(&mesh, 32);
+    hair_collision_mesh_desc desc = desc_of(&mesh, 32);
     desc.thickness = 0.03f;
-    hair_form* form = NULL;
-    assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
+    hair_collision_mesh* form = NULL;
+    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
     assert_int_equal(test.warnings, 1);
     assert_int_equal(form->info.closed, 0);
     const double in[3] = {0, 0, 0}, wall[3] = {0, 0.1, 0}, near[3] = {0, 0.12, 0};
-    hair_test_near("centre", 0, hair_distance_to_form(form, in, NULL), 0.1 - 0.015, 1e-3);
-    hair_test_near("wall", 0, hair_distance_to_form(form, wall, NULL), -0.015, 2e-3);
-    hair_test_near("near", 0, hair_distance_to_form(form, near, NULL), 0.005, 2e-3);
-    hair_form_destroy(form);
+    hair_test_near("centre", 0, hair_distance_to_mesh(form, in, NULL), 0.1 - 0.015, 1e-3);
+    hair_test_near("wall", 0, hair_distance_to_mesh(form, wall, NULL), -0.015, 2e-3);
+    hair_test_near("near", 0, hair_distance_to_mesh(form, near, NULL), 0.005, 2e-3);
+    hair_collision_mesh_destroy(form);
     (void)bare;
     hair_test_mesh_free(&mesh);
 }
@@ -167,13 +168,13 @@ static void what_lies_in_a_hollow_is_outside(void** state)
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32),
                           inner = hair_test_ball_mesh(0.05f, 16, 32);
     hair_test_mesh_append(&mesh, &inner, 1);
-    hair_form* form = form_of(&mesh, 32);
+    hair_collision_mesh* form = form_of(&mesh, 32);
     const double middle[3] = {0, 0, 0}, wall[3] = {0.075, 0, 0}, out[3] = {0.2, 0, 0};
     assert_int_equal(form->info.closed, 1);
-    hair_test_near("middle", 0, hair_distance_to_form(form, middle, NULL), 0.05, 2e-3);
-    hair_test_near("wall", 0, hair_distance_to_form(form, wall, NULL), -0.025, 2e-3);
-    hair_test_near("out", 0, hair_distance_to_form(form, out, NULL), 0.1, 2e-3);
-    hair_form_destroy(form);
+    hair_test_near("middle", 0, hair_distance_to_mesh(form, middle, NULL), 0.05, 2e-3);
+    hair_test_near("wall", 0, hair_distance_to_mesh(form, wall, NULL), -0.025, 2e-3);
+    hair_test_near("out", 0, hair_distance_to_mesh(form, out, NULL), 0.1, 2e-3);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&inner);
 }
@@ -184,11 +185,11 @@ static void two_balls_through_each_other_have_one_inside(void** state)
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32), other = hair_test_ball_mesh(0.1f, 16, 32);
     for (uint32_t i = 0; i < other.vertex_count; ++i) other.positions[3 * i] += 0.1f;
     hair_test_mesh_append(&mesh, &other, 0);
-    hair_form* form = form_of(&mesh, 32);
+    hair_collision_mesh* form = form_of(&mesh, 32);
     const double middle[3] = {0.05, 0, 0}, left[3] = {-0.05, 0, 0};
-    assert_true(hair_distance_to_form(form, middle, NULL) < -0.03);
-    assert_true(hair_distance_to_form(form, left, NULL) < -0.04);
-    hair_form_destroy(form);
+    assert_true(hair_distance_to_mesh(form, middle, NULL) < -0.03);
+    assert_true(hair_distance_to_mesh(form, left, NULL) < -0.04);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&other);
 }
@@ -197,7 +198,7 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 32, 64);
-    hair_form* form = form_of(&mesh, 32);
+    hair_collision_mesh* form = form_of(&mesh, 32);
     uint32_t seed = 3;
     for (int i = 0; i < 1000; ++i) {
         double p[3], gradient[3], far = 0;
@@ -206,11 +207,11 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
         far = sqrt(far);
         if (far < 0.2) continue;
         // Where the grid ends another point of the surface is nearest: too far, but by little.
-        double own = hair_distance_to_form(form, p, gradient), exact = far - 0.1;
+        double own = hair_distance_to_mesh(form, p, gradient), exact = far - 0.1;
         assert_true(own > exact - 1e-3 && own < 1.06 * exact + 1e-3);
         assert_true(gradient[0] * p[0] + gradient[1] * p[1] + gradient[2] * p[2] > 0.95 * far);
     }
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
 }
 
@@ -219,21 +220,21 @@ static void a_form_lives_as_long_as_who_holds_it(void** state)
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_form* form = form_of(&mesh, 8);
-    hair_form_hold(form);
-    hair_form_destroy(form);
+    hair_collision_mesh* form = form_of(&mesh, 8);
+    hair_collision_mesh_hold(form);
+    hair_collision_mesh_destroy(form);
     assert_true(test.blocks > 0);
     assert_true(form->distance[0] > 0);
-    hair_form_release(form);
+    hair_collision_mesh_release(form);
     assert_int_equal(test.blocks, 0);
-    hair_form_destroy(NULL);
+    hair_collision_mesh_destroy(NULL);
     hair_test_mesh_free(&mesh);
 }
 
-static void refused(const hair_form_desc* desc, const char* words)
+static void refused(const hair_collision_mesh_desc* desc, const char* words)
 {
-    hair_form* form = NULL;
-    if (hair_form_create(desc, &form) != HAIR_ERROR_ARGUMENT) fail_msg("not refused: %s", words);
+    hair_collision_mesh* form = NULL;
+    if (hair_collision_mesh_create(desc, &form) != HAIR_ERROR_ARGUMENT) fail_msg("not refused: %s", words);
     assert_null(form);
     assert_int_equal(test.errors, 1);
     if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
@@ -246,7 +247,7 @@ static void what_is_no_mesh_is_refused(void** state)
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_form_desc good = desc_of(&mesh, 16), desc = good;
+    hair_collision_mesh_desc good = desc_of(&mesh, 16), desc = good;
     desc.positions = NULL;
     refused(&desc, "positions is NULL");
     desc = good, desc.triangles = NULL;
@@ -259,16 +260,16 @@ static void what_is_no_mesh_is_refused(void** state)
     refused(&desc, "vertex_count is 0");
     desc = good, desc.resolution = 257;
     refused(&desc, "resolution is 257, not in [8, 256]");
-    desc = good, desc.voxel = NAN;
-    refused(&desc, "voxel is ");
+    desc = good, desc.voxel_size = NAN;
+    refused(&desc, "voxel_size is ");
     desc = good, desc.thickness = -1;
     refused(&desc, "thickness is -1");
     desc = good, --desc.vertex_count;
     refused(&desc, ", but there are 7 vertices");
     mesh.positions[4] = NAN;
-    refused(&good, "hair_form_desc.positions[4] is ");
+    refused(&good, "hair_collision_mesh_desc.positions[4] is ");
     mesh.positions[4] = 1e7f;
-    refused(&good, "hair_form_desc.positions[4] is 1e+07, not in [-1e6, 1e6]");
+    refused(&good, "hair_collision_mesh_desc.positions[4] is 1e+07, not in [-1e6, 1e6]");
     for (int i = 0; i < 24; ++i) mesh.positions[i] = 0.5f;
     refused(&good, "none of 12 triangles has three different corners");
     for (int i = 0; i < 24; ++i) mesh.positions[i] = 1e-8f * (float)i;
@@ -284,22 +285,22 @@ static void degenerate_triangles_are_borne(void** state)
     (void)state;
     float positions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
     uint32_t triangles[] = {0, 1, 2, 1, 2, 3, 0, 0, 1};
-    hair_form_desc desc = hair_form_desc_default();
-    hair_form* form = NULL;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+    hair_collision_mesh* form = NULL;
     desc.host = &test.host;
     desc.positions = positions;
     desc.triangles = triangles;
     desc.vertex_count = 4;
     desc.triangle_count = 3;
     desc.resolution = 32;
-    assert_int_equal(hair_form_create(&desc, &form), HAIR_OK);
+    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
     assert_int_equal(form->info.unused, 2);
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
     for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(form->distance[i]));
     const double over[3] = {1, 0.3, 0};
-    hair_test_near("over", 0, hair_distance_to_form(form, over, NULL), 0.3 - (double)form->info.thickness / 2,
+    hair_test_near("over", 0, hair_distance_to_mesh(form, over, NULL), 0.3 - (double)form->info.thickness / 2,
                    0.01);
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
 }
 
 // Any numbers: a form or a refusal, and always finite.
@@ -313,20 +314,20 @@ static void random_meshes_make_finite_forms(void** state)
         for (int i = 0; i < 60; ++i)
             positions[i] = ldexpf(hair_random(&seed) - 0.5f, n % 3 ? 0 : (int)(40 * hair_random(&seed)) - 20);
         for (int i = 0; i < 90; ++i) triangles[i] = (uint32_t)(20 * hair_random(&seed));
-        hair_form_desc desc = hair_form_desc_default();
-        hair_form* form = NULL;
+        hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+        hair_collision_mesh* form = NULL;
         desc.host = &test.host, desc.positions = positions, desc.triangles = triangles;
         desc.vertex_count = 20, desc.triangle_count = 30, desc.resolution = 12;
-        desc.voxel = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
+        desc.voxel_size = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
         desc.thickness = n % 5 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
-        desc.thickness = fminf(desc.thickness, 1e6f), desc.voxel = fminf(desc.voxel, 1e6f);
-        if (desc.voxel > 0 && desc.voxel < 0.01f) desc.voxel = 0; // Fine grids take long.
-        hair_result result = hair_form_create(&desc, &form);
+        desc.thickness = fminf(desc.thickness, 1e6f), desc.voxel_size = fminf(desc.voxel_size, 1e6f);
+        if (desc.voxel_size > 0 && desc.voxel_size < 0.01f) desc.voxel_size = 0; // Fine grids take long.
+        hair_result result = hair_collision_mesh_create(&desc, &form);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_ARGUMENT);
         if (result) continue;
         size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
         for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(form->distance[i]));
-        hair_form_destroy(form);
+        hair_collision_mesh_destroy(form);
         ++made;
     }
     test.errors = 0;
@@ -338,19 +339,19 @@ static void every_refused_allocation_is_borne(void** state)
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_form_desc desc = desc_of(&mesh, 8);
-    hair_form* form = NULL;
+    hair_collision_mesh_desc desc = desc_of(&mesh, 8);
+    hair_collision_mesh* form = NULL;
     uint32_t n = 0;
     for (hair_result result = HAIR_ERROR_MEMORY; result;) {
         test.allocations = 0;
         test.refuse = ++n;
-        result = hair_form_create(&desc, &form);
+        result = hair_collision_mesh_create(&desc, &form);
         if (result) assert_int_equal(test.blocks, 0);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_MEMORY);
     }
     assert_true(n > 6);
     test.errors = 0;
-    hair_form_destroy(form);
+    hair_collision_mesh_destroy(form);
     hair_test_mesh_free(&mesh);
 }
 

@@ -1,4 +1,4 @@
-// field_form_test.c - forms in the field: resampled where they move, and there once for all who have them.
+// field_mesh_test.c - forms in the field: resampled where they move, and there once for all who have them.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -10,35 +10,35 @@
 #include "tests/support/meshes.h"
 
 #define VOXEL 0.008f
-#define SOLIDS 6
+#define COLLIDERS 6
 
 static const struct hair_pose head = {{3, -2, 1}, {0.36f, 0.48f, 0, 0.8f}};
 
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
-    struct hair_solid_field field;
-    hair_form* forms[2]; // a ball of 0.1 m and a box
-    hair_solid solids[SOLIDS];
+    struct hair_collider_field field;
+    hair_collision_mesh* forms[2]; // a ball of 0.1 m and a box
+    hair_collider colliders[COLLIDERS];
     uint32_t random;
 };
 
-static hair_form* form_of(struct hair_test* test, struct hair_test_mesh mesh)
+static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mesh mesh)
 {
-    hair_form* form = NULL;
-    hair_form_desc desc = hair_form_desc_default();
+    hair_collision_mesh* form = NULL;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &test->host.host;
     desc.positions = mesh.positions;
     desc.triangles = mesh.triangles;
     desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution = 40;
-    hair_test_ok(test, hair_form_create(&desc, &form));
+    hair_test_ok(test, hair_collision_mesh_create(&desc, &form));
     hair_test_mesh_free(&mesh);
     return form;
 }
 
-// Every other solid is a form; they overlap.
+// Every other collider is a form; they overlap.
 static void begin(struct hair_test* test, struct fixture* out)
 {
     static const float half[] = {0.05f, 0.08f, 0.03f};
@@ -47,12 +47,12 @@ static void begin(struct hair_test* test, struct fixture* out)
     out->forms[0] = form_of(test, hair_test_ball_mesh(0.1f, 24, 48));
     out->forms[1] = form_of(test, hair_test_box_mesh(half));
     hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
-    for (int i = 0; i < SOLIDS; ++i) {
-        out->solids[i] = hair_test_any_solid(&out->field.box, &head, 0.1f, &out->random);
+    for (int i = 0; i < COLLIDERS; ++i) {
+        out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
         if (i % 2) continue;
-        out->solids[i].shape = HAIR_SHAPE_FORM;
-        out->solids[i].form = out->forms[i / 2 % 2];
-        out->solids[i].scale = 0.6f + 0.3f * (float)i;
+        out->colliders[i].shape = HAIR_SHAPE_MESH;
+        out->colliders[i].mesh = out->forms[i / 2 % 2];
+        out->colliders[i].scale = 0.6f + 0.3f * (float)i;
     }
 }
 
@@ -61,14 +61,14 @@ static void end(struct fixture* f)
     hair_field_destroy(&f->field);
     assert_null(f->test->context->forms.pooled);
     assert_int_equal(f->test->context->forms.nodes, 0);
-    hair_form_destroy(f->forms[0]);
-    hair_form_destroy(f->forms[1]);
+    hair_collision_mesh_destroy(f->forms[0]);
+    hair_collision_mesh_destroy(f->forms[1]);
     hair_groom_destroy(f->groom);
 }
 
 static void update(struct fixture* f)
 {
-    hair_test_ok(f->test, hair_field_update(&f->field, f->solids, SOLIDS, &head));
+    hair_test_ok(f->test, hair_field_update(&f->field, f->colliders, COLLIDERS, &head));
 }
 
 static void check_voxels(struct fixture* f)
@@ -80,12 +80,13 @@ static void check_voxels(struct fixture* f)
         double point[3];
         uint32_t number;
         hair_test_voxel(&f->field.box, &head, i, point);
-        double right = fmin(hair_test_nearest(f->solids, SOLIDS, point, &number), (double)f->field.box.far);
+        double right =
+            fmin(hair_test_nearest(f->colliders, COLLIDERS, point, &number), (double)f->field.box.far);
         hair_test_near("voxel", i, (double)read.distance[i], right, 0.05 * voxel);
         most = fmax(most, fabs((double)read.distance[i] - right));
-        of_forms += read.number[i] < SOLIDS && read.number[i] % 2 == 0;
+        of_forms += read.number[i] < COLLIDERS && read.number[i] % 2 == 0;
     }
-    print_message("    %zu voxels of forms, off by at most %.4f of one\n", of_forms, most / voxel);
+    print_message("    %zu voxels of meshes, off by at most %.4f of one\n", of_forms, most / voxel);
     assert_true(of_forms > 1000);
     hair_test_field_free(&read);
 }
@@ -96,12 +97,12 @@ static void every_voxel_holds_the_distance_to_the_nearest_form_or_shape(void** s
     begin(*state, &f);
     update(&f);
     check_voxels(&f);
-    f.solids[2].rotation[0] *= -1;
-    f.solids[2].rounding = 0.01f;
+    f.colliders[2].rotation[0] *= -1;
+    f.colliders[2].rounding = 0.01f;
     update(&f);
     check_voxels(&f);
-    f.solids[1].position[1] += 0.03f;
-    f.solids[4].form = f.solids[2].form;
+    f.colliders[1].position[1] += 0.03f;
+    f.colliders[4].mesh = f.colliders[2].mesh;
     update(&f);
     check_voxels(&f);
     end(&f);
@@ -112,9 +113,9 @@ static void a_form_of_a_ball_is_a_ball(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    hair_solid ball = f.solids[0], sphere = f.solids[0];
+    hair_collider ball = f.colliders[0], sphere = f.colliders[0];
     struct hair_test_field read;
-    ball.form = f.forms[0];
+    ball.mesh = f.forms[0];
     sphere.shape = HAIR_SHAPE_SPHERE;
     sphere.size[0] = 0.1f * ball.scale;
     double voxel = (double)f.field.box.voxel, most = 0;
@@ -123,7 +124,7 @@ static void a_form_of_a_ball_is_a_ball(void** state)
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
         double point[3];
         hair_test_voxel(&f.field.box, &head, i, point);
-        double right = hair_distance_to_solid(&sphere, point, NULL);
+        double right = hair_distance_to_collider(&sphere, point, NULL);
         if (fabs(right) > 3 * voxel) continue;
         most = fmax(most, fabs((double)read.distance[i] - right));
     }
@@ -133,22 +134,22 @@ static void a_form_of_a_ball_is_a_ball(void** state)
     end(&f);
 }
 
-static void a_form_is_there_once_for_all_solids_of_all_instances(void** state)
+static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state)
 {
     struct fixture f;
-    struct hair_solid_field other;
+    struct hair_collider_field other;
     begin(*state, &f);
     const struct hair_forms* forms = &f.test->context->forms;
     hair_field_create(&other, &f.test->context->forms, f.groom, VOXEL);
     update(&f);
     size_t used = forms->used;
     assert_int_equal(forms->count, 2);
-    hair_test_ok(f.test, hair_field_update(&other, f.solids, SOLIDS, &head));
+    hair_test_ok(f.test, hair_field_update(&other, f.colliders, COLLIDERS, &head));
     assert_int_equal(forms->used, used);
     hair_field_destroy(&other);
     assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
     // The first goes, and its place is another's.
-    for (int i = 0; i < SOLIDS; i += 2) f.solids[i].form = f.forms[1];
+    for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[1];
     update(&f);
     assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
     assert_true(!forms->pooled[0].form || !forms->pooled[1].form);
@@ -163,7 +164,7 @@ static void forms_that_come_and_go_take_no_more_memory_than_a_few(void** state)
     begin(*state, &f);
     size_t most = 0;
     for (int round = 0; round < 40; ++round) {
-        for (int i = 0; i < SOLIDS; i += 2) f.solids[i].form = f.forms[round % 2];
+        for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[round % 2];
         update(&f);
         most = f.test->context->forms.room > most ? f.test->context->forms.room : most;
     }
@@ -180,20 +181,20 @@ static void a_form_outlives_its_maker_while_a_field_has_it(void** state)
     struct fixture f;
     begin(*state, &f);
     update(&f);
-    hair_form_destroy(f.forms[0]);
+    hair_collision_mesh_destroy(f.forms[0]);
     f.forms[0] = NULL;
-    f.solids[1].position[1] += 0.03f;
+    f.colliders[1].position[1] += 0.03f;
     update(&f);
     check_voxels(&f);
     end(&f);
 }
 
-static void a_form_that_is_not_there_is_no_solid(void** state)
+static void a_form_that_is_not_there_is_no_collider(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    f.solids[0].form = NULL;
-    hair_test_ok(f.test, hair_field_update(&f.field, f.solids, 1, &head));
+    f.colliders[0].mesh = NULL;
+    hair_test_ok(f.test, hair_field_update(&f.field, f.colliders, 1, &head));
     assert_false(hair_field_is_near(&f.field));
     end(&f);
 }
@@ -206,7 +207,7 @@ static void a_host_without_memory_is_an_error_and_leaves_no_form(void** state)
     uint32_t refused = 0;
     for (;; ++refused) {
         f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result = hair_field_update(&f.field, f.solids, SOLIDS, &head);
+        hair_result result = hair_field_update(&f.field, f.colliders, COLLIDERS, &head);
         f.test->host.refuse = 0;
         if (result == HAIR_OK) break;
         hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
@@ -223,10 +224,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(every_voxel_holds_the_distance_to_the_nearest_form_or_shape),
         HAIR_TEST(a_form_of_a_ball_is_a_ball),
-        HAIR_TEST(a_form_is_there_once_for_all_solids_of_all_instances),
+        HAIR_TEST(a_form_is_there_once_for_all_colliders_of_all_instances),
         HAIR_TEST(forms_that_come_and_go_take_no_more_memory_than_a_few),
         HAIR_TEST(a_form_outlives_its_maker_while_a_field_has_it),
-        HAIR_TEST(a_form_that_is_not_there_is_no_solid),
+        HAIR_TEST(a_form_that_is_not_there_is_no_collider),
         HAIR_TEST(a_host_without_memory_is_an_error_and_leaves_no_form),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

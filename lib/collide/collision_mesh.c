@@ -1,10 +1,10 @@
-// form.c - distances to a triangle mesh at the nodes of a grid.
+// collision_mesh.c - distances to a triangle mesh at the nodes of a grid.
 //
 // A tree of triangles gives the distance near triangles. From there the nearest triangle is passed
 // on from node to node (Tsai 2002). Two neighbouring nodes are on the same side if their distances
 // add up to more than the distance between them, because no surface fits between. Nodes thus fall
 // into few sets of one sign each. One winding number per set is enough (Jacobson et al. 2013).
-#include "lib/collide/form.h"
+#include "lib/collide/collision_mesh.h"
 #include "lib/collide/triangles.h"
 
 #include <string.h>
@@ -16,17 +16,17 @@
 #define MOST_WORK 500000000 // Maximum number of triangles and boxes visited.
 #define SWEEPS 8 // One per combination of directions along the three axes.
 
-static hair_result check_arrays(const hair_host* host, const hair_form_desc* desc)
+static hair_result check_arrays(const hair_host* host, const hair_collision_mesh_desc* desc)
 {
     for (size_t i = 0; i < 3 * (size_t)desc->vertex_count; ++i)
         if (!(fabsf(desc->positions[i]) <= 1e6f))
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_form_desc.positions[%zu] is %g, not in [-1e6, 1e6]", i,
+                             "hair_collision_mesh_desc.positions[%zu] is %g, not in [-1e6, 1e6]", i,
                              (double)desc->positions[i]);
     for (size_t i = 0; i < 3 * (size_t)desc->triangle_count; ++i)
         if (desc->triangles[i] >= desc->vertex_count)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_form_desc.triangles[%zu] is %u, but there are %u vertices", i,
+                             "hair_collision_mesh_desc.triangles[%zu] is %u, but there are %u vertices", i,
                              desc->triangles[i], desc->vertex_count);
     return HAIR_OK;
 }
@@ -46,36 +46,39 @@ static float farthest_from_origin(const struct hair_triangles* t)
 
 // Choose the voxel size and the thickness of a shell. The mesh with its shell fits into the
 // resolution. With the room around it, it fits into MOST_VOXELS.
-static void choose_voxel(const hair_form_desc* desc, const struct hair_triangles* t, hair_form_info* info)
+static void choose_voxel(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
+                         hair_collision_mesh_info* info)
 {
     float side = longest(hair_sub(t->bounds.upper, t->bounds.lower));
-    float voxels = (float)(desc->voxel > 0 ? MOST_VOXELS : desc->resolution);
+    float voxels = (float)(desc->voxel_size > 0 ? MOST_VOXELS : desc->resolution);
     float thickness = info->closed ? 0 : desc->thickness;
-    info->voxel = fmaxf(desc->voxel, (side + thickness) / voxels);
-    if (!info->closed && thickness < 2 * info->voxel) {
-        info->voxel = fmaxf(desc->voxel, side / (voxels - 2));
-        thickness = 2 * info->voxel;
+    info->voxel_size = fmaxf(desc->voxel_size, (side + thickness) / voxels);
+    if (!info->closed && thickness < 2 * info->voxel_size) {
+        info->voxel_size = fmaxf(desc->voxel_size, side / (voxels - 2));
+        thickness = 2 * info->voxel_size;
     }
-    info->voxel = fmaxf(info->voxel, (side + thickness + 2 * desc->room) / MOST_VOXELS);
-    info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel);
+    info->voxel_size = fmaxf(info->voxel_size, (side + thickness + 2 * desc->padding) / MOST_VOXELS);
+    info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel_size);
 }
 
-static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triangles* t, hair_form* form)
+static hair_result lay_grid(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
+                            hair_collision_mesh* form)
 {
     const hair_host* host = &form->host;
     float side = longest(hair_sub(t->bounds.upper, t->bounds.lower)), far = farthest_from_origin(t);
     if (!(side >= LEAST_SIZE))
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "hair_form_desc: the mesh is %g m long, which is less than %g m", (double)side,
-                         (double)LEAST_SIZE);
+                         "hair_collision_mesh_desc: the mesh is %g m long, which is less than %g m",
+                         (double)side, (double)LEAST_SIZE);
     choose_voxel(desc, t, &form->info);
-    form->voxel = form->info.voxel;
+    form->voxel = form->info.voxel_size;
     if (form->voxel < FINEST_VOXEL * far)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "hair_form_desc: the mesh is %g m long but up to %g m from its origin: too far for "
-                         "voxels of %g m",
-                         (double)side, (double)far, (double)form->voxel);
-    float room = form->info.thickness / 2 + desc->room + HAIR_FORM_PADDING * form->voxel;
+        return hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "hair_collision_mesh_desc: the mesh is %g m long but up to %g m from its origin: too far for "
+            "voxels of %g m",
+            (double)side, (double)far, (double)form->voxel);
+    float room = form->info.thickness / 2 + desc->padding + HAIR_COLLISION_MESH_PADDING * form->voxel;
     const float lower[3] = {t->bounds.lower.x, t->bounds.lower.y, t->bounds.lower.z};
     const float upper[3] = {t->bounds.upper.x, t->bounds.upper.y, t->bounds.upper.z};
     const float center[3] = {t->center.x, t->center.y, t->center.z};
@@ -90,32 +93,33 @@ static hair_result lay_grid(const hair_form_desc* desc, const struct hair_triang
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
     form->distance = hair_alloc(host, nodes, sizeof *form->distance);
     form->info.bytes = sizeof *form + nodes * sizeof *form->distance;
-    return form->distance ? HAIR_OK : hair_fail_memory(host, "a form's distances");
+    return form->distance ? HAIR_OK : hair_fail_memory(host, "a collision mesh's distances");
 }
 
-static hair_vec3 place_of(const hair_form* form, const struct hair_triangles* t, const uint32_t at[3])
+static hair_vec3 place_of(const hair_collision_mesh* form, const struct hair_triangles* t,
+                          const uint32_t at[3])
 {
     return (hair_vec3){form->origin[0] - t->center.x + form->voxel * (float)at[0],
                        form->origin[1] - t->center.y + form->voxel * (float)at[1],
                        form->origin[2] - t->center.z + form->voxel * (float)at[2]};
 }
 
-static size_t node_of(const hair_form* form, const uint32_t at[3])
+static size_t node_of(const hair_collision_mesh* form, const uint32_t at[3])
 {
     return at[0] + form->size[0] * (at[1] + (size_t)form->size[1] * at[2]);
 }
 
-static hair_result too_much(const hair_form* form, const struct hair_triangles* t)
+static hair_result too_much(const hair_collision_mesh* form, const struct hair_triangles* t)
 {
     return hair_fail(
         &form->host, HAIR_ERROR_ARGUMENT,
-        "hair_form_desc: its %u triangles cross each other so much that no distance can be found "
+        "hair_collision_mesh_desc: its %u triangles cross each other so much that no distance can be found "
         "in bounded time",
         t->count);
 }
 
 // Measure exact distances near triangles. Elsewhere `nearest` becomes UINT32_MAX.
-static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint32_t* nearest)
+static hair_result measure_near(hair_collision_mesh* form, struct hair_triangles* t, uint32_t* nearest)
 {
     uint32_t at[3], last = UINT32_MAX;
     for (at[2] = 0; at[2] < form->size[2]; ++at[2])
@@ -125,7 +129,7 @@ static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint3
             for (uint32_t i = 0; i < form->size[0]; ++i) {
                 at[0] = (at[1] + at[2]) % 2 ? form->size[0] - 1 - i : i;
                 hair_vec3 place = place_of(form, t, at);
-                float distance = HAIR_FORM_BAND * form->voxel;
+                float distance = HAIR_COLLISION_MESH_BAND * form->voxel;
                 uint32_t found = UINT32_MAX;
                 if (last != UINT32_MAX) {
                     float guess = hair_triangles_distance(t, last, place);
@@ -142,8 +146,8 @@ static hair_result measure_near(hair_form* form, struct hair_triangles* t, uint3
 
 // Give a node the triangle of node `from`, one step before it, if that triangle is nearer than its
 // own.
-static void take(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, size_t node, size_t from,
-                 hair_vec3 place)
+static void take(hair_collision_mesh* form, const struct hair_triangles* t, uint32_t* nearest, size_t node,
+                 size_t from, hair_vec3 place)
 {
     if (nearest[from] == nearest[node] || form->distance[from] - form->voxel >= form->distance[node]) return;
     float distance = hair_triangles_distance(t, nearest[from], place);
@@ -154,7 +158,7 @@ static void take(hair_form* form, const struct hair_triangles* t, uint32_t* near
 
 // Propagate triangles from the preceding nodes along each axis. Each bit of `backwards` reverses an
 // axis.
-static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nearest, int backwards)
+static void sweep(hair_collision_mesh* form, const struct hair_triangles* t, uint32_t* nearest, int backwards)
 {
     const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     uint32_t i[3], at[3];
@@ -171,12 +175,12 @@ static void sweep(hair_form* form, const struct hair_triangles* t, uint32_t* nea
             }
 }
 
-static hair_result measure(hair_form* form, struct hair_triangles* t)
+static hair_result measure(hair_collision_mesh* form, struct hair_triangles* t)
 {
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
     uint32_t* nearest = hair_alloc(&form->host, nodes, sizeof *nearest);
-    hair_result result =
-        nearest ? measure_near(form, t, nearest) : hair_fail_memory(&form->host, "a form's triangles");
+    hair_result result = nearest ? measure_near(form, t, nearest)
+                                 : hair_fail_memory(&form->host, "a collision mesh's triangles");
     for (int i = 0; i < SWEEPS && !result; ++i) sweep(form, t, nearest, i % 8);
     hair_free(&form->host, nearest);
     return result;
@@ -187,7 +191,7 @@ static hair_result measure(hair_form* form, struct hair_triangles* t)
 enum { UNKNOWN, OUTSIDE, INSIDE };
 
 struct sides {
-    const hair_form* form;
+    const hair_collision_mesh* form;
     unsigned char* side; // of each node
     uint32_t* stack; // nodes whose neighbours are still to be visited
     size_t depth;
@@ -203,7 +207,7 @@ static void tell(struct sides* sides, size_t node, unsigned char side)
 // Find all nodes on the same side as the nodes on the stack.
 static void spread(struct sides* sides)
 {
-    const hair_form* form = sides->form;
+    const hair_collision_mesh* form = sides->form;
     const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     while (sides->depth > 0) {
         size_t node = sides->stack[--sides->depth];
@@ -219,14 +223,14 @@ static void spread(struct sides* sides)
     }
 }
 
-static hair_result find_sides(hair_form* form, struct hair_triangles* t)
+static hair_result find_sides(hair_collision_mesh* form, struct hair_triangles* t)
 {
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2], node = 0;
     struct sides sides = {.form = form};
     sides.side = hair_alloc(&form->host, nodes, sizeof *sides.side);
     sides.stack = hair_alloc(&form->host, nodes, sizeof *sides.stack);
     hair_result result =
-        sides.side && sides.stack ? HAIR_OK : hair_fail_memory(&form->host, "the inside of a form");
+        sides.side && sides.stack ? HAIR_OK : hair_fail_memory(&form->host, "the inside of a collision mesh");
     uint32_t at[3];
     for (at[2] = 0; at[2] < form->size[2] && !result; ++at[2])
         for (at[1] = 0; at[1] < form->size[1]; ++at[1])
@@ -244,7 +248,7 @@ static hair_result find_sides(hair_form* form, struct hair_triangles* t)
     return result;
 }
 
-static void thicken(hair_form* form)
+static void thicken(hair_collision_mesh* form)
 {
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
     for (size_t i = 0; i < nodes; ++i) form->distance[i] -= form->info.thickness / 2;
@@ -252,7 +256,7 @@ static void thicken(hair_form* form)
 
 // The whole ---------------------------------------------------------------------------------------
 
-static uint64_t mark_of(const hair_form* form)
+static uint64_t mark_of(const hair_collision_mesh* form)
 {
     const unsigned char* parts[] = {(const unsigned char*)form->size, (const unsigned char*)form->origin,
                                     (const unsigned char*)&form->voxel, (const unsigned char*)form->distance};
@@ -268,14 +272,15 @@ static uint64_t mark_of(const hair_form* form)
     return mark ? mark : 1;
 }
 
-static hair_result fill(const hair_form_desc* desc, struct hair_triangles* t, hair_form* form)
+static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triangles* t,
+                        hair_collision_mesh* form)
 {
     hair_result result =
         hair_triangles_build(&form->host, desc->positions, desc->triangles, desc->triangle_count, t);
     if (result) return result;
     if (!t->count)
         return hair_fail(&form->host, HAIR_ERROR_ARGUMENT,
-                         "hair_form_desc: none of %u triangles has three different corners",
+                         "hair_collision_mesh_desc: none of %u triangles has three different corners",
                          desc->triangle_count);
     form->info.unused = desc->triangle_count - t->count;
     form->info.closed = (uint32_t)hair_triangles_are_closed(t);
@@ -284,25 +289,26 @@ static hair_result fill(const hair_form_desc* desc, struct hair_triangles* t, ha
     if (result) return result;
     if (form->info.closed) return find_sides(form, t);
     thicken(form);
-    hair_log(&form->host, HAIR_LOG_WARNING, "a form's mesh of %u triangles is not closed: a shell of %g m",
+    hair_log(&form->host, HAIR_LOG_WARNING, "a collision mesh of %u triangles is not closed: a shell of %g m",
              t->count, (double)form->info.thickness);
     return HAIR_OK;
 }
 
-hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, hair_form** out)
+hair_result hair_collision_mesh_build(const hair_host* host, const hair_collision_mesh_desc* desc,
+                                      hair_collision_mesh** out)
 {
     hair_result result = check_arrays(host, desc);
     if (result) return result;
-    hair_form* form = hair_alloc(host, 1, sizeof *form);
+    hair_collision_mesh* form = hair_alloc(host, 1, sizeof *form);
     if (!form) return hair_fail_memory(host, "a form");
     struct hair_triangles triangles = {0};
     form->host = *host;
-    form->info = hair_form_info_default();
+    form->info = hair_collision_mesh_info_default();
     atomic_init(&form->holders, 1);
     result = fill(desc, &triangles, form);
     hair_triangles_free(host, &triangles);
     if (result) {
-        hair_form_release(form);
+        hair_collision_mesh_release(form);
         return result;
     }
     form->mark = mark_of(form);
@@ -311,17 +317,17 @@ hair_result hair_form_build(const hair_host* host, const hair_form_desc* desc, h
 }
 
 // Cast away const. Holders may not change a collision mesh, but may release it.
-static hair_form* own(const hair_form* form)
+static hair_collision_mesh* own(const hair_collision_mesh* form)
 {
-    return (hair_form*)(uintptr_t)form;
+    return (hair_collision_mesh*)(uintptr_t)form;
 }
 
-void hair_form_hold(const hair_form* form)
+void hair_collision_mesh_hold(const hair_collision_mesh* form)
 {
     if (form) atomic_fetch_add_explicit(&own(form)->holders, 1, memory_order_relaxed);
 }
 
-void hair_form_release(const hair_form* form)
+void hair_collision_mesh_release(const hair_collision_mesh* form)
 {
     if (!form || atomic_fetch_sub_explicit(&own(form)->holders, 1, memory_order_acq_rel) != 1) return;
     hair_host host = form->host;

@@ -1,4 +1,4 @@
-// prepare_test.c - what a frame runs is compiled before it, in the driver's threads or one program a call.
+// precompile_test.c - what a frame runs is compiled before it, in the driver's threads or one program a call.
 #include "tests/support/passes.h"
 
 #include "lib/api/api.h"
@@ -43,10 +43,10 @@ static void finish(struct fixture* f)
     hair_context_destroy(f->context);
 }
 
-static hair_view view_of(hair_path path)
+static hair_view view_of(hair_render_path path)
 {
     hair_view view = hair_view_default();
-    view.path = path;
+    view.render_path = path;
     view.projection[0] = view.projection[5] = view.projection[10] = 3;
     return view;
 }
@@ -55,7 +55,8 @@ static hair_view view_of(hair_path path)
 static uint32_t prepare(struct fixture* f, const hair_view* view)
 {
     uint32_t ready = 0, calls = 0;
-    for (; !ready && calls < MOST_CALLS; ++calls) hair_test_ok(f->test, hair_prepare(f->hair, view, &ready));
+    for (; !ready && calls < MOST_CALLS; ++calls)
+        hair_test_ok(f->test, hair_precompile(f->hair, view, &ready));
     assert_int_equal(ready, 1);
     return calls;
 }
@@ -73,18 +74,18 @@ static void live(struct fixture* f, const hair_view* view)
 static void put_a_ball_into(struct fixture* f, hair_view* view)
 {
     (void)view;
-    hair_solid ball = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
-    hair_test_ok(f->test, hair_set_solids(f->hair, &ball, 1, sizeof ball));
+    hair_collider ball = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
+    hair_test_ok(f->test, hair_set_colliders(f->hair, &ball, 1, sizeof ball));
 }
 
 static void put_boxes_into(struct fixture* f, hair_view* view)
 {
     (void)view;
-    hair_solid box[40];
+    hair_collider box[40];
     for (int i = 0; i < 40; ++i)
-        box[i] = (hair_solid){HAIR_SHAPE_BOX,        {0.01 * i, 0, 0}, {0, 0, 0, 1},
-                              {0.05f, 0.02f, 0.03f}, .scale = 1,       .friction = 1};
-    hair_test_ok(f->test, hair_set_solids(f->hair, box, 40, sizeof *box));
+        box[i] = (hair_collider){HAIR_SHAPE_BOX,        {0.01 * i, 0, 0}, {0, 0, 0, 1},
+                                 {0.05f, 0.02f, 0.03f}, .scale = 1,       .friction = 1};
+    hair_test_ok(f->test, hair_set_colliders(f->hair, box, 40, sizeof *box));
 }
 
 static void blow_at(struct fixture* f, hair_view* view)
@@ -93,7 +94,7 @@ static void blow_at(struct fixture* f, hair_view* view)
     hair_wind wind = hair_wind_default();
     wind.model = HAIR_WIND_FLUID;
     wind.velocity[0] = 3;
-    wind.strands = 1;
+    wind.drag_strand_count = 1;
     wind.resolution = 16;
     hair_test_ok(f->test, hair_set_wind(f->hair, &wind));
 }
@@ -109,7 +110,7 @@ static void crowd(struct fixture* f, hair_view* view)
 static void shade_strands(struct fixture* f, hair_view* view)
 {
     hair_look look = f->hair->draw.look;
-    look.shadow = HAIR_SHADOW_STRANDS;
+    look.self_shadow = HAIR_SELF_SHADOW_STRANDS;
     look.shading = HAIR_SHADING_FIBRES;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
     put_a_ball_into(f, view);
@@ -118,7 +119,7 @@ static void shade_strands(struct fixture* f, hair_view* view)
 static void share_pixels(struct fixture* f, hair_view* view)
 {
     (void)f;
-    view->coverage = HAIR_COVERAGE_SHARES;
+    view->coverage = HAIR_COVERAGE_ALPHA;
 }
 
 static void curl(struct fixture* f, hair_view* view)
@@ -131,7 +132,7 @@ static void curl(struct fixture* f, hair_view* view)
 
 static void lend_depth(struct fixture* f, hair_view* view)
 {
-    view->depth_texture = f->depth;
+    view->occluder_depth = f->depth;
 }
 
 static void show_motion(struct fixture* f, hair_view* view)
@@ -144,40 +145,40 @@ static void leave_out(struct fixture* f, hair_view* view)
 {
     static hair_lod lod;
     lod = hair_lod_default();
-    lod.strands = 0.5f;
+    lod.strand_fraction = 0.5f;
     view->lod = &lod;
     put_a_ball_into(f, view);
 }
 
-static void show_solids(struct fixture* f, hair_view* view)
+static void show_colliders(struct fixture* f, hair_view* view)
 {
     put_a_ball_into(f, view);
-    view->pass = HAIR_PASS_SOLIDS;
+    view->pass = HAIR_PASS_COLLIDERS;
     view->slice = HAIR_SLICE_X;
 }
 
 static const struct {
     const char* name;
-    hair_path path;
+    hair_render_path path;
     void (*set)(struct fixture* f, hair_view* view);
 } ways[] = {
-    {"a ball", HAIR_PATH_TESSELLATION, put_a_ball_into},
-    {"a ball, instanced", HAIR_PATH_INSTANCED, put_a_ball_into},
-    {"a ball, expanded", HAIR_PATH_EXPANDED, put_a_ball_into},
-    {"a ball, computed", HAIR_PATH_COMPUTED, put_a_ball_into},
-    {"boxes", HAIR_PATH_TESSELLATION, put_boxes_into},
-    {"a fluid", HAIR_PATH_TESSELLATION, blow_at},
-    {"a crowd", HAIR_PATH_TESSELLATION, crowd},
-    {"shadows by strands", HAIR_PATH_TESSELLATION, shade_strands},
-    {"shares of pixels", HAIR_PATH_EXPANDED, share_pixels},
-    {"curls", HAIR_PATH_TESSELLATION, curl},
-    {"depth", HAIR_PATH_TESSELLATION, lend_depth},
-    {"depth, expanded", HAIR_PATH_EXPANDED, lend_depth},
-    {"depth, computed", HAIR_PATH_COMPUTED, lend_depth},
-    {"levels of detail, computed", HAIR_PATH_COMPUTED, leave_out},
-    {"levels of detail, expanded", HAIR_PATH_EXPANDED, leave_out},
-    {"velocities", HAIR_PATH_TESSELLATION, show_motion},
-    {"solids", HAIR_PATH_TESSELLATION, show_solids},
+    {"a ball", HAIR_RENDER_PATH_TESSELLATION, put_a_ball_into},
+    {"a ball, instanced", HAIR_RENDER_PATH_INSTANCED, put_a_ball_into},
+    {"a ball, expanded", HAIR_RENDER_PATH_CACHED, put_a_ball_into},
+    {"a ball, computed", HAIR_RENDER_PATH_COMPUTE, put_a_ball_into},
+    {"boxes", HAIR_RENDER_PATH_TESSELLATION, put_boxes_into},
+    {"a fluid", HAIR_RENDER_PATH_TESSELLATION, blow_at},
+    {"a crowd", HAIR_RENDER_PATH_TESSELLATION, crowd},
+    {"shadows by strands", HAIR_RENDER_PATH_TESSELLATION, shade_strands},
+    {"shares of pixels", HAIR_RENDER_PATH_CACHED, share_pixels},
+    {"curls", HAIR_RENDER_PATH_TESSELLATION, curl},
+    {"depth", HAIR_RENDER_PATH_TESSELLATION, lend_depth},
+    {"depth, expanded", HAIR_RENDER_PATH_CACHED, lend_depth},
+    {"depth, computed", HAIR_RENDER_PATH_COMPUTE, lend_depth},
+    {"levels of detail, computed", HAIR_RENDER_PATH_COMPUTE, leave_out},
+    {"levels of detail, expanded", HAIR_RENDER_PATH_CACHED, leave_out},
+    {"velocities", HAIR_RENDER_PATH_TESSELLATION, show_motion},
+    {"colliders", HAIR_RENDER_PATH_TESSELLATION, show_colliders},
 };
 
 static void frames_compile_nothing_once_they_are_prepared(void** state)
@@ -199,11 +200,11 @@ static void frames_compile_nothing_once_they_are_prepared(void** state)
 static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
-    hair_view view = view_of(HAIR_PATH_INSTANCED);
+    hair_view view = view_of(HAIR_RENDER_PATH_INSTANCED);
     f.context->gl.parallel = 0;
     uint32_t before = hair_test_count_programs(&f.context->gl), ready = 0;
     put_a_ball_into(&f, &view);
-    hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
+    hair_test_ok(f.test, hair_precompile(f.hair, &view, &ready));
     assert_int_equal(ready, 0);
     assert_int_equal(hair_test_count_programs(&f.context->gl), before + 1);
     uint32_t calls = 1 + prepare(&f, &view);
@@ -218,11 +219,11 @@ static void a_frame_may_come_before_all_is_ready(void** state)
 {
     for (int lives = 0; lives < 2; ++lives) {
         struct fixture f = start(*state);
-        hair_view view = view_of(HAIR_PATH_TESSELLATION);
+        hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
         uint32_t ready = 0;
         f.context->gl.parallel = 1;
         put_a_ball_into(&f, &view);
-        hair_test_ok(f.test, hair_prepare(f.hair, &view, &ready));
+        hair_test_ok(f.test, hair_precompile(f.hair, &view, &ready));
         if (lives) live(&f, &view);
         finish(&f);
     }
@@ -231,12 +232,13 @@ static void a_frame_may_come_before_all_is_ready(void** state)
 static void nulls_and_wrong_views_are_refused(void** state)
 {
     struct fixture f = start(*state);
-    hair_view view = view_of(HAIR_PATH_TESSELLATION);
+    hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
     uint32_t ready = 7;
-    assert_int_equal(hair_prepare(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_prepare(f.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_precompile(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_precompile(f.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
     view.opacity = 2;
-    hair_test_refused(f.test, hair_prepare(f.hair, &view, &ready), HAIR_ERROR_ARGUMENT, "hair_view.opacity");
+    hair_test_refused(f.test, hair_precompile(f.hair, &view, &ready), HAIR_ERROR_ARGUMENT,
+                      "hair_view.opacity");
     assert_int_equal(ready, 7);
     assert_int_equal(prepare(&f, NULL) <= MOST_CALLS, 1);
     finish(&f);

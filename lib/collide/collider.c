@@ -1,0 +1,233 @@
+// collider.c - lists of colliders: checked, stored and counted.
+#include "lib/collide/collider.h"
+
+#include <string.h>
+
+#include "lib/collide/collision_mesh.h"
+#include "lib/collide/pair.h"
+
+// Return how many components of `size` a shape uses.
+static int sizes_of(hair_shape shape)
+{
+    switch (shape) {
+    case HAIR_SHAPE_SPHERE: return 1;
+    case HAIR_SHAPE_CAPSULE:
+    case HAIR_SHAPE_CYLINDER:
+    case HAIR_SHAPE_CONE: return 2;
+    case HAIR_SHAPE_BOX: return 3;
+    default: return 0;
+    }
+}
+
+static int in_range(float value, float min, float max)
+{
+    return value >= min && value <= max; // False for NaN.
+}
+
+static hair_result check_size(const hair_host* host, const hair_collider* collider, uint32_t i)
+{
+    int sizes = sizes_of(collider->shape);
+    for (int k = 0; k < sizes; ++k) {
+        int may_be_0 = collider->rounding > 0 || (collider->shape == HAIR_SHAPE_CAPSULE && k == 1);
+        if (!in_range(collider->size[k], 0, 1e6f) || (collider->size[k] == 0 && !may_be_0))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].size[%d] is %g, not in %s0, 1e6]", i,
+                             k, (double)collider->size[k], may_be_0 ? "[" : "(");
+    }
+    return HAIR_OK;
+}
+
+static hair_result check_rotation(const hair_host* host, const hair_collider* collider, uint32_t i)
+{
+    float norm = 0;
+    for (int k = 0; k < 4; ++k) norm += collider->rotation[k] * collider->rotation[k];
+    if (fabsf(norm - 1) <= 1e-3f) return HAIR_OK;
+    return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].rotation has norm %g, not 1", i,
+                     (double)sqrtf(norm));
+}
+
+static hair_result check(const hair_host* host, const hair_collider* collider, uint32_t i)
+{
+    const struct {
+        const char* name;
+        float value, min, max;
+    } numbers[] = {{"position[0]", collider->position[0], -1e9f, 1e9f},
+                   {"position[1]", collider->position[1], -1e9f, 1e9f},
+                   {"position[2]", collider->position[2], -1e9f, 1e9f},
+                   {"rounding", collider->rounding, 0, 1e6f},
+                   {"friction", collider->friction, 0, 100},
+                   {"scale", collider->scale, 1e-6f, 1e6f}};
+    if ((uint32_t)collider->shape > HAIR_SHAPE_MESH)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].shape is %d, not in [0, %d]", i,
+                         (int)collider->shape, HAIR_SHAPE_MESH);
+    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k)
+        if (!in_range(numbers[k].value, numbers[k].min, numbers[k].max))
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].%s is %g, not in [%g, %g]", i,
+                             numbers[k].name, (double)numbers[k].value, (double)numbers[k].min,
+                             (double)numbers[k].max);
+    hair_result result = check_rotation(host, collider, i);
+    return result ? result : check_size(host, collider, i);
+}
+
+static hair_collider collider_at(const hair_collider* from, uint32_t i, size_t stride)
+{
+    hair_collider collider;
+    memcpy(&collider, (const unsigned char*)from + i * stride, sizeof collider);
+    return collider;
+}
+
+// Lists -------------------------------------------------------------------------------------------
+
+static hair_result reserve(const hair_host* host, struct hair_collider_list* list, uint32_t count)
+{
+    if (count <= list->capacity) return HAIR_OK;
+    uint32_t capacity = count < 8 ? 8 : count + count / 2;
+    hair_collider* grown = hair_alloc(host, capacity, sizeof *grown);
+    if (!grown) return hair_fail_memory(host, "colliders");
+    if (list->count) memcpy(grown, list->collider, list->count * sizeof *grown);
+    hair_free(host, list->collider);
+    list->collider = grown;
+    list->capacity = capacity;
+    return HAIR_OK;
+}
+
+static hair_result reserve_all(const hair_host* host, struct hair_colliders* colliders, uint32_t count,
+                               uint32_t count_before)
+{
+    hair_result result = reserve(host, &colliders->now, count);
+    if (!result) result = reserve(host, &colliders->before, count > count_before ? count : count_before);
+    if (result || count <= colliders->capacity) return result;
+    uint32_t* pair = hair_alloc(host, colliders->now.capacity, sizeof *pair);
+    if (!pair) return hair_fail_memory(host, "colliders");
+    if (colliders->now.count) memcpy(pair, colliders->pair, colliders->now.count * sizeof *pair);
+    hair_free(host, colliders->pair);
+    colliders->pair = pair;
+    colliders->capacity = colliders->now.capacity;
+    return HAIR_OK;
+}
+
+// Replace a list that has room. New collision meshes are held before old ones are released, because
+// they may be equal.
+static void put(struct hair_collider_list* list, const hair_collider* from, uint32_t count, size_t stride)
+{
+    for (uint32_t i = 0; i < count; ++i) hair_collision_mesh_hold(collider_at(from, i, stride).mesh);
+    for (uint32_t i = 0; i < list->count; ++i) hair_collision_mesh_release(list->collider[i].mesh);
+    for (uint32_t i = 0; i < count; ++i) list->collider[i] = collider_at(from, i, stride);
+    list->count = count;
+}
+
+static void count_contacts(struct hair_colliders* colliders)
+{
+    uint32_t capsules = 0, bodies = 0, forms = 0;
+    for (uint32_t i = 0; i < colliders->now.count; ++i) {
+        const hair_collider* collider = &colliders->now.collider[i];
+        capsules += collider->shape <= HAIR_SHAPE_CAPSULE;
+        bodies += collider->shape <= HAIR_SHAPE_PLANE;
+        forms += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
+    }
+    colliders->contacts = bodies + forms;
+    colliders->forms = forms;
+    colliders->capsules = capsules < HAIR_STEP_COLLIDERS ? capsules : HAIR_STEP_COLLIDERS;
+    colliders->bodies = bodies < HAIR_STEP_COLLIDERS ? bodies : HAIR_STEP_COLLIDERS;
+}
+
+static hair_result check_list(const hair_host* host, const hair_collider* from, uint32_t count, size_t stride)
+{
+    if (count > HAIR_MOST_COLLIDERS)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "collider count is %u, not in [0, %u]", count,
+                         HAIR_MOST_COLLIDERS);
+    if (count && !from)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders is NULL but their count is %u", count);
+    if (count && (stride < sizeof(hair_collider) || stride > 4096))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "collider stride is %zu, not in [%zu, 4096]", stride,
+                         sizeof(hair_collider));
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_collider collider = collider_at(from, i, stride);
+        hair_result result = check(host, &collider, i);
+        if (result) return result;
+    }
+    return HAIR_OK;
+}
+
+// Return whether the list already has these colliders. Setting them again is no change.
+static int are_there(const struct hair_collider_list* list, const hair_collider* from, uint32_t count,
+                     size_t stride)
+{
+    int same = list->count == count;
+    for (uint32_t i = 0; i < count && same; ++i)
+        same = memcmp(&list->collider[i], (const unsigned char*)from + i * stride, sizeof *from) == 0;
+    return same;
+}
+
+hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
+                               const hair_collider* from, uint32_t count, size_t stride)
+{
+    hair_result result = check_list(host, from, count, stride);
+    for (uint32_t i = 0; i < count && !result; ++i) {
+        hair_collider collider = collider_at(from, i, stride);
+        if (collider.shape == HAIR_SHAPE_MESH && !collider.mesh)
+            result = hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].mesh is NULL", i);
+        if (collider.shape != HAIR_SHAPE_MESH && collider.mesh)
+            result = hair_fail(host, HAIR_ERROR_ARGUMENT,
+                               "colliders[%u].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH", i);
+    }
+    if (!result && are_there(&colliders->now, from, count, stride)) return HAIR_OK;
+    if (!result) result = reserve_all(host, colliders, count, colliders->before.count);
+    if (!result)
+        result = hair_pair_colliders(host, from, count, stride, colliders->before.collider,
+                                     colliders->before.count, colliders->pair);
+    if (result) return result;
+    put(&colliders->now, from, count, stride);
+    count_contacts(colliders);
+    colliders->changed = 1;
+    return HAIR_OK;
+}
+
+hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders* colliders,
+                                   const hair_collider* now, uint32_t count, const hair_collider* before,
+                                   uint32_t count_before)
+{
+    hair_result result = check_list(host, now, count, sizeof *now);
+    if (!result) result = check_list(host, before, count_before, sizeof *before);
+    if (!result) result = reserve_all(host, colliders, count, count_before);
+    if (!result)
+        result = hair_pair_colliders(host, now, count, sizeof *now, before, count_before, colliders->pair);
+    if (result) return result;
+    put(&colliders->now, now, count, sizeof *now);
+    put(&colliders->before, before, count_before, sizeof *before);
+    count_contacts(colliders);
+    colliders->changed = 1;
+    return HAIR_OK;
+}
+
+void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders)
+{
+    put(&colliders->now, NULL, 0, 0);
+    put(&colliders->before, NULL, 0, 0);
+    hair_free(host, colliders->now.collider);
+    hair_free(host, colliders->before.collider);
+    hair_free(host, colliders->pair);
+    *colliders = (struct hair_colliders){0};
+}
+
+const hair_collider* hair_colliders_before(const struct hair_colliders* colliders, uint32_t i)
+{
+    const hair_collider* now = &colliders->now.collider[i];
+    uint32_t k = colliders->pair[i];
+    if (k >= colliders->before.count) return now;
+    const hair_collider* before = &colliders->before.collider[k];
+    return before->shape == now->shape ? before : now;
+}
+
+void hair_colliders_settle(struct hair_colliders* colliders)
+{
+    if (!colliders->changed) return;
+    colliders->changed = 0;
+    put(&colliders->before, colliders->now.collider, colliders->now.count, sizeof *colliders->now.collider);
+    for (uint32_t i = 0; i < colliders->now.count; ++i) colliders->pair[i] = i;
+}
+
+void hair_colliders_forget(struct hair_colliders* colliders)
+{
+    put(&colliders->before, NULL, 0, 0);
+    colliders->changed = 1;
+}

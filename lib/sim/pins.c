@@ -1,0 +1,207 @@
+// pins.c - pins: checking, sorting, and upload for the solvers.
+#include "lib/sim/sim.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static hair_pin pin_at(const hair_pin* from, uint32_t i, size_t stride)
+{
+    hair_pin pin;
+    memcpy(&pin, (const unsigned char*)from + i * stride, sizeof pin);
+    return pin;
+}
+
+static hair_result check(const struct hair_sim* sim, const hair_pin* pin, uint32_t i)
+{
+    const hair_host* host = &sim->gl->host;
+    if (pin->guide >= sim->guides)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].guide is %u, not in [0, %u]", i, pin->guide,
+                         sim->guides - 1);
+    if (pin->vertex == 0)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].vertex is 0, the root, not in [1, %u]", i,
+                         UINT32_MAX);
+    if ((uint32_t)pin->to > HAIR_PIN_WORLD)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].to is %d, not in [0, %d]", i, (int)pin->to,
+                         HAIR_PIN_WORLD);
+    for (int k = 0; k < 3; ++k)
+        if (!(fabsf(pin->position[k]) <= 1e9f)) // Rejects NaN too.
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].position[%d] is %g, not in [-1e9, 1e9]", i,
+                             k, (double)pin->position[k]);
+    return HAIR_OK;
+}
+
+static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
+{
+    const hair_host* host = &sim->gl->host;
+    if (count > HAIR_MOST_PINS)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pin count is %u, not in [0, %u]", count, HAIR_MOST_PINS);
+    if (count && !from)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins is NULL but their count is %u", count);
+    if (count && (stride < sizeof(hair_pin) || stride > 4096))
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pin stride is %zu, not in [%zu, 4096]", stride,
+                         sizeof(hair_pin));
+    if (count && !sim->rods)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "the solver redblack has no pins, but their count is %u",
+                         count);
+    hair_result result = HAIR_OK;
+    for (uint32_t i = 0; i < count && !result; ++i) {
+        hair_pin pin = pin_at(from, i, stride);
+        result = check(sim, &pin, i);
+    }
+    return result;
+}
+
+static int compare(const void* a, const void* b)
+{
+    const struct hair_knot *p = a, *q = b;
+    if (p->guide != q->guide) return p->guide < q->guide ? -1 : 1;
+    return (p->vertex > q->vertex) - (p->vertex < q->vertex);
+}
+
+static uint32_t hash_of(const struct hair_knot* knot, uint32_t count)
+{
+    uint32_t which = 0;
+    for (uint32_t i = 0; i < count; ++i) which = hair_hash(hair_hash(which + knot[i].guide) + knot[i].vertex);
+    return count ? which | 1 : 0;
+}
+
+static uint32_t most_of_a_guide(const struct hair_knot* knot, uint32_t count)
+{
+    uint32_t most = 0, in_row = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        in_row = i > 0 && knot[i - 1].guide == knot[i].guide ? in_row + 1 : 1;
+        if (in_row > most) most = in_row;
+    }
+    return most;
+}
+
+static int are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
+{
+    int alike = pins->count == count;
+    for (uint32_t i = 0; i < count && alike; ++i) {
+        const struct hair_knot* other = &pins->knot[i];
+        alike = compare(other, &knot[i]) == 0 && other->world == knot[i].world &&
+                memcmp(other->place, knot[i].place, sizeof other->place) == 0;
+    }
+    return alike;
+}
+
+void hair_pins_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count)
+{
+    hair_free(&sim->gl->host, sim->pins.knot);
+    sim->pins.knot = knot;
+    sim->pins.count = count;
+    sim->pins.most = most_of_a_guide(knot, count);
+    sim->pins.which = hash_of(knot, count);
+}
+
+hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
+{
+    const hair_host* host = &sim->gl->host;
+    hair_result result = check_all(sim, from, count, stride);
+    if (result) return result;
+    const struct hair_guide* guides = hair_sim_guides(sim, NULL);
+    struct hair_knot* knot = hair_alloc(host, count, sizeof *knot);
+    if (!knot) return hair_fail_memory(host, "pins");
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_pin pin = pin_at(from, i, stride);
+        uint32_t tip = guides[pin.guide].count - 1;
+        knot[i] = (struct hair_knot){.guide = pin.guide, .vertex = pin.vertex < tip ? pin.vertex : tip};
+        knot[i].world = pin.to == HAIR_PIN_WORLD;
+        knot[i].given = i;
+        for (int k = 0; k < 3; ++k) knot[i].place[k] = (double)pin.position[k];
+    }
+    if (count) qsort(knot, count, sizeof *knot, compare);
+    for (uint32_t i = 1; i < count && !result; ++i)
+        if (compare(&knot[i - 1], &knot[i]) == 0)
+            result =
+                hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u] and pins[%u] both hold vertex %u of guide %u",
+                          knot[i - 1].given, knot[i].given, knot[i].vertex, knot[i].guide);
+    if (result) {
+        hair_free(host, knot);
+    } else {
+        if (!are_alike(&sim->pins, knot, count)) hair_sleep_stir(sim);
+        hair_pins_take(sim, knot, count);
+    }
+    return result;
+}
+
+hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count)
+{
+    const struct hair_guide* guides = hair_sim_guides(sim, NULL);
+    for (uint32_t i = 0; i < count; ++i) {
+        const struct hair_knot* k = &knot[i];
+        if (!guides || k->guide >= sim->guides || k->vertex == 0 || k->vertex >= guides[k->guide].count)
+            return hair_fail(&sim->gl->host, HAIR_ERROR_FILE,
+                             "pin %u of the saved state holds vertex %u of guide %u, which there is not", i,
+                             k->vertex, k->guide);
+        if (i > 0 && compare(k - 1, k) >= 0)
+            return hair_fail(&sim->gl->host, HAIR_ERROR_FILE,
+                             "pin %u of the saved state does not come after the one before", i);
+    }
+    return HAIR_OK;
+}
+
+void hair_pins_free(struct hair_sim* sim)
+{
+    hair_pins_take(sim, NULL, 0);
+    hair_gl_free_buffer_texture(sim->gl, &sim->pins.texture);
+    hair_gl_free_buffer(sim->gl, &sim->pins.buffer);
+}
+
+static struct hair_held held_by(const struct hair_sim* sim, uint32_t i)
+{
+    const struct hair_rest* rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
+    const struct hair_pins* pins = &sim->pins;
+    const struct hair_knot* knot = &pins->knot[i];
+    uint32_t first = guides[knot->guide].first;
+    int second = i > 0 && knot[-1].guide == knot->guide;
+    int more = i + 1 < pins->count && knot[1].guide == knot->guide;
+    uint32_t from = second ? knot[-1].vertex : 0;
+    double at[3], length = 0;
+    if (second || sim->physics.root != HAIR_ROOT_FREE)
+        for (uint32_t k = from; k < knot->vertex; ++k) length += (double)rest[first + k].position.w;
+    for (int k = 0; k < 3; ++k) at[k] = knot->place[k] - (knot->world ? sim->head.position[k] : 0);
+    return (struct hair_held){
+        .place = {(float)at[0], (float)at[1], (float)at[2], knot->world ? -1.0f : 0.0f},
+        .span = {(float)from, (float)knot->vertex, (float)length, (float)more},
+    };
+}
+
+hair_result hair_pins_write(struct hair_sim* sim)
+{
+    struct hair_gl* gl = sim->gl;
+    struct hair_pins* pins = &sim->pins;
+    if (!pins->count) return HAIR_OK;
+    struct hair_held* held = hair_alloc(&gl->host, pins->count, sizeof *held);
+    if (!held) return hair_fail_memory(&gl->host, "pins");
+    for (uint32_t i = 0; i < pins->count; ++i) held[i] = held_by(sim, i);
+    size_t size = pins->count * sizeof *held;
+    hair_result result = HAIR_OK;
+    if (!pins->buffer) result = hair_gl_uniform(gl, "hair pins", size, &pins->buffer);
+    if (!result) result = hair_gl_resize(gl, "hair pins", size, held, pins->buffer);
+    if (!result && !pins->texture)
+        result = hair_gl_buffer_texture(gl, "hair pins", GL_RGBA32F, pins->buffer, &pins->texture);
+    hair_free(&gl->host, held);
+    return result;
+}
+
+void hair_pins_bind(struct hair_sim* sim)
+{
+    sim->gl->BindTextureUnit(HAIR_UNIT_PIN, sim->pins.texture);
+}
+
+void hair_pins_teleport(struct hair_sim* sim, const struct hair_pose* from, const struct hair_pose* to)
+{
+    hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
+    for (uint32_t i = 0; i < sim->pins.count; ++i) {
+        struct hair_knot* knot = &sim->pins.knot[i];
+        struct hair_pose at = {.position = {knot->place[0], knot->place[1], knot->place[2]}};
+        hair_vec3 arm = hair_rotate(turn, hair_pose_offset(&at, from));
+        if (!knot->world) continue;
+        knot->place[0] = to->position[0] + (double)arm.x;
+        knot->place[1] = to->position[1] + (double)arm.y;
+        knot->place[2] = to->position[2] + (double)arm.z;
+    }
+}
