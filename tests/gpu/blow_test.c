@@ -125,7 +125,7 @@ static void where_it_is_off_nothing_is_run_or_kept(void** state)
     assert_int_equal(runs(&living), before);
     assert_false(glIsTexture(air) || glIsBuffer(faces));
     hair_test_near("memory", 0, (double)living.test->host.live, (double)bytes,
-                   65536); // of the field, which stays
+                   65536); // The memory of the field, which stays.
     hair_test_die(&living);
     begin(*state, HAIR_SOLVER_REDBLACK, &living); // This solver has no wind.
     hair_test_blow(&living, &wind);
