@@ -44,7 +44,7 @@ static hair_view front(hair_render_path path, float away)
     return view;
 }
 
-// Settings that an application may have made. The caller restores them.
+// Settings that an application may have made. put_back() restores them.
 static void set_nothing(hair_view* view)
 {
     (void)view;

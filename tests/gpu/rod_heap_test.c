@@ -69,9 +69,9 @@ static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, 
     return deepest;
 }
 
-// Compare balls with capsules of no length. Balls skip most neighbours, because their members are
-// deeper, and skip members known to be left. Capsules are always tested. On other drivers both stay
-// out of the colliders, but not with equal bits.
+// Compare balls with capsules of no length. Most balls near a place are not tested, because deeper
+// balls cover them, nor are balls that are known to be left. Capsules are always tested. On GPUs both
+// keep hair out alike, but not to the bit.
 static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
@@ -100,7 +100,7 @@ static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_gr
     assert_true(deepest[0] < 2 * deepest[1]);
 }
 
-// Check many guides, which keep no candidates in a cache.
+// Check many guides, whose work groups cache no colliders.
 static void many_guides_go_as_few_do(void** state)
 {
     enum { MANY = 2056, FRAMES = 8 };
