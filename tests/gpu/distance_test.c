@@ -55,8 +55,8 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
     glDeleteBuffers(2, buffer);
 }
 
-// Compare GLSL with C. Where two parts of the surface are about equally near, either gradient is
-// right. There the distance at a small step along the gradient must be larger by the step.
+// Compare GLSL with C. Either gradient is right at points that are about equally near to two parts
+// of the surface. There the distance at a small step along the gradient must be larger by the step.
 static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
 {
     static float points[POINTS][4], found[POINTS][4];

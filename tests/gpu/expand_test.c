@@ -227,8 +227,8 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
         }
     }
     print_message("    tangents off by %.2g, up to %.2g\n", sqrt(square), worst);
-    // These guides point in all directions. Where three of them cancel out, rounding decides the
-    // tangent.
+    // These guides point in all directions. Rounding decides the tangent if three of them cancel
+    // out.
     assert_true(sqrt(square) < 1e-3 && worst < 0.05);
     free(got);
 }

@@ -173,7 +173,7 @@ static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(voi
             read_smooth(test, a, often);
             assert_int_equal(hair_test_runs(&context->gl, HAIR_GL_SMOOTH), before + (uint32_t)i + 1);
         }
-        hair_test_ok(test, hair_set_transform(b, turned)); // For the next step.
+        hair_test_ok(test, hair_set_transform(b, turned)); // The next step uses this.
         hair_test_ok(test, hair_draw(b, &view));
         assert_int_equal(hair_test_runs(&context->gl, HAIR_GL_SMOOTH), before + 5);
         count = read_smooth(test, b, once);

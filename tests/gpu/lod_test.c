@@ -149,7 +149,7 @@ static double flip_between(const struct picture* a, const struct picture* b)
     return error.flip;
 }
 
-// Check pairs of consecutive frames. Of 300 frames from 0.9 m to 27 m, every tenth starts a pair.
+// Check pairs of consecutive frames. Every tenth of 300 frames from 0.9 m to 27 m starts a pair.
 static void walking_away_shows_no_step(void** state)
 {
     enum { FRAMES = 300, EVERY = 10 };

@@ -70,8 +70,8 @@ static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, 
 }
 
 // Compare balls with capsules of no length. Most balls near a place are not tested, because deeper
-// balls cover them, nor are balls that are known to be left. Capsules are always tested. On GPUs both
-// keep hair out alike, but not to the bit.
+// balls cover them. Balls that are known to be left are not tested again. Capsules are always
+// tested. On GPUs both keep hair out alike, but not to the bit.
 static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];

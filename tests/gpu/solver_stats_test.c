@@ -114,7 +114,7 @@ static void set_reference(struct hair_reference_rod* rod, float at[3][3 * 64], u
 
 static void the_energy_is_that_of_the_reference(void** state)
 {
-    // By the scheme of straight rods, and by the mixed scheme.
+    // The first uses the scheme of straight rods, and the second the mixed scheme.
     static const uint32_t vertices[] = {16, 40};
     for (int k = 0; k < 2; ++k) {
         struct hair_test_strands strands =

@@ -164,7 +164,7 @@ static hair_result draw_as(struct fixture* f, int i)
     }
     view.lights = lit ? lights : NULL;
     view.light_count = lit ? 4 : 1;
-    // For each path, the occluder depth is set once without lights and once with lights.
+    // Each path has the occluder depth once without lights and once with lights.
     view.occluder_depth = view.pass == HAIR_PASS_COLOR ? f->shadow : 0;
     return hair_draw(f->hair, &view);
 }

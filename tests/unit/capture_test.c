@@ -300,6 +300,8 @@ static void wind_of_a_scene_blows_and_is_shown(void** state)
     expect(0, "test $(sort -u $D/shown | wc -l) = 7 && rm $D/shown $D/blown.json", "");
 }
 
+// Check that every kind of motion leads to the same place. The picture equals that of a collider at
+// rest there.
 static void colliders_are_where_their_motion_says(void** state)
 {
     (void)state;

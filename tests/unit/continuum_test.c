@@ -52,7 +52,7 @@ static void the_elastica_has_its_two_limits(void** state)
 }
 
 // Check a small weight with a clamp at any angle. The tip sinks by cos^2 / 8 of the weight, and
-// moves along with it.
+// moves sideways accordingly.
 static void a_stiff_elastica_leaves_its_clamp_straight(void** state)
 {
     (void)state;

@@ -455,7 +455,7 @@ static void nothing_is_blended_across_a_parting(void** state)
         assert_float_equal(rise, (up ? 0.1f : -0.1f) * follower->length_ratio, 1e-5);
         apart += follower->weight1 == 0 || follower->weight2 == 0;
     }
-    assert_in_range(apart, 400, 1000); // A column of six triangles, if there is a column.
+    assert_in_range(apart, 400, 1000); // The parting is at most one column of six.
     hair_groom_destroy(groom);
     free_grown(&grown);
 }

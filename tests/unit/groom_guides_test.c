@@ -126,8 +126,8 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     hair_test_strands_free(&strands);
 }
 
-// Check the mean distance to the nearest guide. Independent random points in a plane have half of
-// density^-1/2, and a square lattice exceeds that by far.
+// Check the mean distance to the nearest guide, relative to the spacing density^-1/2. It is half
+// for independent random points in a plane, and 0.38 for a square lattice.
 static void guides_lie_more_evenly_than_by_chance(void** state)
 {
     (void)state;
@@ -179,7 +179,7 @@ static void strands_that_are_all_alike_are_shared_out_too(void** state)
     struct hair_test_strands strands = hair_test_strands_make(300, 5);
     for (int i = 0; i < 300; ++i) {
         hair_test_strands_add(&strands, 5, hedgehog, &count);
-        strands.count -= 1; // Adds this strand at the same place.
+        strands.count -= 1; // The next strand is the same one.
         strands.vertices[i] = 5;
     }
     strands.count = 300;

@@ -98,8 +98,9 @@ static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
     }
 }
 
-// Check the density by which directions are chosen. The integral of the density's reciprocal
-// estimate is the whole sphere, and scattered light agrees with the furnace test.
+// Check the density of sampled directions. Any density gives the right mean if directions are
+// sampled by it. The mean of 1 / density is the area of the unit sphere, and the mean of scattered
+// light agrees with the furnace test.
 static void directions_are_chosen_by_the_density_that_is_said(void** state)
 {
     (void)state;
