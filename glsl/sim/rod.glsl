@@ -98,12 +98,12 @@ void find_edges()
     }
 }
 
-#define MIN_GRANT 3e-7  // Fraction of the displacement of a vertex.
-#define SLOW_GRANT 0.02 // of the displacement of a vertex
+#define MIN_GRANT 3e-7  // Fraction of the guide's length. Rounding of positions is a tenth of it.
+#define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
 
-// Return the error of length that segment i may keep, by the relative `tolerance`. Among colliders
-// what moves slowly may keep less: the part that a Newton step leaves differs from substep to
-// substep, and what hangs between a root and a vertex that sticks would tremble with it.
+// Return the permitted error of length of segment i, by the relative `tolerance`. In contact, slow
+// vertices get a smaller error. The error that a Newton step leaves differs between substeps, so
+// that a span between the root and a sticking vertex would tremble.
 float granted_error(uint i, float tolerance)
 {
     float grant = tolerance * own(rest_length);
@@ -113,8 +113,8 @@ float granted_error(uint i, float tolerance)
     return grant;
 }
 
-// Find unit edges; and whether the length of a segment is loose, wrong by more than the relative
-// `tolerance` grants, or broken.
+// Compute unit edges. Set `loose` if the error of a length exceeds what the relative `tolerance`
+// permits. Set `broken` if a method has failed.
 void measure(float tolerance)
 {
     bool is_loose = false, is_broken = false;

@@ -155,7 +155,7 @@ static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** 
         uint32_t ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
         const float* colors = asset->strands.colors;
         assert_non_null(colors);
-        for (uint32_t i = 0; i < 9; ++i) { // For each strand and channel.
+        for (uint32_t i = 0; i < 9; ++i) { // Each strand and channel.
             const float* own = colors + 3 * HAIR_STRAND_COLORS * (i / 3) + i % 3;
             assert_float_equal(own[0], linear(color_of(ends[i / 3][tip_first], i % 3)), 1e-6);
             assert_float_equal(own[3 * (HAIR_STRAND_COLORS - 1)],

@@ -154,7 +154,7 @@ static void nothing_that_can_be_met_is_missing_in_a_list(void** state)
         assert_int_equal(cells.left_out, 0);
         check(&usual, 3000);
     }
-    struct hair_cells_desc anywhere = usual; // For a free root.
+    struct hair_cells_desc anywhere = usual; // The reach of a free root.
     anywhere.reach = 1e4f;
     fill(&anywhere);
     check(&anywhere, 3000);

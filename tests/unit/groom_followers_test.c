@@ -499,8 +499,8 @@ static void triangles_of_other_densities_share_no_patch(void** state)
             if (p.x > 0.1001f) assert_float_equal(patch.density, 0.75f, 1e-6);
         }
     }
-    // Triangles of equal density share patches. Of 800 triangles, the 40 between the two densities
-    // have patches of their own.
+    // Triangles of equal density share patches. Among 800 triangles, the 40 between the two
+    // densities have patches of their own.
     assert_true(groom->info.patch_count < 200);
     hair_groom_destroy(groom);
     free_grown(&grown);

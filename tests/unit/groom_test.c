@@ -329,7 +329,7 @@ static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5000;
     hair_groom* groom = make(&desc);
-    // Of ten followers of a guide, the first half of the patch has some, but not all.
+    // The first half of a patch has some of the ten followers of a guide, but not all.
     uint32_t *first = calloc(500, sizeof *first), split = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i)
         for (uint32_t j = 0; j < groom->patches[i].count / 2; ++j)
@@ -362,7 +362,7 @@ static void followers_differ_in_their_seeds_and_with_the_seed_of_the_groom(void*
     qsort(seeds, 4000, sizeof *seeds, compare);
     uint32_t alike = 0;
     for (int i = 1; i < 4000; ++i) alike += seeds[i] == seeds[i - 1];
-    assert_in_range(alike, 0, 2); // By chance, 4000^2 / 2^33 pairs of 32 bits would be equal.
+    assert_in_range(alike, 0, 2); // About 4000^2 / 2^33 pairs of 32 bits are equal by chance.
     hair_test_strands_free(&strands);
 }
 

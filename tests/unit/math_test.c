@@ -112,7 +112,7 @@ static void slerp_goes_evenly_and_the_shortest_way(void** state)
         float angle = between(-3, 3), t = between(0, 1);
         hair_quat a = {0, 0, 0, 1};
         hair_quat b = {0, sinf(angle / 2), 0, cosf(angle / 2)};
-        if (i % 2) b = (hair_quat){-b.x, -b.y, -b.z, -b.w}; // The same rotation.
+        if (i % 2) b = (hair_quat){-b.x, -b.y, -b.z, -b.w}; // This is the same rotation.
         if (i % 5 == 0) angle *= 0.01f, b = (hair_quat){0, sinf(angle / 2), 0, cosf(angle / 2)};
         hair_quat q = hair_slerp(a, b, t);
         near3(hair_rotate(q, hair_v3(1, 0, 0)), hair_v3(cosf(t * angle), 0, -sinf(t * angle)), 1e-5);
@@ -133,7 +133,7 @@ static void matrices_multiply_column_by_column(void** state)
         }
 }
 
-// Check bins. Of n uniform numbers in b bins, each bin has n/b with a standard deviation of
+// Check bins of n uniform numbers. Each of b bins has n/b numbers with a standard deviation of
 // sqrt(n/b). Five standard deviations occur in one of a million cases.
 static void random_numbers_are_even(void** state)
 {

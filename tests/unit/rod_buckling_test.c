@@ -93,8 +93,8 @@ static void a_deep_cantilever_buckles_sideways(void** state)
         hair_test_near("weight", i, critical(sideways, 11, 16, &blades[i]), expected[i], 1.5e-4);
 }
 
-// Return the stability of a curved rod. The weight starts at `from`, a stable value, and changes in
-// steps.
+// Return the stability of a curved rod. The weight starts at turn_and_start[1], a stable value, and
+// changes in steps.
 static double hang_curved(double gamma, uint32_t segments, const void* user)
 {
     const double* turn_and_start = user;

@@ -156,6 +156,7 @@ static void rotate(const double q[4], const double v[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
+// Check that the forces depend only on the positions in the head's frame.
 static void turning_head_and_hair_alike_turns_the_forces(void** state)
 {
     (void)state;
@@ -179,7 +180,7 @@ static void turning_head_and_hair_alike_turns_the_forces(void** state)
     hair_reference_rod_destroy(there);
 }
 
-// Check a moving observer, who sees only the head's frame.
+// Compute the momentum and the angular momentum about the origin.
 static void momenta(const struct hair_reference_rod* rod, double sum[6])
 {
     double x[3 * CURL], v[3 * CURL], m[CURL];
