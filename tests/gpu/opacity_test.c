@@ -178,8 +178,8 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
             part.strand_fraction = shares[k], part.segment_fraction = k ? 0.5f : 1.0f;
             f->view.render_path = (hair_render_path)path;
             f->view.lod = k ? &part : NULL;
+            // The pass draws ribbons with both settings.
             f->view.primitive =
-                // The pass draws ribbons with both settings.
                 k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
             draw(f, 1);
             struct found found = compare(f);
@@ -192,9 +192,8 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
     f->view.opacity = 0.25f, f->view.lod = NULL;
     draw(f, 1);
     double weak = compare(f).mean;
+    // A single strand has a quarter of the opacity. Two strands have a little less than twice that.
     assert_true(weak > 0.25 * all &&
-                // A single strand has a quarter of the opacity. Two strands have a little less than
-                // twice that.
                 weak < 0.5 * all);
     finish(f);
 }

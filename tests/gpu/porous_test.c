@@ -109,8 +109,7 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
         int there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < 16 || k == axis;
         if (!there) continue;
-        // Openness has steps of 1 / 1023. The velocity of what closes a nearly open face is less
-        // precise.
+        // Openness has steps of 1 / 1023. A nearly closed face may be off by one more step.
         hair_test_near("open", i, got[i], open[i],
                        1.1 / 1023 + (open[i] > 0 && open[i] < 1.0 / 1023 ? 1.0 : 0) / 1023);
         if (got[i] < 0.95) hair_test_near("wall", i, closing[i], wall[i], 0.15);

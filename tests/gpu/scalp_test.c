@@ -59,8 +59,8 @@ static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_t
     desc.thread_mapping = mapping;
     hair_look look = hair_look_default();
     look.segments = SEGMENTS;
+    // Rounding may decide whether a follower hits a collider.
     look.follower_collision =
-        // Rounding may decide whether a follower hits a collider.
         HAIR_FOLLOWER_COLLISION_NONE;
     desc.look = &look;
     desc.solver = solver;

@@ -71,7 +71,7 @@ static void the_factors_are_of_the_implicit_systems(void** state)
             compare(f, a, 0);
             build(f, h, a);
             compare(f, a, 1);
-            hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h); // This substep is so long that bending is implicit.
+            hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h); // A substep with implicit bending.
             if (f->rod[0].segment.w == 1) {
                 build(f, 2 * h / 3, a);
                 compare(f, a, 0);
