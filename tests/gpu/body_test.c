@@ -1,6 +1,6 @@
-// body_test.c - opaque geometry blocks the light on its way to hair: by either self-shadow method,
-// either shading and the application's own, for every light, in maps with and without perspective.
-// Programs without opaque geometry have no code for it.
+// body_test.c - opaque geometry blocks the light on its way to hair. Tests cover both self-shadow
+// methods, all shadings, every light, and maps with and without perspective. Programs without
+// opaque geometry have no code for it.
 #include "tests/support/support.h"
 
 #include <math.h>

@@ -178,8 +178,8 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
 }
 
 // Check interpolation between voxels. Its error is 1 / 4R voxels at a collider with a radius of R
-// voxels, up to a half between two colliders, and up to 0.87 at edges. Gradients are compared away
-// from all three.
+// voxels. It is up to a half between two colliders, and up to 0.87 at edges. Gradients are compared
+// away from all three.
 static void between_voxels_distance_sign_gradient_and_number_are_right(void** state)
 {
     static float points[POINTS][4];

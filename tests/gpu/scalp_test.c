@@ -125,10 +125,10 @@ static void carry(const float m[16], const float* from, float* out)
 }
 
 // Maximum distance between both instances, in metres. In a step a head moves its origin along a
-// line and rotates about it, and every root of a scalp moves along its own line. Both differ by at
-// most r (1 - cos(half the rotation)). Here that is 0.2 m (1 - cos 0.034) = 0.12 mm in the middle
-// of a step, and 0 at its ends. Hair with roots jerked by this distance is apart by a few times the
-// distance.
+// line and rotates about the origin. Every root of a scalp moves along its own line. Both differ by
+// at most r (1 - cos(half the rotation)). Here that is 0.2 m (1 - cos 0.034) = 0.12 mm in the
+// middle of a step, and 0 at its ends. Hair with roots jerked by this distance is apart by a few
+// times the distance.
 #define CHORD 1e-3
 
 static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)

@@ -305,8 +305,8 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
     hair_context_destroy(context);
 }
 
-// Check a GPU that is behind. A late answer prolongs a round of measurements, and the next round
-// must not be compared with it, because decaying motion is fastest at its beginning.
+// Check a GPU that is behind. A late answer prolongs a round of measurements. The next round must
+// not be compared with the prolonged one, because decaying motion is fastest at its beginning.
 static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** state)
 {
     struct hair_test* test = *state;
