@@ -417,7 +417,7 @@ HAIR_SIZE(hair_rest, 48)
 // divided by the mass of one metre of hair, which makes masses lengths. Follow-the-leader uses
 // strain and factors differently, with the symbols of lib/sim/follow.c. Its strain holds K r + a'
 // and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a damping
-// rate.
+// rate. Its segment.w is the part of this rate that acts against the turn of the segment before, 1/s.
 struct hair_rod {
     // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
     // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it

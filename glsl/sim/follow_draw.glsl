@@ -70,6 +70,7 @@ void draw_strand_after_root(bool met)
     vec3 leader = kept_above(0u, root, met);
     PUT_AT(handed, 0u, root);
     PUT_AT(moved, 0u, leader);
+    vec4 swung = vec4(0.0, 0.0, 0.0, 1.0); // Turn of the segment before in this substep
     for (uint k = 0u; k + 1u < guide_count; ++k) {
         hair_rod f       = rod[guide_first + k];
         float    len     = f.segment.x;
@@ -82,8 +83,11 @@ void draw_strand_after_root(bool met)
         vec3 inertial = GET_AT(lever, k), relative = GET_AT(lever, k + 1u) - inertial;
         vec3 felt = params.kick * params.gravity.xyz + inertial - leader;
         vec3 pull = params.kick * rotate(turn, f.strain.xyz) + f.strain.w * felt - dot(felt, way) * rotate(turn, f.factor.xyz);
-        vec3 to   = between + relative / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;
+        vec3 led  = f.segment.w * params.gravity.w * (rotate(swung, between) - between);
+        vec3 to   = between + (relative + led) / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;
         last      = is_direction(to, len) ? normalize(to) : last;
+        // A contact does not turn the segments beyond it, so the turn is taken before contact.
+        swung     = quat_between(direction_or(between, last), last);
         last      = direction_above(k + 1u, leader, between, last, len, met);
         turn      = quat_multiply(quat_between(way, last), turn);
         leader += len * last - between;

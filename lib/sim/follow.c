@@ -14,8 +14,10 @@
 // by the fraction of the moment that reaches segment i.
 #include "lib/sim/rod_shape.h"
 
-// Fraction of the damping of a segment that lets nothing grow. See find_damping().
+// Fraction of the damping against growth that is applied. See find_damping().
 #define DAMPED 0.8
+// Part b of the damping in find_damping() of a segment without weight.
+#define RELATIVE 2.0
 #define LARGEST 1e30 // Maximum number of a rod. Extreme physics can exceed the range of floats.
 
 static float float_of(double v)
@@ -72,21 +74,22 @@ static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
 }
 
 // Return the damping rate of a segment over its own frequency w. It keeps a chain of segments from
-// amplifying a swing. If the segment before swings by 1 at the frequency x w, the segment swings by
+// amplifying a swing. The part b of the rate draws the segment along with the turn of the segment before. If
+// the segment before swings by 1 at the frequency x w, the segment swings by
 //
-//   H = (e + q x^2) / (1 - x^2 + i d x)
+//   H = (e + q x^2 + i b x) / (1 - x^2 + i d x)
 //
 // with d the result, e = K / (K + |C| g) the part of the stiffness in the restoring moment, and q = l |C| / I
 // from the acceleration of the segment's first vertex. |H| is at most 1 for all x up to 1 if
 //
-//   d^2 >= 2 - 2 sqrt(1 - (e + q)^2)
+//   d^2 >= b^2 + 2 - 2 sqrt(1 - (e + q)^2)
 //
-// The fraction DAMPED of this d suffices, because frequencies differ from segment to segment. It is found by
-// experiment. Where e is 0, 4 q lets a swing at w grow by sqrt(1 + 1/16) at most.
-static double find_damping(double elastic, double lever)
+// The fraction DAMPED of all but b in this d suffices, because frequencies differ from segment to segment. It
+// is found by experiment. Where e is 0, 4 q lets a swing at w grow by sqrt(1 + 1/16) at most.
+static double find_damping(double elastic, double lever, double relative)
 {
-    double passed = fmin(elastic + lever, 1);
-    return fmax(4 * lever, DAMPED * sqrt(2 - 2 * sqrt(1 - passed * passed)));
+    double passed = fmin(elastic + lever, 1), grown = DAMPED * DAMPED * (2 - 2 * sqrt(1 - passed * passed));
+    return fmax(4 * lever, sqrt(relative * relative + grown));
 }
 
 static void write_segment(const struct hair_rod_shape* s, uint32_t i, double softness, struct hair_rod* out)
@@ -99,7 +102,9 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
     if (stiffness > 0) aim = hair_dadd(aim, hair_dcross(r, moment_of_stress(s, i)));
     double weight = arm * s->gravity, swing = sqrt((stiffness + weight) / inertia);
     double elastic = stiffness > 0 ? stiffness / (stiffness + weight) : 0;
-    double damping = find_damping(elastic, s->length[i] * arm / inertia);
+    double relative = i > 0 ? RELATIVE * elastic : 0;
+    double damping = find_damping(elastic, s->length[i] * arm / inertia, relative);
+    out->segment.w = float_of(relative * swing);
     out->strain = vec4_of(hair_dscale(aim, 1 / inertia), c / inertia);
     out->factor = vec4_of(hair_dscale(across, 1 / inertia), (double)out->factor.w);
     out->factor_euler = vec4_of(r, damping * swing);
