@@ -1,0 +1,157 @@
+// common.h - Helpers of the examples: errors, cameras, GLSL programs, and a picture that is drawn
+// off-screen and written as a PPM file. Nothing here is part of the library.
+#ifndef TOOLS_EXAMPLES_COMMON_H
+#define TOOLS_EXAMPLES_COMMON_H
+
+#include <epoxy/gl.h>
+#include <hair/hair.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Stop the program with a message.
+static inline void fail(const char* message)
+{
+    fprintf(stderr, "%s\n", message);
+    exit(EXIT_FAILURE);
+}
+
+// Stop the program unless a call of the library succeeded.
+static inline void check(hair_result result)
+{
+    if (result) fail(hair_result_string(result));
+}
+
+// Print warnings and errors of the library. For hair_host.log.
+static inline void print_sentence(hair_log_level level, const char* sentence, void* user)
+{
+    (void)user;
+    if (level != HAIR_LOG_INFO) fprintf(stderr, "hair: %s\n", sentence);
+}
+
+// Matrices are column-major, as in OpenGL.
+struct camera {
+    float view[16]; // world to view
+    float projection[16]; // view to clip space
+    float clip[16]; // projection times view
+};
+
+static inline void multiply(const float a[16], const float b[16], float out[16])
+{
+    for (int i = 0; i < 16; ++i) {
+        out[i] = 0;
+        for (int k = 0; k < 4; ++k) out[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
+    }
+}
+
+// Compute the view matrix of an eye that looks at a target. The up vector is +y.
+static inline void look_at(const float eye[3], const float target[3], float out[16])
+{
+    float z[3] = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
+    float size = sqrtf(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+    for (int i = 0; i < 3; ++i) z[i] /= size;
+    float across = sqrtf(z[0] * z[0] + z[2] * z[2]);
+    float x[3] = {z[2] / across, 0, -z[0] / across};
+    float y[3] = {z[1] * x[2], z[2] * x[0] - z[0] * x[2], -z[1] * x[0]};
+    for (int i = 0; i < 3; ++i) out[4 * i] = x[i], out[4 * i + 1] = y[i], out[4 * i + 2] = z[i];
+    out[12] = -(x[0] * eye[0] + x[1] * eye[1] + x[2] * eye[2]);
+    out[13] = -(y[0] * eye[0] + y[1] * eye[1] + y[2] * eye[2]);
+    out[14] = -(z[0] * eye[0] + z[1] * eye[1] + z[2] * eye[2]);
+    out[3] = out[7] = out[11] = 0, out[15] = 1;
+}
+
+// Return a camera in perspective. `field_of_view` is vertical, in radians.
+static inline struct camera camera_perspective(const float eye[3], const float target[3], float field_of_view,
+                                               float aspect)
+{
+    const float near = 0.1f, far = 20, scale = 1 / tanf(0.5f * field_of_view);
+    struct camera camera;
+    look_at(eye, target, camera.view);
+    memset(camera.projection, 0, sizeof camera.projection);
+    camera.projection[0] = scale / aspect;
+    camera.projection[5] = scale;
+    camera.projection[10] = (far + near) / (near - far);
+    camera.projection[11] = -1;
+    camera.projection[14] = 2 * far * near / (near - far);
+    multiply(camera.projection, camera.view, camera.clip);
+    return camera;
+}
+
+// Compile and link a program. Stop with the driver's message on an error.
+static inline GLuint make_program(const char* vertex_text, const char* fragment_text)
+{
+    const GLenum stages[2] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER};
+    const char* texts[2] = {vertex_text, fragment_text};
+    GLuint program = glCreateProgram();
+    GLint linked;
+    for (int i = 0; i < 2; ++i) {
+        GLuint shader = glCreateShader(stages[i]);
+        glShaderSource(shader, 1, &texts[i], NULL);
+        glCompileShader(shader);
+        glAttachShader(program, shader);
+        glDeleteShader(shader);
+    }
+    glLinkProgram(program);
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked) fail("A program of the example does not link.");
+    return program;
+}
+
+// Write the framebuffer bound for reading. PPM rows run from top to bottom.
+static inline void write_ppm(const char* path, int width, int height)
+{
+    unsigned char* pixels = (unsigned char*)malloc((size_t)3 * (size_t)width * (size_t)height);
+    FILE* file = fopen(path, "wb");
+    if (!pixels || !file) fail("The picture cannot be written.");
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels);
+    fprintf(file, "P6\n%d %d\n255\n", width, height);
+    for (int y = height; y-- > 0;) fwrite(pixels + (size_t)3 * (size_t)(y * width), 3, (size_t)width, file);
+    if (fclose(file)) fail("The picture cannot be written.");
+    free(pixels);
+}
+
+// A framebuffer of 4 samples a pixel, and one of single samples to read from.
+struct picture {
+    int width, height;
+    GLuint framebuffers[2], renderbuffers[3];
+};
+
+// Create a picture of 4 to 3 and begin to draw into it. Colours are linear and stored as sRGB.
+static inline struct picture picture_begin(int width)
+{
+    struct picture picture = {width, width * 3 / 4, {0, 0}, {0, 0, 0}};
+    const GLsizei samples[3] = {4, 4, 0};
+    const GLenum formats[3] = {GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT32F, GL_SRGB8_ALPHA8};
+    const GLenum attachments[3] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT, GL_COLOR_ATTACHMENT0};
+    glCreateFramebuffers(2, picture.framebuffers);
+    glCreateRenderbuffers(3, picture.renderbuffers);
+    for (int i = 0; i < 3; ++i) {
+        glNamedRenderbufferStorageMultisample(picture.renderbuffers[i], samples[i], formats[i], picture.width,
+                                              picture.height);
+        glNamedFramebufferRenderbuffer(picture.framebuffers[i / 2], attachments[i], GL_RENDERBUFFER,
+                                       picture.renderbuffers[i]);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, picture.framebuffers[0]);
+    glViewport(0, 0, picture.width, picture.height);
+    glEnable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_DEPTH_TEST);
+    glClearColor(0.16f, 0.19f, 0.24f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    return picture;
+}
+
+// Average the samples, write the picture and delete it.
+static inline void picture_end(struct picture* picture, const char* path)
+{
+    glBlitNamedFramebuffer(picture->framebuffers[0], picture->framebuffers[1], 0, 0, picture->width,
+                           picture->height, 0, 0, picture->width, picture->height, GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, picture->framebuffers[1]);
+    write_ppm(path, picture->width, picture->height);
+    glDeleteFramebuffers(2, picture->framebuffers);
+    glDeleteRenderbuffers(3, picture->renderbuffers);
+}
+
+#endif
