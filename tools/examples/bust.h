@@ -4,6 +4,7 @@
 #define TOOLS_EXAMPLES_BUST_H
 
 #include "common.h"
+#include <math.h>
 
 // Ellipses that the surface runs through, from the top down: height y, half width, half depth, and z
 // of the centre, in metres.

@@ -2,10 +2,9 @@
 //
 //     offscreen [FILE.ppm [WIDTH]]
 #include "bust.h"
+#include "camera.h"
 #include <hair/hair_asset.h>
 #include <hair/hair_egl.h>
-
-static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 // Generate a built-in haircut. A haircut from a file comes from hair_asset_read() in the same way.
 static hair_groom* make_groom(void)
