@@ -4,7 +4,7 @@
 #define TOOLS_EXAMPLES_COMMON_H
 
 #include <epoxy/gl.h>
-#include <hair/hair.h>
+#include <hair/hair_asset.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +27,22 @@ static inline void print_sentence(hair_log_level level, const char* sentence, vo
 {
     (void)user;
     if (level != HAIR_LOG_INFO) fprintf(stderr, "hair: %s\n", sentence);
+}
+
+// Make a groom of a built-in haircut. offscreen.c explains the steps.
+static inline hair_groom* make_groom(hair_style haircut, uint32_t followers)
+{
+    hair_asset* asset;
+    hair_groom* groom;
+    hair_style_desc style = hair_style_desc_default();
+    style.style = haircut;
+    check(hair_asset_generate(&style, &asset));
+    hair_groom_desc desc = hair_groom_desc_default();
+    check(hair_asset_to_groom_desc(asset, &desc));
+    desc.follower_count = followers;
+    check(hair_groom_create(&desc, &groom));
+    hair_asset_destroy(asset);
+    return groom;
 }
 
 // Compile and link a program. Stop with the driver's message on an error.

@@ -6,7 +6,6 @@
 #include "bust.h"
 #include "camera.h"
 #include <SDL.h>
-#include <hair/hair_asset.h>
 
 // The caller of the library decides where OpenGL functions come from.
 static void* get_proc(const char* name, void* user)
@@ -33,24 +32,10 @@ static SDL_Window* open_window(int width, int height, int hidden)
     return window;
 }
 
-static hair_groom* make_groom(void)
-{
-    hair_asset* asset;
-    hair_groom* groom;
-    hair_style_desc style = hair_style_desc_default();
-    check(hair_asset_generate(&style, &asset));
-    hair_groom_desc desc = hair_groom_desc_default();
-    check(hair_asset_to_groom_desc(asset, &desc));
-    desc.follower_count = 6000;
-    check(hair_groom_create(&desc, &groom));
-    hair_asset_destroy(asset);
-    return groom;
-}
-
 static hair_instance* make_hair(hair_context* context)
 {
     hair_instance* hair;
-    hair_groom* groom = make_groom();
+    hair_groom* groom = make_groom(HAIR_STYLE_LONG, 6000);
     hair_look look = hair_look_default();
     look.radius = 3e-4f; // 6000 strands stand for 100000.
     hair_desc desc = hair_desc_default();

@@ -3,7 +3,6 @@
 //     many_heads [FILE.ppm [WIDTH]]
 #include "bust.h"
 #include "camera.h"
-#include <hair/hair_asset.h>
 #include <hair/hair_egl.h>
 
 enum { HEADS = 8, ROWS = 64 };
@@ -12,21 +11,6 @@ struct head {
     hair_instance* hair;
     float transform[16];
 };
-
-static hair_groom* make_groom(void)
-{
-    hair_asset* asset;
-    hair_groom* groom;
-    hair_style_desc style = hair_style_desc_default();
-    style.style = HAIR_STYLE_BOB;
-    check(hair_asset_generate(&style, &asset));
-    hair_groom_desc desc = hair_groom_desc_default();
-    check(hair_asset_to_groom_desc(asset, &desc));
-    desc.follower_count = 3000;
-    check(hair_groom_create(&desc, &groom));
-    hair_asset_destroy(asset);
-    return groom;
-}
 
 // Place a head in one of two rows. Every head has a colour and a look of its own.
 static void make_head(struct head* head, int i, hair_context* context, const hair_groom* groom)
@@ -80,7 +64,7 @@ int main(int argc, char** argv)
     check(hair_context_create(&context_desc, &context));
 
     struct head heads[HEADS];
-    hair_groom* groom = make_groom();
+    hair_groom* groom = make_groom(HAIR_STYLE_BOB, 3000);
     for (int i = 0; i < HEADS; ++i) make_head(&heads[i], i, context, groom);
     hair_groom_destroy(groom);
     for (int frame = 0; frame < 4; ++frame)

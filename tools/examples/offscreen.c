@@ -7,7 +7,7 @@
 #include <hair/hair_egl.h>
 
 // Generate a built-in haircut. A haircut from a file comes from hair_asset_read() in the same way.
-static hair_groom* make_groom(void)
+static hair_groom* make_bob(void)
 {
     hair_asset* asset;
     hair_groom* groom;
@@ -40,7 +40,7 @@ int main(int argc, char** argv)
     check(hair_context_create(&context_desc, &context));
 
     // 6000 strands stand for the 100000 of a real head, therefore they are thicker.
-    hair_groom* groom = make_groom();
+    hair_groom* groom = make_bob();
     hair_look look = hair_look_default();
     look.radius = 3e-4f;
     hair_desc desc = hair_desc_default();

@@ -3,7 +3,6 @@
 //     shadows [FILE.ppm [WIDTH]]
 #include "bust.h"
 #include "camera.h"
-#include <hair/hair_asset.h>
 #include <hair/hair_egl.h>
 
 static const float to_light[3] = {0.80f, 0.55f, 0.24f}; // unit
@@ -112,22 +111,14 @@ static void draw_picture(const struct light* light, const struct bust* bust, GLu
 
 static hair_instance* make_hair(hair_context* context)
 {
-    hair_asset* asset;
-    hair_groom* groom;
     hair_instance* hair;
-    hair_style_desc style = hair_style_desc_default();
-    check(hair_asset_generate(&style, &asset));
-    hair_groom_desc groom_desc = hair_groom_desc_default();
-    check(hair_asset_to_groom_desc(asset, &groom_desc));
-    groom_desc.follower_count = 6000;
-    check(hair_groom_create(&groom_desc, &groom));
+    hair_groom* groom = make_groom(HAIR_STYLE_LONG, 6000);
     hair_look look = hair_look_default();
     look.radius = 3e-4f; // 6000 strands stand for 100000.
     hair_desc desc = hair_desc_default();
     desc.look = &look;
     check(hair_create(context, groom, &desc, &hair));
     hair_groom_destroy(groom);
-    hair_asset_destroy(asset);
     return hair;
 }
 
