@@ -17,7 +17,7 @@ static const char skin_text[] =
     "layout(binding = 2) uniform sampler2D opacity_map;\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
-    "layout(location = 0) out vec4 color;\n"
+    "layout(location = 0) out vec3 color;\n"
     "void main()\n"
     "{\n"
     "    vec3 n = normalize(normal);\n"
@@ -28,13 +28,11 @@ static const char skin_text[] =
     "        float hair = texture(hair_map, tap).r < at.z ? texture(opacity_map, tap).r : 0.0;\n"
     "        lit += texture(opaque_map, tap).r < at.z ? 0.0 : (1.0 - hair) / 49.0;\n"
     "    }\n"
-    "    float light = 3.0 * lit * max(dot(n, to_light), 0.0) + 0.35;\n"
-    "    color = vec4(vec3(0.50, 0.38, 0.31) / 3.14159 * light, 1.0);\n"
+    "    color = vec3(0.50, 0.38, 0.31) / 3.14159 * (3.0 * lit * max(dot(n, to_light), 0.0) + 0.35);\n"
     "}\n";
 
 // What the light sees: depth of the head, depth of hair, and the fraction that hair covers.
-enum map { OPAQUE, HAIR, OPACITY, MAPS };
-enum { SIZE = 512 }; // texels
+enum { OPAQUE, HAIR, OPACITY, MAPS, SIZE = 512 };
 
 struct light {
     GLuint textures[MAPS], framebuffers[MAPS];
@@ -45,8 +43,7 @@ struct light {
 static struct light make_light(void)
 {
     struct light light;
-    const float target[3] = {0, 1.52f, 0};
-    const float eye[3] = {target[0] + to_light[0], target[1] + to_light[1], target[2] + to_light[2]};
+    const float target[3] = {0, 1.52f, 0}, eye[3] = {to_light[0], 1.52f + to_light[1], to_light[2]};
     light.camera = camera_orthographic(eye, target, 0.3f);
     glCreateTextures(GL_TEXTURE_2D, MAPS, light.textures);
     glCreateFramebuffers(MAPS, light.framebuffers);
@@ -55,8 +52,6 @@ static struct light make_light(void)
         GLenum attachment = i == OPACITY ? GL_COLOR_ATTACHMENT0 : GL_DEPTH_ATTACHMENT;
         glTextureStorage2D(light.textures[i], 1, format, SIZE, SIZE);
         glTextureParameteri(light.textures[i], GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        glTextureParameteri(light.textures[i], GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-        glTextureParameteri(light.textures[i], GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         glNamedFramebufferTexture(light.framebuffers[i], attachment, light.textures[i], 0);
     }
     // With the head's depth, the opacity counts only hair between the light and the head.
