@@ -71,7 +71,7 @@ int main(int argc, char** argv)
         for (int i = 0; i < HEADS; ++i) check(hair_step(heads[i].hair, 1.0f / 60));
 
     const float eye[3] = {0, 1.9f, 3.5f}, target[3] = {0, 1.70f, -0.2f};
-    struct camera camera = camera_perspective(eye, target, 0.32f, 4.0f / 3);
+    struct camera camera = camera_perspective(eye, target, 0.37f, 4.0f / 3);
     struct bust bust = bust_create();
     struct picture picture = picture_begin(argc > 2 ? atoi(argv[2]) : 800);
     hair_lod lod = hair_lod_default();
