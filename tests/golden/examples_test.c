@@ -1,6 +1,6 @@
-// examples_test.c - Every program of tools/examples/ runs and draws the same picture as last time.
+// examples_test.c - Every program of tools/examples/ runs and draws the picture of the earlier run.
 //
-// HAIR_BLESS=1 writes the goldens anew; look at them before committing.
+// HAIR_BLESS=1 writes the goldens anew. Look at them before committing.
 #include "tests/support/golden.h"
 #include "tests/support/support.h"
 

@@ -6,8 +6,8 @@
 #include "common.h"
 #include <math.h>
 
-// Ellipses that the surface runs through, from the top down: height y, half width, half depth, and z
-// of the centre, in metres.
+// Ellipses that the surface runs through, from the top down. Each has its height y, half width,
+// half depth, and the z of its centre, in metres.
 static const float bust_rings[][4] = {
     {1.729f, 0, 0, 0},
     {1.720f, 0.030f, 0.038f, 0},

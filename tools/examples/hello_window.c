@@ -1,8 +1,9 @@
-// hello_window.c - A head of hair in a window of SDL, which turns to and fro. Close the window to stop.
+// hello_window.c - A head of hair that turns to and fro in a window of SDL.
 //
 //     hello_window [--frames N --out FILE.ppm]
 //
-// With --out the window is hidden. The program simulates N frames of 1/60 s and writes the last one.
+// The program runs until the window is closed. With --out the window is hidden, and the program
+// simulates N frames of 1/60 s and writes the last one.
 #include "bust.h"
 #include "camera.h"
 #include <SDL.h>

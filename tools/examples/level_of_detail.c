@@ -1,5 +1,5 @@
-// level_of_detail.c - The same hair at three distances, above without and below with level of detail.
-// Print how much of it is drawn.
+// level_of_detail.c - Hair at three distances. The upper row is drawn without level of detail, the
+// lower row with it. The program prints how many triangles are drawn.
 //
 //     level_of_detail [FILE.ppm [WIDTH]]
 #include "bust.h"
@@ -56,7 +56,7 @@ int main(int argc, char** argv)
     struct bust bust = bust_create();
     check(hair_step(hair, 1.0f / 60));
 
-    // Strands thinner than half a pixel become fewer and wider. Segments become about 4 pixels long.
+    // Strands thinner than half a pixel become fewer and wider. Segments become 4 pixels long.
     hair_lod lod = hair_lod_default();
     lod.strand_pixels = 0.5f;
 

@@ -6,7 +6,7 @@
 #include <hair/hair_asset.h>
 #include <hair/hair_egl.h>
 
-// Generate a built-in haircut. A haircut from a file comes from hair_asset_read() in the same way.
+// Generate a built-in haircut. hair_asset_read() would read a haircut of a file instead.
 static hair_groom* make_bob(void)
 {
     hair_asset* asset;
