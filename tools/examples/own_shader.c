@@ -1,5 +1,5 @@
-// own_shader.c - Shading of hair by GLSL of the application. A band of light crosses the strands, and
-// the tips have a colour of their own.
+// own_shader.c - Shading of hair by GLSL of the application. A band of light crosses the strands.
+// The tips have a colour of their own.
 //
 //     own_shader [FILE.ppm [WIDTH]]
 #include "bust.h"

@@ -1,4 +1,4 @@
-// shadows.c - Shadow maps in both directions. The head shades hair, hair shades the head and itself.
+// shadows.c - Shadow maps in both directions. The head shades hair. Hair shades head and hair.
 //
 //     shadows [FILE.ppm [WIDTH]]
 #include "bust.h"
@@ -31,7 +31,7 @@ static const char skin_text[] =
     "    color = vec3(0.50, 0.38, 0.31) / 3.14159 * (3.0 * lit * max(dot(n, to_light), 0.0) + 0.35);\n"
     "}\n";
 
-// The maps that the light draws: depth of the head, depth of hair, and the fraction that hair covers.
+// Maps of the light: depth of the head, depth of hair, and the fraction that hair covers.
 enum { OPAQUE, HAIR, OPACITY, MAPS, SIZE = 512 };
 
 struct light {
