@@ -44,6 +44,8 @@ GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/unit/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
+EXAMPLES := $(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c))
+EXAMPLES += $(if $(filter 0,$(BULLET)),,$(B)/examples/bullet_world)
 
 NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
 LIBRARIES := $(foreach n,$(NAMES),$(B)/lib$(n).a $(B)/lib$(n).so)
@@ -53,6 +55,7 @@ packages   = $(shell pkg-config $(1) $(2))
 TOOL_CFLAGS = $(call packages,--cflags,epoxy libpng OpenEXR jansson cglm libxxhash)
 TOOL_LIBS   = $(call packages,--libs,epoxy egl libpng OpenEXR jansson libxxhash) -pthread -lm
 TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) -pthread -lm
+EXAMPLE_LIBS = $(call packages,--libs,epoxy egl sdl2) -pthread -lm
 EIGEN       = $(call packages,--cflags,eigen3)
 BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,bullet))
 # The library needs only these two of Bullet's libraries, not dynamics or soft bodies.
@@ -61,6 +64,7 @@ BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--li
 all: libraries tools ## Libraries and tools, in build/$(config)
 libraries: $(LIBRARIES) ## libhair, libhair_egl and libhair_bullet, static and shared
 tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery
+examples: $(EXAMPLES) ## The programs of tools/examples/, in build/$(config)/examples
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
@@ -88,7 +92,7 @@ report: setup ## build/report/index.html: run time against error on one page, af
 	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
 
 test: setup ## Every test that a change must pass
-	@$(MAKE) -j$(JOBS) all $(TESTS)
+	@$(MAKE) -j$(JOBS) all examples $(TESTS)
 	@$(MAKE) check glsl consumer run-tests
 
 setup: ## Print and install the missing Debian packages of tools/packages.txt
@@ -133,6 +137,10 @@ $(B)/tools/%.cpp.o: tools/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) $(BULLET_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
+$(B)/tools/examples/%.c.o: tools/examples/%.c
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(C) $(patsubst -I%,-isystem %,$(call packages,--cflags,epoxy sdl2)) -c $< -o $@
 $(B)/tests/%.cpp.o: tests/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -140,7 +148,7 @@ $(B)/tests/%.cpp.o: tests/%.cpp
 $(B)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -c $< -o $@
+	$(Q)$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -DHAIR_BULLET=$(BULLET) -c $< -o $@
 $(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -176,6 +184,15 @@ $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a 
 $(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
+
+$(B)/examples/bullet_world: $(B)/tools/examples/bullet_world.cpp.o $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(BULLET_LIBS) $(EXAMPLE_LIBS) -o $@
+$(B)/examples/%: $(B)/tools/examples/%.c.o $(B)/libhair_egl.a $(B)/libhair.a
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(EXAMPLE_LIBS) -o $@
 
 SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
@@ -239,4 +256,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report libraries tools demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean
+.PHONY: all bench report libraries tools examples demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean

@@ -113,17 +113,10 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     return whole;
 }
 
-static bool find_truth(struct bench* bench, struct bench_motion* motion)
+static bool find_truth_by_reference(struct bench_motion* motion)
 {
-    if (motion->truth) return true;
-    size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
-    motion->truth = malloc(count * sizeof *motion->truth);
-    if (motion->truth && motion->collider_count) return find_truth_among_colliders(bench, motion);
     struct hair_reference_rod* rod = bench_reference(&motion->scene);
-    if (!motion->truth || !rod) {
-        hair_reference_rod_destroy(rod);
-        return false;
-    }
+    if (!rod) return false;
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, motion->frames, motion->moves ? motion->heads : NULL, FRAME, 128,
                                     MOST_SUBSTEPS, TOLERANCE * motion->length, motion->truth);
@@ -131,6 +124,20 @@ static bool find_truth(struct bench* bench, struct bench_motion* motion)
     snprintf(motion->reference, sizeof motion->reference, "rod, double, %u substeps, converged to %.1e",
              report.substeps, report.change / motion->length);
     return isfinite(report.change);
+}
+
+static bool find_truth(struct bench* bench, struct bench_motion* motion)
+{
+    if (motion->truth) return true;
+    size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
+    motion->truth = malloc(count * sizeof *motion->truth);
+    if (motion->truth && (motion->collider_count ? find_truth_among_colliders(bench, motion)
+                                                 : find_truth_by_reference(motion)))
+        return true;
+    // An incomplete reference must not be taken for a complete one by the next setting.
+    free(motion->truth);
+    motion->truth = NULL;
+    return false;
 }
 
 struct error {
