@@ -201,13 +201,17 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_OWN_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms symbols ## Check the order of the folders of lib/ and the exported names
+check: rooms circles symbols ## Check the order of the folders of lib/, circles of files and the exported names
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
 	  match($$0, /#include "lib\/[a-z]+\//) { split(FILENAME, f, "/"); split($$0, q, "/"); \
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
+# The files of one folder call each other in one direction only.
+UNORDERED := asset gl wind sim draw
+circles: $(LIB)
+	@nm -A $(filter-out $(foreach r,$(UNORDERED),$(B)/lib/$(r)/%),$(filter $(B)/lib/%,$(LIB))) | awk -f tools/circles.awk
 symbols: $(LIBRARIES)
 	@nm -D --defined-only $(filter %.so,$(LIBRARIES)) | awk 'NF == 3 {print $$3}' | LC_ALL=C sort >$(B)/symbols.txt
 	@$(if $(filter 0,$(BULLET)),grep -v hair_bullet_,cat) tests/symbols.txt | diff - $(B)/symbols.txt
@@ -239,4 +243,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report libraries tools demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean
+.PHONY: all bench report libraries tools demo gallery test setup run-tests glsl check rooms circles symbols consumer install install-tree format help clean
