@@ -255,14 +255,7 @@ void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
 // Free a 2D or 3D texture.
 void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 
-// pass.c ------------------------------------------------------------------------------------------
-
-// Return the entry of a pass. NULL means that the pass has not been needed.
-struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
-// Return the entry of a pass, and add one without a program if there is none. NULL means out of
-// memory, which is logged.
-struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
-void hair_gl_free_programs(struct hair_gl* gl);
+// pass_table.c ------------------------------------------------------------------------------------
 
 // Return the label of a pass's row, a static string. hair_gl_find() gives the full label.
 const char* hair_gl_row_label(hair_gl_pass pass);
@@ -271,6 +264,17 @@ const char* hair_gl_row_stages(hair_gl_pass pass);
 hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass features);
 // Return `pass` with the smallest work groups that hold guides of up to `vertices`.
 hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices);
+// Write the full label of a pass, such as "sim/direct_wind_curved_32".
+void hair_gl_write_label(hair_gl_pass pass, char* out, size_t size);
+
+// pass.c ------------------------------------------------------------------------------------------
+
+// Return the entry of a pass. NULL means that the pass has not been needed.
+struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
+// Return the entry of a pass, and add one without a program if there is none. NULL means out of
+// memory, which is logged.
+struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
+void hair_gl_free_programs(struct hair_gl* gl);
 
 // Begin the commands of a pass: bind its program, open its debug group and start its timer.
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass);
