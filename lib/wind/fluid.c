@@ -3,26 +3,11 @@
 
 #include <string.h>
 
-// Alignment of ranges in uniform buffers, the maximum that a driver may require.
-#define ALIGNMENT 256
 // Maximum number of colliders with a velocity. Colliders with higher numbers count as resting.
 #define MOST_MOVING 65536u
 #define FASTEST 1000.0f // Maximum speed of a collider, in m/s.
 
 // Making ------------------------------------------------------------------------------------------
-
-hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
-                                   struct hair_fluid_buffer* out)
-{
-    hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
-    return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
-}
-
-void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
-{
-    hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
-    hair_gl_free_buffer(fluid->gl, &buffer->buffer);
-}
 
 // Halve the grid until the coarsest level is small enough. Return the number of slots of all
 // levels.
@@ -51,7 +36,7 @@ static float suitable(const struct hair_fluid_desc* desc)
 // Write the level parameters once, with a part for each level and color.
 static hair_result make_levels(struct hair_fluid* fluid)
 {
-    unsigned char bytes[2 * HAIR_FLUID_LEVELS * ALIGNMENT] = {0};
+    unsigned char bytes[2 * HAIR_FLUID_LEVELS * HAIR_FLUID_ALIGNMENT] = {0};
     for (uint32_t i = 0; i < 2 * fluid->levels; ++i) {
         const struct hair_fluid_level_at* at = &fluid->level[i / 2];
         struct hair_fluid_level level = {.cells = at->cells,
@@ -61,7 +46,7 @@ static hair_result make_levels(struct hair_fluid* fluid)
                                          .coarse_cell = at[1].cell,
                                          .color = i % 2,
                                          .relax = suitable(&fluid->desc)};
-        memcpy(bytes + (size_t)i * ALIGNMENT, &level, sizeof level);
+        memcpy(bytes + (size_t)i * HAIR_FLUID_ALIGNMENT, &level, sizeof level);
     }
     hair_result result = hair_gl_uniform(fluid->gl, "hair fluid levels", sizeof bytes, &fluid->level_params);
     if (!result) hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
@@ -127,53 +112,6 @@ void hair_fluid_forget(struct hair_fluid* fluid)
     static const float still[4];
     if (fluid->gl) fluid->gl->ClearTexImage(fluid->air, 0, GL_RGBA, GL_FLOAT, still);
     fluid->fresh = 1;
-}
-
-// Passes ------------------------------------------------------------------------------------------
-
-static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
-{
-    struct hair_gl* gl = fluid->gl;
-    // Advection writes the next velocity buffer, and correction the one after it.
-    const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
-    carried = &fluid->velocity[(fluid->now + 1) % 3];
-    next = &fluid->velocity[(fluid->now + 2) % 3];
-    // The first pass computes how open colliders leave faces. All later passes use the openness
-    // that hair leaves.
-    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
-    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
-    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
-    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
-    int jacobi = pass == HAIR_GL_FLUID_JACOBI;
-    GLuint write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
-                      wall->buffer,
-                      open->buffer,
-                      fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
-                      fluid->right.buffer,
-                      fluid->motion};
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
-    gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
-    gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
-    gl->BindTextureUnit(HAIR_UNIT_OPEN, open->texture);
-    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
-    gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
-    gl->BindTextureUnit(HAIR_UNIT_WALL, wall->texture);
-    if (!hairy) return;
-    gl->BindTextureUnit(HAIR_UNIT_BARE_OPEN, fluid->open.texture);
-    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL, fluid->wall.texture);
-    if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
-}
-
-void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
-                    uint32_t threads)
-{
-    const GLintptr first = (GLintptr)(2 * level + color) * ALIGNMENT;
-    const GLsizeiptr size = sizeof(struct hair_fluid_level);
-    bind(fluid, pass);
-    fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
-    hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
 }
 
 // A step ------------------------------------------------------------------------------------------
@@ -323,14 +261,6 @@ void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
     if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
     hair_fluid_run(fluid, HAIR_GL_FLUID_OPEN, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     if (!fluid->hair.grid.buffer) hair_fluid_coarsen(fluid);
-}
-
-void hair_fluid_coarsen(struct hair_fluid* fluid)
-{
-    if (fluid->desc.method != HAIR_FLUID_MULTIGRID) return;
-    for (uint32_t i = 0; i + 1 < fluid->levels; ++i)
-        hair_fluid_run(fluid, HAIR_GL_FLUID_COARSEN, i, 0,
-                       fluid->level[i + 2].slot - fluid->level[i + 1].slot);
 }
 
 void hair_fluid_carry(struct hair_fluid* fluid)
