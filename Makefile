@@ -209,7 +209,7 @@ rooms:
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
 # The files of one folder call each other in one direction only.
-UNORDERED := sim draw
+UNORDERED := draw
 circles: $(LIB)
 	@nm -A $(filter-out $(foreach r,$(UNORDERED),$(B)/lib/$(r)/%),$(filter $(B)/lib/%,$(LIB))) | awk -f tools/circles.awk
 symbols: $(LIBRARIES)

@@ -201,7 +201,8 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     double unseen = hair->sim.unseen;
     hair->sim.unseen = fmin(unseen + time, 1);
-    if (hair_sleep_through(&hair->sim, time)) {
+    if (hair_sleep_through(&hair->sim)) {
+        hair_sim_pass_time(&hair->sim, time);
         hair_begin_frame(hair);
         hair_asked_now(hair)->asleep = 1;
         return HAIR_OK;

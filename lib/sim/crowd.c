@@ -13,11 +13,6 @@
 // this.
 #define MOST_OF_STRAND 16
 
-int hair_crowd_is_on(const struct hair_sim* sim)
-{
-    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
-}
-
 // Place the grid around all that hair of its rest length can reach.
 static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
 {
@@ -255,6 +250,11 @@ hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guide
     if (!result) result = hair_gl_buffer_texture(gl, "hair push", GL_RGBA32F, crowd->push, &crowd->texture);
     if (result) hair_crowd_free(sim);
     return result;
+}
+
+hair_result hair_sim_need_crowd(struct hair_sim* sim)
+{
+    return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
 }
 
 void hair_crowd_free(struct hair_sim* sim)

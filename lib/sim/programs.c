@@ -187,21 +187,6 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     hair_gl_run(sim->gl, pass, groups);
 }
 
-hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
-{
-    hair_gl_pass pass = HAIR_GL_RESET;
-    if (sim->rods) pass |= HAIR_GL_WITH(ROD);
-    if (hair_sim_is_mixed(sim)) pass |= HAIR_GL_WITH(MIXED);
-    if (skinned) pass |= HAIR_GL_WITH(SKINNED);
-    return pass;
-}
-
-hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
-{
-    hair_gl_pass pass = sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
-    return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
-}
-
 hair_result hair_sim_need_programs(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;

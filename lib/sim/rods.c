@@ -4,21 +4,6 @@
 
 #include <string.h>
 
-struct hair_rods {
-    // Copies, because the groom may be destroyed before the physics change.
-    struct hair_guide* guides;
-    struct hair_rest* rest;
-    struct hair_rod_borne* borne;
-    hair_physics made_for, borne_for;
-    struct hair_rods_report report;
-    int held; // 1 if `borne` is up to date for `borne_for`.
-    int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
-    int stiff; // 1 if some guides are too stiff for SHAKE.
-    int struck; // Value of sim->struck that the rods were made for.
-    uint32_t pinned; // Value of sim->pins.which that the rods were made for.
-    uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
-};
-
 // Maximum length of a substep that is longer than the solver's own, s. Substeps twice as long lose
 // lengths.
 #define LONGEST (1.0 / 60)
@@ -189,17 +174,6 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     return result ? result : hair_sim_need_crowd(sim);
 }
 
-const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
-{
-    if (rest) *rest = sim->rods ? sim->rods->rest : NULL;
-    return sim->rods ? sim->rods->guides : NULL;
-}
-
-hair_result hair_sim_need_crowd(struct hair_sim* sim)
-{
-    return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
-}
-
 // Return 1 if the presence of colliders has changed the accurate solver's own substep.
 static int is_struck_anew(const struct hair_sim* sim, int struck)
 {
@@ -243,13 +217,6 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_free(host, sim->rods);
 }
 
-void hair_sim_bind_rods(struct hair_sim* sim)
-{
-    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->solver_stats,
-                        sim->bend ? sim->bend : sim->reduction};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
-}
-
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const hair_physics* physics = &sim->physics;
@@ -264,16 +231,6 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->vertices = sim->guide_vertices;
     params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
-}
-
-int hair_sim_is_mixed(const struct hair_sim* sim)
-{
-    return sim->rods && sim->rods->mixed;
-}
-
-int hair_sim_is_stiff(const struct hair_sim* sim)
-{
-    return sim->rods && sim->rods->stiff;
 }
 
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim)

@@ -81,15 +81,6 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_diagnosis_free(sim);
 }
 
-void hair_sim_bind(struct hair_sim* sim)
-{
-    GLuint storage[] = {sim->guide, sim->rest, sim->state};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
-    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
-    hair_skin_bind(sim);
-}
-
 static hair_vec4 vec4_of(hair_vec3 v, float w)
 {
     return (hair_vec4){v.x, v.y, v.z, w};
@@ -170,11 +161,6 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
             vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
     }
     params->substeps = count;
-}
-
-uint32_t hair_sim_contacts(const struct hair_sim* sim)
-{
-    return sim->rods ? sim->colliders.contacts : sim->colliders.capsules;
 }
 
 static void write_colliders(const struct hair_sim* sim, struct hair_step_params* params)

@@ -4,11 +4,6 @@
 
 #include <string.h>
 
-int hair_skin_is_on(const struct hair_sim* sim)
-{
-    return sim->skin.ride != 0;
-}
-
 static void free_buffers(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
@@ -193,11 +188,6 @@ void hair_skin_ride(struct hair_sim* sim, int again, uint32_t substeps, float be
 void hair_skin_reset(struct hair_sim* sim)
 {
     run(sim, (struct hair_scalp_params){.what = HAIR_SCALP_RESET});
-}
-
-void hair_skin_bind(struct hair_sim* sim)
-{
-    if (hair_skin_is_on(sim)) sim->gl->BindTextureUnit(HAIR_UNIT_RIDE, sim->skin.texture);
 }
 
 void hair_skin_bind_all(struct hair_sim* sim, uint32_t followers)

@@ -272,11 +272,9 @@ void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
     look(sim);
 }
 
-int hair_sleep_through(struct hair_sim* sim, double dt)
+int hair_sleep_through(const struct hair_sim* sim)
 {
-    if (!sim->sleep.asleep || hair_sleep_is_stirred(sim)) return 0;
-    hair_sim_pass_time(sim, dt);
-    return 1;
+    return sim->sleep.asleep && !hair_sleep_is_stirred(sim);
 }
 
 // Saved states ------------------------------------------------------------------------------------

@@ -52,8 +52,9 @@ void hair_sleep_free(struct hair_sim* sim);
 // Wake the hair at the next step.
 void hair_sleep_stir(struct hair_sim* sim);
 
-// Sleep through a step of `dt` if the hair is asleep, and return whether it did. No OpenGL.
-int hair_sleep_through(struct hair_sim* sim, double dt);
+// Return whether the hair sleeps through the next step. The caller then passes the time by
+// hair_sim_pass_time(). No OpenGL.
+int hair_sleep_through(const struct hair_sim* sim);
 
 // Return whether an event has disturbed the hair since the last step.
 int hair_sleep_is_stirred(const struct hair_sim* sim);
