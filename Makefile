@@ -209,9 +209,8 @@ rooms:
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
 # The files of one folder call each other in one direction only.
-UNORDERED := draw
 circles: $(LIB)
-	@nm -A $(filter-out $(foreach r,$(UNORDERED),$(B)/lib/$(r)/%),$(filter $(B)/lib/%,$(LIB))) | awk -f tools/circles.awk
+	@nm -A $(filter $(B)/lib/%,$(LIB)) | awk -f tools/circles.awk
 symbols: $(LIBRARIES)
 	@nm -D --defined-only $(filter %.so,$(LIBRARIES)) | awk 'NF == 3 {print $$3}' | LC_ALL=C sort >$(B)/symbols.txt
 	@$(if $(filter 0,$(BULLET)),grep -v hair_bullet_,cat) tests/symbols.txt | diff - $(B)/symbols.txt

@@ -5,14 +5,6 @@
 
 #include <math.h>
 
-// Maximum iterations of a thread's loop. Mesa's software rasteriser leaves loops after 65,535.
-#define MOST_ROUNDS 4096
-
-size_t hair_draw_count_vertices(const struct hair_draw* draw)
-{
-    return (size_t)draw->followers * (draw->look.segments + 1);
-}
-
 static hair_result make(struct hair_draw* draw)
 {
     struct hair_gl* gl = draw->gl;
@@ -64,14 +56,6 @@ int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth
     return draw->expanded.vertices == hair_draw_count_vertices(draw) && is_fresh(draw, smooth);
 }
 
-uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
-{
-    double each = draw->look.segments + 1.0;
-    double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
-    double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);
-    return 1 + (uint32_t)fmax(mean, most);
-}
-
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn)
 {
@@ -101,12 +85,6 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     expanded->met = draw->hits.met;
     expanded->made = gl->made;
     return HAIR_OK;
-}
-
-void hair_draw_bind_expanded(struct hair_draw* draw)
-{
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
 }
 
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)

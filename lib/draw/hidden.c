@@ -8,11 +8,6 @@
 // 2^-22, the rounding error of depth arithmetic. A depth texture may be coarser.
 #define ROUNDED 2.3841858e-7f
 
-int hair_draw_hides(const hair_view* view)
-{
-    return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
-}
-
 void hair_draw_free_hidden(struct hair_draw* draw)
 {
     struct hair_hidden* hidden = &draw->hidden;

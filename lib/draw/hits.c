@@ -108,20 +108,3 @@ hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_s
     hits->smoothed = smooth->runs;
     return HAIR_OK;
 }
-
-hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
-{
-    return hair_look_is_styled(&draw->look) ? hair_gl_with(pass, HAIR_GL_WITH(STYLED)) : pass;
-}
-
-hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass)
-{
-    if (draw->hits.active && draw->led > 0) pass = hair_gl_with(pass, HAIR_GL_WITH(HITS));
-    return hair_draw_styled(draw, pass);
-}
-
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
-{
-    *pass = hair_draw_choose(draw, *pass);
-    return hair_gl_need(draw->gl, *pass);
-}

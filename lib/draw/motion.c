@@ -70,9 +70,3 @@ void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, 
     was->position[2] = to->position[2] + (double)away.z;
     was->turn = hair_quat_multiply(turn, was->turn);
 }
-
-void hair_draw_bind_motion(struct hair_draw* draw)
-{
-    GLuint texture = draw->motion.still ? draw->expanded.position_texture : draw->motion.texture;
-    draw->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
-}

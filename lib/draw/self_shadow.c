@@ -7,16 +7,6 @@
 
 #define NODE_GROUPS 1024 // Number of work groups. Their threads loop over all nodes of the grid.
 
-static int is_wanted(const struct hair_draw* draw, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
-}
-
-uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
-{
-    return is_wanted(draw, view) ? 1 + view->light_count : 0;
-}
-
 void hair_draw_free_self_shadow(struct hair_draw* draw)
 {
     struct hair_self_shadow_state* own = &draw->self_shadow;
@@ -109,7 +99,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
     if (own->density && draw->look.self_shadow != HAIR_SELF_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
-    if (!is_wanted(draw, view)) return HAIR_OK;
+    if (!hair_draw_lit(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
     struct hair_draw_params params;
     int part = is_of_a_part(draw, smooth, view);

@@ -1,12 +1,6 @@
 // shaded.c - shading of the cached vertices by compute, for one view before it draws them.
 #include "lib/draw/draw.h"
 
-int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
-{
-    return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
-           hair_draw_expands(view);
-}
-
 hair_result hair_draw_need_shaded(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_SHADED] = draw->frame;

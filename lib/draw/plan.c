@@ -1,6 +1,7 @@
-// path.c - choice of the render path of a view. It is the requested path, the fastest measured path
-// of this driver, or the only one that supports the view.
+// plan.c - decisions about a view, such as its render path. The render path is the requested path,
+// the fastest measured path of this driver, or the only one that supports the view.
 #include "lib/draw/draw.h"
+#include "lib/draw/params.h"
 
 #include <math.h>
 #include <string.h>
@@ -63,6 +64,11 @@ static int is_computable(const hair_view* view)
     return shown && view->primitive == HAIR_PRIMITIVE_RIBBONS;
 }
 
+size_t hair_draw_count_vertices(const struct hair_draw* draw)
+{
+    return (size_t)draw->followers * (draw->look.segments + 1);
+}
+
 static hair_render_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
@@ -122,4 +128,30 @@ hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* v
     if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
     return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_stageable(view) ? HAIR_RENDER_PATH_INSTANCED
                                                                                : path;
+}
+
+int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
+{
+    return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
+           hair_draw_expands(view);
+}
+
+uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
+{
+    int wanted = view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
+    return wanted ? 1 + view->light_count : 0;
+}
+
+int hair_draw_is_blocked(const hair_view* view)
+{
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t count = hair_view_maps(view, maps);
+    for (uint32_t i = 0; i < count; ++i)
+        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
+    return 0;
+}
+
+int hair_draw_hides(const hair_view* view)
+{
+    return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
 }
