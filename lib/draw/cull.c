@@ -81,8 +81,8 @@ static unsigned find_outside(const double clip[4], const double edge[2])
            (unsigned)(w < 0) << BEHIND | (unsigned)(z > w) << FAR | (unsigned)(z < -w) << NEAR;
 }
 
-int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
-                             const hair_view* view)
+bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view)
 {
     const struct hair_gl* gl = draw->gl;
     GLfloat viewport[4] = {0};

@@ -106,8 +106,8 @@ hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_s
                                      const struct hair_collider_field* field, float margin);
 // Compile the programs of follower collision.
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
-// Return nonzero if follower collision is up to date with the guides and colliders.
-int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
+// Return whether follower collision is up to date with the guides and colliders.
+bool hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_free_hits(struct hair_draw* draw);
 // Create the image and the framebuffer of the prepass. Defined in prepass.c.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
@@ -119,8 +119,8 @@ void hair_draw_run_prepass(struct hair_draw* draw);
 // tidy.c.
 void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
 
-// Return nonzero if the groom has root uvs. Defined in places.c.
-int hair_draw_has_uvs(const struct hair_draw* draw);
+// Return whether the groom has root uvs. Defined in places.c.
+bool hair_draw_has_uvs(const struct hair_draw* draw);
 // Create the buffer and the texture of root uvs.
 hair_result hair_draw_need_uvs(struct hair_draw* draw);
 void hair_draw_free_uvs(struct hair_draw* draw);
@@ -158,26 +158,26 @@ void hair_draw_find_fastest(struct hair_draw* draw);
 // Return the render path of `view`. Call this once per view, because it may query the viewport. All
 // other code reads the path from view->path.
 hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
-// Return nonzero if the path reads the vertex cache of all followers.
-int hair_draw_expands(const hair_view* view);
-// Return nonzero if the path reads per-view vertices.
-int hair_draw_stages(const hair_view* view);
-// Return nonzero if per-view vertices are in clip space, ready to draw.
-int hair_draw_stages_sides(const hair_view* view);
-// Return nonzero if strands are blended by their coverage of pixels.
-int hair_draw_is_shared(const hair_view* view);
-// Return nonzero if the pass draws coverage, either blended colour or the opacity seen from a
+// Return whether the path reads the vertex cache of all followers.
+bool hair_draw_expands(const hair_view* view);
+// Return whether the path reads per-view vertices.
+bool hair_draw_stages(const hair_view* view);
+// Return whether per-view vertices are in clip space, ready to draw.
+bool hair_draw_stages_sides(const hair_view* view);
+// Return whether strands are blended by their coverage of pixels.
+bool hair_draw_is_shared(const hair_view* view);
+// Return whether the pass draws coverage, either blended colour or the opacity seen from a
 // light.
-int hair_draw_covers(const hair_view* view);
-// Return nonzero if ribbons are drawn without a geometry shader, from two vertices per strand
+bool hair_draw_covers(const hair_view* view);
+// Return whether ribbons are drawn without a geometry shader, from two vertices per strand
 // point.
-int hair_draw_is_paired(const hair_view* view);
-// Return nonzero if a light of the colour pass has an opaque shadow map.
-int hair_draw_is_blocked(const hair_view* view);
-// Return nonzero if vertices of `view` are shaded in a pass before drawing.
-int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
-// Return nonzero if `view` has an occluder depth texture.
-int hair_draw_hides(const hair_view* view);
+bool hair_draw_is_paired(const hair_view* view);
+// Return whether a light of the colour pass has an opaque shadow map.
+bool hair_draw_is_blocked(const hair_view* view);
+// Return whether vertices of `view` are shaded in a pass before drawing.
+bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
+// Return whether `view` has an occluder depth texture.
+bool hair_draw_hides(const hair_view* view);
 // Return the number of light values per vertex, or 0 without self-shadowing.
 uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
 // Return the number of vertices of all followers, look.segments + 1 each.
@@ -229,9 +229,9 @@ uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
 
 // Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
-// Return nonzero if hair with attached roots cannot be inside `view`, which must be validated.
-int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
-                             const hair_view* view);
+// Return whether hair with attached roots cannot be inside `view`, which must be validated.
+bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view);
 
 // Compile all programs that drawing `view` needs. Nonzero `may_meet` includes those for followers
 // that have met colliders.
@@ -259,8 +259,8 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
 // the vertices that the view draws, on every call. Defined in expanded.c.
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn);
-// Return nonzero if the cache holds up-to-date vertices of all followers.
-int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
+// Return whether the cache holds up-to-date vertices of all followers.
+bool hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_free_expanded(struct hair_draw* draw);
 
 // Create the buffer of shaded vertices. Defined in shaded.c.
@@ -293,10 +293,10 @@ void hair_draw_free_staged(struct hair_draw* draw);
 // Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
 void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 
-// Find the pixels of the window that hair may cover, and their sample positions. Return 0 if there
-// are none. Defined in raster.c.
-int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_raster_params* out);
+// Find the pixels of the window that hair may cover, and their sample positions. Return false if
+// there are none. Defined in raster.c.
+bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_raster_params* out);
 // Create the buffers of compute rasterisation. HAIR_GL_WITH(DEPTH) in `with` selects depth without
 // colour. HAIR_GL_WITH(WIDENED) selects per-view vertices.
 hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
@@ -307,10 +307,10 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
 void hair_draw_free_raster(struct hair_draw* draw);
 
-// Compute the parameters of occlusion culling. Return 0 if no patch can be tested. Defined in
+// Compute the parameters of occlusion culling. Return false if no patch can be tested. Defined in
 // hidden.c.
-int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_hide_params* out);
+bool hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_hide_params* out);
 // Create the buffers and compile the programs of occlusion culling.
 hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
 // Find the occluded patches. The inputs of followers must be bound.

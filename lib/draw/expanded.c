@@ -42,16 +42,16 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     hair_draw_free_motion(draw);
 }
 
-// Return nonzero if the cache is up to date. Whatever moves or changes followers also invalidates
+// Return whether the cache is up to date. Whatever moves or changes followers also invalidates
 // follower collision.
-static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
+static bool is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     const struct hair_expanded* expanded = &draw->expanded;
     return expanded->there && hair_draw_has_met_colliders(draw, smooth) && expanded->met == draw->hits.met &&
            expanded->made == draw->gl->made;
 }
 
-int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
+bool hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->expanded.vertices == hair_draw_count_vertices(draw) && is_fresh(draw, smooth);
 }

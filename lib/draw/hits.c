@@ -87,7 +87,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }
 
-int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth)
+bool hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->hits.fresh && draw->hits.smoothed == smooth->runs;
 }

@@ -5,6 +5,8 @@
 
 #include "lib/draw/draw.h"
 
+#include <stdbool.h>
+
 // Write all parameters of a draw. NULL `view` writes only those that place followers.
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
@@ -74,8 +76,8 @@ float hair_look_most_aside(const hair_look* look);
 float hair_curve_most(const hair_curve* curve);
 // Write the colours of strands. Defined in tint.c.
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out);
-// Return nonzero if the look frizzes, curls or cuts strands, which needs program variants. Defined
+// Return whether the look frizzes, curls or cuts strands, which needs program variants. Defined
 // in strand.c.
-int hair_look_is_styled(const hair_look* look);
+bool hair_look_is_styled(const hair_look* look);
 
 #endif

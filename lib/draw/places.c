@@ -1,7 +1,7 @@
 // places.c - scalp uvs of roots, for textures and shaders.
 #include "lib/draw/draw.h"
 
-int hair_draw_has_uvs(const struct hair_draw* draw)
+bool hair_draw_has_uvs(const struct hair_draw* draw)
 {
     return draw->seats && draw->seats->uv;
 }

@@ -70,9 +70,9 @@ static void fill(struct hair_draw* draw, uint32_t groups)
     own->frame = 0;
 }
 
-// Return nonzero if the light values are valid. Views of one frame with the same lights share them.
+// Return whether the light values are valid. Views of one frame with the same lights share them.
 // The contents of shadow maps belong to the application, and may change between frames.
-static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
+static bool is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
 {
     struct hair_self_shadow_state* own = &draw->self_shadow;
     int same = view->frame_index && view->frame_index == own->frame && own->count == params->lights &&
@@ -85,10 +85,11 @@ static int is_found(struct hair_draw* draw, const hair_view* view, const struct 
     return same;
 }
 
-// Return nonzero if only the vertices that the view draws need light. Strands that a level of
+// Return whether only the vertices that the view draws need light. Strands that a level of
 // detail leaves out need no light. The drawn strands make up for them in the grid. A full vertex
 // cache that views share has all vertices.
-static int is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view)
+static bool is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth,
+                         const hair_view* view)
 {
     return view->lod && !draw->motion.buffer && !hair_draw_is_expanded(draw, smooth);
 }

@@ -124,7 +124,7 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
     out->most_width = fmaxf(hair_curve_most(&look->clump_width), 1);
 }
 
-int hair_look_is_styled(const hair_look* look)
+bool hair_look_is_styled(const hair_look* look)
 {
     return look->length < 1 || look->length_variation > 0 || hair_curve_most(&look->frizz) > 0 ||
            look->curl_radius * hair_curve_most(&look->curl_profile) > 0;

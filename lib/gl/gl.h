@@ -120,6 +120,8 @@ struct hair_gl {
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
+
+#include <stdbool.h>
 #undef FUNCTION
 };
 
@@ -167,8 +169,8 @@ hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, 
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
 // Add a text to the key. NULL adds nothing.
 void hair_gl_key_add(struct hair_gl_key* key, const char* text);
-// Load a program from the cache. Return 1 on success. 0 means that the program must be compiled.
-int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+// Load a program from the cache. Return false if the program must be compiled.
+bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 // Store a compiled program in the cache.
 void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 

@@ -200,7 +200,7 @@ static hair_result start(struct recipe* recipe, GLuint program)
     return HAIR_OK;
 }
 
-static int is_linked(const struct hair_gl* gl, GLuint program)
+static bool is_linked(const struct hair_gl* gl, GLuint program)
 {
     GLint done = 0;
     gl->GetProgramiv(program, GL_LINK_STATUS, &done);

@@ -8,7 +8,7 @@
 // Default side of the fluid's box, as a multiple of the distance field's longest side.
 #define AROUND 1.5f
 
-int hair_blow_is_on(const struct hair_sim* sim)
+bool hair_blow_is_on(const struct hair_sim* sim)
 {
     return sim->rods && sim->wind.model == HAIR_WIND_FLUID && hair_wind_is_on(&sim->wind);
 }
@@ -45,7 +45,7 @@ static void free_hair(struct hair_blow* blow, struct hair_gl* gl)
     hair_gl_free_buffer(gl, &blow->params);
 }
 
-static int is_porous(const struct hair_sim* sim)
+static bool is_porous(const struct hair_sim* sim)
 {
     return sim->wind.drag_strand_count > 0 && sim->physics.drag > 0;
 }

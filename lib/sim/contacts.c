@@ -31,7 +31,7 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     };
 }
 
-int hair_contacts_are_any(const struct hair_sim* sim)
+bool hair_contacts_are_any(const struct hair_sim* sim)
 {
     return sim->rods && (sim->colliders.forms || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
 }

@@ -74,7 +74,7 @@ static hair_dvec3 strain_off(const struct search* a, uint32_t i)
 }
 
 // Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
-static int holds(struct search* a, double margin)
+static bool holds(struct search* a, double margin)
 {
     const struct hair_rod_shape* s = a->shape;
     hair_rod_load(s, 1, &a->pose);
@@ -84,7 +84,7 @@ static int holds(struct search* a, double margin)
         hair_dquat t = a->pose.turn[i];
         a->rest[i] = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
                                      2 * t.z - g.z / s->ratio[2], 2 * t.w};
-        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return 0;
+        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return false;
     }
     hair_rod_load(s, margin, &a->pose);
     hair_rod_balance(s, &a->pose);
@@ -107,7 +107,7 @@ static double least_stiffening(struct search* a, double does)
 }
 
 // Move the pose to y(t). Return whether the pose holds.
-static int holds_at(struct search* a, double t)
+static bool holds_at(struct search* a, double t)
 {
     hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
     return holds(a, MARGIN);
@@ -147,7 +147,7 @@ static double distance(const struct search* a, const hair_dvec3* place)
 }
 
 // Return whether the guide comes to rest in the pose when released from its groom.
-static int is_reached(const struct search* a)
+static bool is_reached(const struct search* a)
 {
     struct hair_rod_pose released;
     double length = 0;
@@ -174,11 +174,11 @@ static double sag(struct search* a)
     return distance(a, a->shape->place);
 }
 
-static int resists(const struct hair_rod_shape* s)
+static bool resists(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (!(hair_rod_stiffness(s, i) > 0)) return 0;
-    return 1;
+        if (!(hair_rod_stiffness(s, i) > 0)) return false;
+    return true;
 }
 
 static void start(struct search* a, struct hair_rod_shape* s)

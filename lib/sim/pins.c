@@ -75,7 +75,7 @@ static uint32_t most_of_a_guide(const struct hair_knot* knot, uint32_t count)
     return most;
 }
 
-static int are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
+static bool are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
 {
     int alike = pins->count == count;
     for (uint32_t i = 0; i < count && alike; ++i) {

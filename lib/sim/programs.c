@@ -18,10 +18,10 @@
 #define PART_ROUNDS_OF_GROUP 9000
 
 // A work group solves a guide that would be too much for a thread.
-int hair_sim_is_by_thread(const struct hair_sim* sim)
+bool hair_sim_is_by_thread(const struct hair_sim* sim)
 {
     uint32_t most = hair_sim_is_mixed(sim) ? MOST_MIXED : MOST_IN_THREAD;
-    if (!sim->gl->software && sim->most_vertices > most) return 0;
+    if (!sim->gl->software && sim->most_vertices > most) return false;
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 
@@ -35,13 +35,13 @@ static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 
 // Return whether guides go through two programs. The first only knows SHAKE, and the second solves
 // the guides that the first leaves.
-static int goes_in_two_by_shake(const struct hair_sim* sim)
+static bool goes_in_two_by_shake(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
 }
 
 // Return whether the second program may split substeps. See glsl/sim/parts.glsl.
-static int has_parts(const struct hair_sim* sim)
+static bool has_parts(const struct hair_sim* sim)
 {
     return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
 }
@@ -68,7 +68,7 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 // Return whether guides are so few that their work groups wait for the memory of colliders. Such
 // work groups cache colliders and read several at once, which is faster. For many guides this would
 // be slower, because the registers of the cache reduce the number of guides that run at once.
-static int has_few_guides(const struct hair_sim* sim, int by_thread)
+static bool has_few_guides(const struct hair_sim* sim, int by_thread)
 {
     return sim->guides <= MOST_FEW && !by_thread;
 }
@@ -101,14 +101,14 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
 
 // The lists of two programs are allocated at creation, so this decision is made then. Direct takes
 // two programs only for more guides than twice what a GPU runs at once.
-int hair_sim_may_go_in_two(const struct hair_sim* sim)
+bool hair_sim_may_go_in_two(const struct hair_sim* sim)
 {
-    if (sim->solver == HAIR_SOLVER_ACCURATE) return 1;
+    if (sim->solver == HAIR_SOLVER_ACCURATE) return true;
     return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->most_vertices <= 32 &&
            sim->gl->units > 0 && sim->guides > 2 * HAIR_FIRST_GUIDES * (uint32_t)sim->gl->units;
 }
 
-static int has_bodies(const struct hair_sim* sim)
+static bool has_bodies(const struct hair_sim* sim)
 {
     return hair_sim_contacts(sim) > sim->colliders.capsules;
 }
@@ -123,9 +123,9 @@ static hair_gl_pass pass_now(const struct hair_sim* sim)
 // Return whether guides go through two programs now. Direct does so only for straight hair among
 // few capsules, where two programs are faster. Without capsules two programs are slower. With any
 // other feature, programs need more registers than that many guides leave them.
-static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
+static bool goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
 {
-    if (goes_in_two_by_shake(sim)) return 1;
+    if (goes_in_two_by_shake(sim)) return true;
     return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
 }
 

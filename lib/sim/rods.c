@@ -17,12 +17,12 @@
 // falls back to another method when the head shakes over colliders.
 #define CONTACT_MARGIN 1.6
 
-static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
+static bool is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {
-    if (sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    if (sim->solver != HAIR_SOLVER_ACCURATE) return false;
     for (uint32_t i = 0; i < sim->guides; ++i)
-        if (rod[sim->rods->guides[i].first].segment.w != 0) return 1;
-    return 0;
+        if (rod[sim->rods->guides[i].first].segment.w != 0) return true;
+    return false;
 }
 
 // Create the reduction buffer. The buffer is empty unless work groups run a method with implicit
@@ -67,10 +67,10 @@ static uint32_t times_longer(const struct hair_sim* sim)
 }
 
 // Return whether the mixed scheme solves the guides.
-static int are_mixed(const struct hair_sim* sim)
+static bool are_mixed(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return false;
     return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver,
                                sim->asked_substep);
 }
@@ -174,16 +174,16 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     return result ? result : hair_sim_need_crowd(sim);
 }
 
-// Return 1 if the presence of colliders has changed the accurate solver's own substep.
-static int is_struck_anew(const struct hair_sim* sim, int struck)
+// Return whether the presence of colliders has changed the accurate solver's own substep.
+static bool is_struck_anew(const struct hair_sim* sim, int struck)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;
 }
 
-int hair_sim_is_other_rate(const struct hair_sim* sim)
+bool hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (!rods || rods->longer == times_longer(sim)) return 0;
+    if (!rods || rods->longer == times_longer(sim)) return false;
     return sim->pins.which == rods->pinned &&
            !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);

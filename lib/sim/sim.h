@@ -18,6 +18,8 @@
 #include "lib/sim/pins.h"
 #include "lib/wind/air.h"
 
+#include <stdbool.h>
+
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
 // All 0 until an instance first has them.
 struct hair_contacts {
@@ -114,24 +116,24 @@ uint32_t hair_sim_contacts(const struct hair_sim* sim);
 // redblack.
 const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
 // Return whether the mixed scheme solves the guides.
-int hair_sim_is_mixed(const struct hair_sim* sim);
-// Return 1 if the accurate solver solves some guides by BDF2.
-int hair_sim_is_stiff(const struct hair_sim* sim);
+bool hair_sim_is_mixed(const struct hair_sim* sim);
+// Return whether the accurate solver solves some guides by BDF2.
+bool hair_sim_is_stiff(const struct hair_sim* sim);
 // Return the pass that resets the guides. `skinned` is 1 if roots move with a skinned scalp.
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 // Return the pass that turns the guides with a teleported head.
 hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
 // Return whether roots move with a skinned scalp.
-int hair_skin_is_on(const struct hair_sim* sim);
+bool hair_skin_is_on(const struct hair_sim* sim);
 // Bind the scalp motion for the passes that read it.
 void hair_skin_bind(struct hair_sim* sim);
 // Return whether the physics have cohesion or volume, and the solver supports them.
-int hair_crowd_is_on(const struct hair_sim* sim);
+bool hair_crowd_is_on(const struct hair_sim* sim);
 
 // Functions of contacts.c, for collision meshes and for more than HAIR_FEW_COLLIDERS colliders.
 
 // Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
-int hair_contacts_are_any(const struct hair_sim* sim);
+bool hair_contacts_are_any(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
 // has been done, and may be negative.
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start);
@@ -144,8 +146,8 @@ void hair_contacts_free(struct hair_sim* sim);
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
 // Make the rods again if the physics, the pinned vertices or the substep length need other rods.
 hair_result hair_sim_renew_rods(struct hair_sim* sim);
-// Return 1 if the rods must be made again for a changed rate, and for nothing else.
-int hair_sim_is_other_rate(const struct hair_sim* sim);
+// Return whether the rods must be made again for a changed rate, and for nothing else.
+bool hair_sim_is_other_rate(const struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);
 // Write the parameters of the solvers of rods.
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
@@ -155,7 +157,7 @@ struct hair_rods_report hair_sim_held(const struct hair_sim* sim);
 // Functions of programs.c, which selects the programs and the number of substeps of a dispatch.
 
 // Return whether guides may go through two programs. See main() of glsl/sim/rod.comp.
-int hair_sim_may_go_in_two(const struct hair_sim* sim);
+bool hair_sim_may_go_in_two(const struct hair_sim* sim);
 // Compile the solver for the current settings.
 hair_result hair_sim_need_solver(struct hair_sim* sim);
 // Return the guide list of the next dispatch, which empties the other list.
@@ -165,7 +167,7 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params);
 // Compile all programs that a step with the current settings runs.
 hair_result hair_sim_need_programs(struct hair_sim* sim);
 // Return whether a thread solves a guide, and not a work group.
-int hair_sim_is_by_thread(const struct hair_sim* sim);
+bool hair_sim_is_by_thread(const struct hair_sim* sim);
 // Return the maximum number of substeps of a dispatch.
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim);
 // Return the maximum number of loop iterations for the parts of a substep.

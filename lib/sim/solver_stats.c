@@ -43,7 +43,7 @@ static hair_gl_pass energy_pass(const struct hair_sim* sim)
 
 // Return whether work can be done on a guide from outside. A skinned scalp and other hair may do
 // work.
-static int is_driven(const struct hair_sim* sim, int stirred)
+static bool is_driven(const struct hair_sim* sim, int stirred)
 {
     return stirred || memcmp(&sim->at_step, &sim->head, sizeof sim->head) != 0 ||
            hair_wind_is_on(&sim->wind) || hair_crowd_is_on(sim) || hair_skin_is_on(sim);
@@ -51,7 +51,7 @@ static int is_driven(const struct hair_sim* sim, int stirred)
 
 // Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules
 // that have none.
-static int has_energy(const struct hair_sim* sim)
+static bool has_energy(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_DIRECT || sim->solver == HAIR_SOLVER_ACCURATE;
 }

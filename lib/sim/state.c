@@ -34,12 +34,12 @@ const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struc
     return sim->rods ? sim->rods->guides : NULL;
 }
 
-int hair_sim_is_mixed(const struct hair_sim* sim)
+bool hair_sim_is_mixed(const struct hair_sim* sim)
 {
     return sim->rods && sim->rods->mixed;
 }
 
-int hair_sim_is_stiff(const struct hair_sim* sim)
+bool hair_sim_is_stiff(const struct hair_sim* sim)
 {
     return sim->rods && sim->rods->stiff;
 }
@@ -59,12 +59,12 @@ hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
     return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
 }
 
-int hair_skin_is_on(const struct hair_sim* sim)
+bool hair_skin_is_on(const struct hair_sim* sim)
 {
     return sim->skin.ride != 0;
 }
 
-int hair_crowd_is_on(const struct hair_sim* sim)
+bool hair_crowd_is_on(const struct hair_sim* sim)
 {
     return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
 }

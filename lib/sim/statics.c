@@ -161,9 +161,10 @@ static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, cons
     hair_rod_pose_at(s, to, pose);
 }
 
-// Take a step along the turns that does not raise the energy. Return 0 if there is no such step.
-static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
-                   const hair_dvec3* turns, struct hair_rod_pose* pose)
+// Take a step along the turns that does not raise the energy. Return false if there is no such
+// step.
+static bool descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
+                    const hair_dvec3* turns, struct hair_rod_pose* pose)
 {
     hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
     double before = energy_of(s, rest, gravity, pose), most = 0;
@@ -172,10 +173,10 @@ static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, do
     memcpy(from, pose->frame, s->count * sizeof *from);
     for (int k = 0; k < HALVINGS; ++k, share /= 2) {
         turn_by(s, from, turns, share, pose);
-        if (energy_of(s, rest, gravity, pose) <= before + ROUNDING * fabs(before)) return 1;
+        if (energy_of(s, rest, gravity, pose) <= before + ROUNDING * fabs(before)) return true;
     }
     turn_by(s, from, turns, 0, pose);
-    return 0;
+    return false;
 }
 
 double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,

@@ -16,7 +16,7 @@
 // Maximum of w b. When the head shakes, lengths get lost with 5, and hardly ever with 3.3.
 #define MOST_PHASE 2.7
 
-static int is_heavy(const struct hair_rod_shape* s)
+static bool is_heavy(const struct hair_rod_shape* s)
 {
     double length = 0;
     for (uint32_t i = 0; i < s->count; ++i) length += s->length[i];

@@ -7,14 +7,14 @@
 #include "lib/base/bytes.h"
 
 // Return whether the next `size` bytes can be read. Fail if the state ends before them.
-static int can_read(struct hair_walk* c, const char* name, size_t size)
+static bool can_read(struct hair_walk* c, const char* name, size_t size)
 {
-    if (!c->read || c->result) return 0;
-    if (size <= c->end - c->at) return 1;
+    if (!c->read || c->result) return false;
+    if (size <= c->end - c->at) return true;
     c->result = hair_fail(c->host, HAIR_ERROR_FILE,
                           "the fields of the saved state end at byte %zu, within the %s at byte %zu", c->end,
                           name, c->at);
-    return 0;
+    return false;
 }
 
 static void check(struct hair_walk* c, const char* name, double value, double least, double most)

@@ -13,19 +13,19 @@
 // came before.
 static const hair_quat lie = {0.2896f, 0.4133f, 0.1497f, 0.8501f};
 
-static int blows(const hair_wind* wind)
+static bool blows(const hair_wind* wind)
 {
     return wind->velocity[0] != 0 || wind->velocity[1] != 0 || wind->velocity[2] != 0;
 }
 
-int hair_wind_is_on(const hair_wind* wind)
+bool hair_wind_is_on(const hair_wind* wind)
 {
     int on = blows(wind) || wind->texture || wind->still_air;
     for (uint32_t i = 0; i < wind->source_count; ++i) on = on || wind->sources[i].speed != 0;
     return on;
 }
 
-int hair_wind_is_unsteady(const hair_wind* wind)
+bool hair_wind_is_unsteady(const hair_wind* wind)
 {
     int moves =
         wind->texture || (wind->turbulence_intensity > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
@@ -172,7 +172,7 @@ static void write_gusts(struct hair_air* air, const struct hair_air_now* now, st
     params->velocity.w = gusts.speed;
 }
 
-static int has_volume(const struct hair_gl* gl, const hair_wind* wind)
+static bool has_volume(const struct hair_gl* gl, const hair_wind* wind)
 {
     GLint target = 0;
     if (wind->texture && gl->IsTexture(wind->texture))

@@ -202,8 +202,8 @@ static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now
     }
 }
 
-static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
-                      const struct hair_collider_field* field)
+static bool is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
+                       const struct hair_collider_field* field)
 {
     const struct hair_fluid_params* made = &fluid->made_for;
     return !memcmp(&made->lower, &params->lower, sizeof params->lower) &&

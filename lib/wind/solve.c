@@ -1,12 +1,12 @@
 // solve.c - pressure solvers, by cycles of multigrid or by sweeps over a single grid.
 #include "lib/wind/fluid.h"
 
-static int takes(hair_fluid_method method, hair_gl_pass pass)
+static bool takes(hair_fluid_method method, hair_gl_pass pass)
 {
     int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
                  pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
     if (coarse) return method == HAIR_FLUID_MULTIGRID;
-    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return 0;
+    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return false;
     if (pass == HAIR_GL_FLUID_SMOOTH) return method != HAIR_FLUID_JACOBI;
     return pass != HAIR_GL_FLUID_JACOBI || method == HAIR_FLUID_JACOBI;
 }
