@@ -1,47 +1,52 @@
-// rod.glsl - a guide as an inextensible rod: what its solvers keep of it, and how they measure it.
+// rod.glsl - a guide as an inextensible rod: the state that its solvers share, and measures of its
+// lengths.
 //
-// Positions are from the guide's root, where the scalp has it at the start of a substep; displacements are in the
-// world, over the substep. After it x' = x + displacement - root_moved.
+// Positions are relative to the guide's root, where the scalp has it at the start of a substep.
+// Displacements are in the world, over the substep. After the substep, x' = x + displacement -
+// root_moved.
 #include "buffers.glsl"
 #include "rotation.glsl"
 #include "sim/rod_buffers.glsl"
 #include "sim/mapping.glsl"
 #include "sim/tridiagonal.glsl"
 
-SHARED_VEC3(place);      // at the start of the substep
-SHARED_VEC3(moved);      // displacement that is tried
-SHARED_VEC3(edge);       // unit, of segment i, where `moved` leads
-SHARED_VEC3(lever);      // bending: what a hinge does; then: directions in which lengths are corrected
-SHARED_VEC3(handed);     // to the neighbours, of forces: see there
-OWN(float, rest_length); // of segment i; 0 for the tip
-OWN(float, slack);       // 1 / mass; 0: held, by the scalp or a pin
-OWN(vec3, wanted);       // displacement if no collider were in the way
-OWN(vec3, displacement); // over the last substep
-OWN(float, excess);      // of length, of segment i
-OWN(vec4, aim);          // rest position from the root, in groom space; squared frequency of the pull to it
+SHARED_VEC3(place);      // Position at the start of the substep.
+SHARED_VEC3(moved);      // Trial displacement.
+SHARED_VEC3(edge);       // Unit vector along segment i after `moved`.
+// Effect of a hinge in bending. Later the direction in which a length is corrected.
+SHARED_VEC3(lever);
+SHARED_VEC3(handed);     // Vector for the neighbours, such as a segment's force. See each use.
+OWN(float, rest_length); // Rest length of segment i. 0 for the tip.
+OWN(float, slack);       // 1 / mass. 0 if the scalp or a pin holds the vertex.
+OWN(vec3, wanted);       // Displacement without contact.
+OWN(vec3, displacement); // Displacement over the last substep.
+OWN(float, excess);      // Excess length of segment i.
+// xyz is the rest position from the root in groom space. w is the squared frequency of the pull to
+// it.
+OWN(vec4, aim);
 #ifdef HAIR_CROWD
 layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
-OWN(vec3, push); // acceleration by the hair around, m/s^2
+OWN(vec3, push); // Acceleration by the hair-hair grid, in m/s^2.
 #endif
 
-// The guide, the same for all its vertices.
+// Data of the guide, which are equal in all its threads.
 uint  guide_number, guide_first, guide_count;
 float guide_length;
-bool  heavy; // its tip outweighs the rest of it
-vec3 root_then;  // from the head's origin, at the start of the substep,
-vec3 root_now;   // and at its end
-vec3 root_moved; // over it
-vec3 root_at_rest; // in groom space
-vec4 turn_now;   // of the head
-vec4 turn_then;  // of the substep before
-vec4 scalp;      // frame that clamps the first segment
-vec3 clamp_way, clamp_at_rest; // its way, and in groom space
+bool  heavy; // The tip outweighs the rest of the guide.
+vec3 root_then;  // Position of the root at the start of the substep, from the head's origin.
+vec3 root_now;   // Position of the root at the end of the substep.
+vec3 root_moved; // Displacement of the root over the substep.
+vec3 root_at_rest; // Position of the root in groom space.
+vec4 turn_now;   // Rotation of the head.
+vec4 turn_then;  // Rotation of the head in the previous substep.
+vec4 scalp;      // Frame that clamps the first segment.
+vec3 clamp_way, clamp_at_rest; // Direction of the clamp, and the same direction in groom space.
 bool root_is_free;
-bool loose, broken; // what measure() finds
+bool loose, broken; // Results of measure().
 
 vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
 
-// Seconds that the motion under way takes: a substep, or a part of one.
+// Seconds of the present motion, which covers a substep or a part of one.
 #ifdef HAIR_MIXED
 float part_length;
 #define SUBSTEP part_length
@@ -51,7 +56,7 @@ float part_length;
 #define SUBSTEP params.gravity.w
 #endif
 
-#ifdef HAIR_PINNED // See pin.glsl; without pins nothing but the root is held.
+#ifdef HAIR_PINNED // Without pins only the root is held. See pin.glsl.
 vec3 held_move(uint i);
 void give_length();
 #else
@@ -59,14 +64,17 @@ void give_length();
 #define give_length()
 #endif
 
-// By the bits, for comparisons with NaN may be compiled away: what is not finite is above all else.
+// Return the bits of |v|, which order like floats. They replace comparisons with NaN, which
+// compilers may remove. NaN and infinity are above all other values.
 uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 
-#define FARTHEST 1e4  // m from the head's origin, or in a substep: no hair is there
-#define TOO_LONG 0.01 // relative error of length with which a method has failed
+// Limit of a distance from the head's origin, and of a displacement in a substep, in metres.
+#define FARTHEST 1e4
+#define TOO_LONG 0.01 // Relative error of length at which a method has failed.
 
-// From vertex i to the next, at the start of the substep. Work groups of several guides have so few registers each that some are in
-// memory; other programs have none to spare for what is quickly found again.
+// Vector from vertex i to the next at the start of the substep. Only work groups of several guides
+// store it. They have few registers, so that some of their values are in memory. Other programs
+// have no register to spare for a value that is quickly computed.
 #ifdef SHARES_GROUPS
 OWN(vec3, kept_between);
 #define KEEP_BETWEEN own(kept_between) = AFTER_VEC3(place) - GET(place)
@@ -76,7 +84,7 @@ OWN(vec3, kept_between);
 #define BETWEEN (AFTER_VEC3(place) - GET(place))
 #endif
 
-// Unit edges where `moved` leads.
+// Compute unit edges after `moved`, and excess lengths.
 void find_edges()
 {
     MEET;
@@ -90,12 +98,12 @@ void find_edges()
     }
 }
 
-#define MIN_GRANT 3e-7  // of the length of the guide: rounding of positions is a tenth of that
-#define SLOW_GRANT 0.02 // of the displacement of a vertex
+#define MIN_GRANT 3e-7  // Fraction of the guide's length. Rounding of positions is a tenth of it.
+#define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
 
-// Return the error of length that segment i may keep, by the relative `tolerance`. Among colliders what moves
-// slowly may keep less: the part that a Newton step leaves differs from substep to substep, and what hangs between
-// a root and a vertex that sticks would tremble with it.
+// Return the permitted error of length of segment i, by the relative `tolerance`. In contact, slow
+// vertices get a smaller error. The error that a Newton step leaves differs between substeps, so
+// that a span between the root and a sticking vertex would tremble.
 float granted_error(uint i, float tolerance)
 {
     float grant = tolerance * own(rest_length);
@@ -105,8 +113,8 @@ float granted_error(uint i, float tolerance)
     return grant;
 }
 
-// Find unit edges; and whether the length of a segment is loose, wrong by more than the relative `tolerance` grants,
-// or broken.
+// Compute unit edges. Set `loose` if the error of a length exceeds what the relative `tolerance`
+// permits. Set `broken` if a method has failed.
 void measure(float tolerance)
 {
     bool is_loose = false, is_broken = false;
@@ -127,8 +135,9 @@ void count_in(uint what)
     if (lane == 0u) atomicAdd(solver_stats[what], 1u);
 }
 
-// Return v rounded by a sum whose parts no compiler takes away again. `precise` says so too, but of all that leads there:
-// then nothing in a substep is multiplied and added at once.
+// Return v after an operation that compilers cannot remove, so that the sum is rounded. `precise`
+// would apply to all values that v depends on, and would disable fused multiply-add in the whole
+// substep.
 vec3 rounded(vec3 v)
 {
     uint nothing = params.substeps >> 31;

@@ -1,7 +1,8 @@
-// golden_test.c - pictures of the built-in scenes are the same as last time, and not black.
+// golden_test.c - pictures of the built-in scenes equal the previous ones, and are not black.
 //
-// A golden belongs to the renderer that made it: golden/<renderer>/<scene>.png. On another renderer only the range
-// of lit pixels is held. HAIR_BLESS=1 writes the goldens anew; look at them before committing.
+// A golden belongs to the renderer that made it: golden/<renderer>/<scene>.png. Other renderers
+// check only the range of lit pixels. HAIR_BLESS=1 writes the goldens again. Look at them before
+// committing.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,17 +22,20 @@
 #define WIDTH 320
 #define HEIGHT 180
 
-// Between two runs on one driver nothing differs; an SSE4.1 CPU was measured at an RMSE of 0.00004 from an AVX2 one.
+// Maximum root mean square error. Two runs on one driver do not differ. An SSE4.1 CPU differs from
+// an AVX2 CPU by 0.00004.
 #define MOST_RMSE 0.003
-#define MOST_BAD_PIXELS 0.002 // share of pixels further off than a quarter
+#define MOST_BAD_PIXELS 0.002 // Maximum fraction of pixels that differ by more than a quarter.
 
 struct golden {
     const char* name;
     const char* arguments;
-    double least_lit, most_lit; // share of pixels that hair changes against the same picture without it
+    // Range of the fraction of pixels that change when hair is added to the picture.
+    double least_lit, most_lit;
 };
 
-// Fewer and wider strands than the scenes have: a picture of all takes a CPU half a minute, and breaks by the same shaders.
+// Fewer and wider strands than in the scenes. All strands would take a CPU half a minute, and use
+// the same shaders.
 #define FEW "--followers 3000 --set radius=4e-4"
 #define FEWER "--followers 1500 --set radius=6e-4"
 static const struct golden goldens[] = {
@@ -81,7 +85,7 @@ static double lit_share(const uint8_t* with, const uint8_t* without)
 
 static size_t distinct_colors(const uint8_t* pixels)
 {
-    static uint8_t seen[1 << 15]; // five bits a channel
+    static uint8_t seen[1 << 15]; // Five bits per channel.
     memset(seen, 0, sizeof seen);
     size_t count = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i, pixels += 3) {
@@ -129,7 +133,7 @@ static void the_picture_is_the_same_as_last_time_and_shows_hair(void** state)
     snprintf(actual, sizeof actual, HAIR_BUILD_DIR "/golden_%s.png", golden->name);
     snprintf(bald, sizeof bald, HAIR_BUILD_DIR "/golden_%s_bald.png", golden->name);
     capture(golden, "", actual);
-    // Little hair, simulated the fastest way: nobody sees it.
+    // A picture without visible hair. The little hair there is simulated the fastest way.
     capture(golden, "--set density=0 --solver follow --followers 100 --guides 16", bald);
     assert_true(read_png(actual, with) && read_png(bald, without));
 

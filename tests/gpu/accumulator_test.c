@@ -34,7 +34,8 @@ static void read(struct hair_test* test, hair_instance* hair, struct strands* ou
     assert_in_range(out->smooth_vertices, 1, 2 * MOST);
 }
 
-// From rest, under gravity, in portions, the last one as long as is left: all in substeps.
+// Step a new instance from rest under gravity for `time`, and read its strands. The last portion is
+// the remaining time. Portions and times are in substeps.
 static void run(struct hair_test* test, hair_groom* groom, int way, float (*portion)(uint32_t i), double time,
                 struct strands* out)
 {
@@ -75,13 +76,15 @@ static float irregular(uint32_t i)
     return 0.01f + 6 * hair_random(&seed);
 }
 
-// The same substeps are made of all of them. Where in the next substep time stands is a sum of rounded
-// portions: the drawn strands agree as the times do, to a millionth of a second at a few metres a second.
+// Check that every portion of time makes exactly the same substeps. The time within the next
+// substep is a sum of rounded portions. Drawn strands agree as the times do, to a millionth of a
+// second at a few metres a second.
 static void strands_are_the_same(struct hair_test* test, hair_groom* groom, int way)
 {
     static float (*const portions[])(uint32_t) = {two, four, twelve, an_eighth, irregular};
     static struct strands expected, got;
-    // Between two ends of substeps, so that no rounding of the sum decides how many there are.
+    // The times lie between two ends of substeps, so that rounding of the sum cannot change their
+    // number.
     static const double times[] = {60.5, 30.25, 7.75};
     for (size_t t = 0; t < sizeof times / sizeof *times; ++t) {
         run(test, groom, way, one, times[t], &expected);
@@ -95,7 +98,8 @@ static void strands_are_the_same(struct hair_test* test, hair_groom* groom, int 
     }
 }
 
-// Five floats of 1/120 s are a little more than one of 1/24 s, and still that holds five substeps.
+// Check that rounding does not change the number of substeps. Five floats of 1/120 s exceed one
+// float of 1/24 s slightly, and still 1/24 s holds five substeps.
 static void portions_are_substeps(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands fine, coarse;
@@ -108,7 +112,7 @@ static void portions_are_substeps(struct hair_test* test, hair_groom* groom, int
         for (uint32_t i = 0; i < 20 * each[k]; ++i) hair_test_ok(test, hair_step(by_one, (float)substep));
         read(test, at_once, &coarse);
         read(test, by_one, &fine);
-        // Follow rounds what it keeps between dispatches.
+        // Follow rounds its state between dispatches.
         int exact = hair_test_way(way).solver != HAIR_SOLVER_FOLLOW;
         if (exact) assert_memory_equal(coarse.guides, fine.guides, 12 * fine.guide_vertices);
         for (uint32_t i = 0; i < 3 * fine.guide_vertices; ++i)
@@ -127,15 +131,16 @@ static void steps_give_the_same_bits(struct hair_test* test, hair_groom* groom, 
     assert_memory_equal(first.smooth, second.smooth, 12 * first.smooth_vertices);
 }
 
-// With a head that moves evenly the substeps still lie where they lay: only what is between them is rounded.
+// Check that substeps are at the same times with a head that moves evenly. Only the interpolation
+// between frames is rounded.
 static void a_moving_head_is_followed(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands fine, coarse;
     hair_instance* hair[2] = {make(test, groom, way), make(test, groom, way)};
     for (int rate = 0; rate < 2; ++rate) {
-        int each = rate ? 4 : 1; // substeps in a step
+        int each = rate ? 4 : 1; // Substeps per step.
         for (int i = 1; i <= 40 / each; ++i) {
-            float time = (float)(i * each * hair[rate]->sim.substep); // at 1.2 m/s
+            float time = (float)(i * each * hair[rate]->sim.substep); // At 1.2 m/s.
             float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1.2f * time, 0, 0, 1};
             hair_test_ok(test, hair_set_transform(hair[rate], transform));
             hair_test_ok(test, hair_step(hair[rate], (float)(each * hair[rate]->sim.substep)));
@@ -187,7 +192,7 @@ static void time_slows(struct hair_test* test, hair_groom* groom, int way)
     hair_destroy(other);
 }
 
-// More substeps than one dispatch takes.
+// Check a step that has more substeps than one dispatch takes.
 static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom, int way)
 {
     static struct strands one, many;
@@ -196,7 +201,7 @@ static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom,
     desc.substep = 0.001f;
     desc.max_dt = 1;
     for (int i = 0; i < 2; ++i) hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[i]));
-    hair_test_ok(test, hair_step(hair[0], 0.2005f)); // 200 substeps, 64 to a dispatch
+    hair_test_ok(test, hair_step(hair[0], 0.2005f)); // 200 substeps, at most 64 per dispatch.
     for (int i = 0; i < 200; ++i) hair_test_ok(test, hair_step(hair[1], i ? 0.001f : 0.0015f));
     read(test, hair[0], &one);
     read(test, hair[1], &many);

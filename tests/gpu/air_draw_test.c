@@ -1,4 +1,4 @@
-// air_draw_test.c - air as hair_draw shows it: arrows as long and of the colour that air is fast.
+// air_draw_test.c - wind drawn by hair_draw: arrows whose length and colour show the speed.
 #include "tests/support/frame.h"
 #include "tests/support/living.h"
 
@@ -6,7 +6,7 @@
 
 #include "lib/api/api.h"
 
-#define SIDE 500 // pixels: an arrow is three wide
+#define SIDE 500 // Pixels. An arrow is three pixels wide.
 #define SPEED 2.0f
 
 struct picture {
@@ -24,7 +24,8 @@ static struct hair_test_living start(void** state)
     return living;
 }
 
-// The slice through the middle of the field's box and a quarter more at both ends, which fills the picture.
+// Draw a slice through the middle of the field's box. The picture shows the box and a margin of a
+// quarter of its length at both ends.
 static void look(struct hair_test_living* living, hair_slice slice, struct picture* out)
 {
     const struct hair_field_box* box = &living->hair->field.box;
@@ -48,10 +49,11 @@ static void look(struct hair_test_living* living, hair_slice slice, struct pictu
 }
 
 struct seen {
-    int covered, slow, fast; // pixels: of arrows, of those bluer than grey, and redder
+    // Pixels of arrows, of arrows bluer than grey, and of arrows redder than grey.
+    int covered, slow, fast;
 };
 
-// In a part of the picture.
+// Count the pixels in a part of the picture, whose bounds are fractions of its sides.
 static struct seen count(const struct picture* picture, double left, double right, double below, double above)
 {
     struct seen seen = {0, 0, 0};
@@ -69,7 +71,8 @@ static struct seen count(const struct picture* picture, double left, double righ
 
 static struct picture picture;
 
-// An arrow is a quarter of a place wide and a place long: it covers an eighth.
+// Check the drawn area. An arrow is a quarter of the spacing wide and as long as the spacing, so it
+// covers an eighth.
 static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
 {
     struct hair_test_living living = start(state);
@@ -83,13 +86,13 @@ static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
         double share = (double)seen.covered / (SIDE * SIDE);
         print_message("    slice %d: %.3f covered\n", (int)slice, share);
         assert_true(seen.slow == 0 && seen.fast == 0);
-        if (slice == HAIR_SLICE_X) continue; // The wind goes through it.
+        if (slice == HAIR_SLICE_X) continue; // The wind is perpendicular to this slice.
         assert_true(fabs(share - 0.125) < 0.03);
     }
     hair_test_die(&living);
 }
 
-// Of 3 cm, in the middle of a picture of 18 by 42 cm.
+// Check the colours around a ball of 3 cm, in the middle of a picture of 18 by 42 cm.
 static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
 {
     for (int model = 0; model < 2; ++model) {
@@ -121,7 +124,7 @@ static void nothing_is_seen_where_no_step_had_wind(void** state)
     wind.velocity[0] = SPEED;
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);
-    hair_test_blow(&living, &wind); // Not before a step has had it.
+    hair_test_blow(&living, &wind); // The wind is drawn only after a step has used it.
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);
     hair_test_wait(&living, 1);

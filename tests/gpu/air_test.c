@@ -1,5 +1,5 @@
-// air_test.c - how air moves: gusts, what diverts them, sources, the application's own; measured by short light strands
-// that go with it.
+// air_test.c - the motion of the wind: gusts, shelter, sources, and the application's texture.
+// Short light strands that move with the wind measure it.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #define STEP (1.0 / 270) // Four substeps.
 
-// Free strands of two vertices, 2 mm long, which damping pins to the air.
+// Make free strands of two vertices, 2 mm long, which damping moves at the speed of the wind.
 static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* at, uint32_t count)
 {
     struct hair_test_living living;
@@ -25,11 +25,13 @@ static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* 
         hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1080, &physics);
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
-    living.hair->sim.air.ball.w = 0; // As if roots said nothing of a head.
+    // A radius of 0 removes the sphere of the head, which roots determine.
+    living.hair->sim.air.ball.w = 0;
     return living;
 }
 
-// Where a strand's first vertex goes in a step that follows one in which it has come to the air's speed. m/s.
+// Return the speed of a strand's first vertex in the last step, in m/s. Earlier steps have given
+// the strand the speed of the wind.
 static hair_vec3 speed_of(const struct hair_test_living* living, uint32_t i)
 {
     hair_vec3 now = hair_test_at(living, i, 0), then = hair_load3(living->before + 6 * (size_t)i);
@@ -60,7 +62,7 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 4, wind.velocity[2] = 3;
     wind.turbulence_intensity = 0.3f, wind.turbulence_length = 0.5f;
-    for (int i = 0; i < COUNT; ++i) // By pairs, which are a tenth of the length apart.
+    for (int i = 0; i < COUNT; ++i) // Pairs are a tenth of the turbulence length apart.
         at[i] =
             i % 2 ? hair_add(at[i - 1], hair_v3(0.05f, 0, 0))
                   : hair_v3(10 * hair_random(&random), 10 * hair_random(&random), 10 * hair_random(&random));
@@ -81,7 +83,8 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
     hair_test_die(&living);
 }
 
-// Where in their texture a place in the world is, by what the solver was given last.
+// Find the texture coordinates in the gusts of a point of the world, by the parameters that the
+// solver was given last.
 static void place_in_gusts(const struct hair_test_living* living, const double world[3], double out[3])
 {
     struct hair_wind_params params;
@@ -96,7 +99,8 @@ static void place_in_gusts(const struct hair_test_living* living, const double w
     out[2] = (double)(params.gust_from.z + way.z);
 }
 
-// Whatever the frames, the head and the wind's direction do in between.
+// Check that gusts move with the wind, for any frame times, motion of the head, and change of the
+// wind's direction.
 static void gusts_go_with_the_wind(void** state)
 {
     const hair_vec3 origin = {0, 0, 0};
@@ -143,12 +147,13 @@ static void a_ball_shelters_what_is_behind_it(void** state)
         hair_reference_around_ball(one, place, twin);
         if (i > 0)
             expect(speed_of(&living, i), twin[0], twin[1], twin[2],
-                   0.02); // The first is at the ball's margin.
+                   0.02); // The first point is at the ball's margin.
         print_message("    at (%g, %g, %g) m: %.3f of the wind\n", (double)at[i].x, (double)at[i].y,
                       (double)at[i].z, share[i]);
     }
-    assert_true(fabs(share[0]) < 0.05 && share[1] > 0.97); // Where it ends, and before.
-    assert_true(share[2] > 1.1 && share[3] > 1); // Beside.
+    // At the ball's margin, and before the ball.
+    assert_true(fabs(share[0]) < 0.05 && share[1] > 0.97);
+    assert_true(share[2] > 1.1 && share[3] > 1); // Beside the ball.
     assert_true(share[4] < 0.1 && share[5] < 0.4 && share[6] < 0.9 && share[6] > share[5]);
     assert_true(share[7] > 0.9);
     wind.shelter = 0;
@@ -170,7 +175,7 @@ static void sources_blow_as_they_say(void** state)
     wind.sources = sources;
     wind.source_count = 2;
     hair_test_blow(&living, &wind);
-    sources[0].speed = 1000; // They have been copied.
+    sources[0].speed = 1000; // The library has copied the sources.
     measure(&living);
     expect(speed_of(&living, 0), 0, 0, 4 * 0.04, 0.01);
     expect(speed_of(&living, 1), 0, 0, -4 * 0.01, 0.01);
@@ -200,7 +205,7 @@ static void the_applications_own_wind_blows_where_it_is_finite(void** state)
     struct hair_test_living living = tracers(test, at, 2);
     GLuint sound = make_texture(flow), broken = make_texture(none);
     hair_wind wind = hair_wind_default();
-    for (int k = 0; k < 3; ++k) wind.texture_transform[5 * k] = 0.5f; // Of a box from 0 to 2 m.
+    for (int k = 0; k < 3; ++k) wind.texture_transform[5 * k] = 0.5f; // Maps a box from 0 to 2 m.
     wind.texture = sound;
     hair_test_blow(&living, &wind);
     measure(&living);
@@ -214,7 +219,8 @@ static void the_applications_own_wind_blows_where_it_is_finite(void** state)
     wind.texture = sound;
     hair_test_blow(&living, &wind);
     glDeleteTextures(1, &sound);
-    measure(&living); // And no error is left in the flag, as every test's end sees.
+    // The flag must hold no OpenGL error afterwards, which the end of every test checks.
+    measure(&living);
     expect(speed_of(&living, 0), 1, 0, 0, 0.01);
     hair_test_refused(test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "not a 3D texture");
     glDeleteTextures(1, &broken);

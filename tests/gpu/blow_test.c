@@ -1,5 +1,5 @@
-// blow_test.c - hair in air that flows round colliders: sheltered behind a ball, alike at any frame rate, and with nothing of
-// it left where it is off.
+// blow_test.c - hair in a fluid that flows round colliders. Hair behind a ball is sheltered at any
+// frame rate. Without the fluid, no program runs and no memory is kept.
 #include "tests/support/living.h"
 #include "tests/support/passes.h"
 
@@ -10,7 +10,7 @@
 #include "lib/api/api.h"
 
 #define VERTICES 8
-#define BEHIND 0 // guides
+#define BEHIND 0 // Index of a guide.
 #define BESIDE 1
 
 static hair_wind blowing(float x, hair_wind_model model)
@@ -21,7 +21,8 @@ static hair_wind blowing(float x, hair_wind_model model)
     return wind;
 }
 
-// Strands that hang behind and beside where a ball is, and others all round, so that it is in the field.
+// Make strands that hang behind and beside a ball, and others around it, so that the ball is in the
+// field.
 static void begin(struct hair_test* test, hair_solver solver, struct hair_test_living* living)
 {
     static const hair_vec3 roots[] = {
@@ -48,13 +49,13 @@ static uint32_t runs(const struct hair_test_living* living)
     return sum;
 }
 
-// Mean way along the wind of both tips' over a while.
+// Compute the mean displacement of both tips along the wind, in metres.
 static void blow(struct hair_test* test, hair_wind_model model, double way[2])
 {
     struct hair_test_living living;
     begin(test, HAIR_SOLVER_DIRECT, &living);
     hair_wind wind = blowing(4, model);
-    wind.shelter = 0; // What is not the fluid's is as if nothing were in the way.
+    wind.shelter = 0; // The wind outside the fluid ignores the ball.
     hair_test_blow(&living, &wind);
     hair_test_wait(&living, 30);
     way[0] = way[1] = 0;
@@ -124,9 +125,9 @@ static void where_it_is_off_nothing_is_run_or_kept(void** state)
     assert_int_equal(runs(&living), before);
     assert_false(glIsTexture(air) || glIsBuffer(faces));
     hair_test_near("memory", 0, (double)living.test->host.live, (double)bytes,
-                   65536); // of the field, which stays
+                   65536); // The memory of the field, which stays.
     hair_test_die(&living);
-    begin(*state, HAIR_SOLVER_REDBLACK, &living); // It has no wind.
+    begin(*state, HAIR_SOLVER_REDBLACK, &living); // This solver has no wind.
     hair_test_blow(&living, &wind);
     hair_test_wait(&living, 2);
     assert_int_equal(runs(&living), before);
@@ -189,7 +190,7 @@ static void what_is_saved_goes_on_with_the_same_bits(void** state)
     hair_test_read_guides(&living), hair_test_read_guides(&other);
     assert_memory_equal(living.positions, straight, sizeof straight);
     assert_memory_equal(other.positions, straight, sizeof straight);
-    // Where it is another's, or there is none, air begins with the wind.
+    // With another resolution, or without wind, the fluid starts with the ambient wind.
     wind.resolution = 32;
     for (int i = 0; i < 2; ++i) {
         hair_test_blow(&other, i ? NULL : &wind);

@@ -1,5 +1,6 @@
-// body_test.c - what bodies let through of lights on their way to hair, which is nothing: by either way to find hair's own
-// shadow, either shading and the host's, of every light, in maps with and without perspective; and no program knows of it without.
+// body_test.c - opaque geometry blocks the light on its way to hair. Tests cover both self-shadow
+// methods, all shadings, every light, and maps with and without perspective. Programs without
+// opaque geometry have no code for it.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -12,8 +13,8 @@
 
 #define SIZE 256
 #define TEXELS 64
-#define HALF 0.3f // of what is seen, m
-#define PLATE 0.1f // z of a plate that lies across the light, m
+#define HALF 0.3f // Half of the side of the visible square, in metres.
+#define PLATE 0.1f // Height z of a plate across the light, in metres.
 #define BIAS 0.004f
 
 struct fixture {
@@ -47,7 +48,8 @@ static GLuint make_map(float depth)
     return map;
 }
 
-// Straight down -z at a square of 2 HALF: depth (1 - z) / 2, from the eye as from the light.
+// Make a matrix that looks straight down -z at a square of side 2 HALF. The depth is (1 - z) / 2
+// for the eye and for the light.
 static void look_down(float matrix[16])
 {
     memset(matrix, 0, 16 * sizeof *matrix);
@@ -120,7 +122,7 @@ static void draw(struct fixture* f, uint32_t lights)
     hair_test_frame_read(&f->frame, f->pixels);
 }
 
-// The columns of texels from `from` to before `to`.
+// Fill the columns of texels in [from, to).
 static void put_plate(GLuint map, int from, int to, float depth)
 {
     glClearTexSubImage(map, 0, from, 0, 0, to - from, TEXELS, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
@@ -131,8 +133,9 @@ static double across(int pixel)
     return ((pixel % SIZE + 0.5) / SIZE * 2 - 1) * (double)HALF;
 }
 
-// Where nothing hides it, as without a body; a strand's segments carry light from vertex to vertex, so that 6 cm on both sides of
-// the edge are left out.
+// Check that hair behind the plate is black, and that hair beside it is as bright as without the
+// plate. Pixels within 6 cm of the edge are ignored, because segments interpolate light between
+// vertices.
 static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
 {
     static float open[4 * SIZE * SIZE];
@@ -160,8 +163,8 @@ static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
     }
 }
 
-// What a plate in the map of hair leaves of the light, as if it were hair, and what one in the map of bodies does: by how far
-// the strand lies behind it.
+// Compare the transmitted light behind a plate in the map of hair with that behind a plate in the
+// map of opaque geometry. Each depends on the distance of the strand behind the plate.
 static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
@@ -188,7 +191,7 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
                       sum[0] / count[0], sum[1] / count[1]);
         assert_true(count[0] > 20 && count[1] > 20);
         hair_test_near("beyond the bias", 0, most, 0, 0);
-        assert_true(least > 0.5); // Of what hair lets through, all.
+        assert_true(least > 0.5); // Within the bias, all light that hair lets through remains.
         if (shadow == HAIR_SELF_SHADOW_DEPTH) hair_test_near("as hair", 0, sum[0] / count[0], exp(-1), 0.06);
         finish(f);
     }
@@ -199,7 +202,7 @@ static void every_light_has_bodies_of_its_own(void** state)
     struct fixture* f = start(state);
     uint32_t held[4] = {0};
     shade_by(f, lights_glsl);
-    f->light[0].hair_shadow_map = 0; // A light may have either map, both or none.
+    f->light[0].hair_shadow_map = 0; // A light may have either map, both, or none.
     f->light[2].hair_shadow_map = f->open;
     for (int i = 0; i < 4; ++i) {
         f->light[i].opaque_shadow_map = i == 1 ? 0 : f->map[i];
@@ -209,7 +212,8 @@ static void every_light_has_bodies_of_its_own(void** state)
     for (int p = 0; p < SIZE * SIZE; ++p) {
         double at = (across(p) / (double)HALF + 1) * TEXELS / 2, edge = fabs(remainder(at, 16));
         int column = (int)(at / 16);
-        if (f->pixels[4 * p + 1] <= 0 || edge < 1.6) continue; // B-splines reach one and a half.
+        // Pixels within 1.6 texels of the edge are ignored, because B-splines reach 1.5 texels.
+        if (f->pixels[4 * p + 1] <= 0 || edge < 1.6) continue;
         ++held[column];
         for (int i = 0; i < 4; ++i)
             hair_test_near("light", (size_t)(4 * p + i), (double)f->pixels[4 * p + i],
@@ -220,7 +224,8 @@ static void every_light_has_bodies_of_its_own(void** state)
     finish(f);
 }
 
-// A lamp 1 m before the head's origin that sees 0.4 of its distance to each side, from 0.2 m to 3 m.
+// Set a lamp 1 m before the head's origin. The frustum is 0.4 of the distance to each side, from
+// 0.2 m to 3 m.
 static void look_from_lamp(hair_light* light)
 {
     float *m = light->shadow_matrix, near = 0.2f, far = 3;
@@ -234,7 +239,8 @@ static void look_from_lamp(hair_light* light)
     m[15] = 1;
 }
 
-// A plate of bodies on one side; and one in the map of hair, whose depths tell metres along each ray.
+// Check a plate of opaque geometry on one side, and a plate in the map of hair. The depths of both
+// give metres along each ray.
 static void maps_may_be_in_perspective(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
@@ -300,7 +306,7 @@ static void without_bodies_no_program_knows_of_them(void** state)
     assert_int_equal(count_passes(f, "blocked"), known + 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
     assert_int_equal(before.bytes, after.bytes);
-    f->view.pass = HAIR_PASS_DEPTH; // Depth has no light.
+    f->view.pass = HAIR_PASS_DEPTH; // This pass has no light.
     draw(f, 1);
     assert_int_equal(count_passes(f, "blocked"), known + 1);
     finish(f);
@@ -314,7 +320,7 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
     glCreateTextures(GL_TEXTURE_2D, 3, odd);
     glTextureStorage2D(odd[0], 1, GL_R32F, 1, 1);
     glClearTexImage(odd[0], 0, GL_RED, GL_FLOAT, nan_);
-    glTextureStorage2D(odd[1], 3, GL_RGBA8, 5, 3); // The third has no storage at all.
+    glTextureStorage2D(odd[1], 3, GL_RGBA8, 5, 3); // The third texture has no storage.
     for (int i = 0; i < 3 * 6; ++i) {
         hair_light* light = &f->light[0];
         light->kind = HAIR_LIGHT_DIRECTIONAL;
@@ -327,7 +333,7 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
         case 3: look_from_lamp(light), light->position[2] = 0; break;
         case 4:
             look_from_lamp(light), light->shadow_matrix[14] = -0.4f, light->shadow_matrix[15] = 0;
-            break; // Some of the hair is behind it.
+            break; // Some of the hair is behind the lamp.
         case 5: look_from_lamp(light), light->shadow_matrix[14] = -3e38f; break;
         default: break;
         }
@@ -362,7 +368,7 @@ static void what_is_no_map_of_a_light_is_refused(void** state)
           : i == 1 ? 2
                    : 14] = i == 0   ? 0.5f
                            : i == 1 ? 0.3f
-                                    : 2; // Against the light, askew, reversed.
+                                    : 2; // Against the light, oblique, and reversed.
         hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
                           "lights[0].shadow_matrix is neither orthographic nor in perspective");
         m[i == 0 ? 10 : i == 1 ? 2 : 14] = was;

@@ -1,18 +1,19 @@
-// contained_test.c - one guide that is not finite: it alone goes back to its rest pose, and is counted.
+// contained_test.c - a guide that is not finite: only this guide returns to its rest pose, and is
+// counted.
 #include "tests/support/motion.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST 256 // guide vertices
+#define MOST 256 // Maximum number of guide vertices.
 
-// Where in the state something is wrong.
+// A number in the state to overwrite with an invalid value.
 struct wound {
     const char* name;
     GLuint (*buffer)(const struct hair_sim* sim);
-    uint32_t stride, at; // bytes
-    uint32_t vertex; // of the guide
-    int rests; // what is wrong with a place nothing but rest can mend
+    uint32_t stride, at; // Bytes.
+    uint32_t vertex; // Index within the guide.
+    int rests; // 1 if the value is part of a position, which only the rest pose can repair.
 };
 
 static GLuint state_of(const struct hair_sim* sim)
@@ -23,7 +24,7 @@ static GLuint history_of(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE || sim->solver == HAIR_SOLVER_FOLLOW
                ? 0
-               : sim->history; // which have none
+               : sim->history; // These solvers have no history.
 }
 static GLuint material_of(const struct hair_sim* sim)
 {
@@ -42,7 +43,7 @@ static const struct wound wounds[] = {
     {"a frame", material_of, sizeof(hair_vec4), 12, 7, 0},
 };
 #define WOUNDS (sizeof wounds / sizeof *wounds)
-#define HURT 3 // guide
+#define HURT 3 // Index of the guide.
 
 static hair_instance* make(struct hair_test* test, const hair_groom* groom, int way, uint32_t colliders)
 {
@@ -88,8 +89,8 @@ static void check_finite(GLuint buffer, const struct wound* wound)
         if (!isfinite(number[i])) fail_msg("%s: number %d is %g", wound->name, (int)i, (double)number[i]);
 }
 
-// `value` becomes part of the guide; the others move on like those of an instance that was left alone, and it is
-// finite again after a step.
+// Write `value` into the guide. Check that the others move as in an instance that was left alone,
+// and that the guide is finite after a step.
 static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, uint32_t colliders,
                      const struct wound* wound, float value)
 {
@@ -101,7 +102,8 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
         for (int k = 0; k < 2; ++k) step(test, hair[i], k);
     }
     GLuint buffer = wound->buffer(&hair[1]->sim);
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
+    glFinish();
     if (buffer)
         glNamedBufferSubData(buffer, (GLintptr)(guide->first + wound->vertex) * wound->stride + wound->at,
                              sizeof value, &value);

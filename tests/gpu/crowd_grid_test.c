@@ -1,11 +1,12 @@
-// crowd_grid_test.c - the grid of the crowd: sums that are exact, and accelerations as a twin in double precision has
-// them.
+// crowd_grid_test.c - the hair-hair grid: sums are exact, and accelerations agree with a reference
+// in double precision.
 #include "tests/support/crowd.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// Anywhere within a cube about the origin, at speeds up to `fastest` along each axis.
+// Place all vertices at random in a cube about the origin, at speeds up to `fastest` along each
+// axis.
 static struct hair_state* scatter(const struct hair_test_living* living, float width, float fastest,
                                   uint32_t* random)
 {
@@ -23,7 +24,8 @@ static struct hair_state* scatter(const struct hair_test_living* living, float w
 #define NUMBERS HAIR_CROWD_NODE_NUMBERS
 #define STRAND_UNITS(crowd) (16 * (double)(crowd)->cell / (crowd)->metres * HAIR_CROWD_UNITS)
 
-// The grid's buffers after the block's start, and the twin's: the same sums in double precision.
+// Buffers of the grid after the start of the block, and the sums of the reference in double
+// precision.
 struct grids {
     struct hair_crowd crowd;
     double substep;
@@ -35,9 +37,9 @@ struct grids {
     double* twin;
 };
 
-// A vertex among the eight nodes around it.
+// Trilinear position of a vertex among the eight nodes around it.
 struct seat {
-    double speed[3], at[3]; // over HAIR_CROWD_SPEED; in cells, in the middle of the block
+    double speed[3], at[3]; // Speed divided by HAIR_CROWD_SPEED. Position in cells.
     uint32_t lowest[3];
     int inside;
 };
@@ -56,7 +58,7 @@ static struct seat seat_of(const struct grids* g, const struct hair_state* state
     return seat;
 }
 
-// Returns its weight there; `from` in cells from the node, whose number is `node`.
+// Return the weight at corner k. `from` is the offset from the node in cells, and `node` its index.
 static double reach(const struct grids* g, const struct seat* seat, uint32_t k, double from[3],
                     uint32_t* node)
 {
@@ -71,7 +73,8 @@ static double reach(const struct grids* g, const struct seat* seat, uint32_t k, 
     return weight;
 }
 
-// Mass at corner k of a seat by all vertices of i's guide that reach any of its corners one after the other.
+// Return the mass at corner k of the cell by the guide of i alone. The sum takes the run of
+// consecutive vertices about i that reach any corner.
 static double own_mass(const struct grids* g, const struct hair_state* state, uint32_t i, uint32_t k)
 {
     struct seat seat = seat_of(g, &state[i]);
@@ -151,7 +154,7 @@ static void the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair(void** 
     int64_t sum[5] = {0}, expected[5] = {0};
     for (uint32_t n = 0; n < g.nodes; ++n) {
         for (int k = 0; k < 5; ++k) sum[k] += g.grid[NUMBERS * n + (uint32_t)k];
-        for (uint32_t k = 0; k < NUMBERS; ++k) // Of 2^30 in all, 2^21 and more a vertex.
+        for (uint32_t k = 0; k < NUMBERS; ++k) // The total is 2^30. A vertex has at least 2^21.
             hair_test_near("node", NUMBERS * n + k, g.grid[NUMBERS * n + k], g.twin[NUMBERS * n + k], 2000);
     }
     uint32_t outside = 0;
@@ -167,7 +170,8 @@ static void the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair(void** 
     assert_in_range(outside, 1, living.vertices * 3 / 4);
     assert_int_equal(sum[0], expected[0]);
     assert_int_equal(sum[4], expected[4]);
-    // The speed itself is a product in floats, here and there: a few units of 2^21 for each vertex.
+    // The speed itself is a product in floats on both sides. Each vertex has an error of a few
+    // units of 2^21.
     for (int k = 1; k < 4; ++k) assert_true(llabs((long long)(sum[k] - expected[k])) <= 2 * living.vertices);
     free(at);
     let_go(&g);
@@ -187,7 +191,7 @@ static void solve(double m[3][3], const double l[3], double w[3])
     for (int i = 0; i < 3; ++i) w[i] = (c[0][i] * l[0] + c[1][i] * l[1] + c[2][i] * l[2]) / whole;
 }
 
-// Of all hair at a node, the rigid motion at `from`.
+// Compute the velocity at `from` of the rigid motion of all hair at a node.
 static void rigid(const double* sum, const double from[3], double out[3])
 {
     double m = sum[0], c[3], v[3], inertia[3][3], l[3], turn[3];
@@ -249,7 +253,7 @@ static void accelerations_are_those_of_the_twin_in_double_precision(void** state
     hair_test_die(&living);
 }
 
-// Sums of mass times acceleration and of its torque, by the sums of their lengths.
+// Magnitude of the sum divided by the sum of magnitudes, for forces and for torques.
 struct one_sided {
     double force, torque;
 };

@@ -1,5 +1,5 @@
-// crowd_laws_test.c - free strands among each other: cohesion and volume keep momentum and angular momentum, and make
-// no energy.
+// crowd_laws_test.c - free strands among each other: cohesion and volume keep momentum and angular
+// momentum, and add no energy.
 #include "tests/support/crowd.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ enum scene { SPINNING, CROSSING, MEETING, SCENES };
 
 static const char* const scene_name[] = {"spinning", "crossing", "meeting"};
 
-// A bundle; strands through a ball in all directions; and strands in a ring.
+// Make a bundle, strands through a ball in all directions, or strands in a ring.
 static struct hair_test_strands strands_of(enum scene scene, uint32_t* random)
 {
     struct hair_test_strands strands = hair_test_strands_make(STRANDS, VERTICES);
@@ -32,7 +32,7 @@ static struct hair_test_strands strands_of(enum scene scene, uint32_t* random)
     return strands;
 }
 
-// Rigid motion of each strand: that of all, and its own.
+// Give each strand a rigid motion: the common motion plus a motion of its own.
 static void set_in_motion(struct hair_test_living* living, enum scene scene, uint32_t* random)
 {
     struct hair_sim* sim = &living->hair->sim;
@@ -57,17 +57,20 @@ static void set_in_motion(struct hair_test_living* living, enum scene scene, uin
 }
 
 struct motion {
-    double momentum[3], angular[3], energy; // for each metre's mass; angular about the centre; kinetic
+    // Momentum, angular momentum about the centre, and kinetic energy. Each is for a mass of 1 kg
+    // for every metre of hair.
+    double momentum[3], angular[3], energy;
 };
 
-// In the middle of the last substep.
+// Measure the motion in the middle of the last substep.
 static struct motion motion_of(const struct hair_test_living* living)
 {
     const struct hair_sim* sim = &living->hair->sim;
     struct hair_state* at = hair_test_buffer(sim->state, living->vertices * sizeof *at);
     struct motion m = {0};
     double total = 0, centre[3] = {0};
-    for (uint32_t k = 0; k < 2 * living->vertices; ++k) { // First for the centre, then about it.
+    // The first pass finds the centre. The second pass measures about the centre.
+    for (uint32_t k = 0; k < 2 * living->vertices; ++k) {
         uint32_t i = k % living->vertices, again = k / living->vertices;
         double after = (double)living->groom->rest[i].position.w;
         double mass = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
@@ -95,10 +98,12 @@ static double change(const double a[3], const double b[3])
 }
 
 struct change {
-    double momentum, angular, energy; // the first two by what there was; kinetic energy left
+    // Changes of momentum and angular momentum, relative to the initial values, and the fraction of
+    // kinetic energy that remains.
+    double momentum, angular, energy;
 };
 
-// Over a second.
+// Simulate for a second.
 static struct change run(struct hair_test* test, hair_solver solver, enum scene scene, float cohesion,
                          float volume)
 {

@@ -1,5 +1,5 @@
-// crowd_test.c - the hair around a hair: relative motion damped at its rate, volume kept, time in blocks; and nothing
-// of it where it is off.
+// crowd_test.c - the hair around a hair: relative motion decays at its rate, volume is kept, and
+// time is divided into blocks. Without cohesion and volume there is nothing of the grid.
 #include "tests/support/crowd.h"
 
 #include <math.h>
@@ -8,8 +8,9 @@
 
 #include "tests/support/motion.h"
 
-// Of each two strands in one place one moves one way, one the other, all free. Returns what is left of that after
-// `time`, as a share; `drift`: of the speed of all together, which is none.
+// Simulate pairs of free strands in one place, whose strands move in opposite directions. Return
+// the fraction of the relative motion that remains after `time`. `drift` is the mean motion of all
+// strands relative to the initial speed.
 static double slowing(struct hair_test* test, hair_solver solver, double time, float cohesion, double* drift)
 {
     struct hair_test_living living;
@@ -55,7 +56,8 @@ static void relative_motion_decays_at_the_rate_of_cohesion_and_none_is_made(void
     hair_test_near("left", 0, slowing(*state, HAIR_SOLVER_DIRECT, 0.1, 0, &drift), 1, 1e-4);
 }
 
-// Root mean square distance of the tips from their middle, after air has blown on one side of hair against a ball.
+// Return the root mean square distance of the tips from their mean, after wind has blown hair
+// against a ball.
 static double spread(struct hair_test* test, float volume)
 {
     struct hair_test_living living;
@@ -65,7 +67,7 @@ static double spread(struct hair_test* test, float volume)
     physics.pressure_stiffness = volume;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_crowd(test, &desc, 0.04f, &living);
-    // Two walls that leave half of the width.
+    // Two walls leave half of the width.
     wall[0].size[0] = 1;
     wall[1] = wall[0];
     wall[0].position[0] = -0.99f, wall[1].position[0] = 1.03f;
@@ -109,7 +111,7 @@ static void a_groom_at_rest_does_not_press(void** state)
     hair_test_die(&living);
 }
 
-// Clamped hair that falls, and swings.
+// Make clamped hair that falls and swings.
 static void swing(struct hair_test_living* living, struct hair_test* test, hair_solver solver,
                   hair_thread_mapping mapping)
 {
@@ -131,7 +133,7 @@ static double apart(const struct hair_test_living* a, const struct hair_test_liv
     return most;
 }
 
-// A strand that swings through the grid, at a slant to it, by itself.
+// Check a single strand that swings through the grid, oblique to its axes.
 static void a_strand_by_itself_feels_nothing(void** state)
 {
     struct hair_test_living living[2];
@@ -160,7 +162,8 @@ static void a_strand_by_itself_feels_nothing(void** state)
     for (int on = 0; on < 2; ++on) hair_test_die(&living[on]);
 }
 
-// What is not finite of one strand: it alone is put back, and what the others feel stays within bounds.
+// Check a strand that is not finite. Only this strand is put back, and accelerations of the others
+// stay within bounds.
 static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
 {
     static const float bad[] = {NAN, INFINITY, -3e38f};
@@ -237,7 +240,8 @@ static void the_greatest_values_leave_hair_finite(void** state)
 
 static void motion_depends_neither_on_the_frame_rate_nor_on_the_mapping(void** state)
 {
-    static const int per[] = {1, 2, 4, 5}; // frames of 1/60 s cut in as many: 4 and 5 cut blocks
+    // Number of parts that frames of 1/60 s are divided into. 4 and 5 divide blocks.
+    static const int per[] = {1, 2, 4, 5};
     struct hair_test_living once, other;
     swing(&once, *state, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
     hair_test_wait(&once, 40);
@@ -273,7 +277,7 @@ static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state
     hair_test_read_guides(&straight);
     hair_test_read_guides(&loaded);
     assert_memory_equal(straight.positions, loaded.positions, 3 * sizeof(float) * straight.vertices);
-    // An instance without a crowd goes on without.
+    // An instance without the hair-hair grid goes on without it.
     hair_physics off = straight.physics;
     hair_test_die(&loaded);
     off.cohesion = off.pressure_stiffness = 0;
@@ -292,7 +296,7 @@ static void what_is_off_has_no_buffer_and_changes_no_bit(void** state)
     static struct hair_test_seen never, off;
     struct hair_test_subject subject = moving(HAIR_SOLVER_DIRECT, 0, 0);
     run(*state, &subject, &never);
-    // Turned on and off again before anything moves: there are buffers, but nobody reads them.
+    // The physics are turned on and off before any step. The buffers exist, but nothing reads them.
     hair_instance* hair = hair_test_subject_make(*state, &subject);
     assert_int_equal(hair->sim.crowd.texture, 0);
     assert_int_equal(hair->sim.crowd.grid, 0);
@@ -307,7 +311,7 @@ static void what_is_off_has_no_buffer_and_changes_no_bit(void** state)
     hair_test_look(*state, hair, &off);
     hair_test_same(&never, &off);
     hair_destroy(hair);
-    subject = moving(HAIR_SOLVER_REDBLACK, 100, 1); // which has none of it
+    subject = moving(HAIR_SOLVER_REDBLACK, 100, 1); // This solver has no hair-hair grid.
     hair = hair_test_subject_make(*state, &subject);
     hair_test_ok(*state, hair_step(hair, 0.02f));
     assert_int_equal(hair->sim.crowd.texture, 0);

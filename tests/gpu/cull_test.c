@@ -1,4 +1,5 @@
-// cull_test.c - hair that no view shows is not drawn, lists that are there are not made again, and nothing is waited for.
+// cull_test.c - hair out of view is not drawn, existing strand lists are not made again, and
+// nothing waits for the GPU.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -55,7 +56,7 @@ static void finish(struct fixture* f)
     hair_context_destroy(f->context);
 }
 
-// From `eye`, looking along `way`.
+// Make a view matrix from `eye`, looking along `way`.
 static void look_along(hair_vec3 eye, hair_vec3 way, float view[16])
 {
     hair_vec3 z = hair_scale(hair_normalize(way, hair_v3(0, 0, -1)), -1), x = hair_perpendicular(z);
@@ -79,7 +80,8 @@ static void look_along(hair_vec3 eye, hair_vec3 way, float view[16])
     memcpy(view, m, sizeof m);
 }
 
-// What games have: perspective, orthographic, reversed without end, and one whose left half is all that is shown.
+// Make a projection as games have it: perspective, orthographic, reversed and infinite, or one that
+// shows only its left half.
 static void project(int kind, float projection[16])
 {
     const float n = 0.05f, f = 3, g = 1.6f;
@@ -105,8 +107,8 @@ static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
            clip[2] >= (zero_to_one ? 0 : -clip[3]);
 }
 
-// Eyes all around and in the midst of it, looking anywhere: wherever a vertex is in view the hair is drawn, and mostly it is
-// not drawn where it is wholly out of view.
+// Check eyes around and inside the hair, with any direction. Hair is drawn if a vertex is in view,
+// and mostly culled if it is wholly out of view.
 static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void** state)
 {
     static float at[3 * MOST];
@@ -159,7 +161,7 @@ static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
     finish(&f);
 }
 
-// What may be anywhere is drawn.
+// Check that hair that may be anywhere is drawn.
 static void hair_of_free_roots_is_drawn_wherever_its_groom_is(void** state)
 {
     struct fixture f = start(state);
@@ -189,7 +191,7 @@ static float differ(const float* a, const float* b)
     return most;
 }
 
-// The same picture as one for which all is done anew.
+// Compare the picture with one for which everything is computed anew.
 static void what_has_not_changed_is_not_listed_again(void** state)
 {
     static float kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
@@ -201,7 +203,8 @@ static void what_has_not_changed_is_not_listed_again(void** state)
     lod.strand_pixels = 4;
     project(0, view.projection);
     for (int i = 0; i < 10; ++i) {
-        // Again; from elsewhere; less of it; by a level of detail; again; from elsewhere; stepped; again.
+        // The cases: again, another view, lower density, with a level of detail, again, another
+        // view, stepped, and again.
         static const uint32_t dispatches[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
         look_along(hair_v3(0, 0.1f, i >= 2 && i < 6 ? 0.7f : 0.8f), hair_v3(0, 0, -1), view.view);
         look.density = i >= 3 ? 0.6f : 1;
@@ -233,7 +236,7 @@ static uint32_t count_primitives(struct fixture* f, const hair_view* view, float
     return count;
 }
 
-// From near by, by every kind of projection. Of hair whose roots are free no patch may be left out.
+// Check close views with every kind of projection. With free roots no patch may be left out.
 static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(void** state)
 {
     static float some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
@@ -259,7 +262,8 @@ static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(
         assert_true(differ(some, all) == 0);
     }
     print_message("    %u primitives of %u\n", drawn[0], drawn[1]);
-    assert_true(drawn[0] < drawn[1]); // Strands are as long as all of the hair is wide: few can be told.
+    // Strands are as long as all of the hair is wide, so few patches are out of view.
+    assert_true(drawn[0] < drawn[1]);
     finish(&f);
 }
 
@@ -270,7 +274,8 @@ static hair_memory memory_of(struct fixture* f)
     return memory;
 }
 
-// Beside a light with a shadow: which takes a texture and a sampler to be bound, and nothing else does.
+// Check draws without lights, with a light, and with a light that has a shadow map. Only the shadow
+// map makes the library bind a texture and a sampler.
 static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
@@ -284,7 +289,7 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
     glTextureStorage2D(shadow, 1, GL_DEPTH_COMPONENT32F, 4, 4);
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);
     project(0, view.projection);
-    read(&f, &view, pixels); // What is made, is.
+    read(&f, &view, pixels); // The first draw makes all that is made once.
     for (int i = 0; i < 3; ++i) {
         light.hair_shadow_map = i == 2 ? shadow : 0;
         view.lights = &light;
@@ -306,7 +311,7 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
     finish(&f);
 }
 
-// A frame is a step and a draw, with colliders that followers come into and all passes timed.
+// Check frames of a step and a draw, with colliders in reach of followers and all passes timed.
 static void no_frame_waits_for_the_gpu(void** state)
 {
     struct fixture f = start(state);
@@ -323,7 +328,7 @@ static void no_frame_waits_for_the_gpu(void** state)
             if (frame == 1) hair_test_trace_clear();
             hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
             hair_test_ok(f.test, hair_draw(f.hair, &view));
-            glFlush(); // As who shows a picture does.
+            glFlush(); // An application that shows the picture flushes too.
         }
         if (hair_test_trace_waits())
             fail_msg("%u waits: %s", hair_test_trace_waits(), hair_test_trace_list());
@@ -332,7 +337,7 @@ static void no_frame_waits_for_the_gpu(void** state)
         for (int i = 0; i < 5; ++i) assert_int_equal(hair_test_trace_count(waiting[i]), 0);
         looked += hair_test_trace_count("glClientWaitSync");
     }
-    assert_true(looked > 0); // Until they rested, guides were looked at.
+    assert_true(looked > 0); // Guides were examined until they rested.
     finish(&f);
 }
 

@@ -1,4 +1,5 @@
-// distance_test.c - the distance to shapes: GLSL as C, and C as points of the surface say.
+// distance_test.c - the distance to shapes: GLSL agrees with C, and C agrees with points of the
+// surface.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -54,8 +55,8 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
     glDeleteBuffers(2, buffer);
 }
 
-// Where two parts of the surface are about as near, either gradient is right: the distance a little way along it must
-// have grown by as much.
+// Compare GLSL with C. Either gradient is right at points that are about equally near to two parts
+// of the surface. There the distance at a small step along the gradient must be larger by the step.
 static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
 {
     static float points[POINTS][4], found[POINTS][4];
@@ -63,7 +64,8 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
     for (uint32_t shape = 0; shape < SHAPES; ++shape) {
         double most = 0, turned = 0;
         for (int i = 0; i < POINTS; ++i) any_point(&seed, points[i]);
-        for (int k = 0; k < 4; ++k) points[0][k] = 0; // In the middle, and on the axis.
+        // One point is in the middle, and one on the axis.
+        for (int k = 0; k < 4; ++k) points[0][k] = 0;
         points[1][0] = points[1][2] = 0;
         run(*state, shape, points, found);
         for (int i = 0; i < POINTS; ++i) {
@@ -84,8 +86,8 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
     }
 }
 
-// The closed form against a walk along the gradient: from anywhere one step of the distance leads to the surface, and
-// no step in another direction that is shorter does.
+// Check the closed form. From any point, one step of the distance along the gradient leads to the
+// surface, and no shorter step in another direction does.
 static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(void** state)
 {
     (void)state;
@@ -113,7 +115,7 @@ static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(
         }
 }
 
-// What is inside is so by definition of the shape.
+// Compare the sign with the definition of the shape.
 static void the_sign_says_what_is_inside(void** state)
 {
     (void)state;
@@ -142,7 +144,7 @@ static void a_collider_is_its_shape_turned_moved_and_rounded(void** state)
     hair_collider collider = hair_collider_default();
     collider.shape = HAIR_SHAPE_BOX;
     collider.rounding = 0.05f;
-    collider.rotation[2] = collider.rotation[3] = sqrtf(0.5f); // x to y
+    collider.rotation[2] = collider.rotation[3] = sqrtf(0.5f); // From x to y.
     for (int k = 0; k < 3; ++k) collider.size[k] = size[k], collider.position[k] = (float)(k + 1);
     const double above[3] = {1, 2.5, 3}, aside[3] = {1.5 + 0.3, 2, 3};
     double n[3];
@@ -150,7 +152,7 @@ static void a_collider_is_its_shape_turned_moved_and_rounded(void** state)
     hair_test_near("upwards", 0, n[1], 1, 1e-6);
     hair_test_near("aside", 0, hair_distance_to_collider(&collider, aside, n), 0.8 - 0.5 - 0.05, 1e-6);
     hair_test_near("sideways", 0, n[0], 1, 1e-6);
-    collider.shape = HAIR_SHAPE_MESH; // Its mesh is not there.
+    collider.shape = HAIR_SHAPE_MESH; // The collider has no mesh.
     assert_true(hair_distance_to_collider(&collider, above, n) == INFINITY);
 }
 

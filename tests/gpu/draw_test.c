@@ -1,5 +1,5 @@
-// draw_test.c - what hair_draw leaves in the framebuffer: colour and depth agree, ribbons have their true
-// width.
+// draw_test.c - the framebuffer after hair_draw: colour and depth agree, and ribbons have their
+// true width.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// A metre around the head, seen along -z.
+// Make a view of 1 m around the head, along -z.
 static hair_view view_of(hair_pass pass, hair_primitive primitive)
 {
     hair_view view = hair_view_default();
@@ -49,7 +49,7 @@ static hair_view view_of(hair_pass pass, hair_primitive primitive)
     return view;
 }
 
-// Pixels and depths of one draw.
+// Read pixels and depths of one draw.
 static void draw(struct fixture* f, const hair_view* view, GLsizei side, GLsizei samples, float* pixels,
                  float* depths)
 {
@@ -90,8 +90,8 @@ static double coverage(const float* pixels, GLsizei side)
     return sum / side / side;
 }
 
-// Four samples a pixel see as much as sixteen pixels in its place: ribbons of about a pixel are of true width
-// in both.
+// Check that four samples per pixel cover the same area as sixteen pixels in its place. Ribbons of
+// about a pixel have their true width in both.
 static void samples_and_smaller_pixels_see_the_same_width(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
@@ -120,7 +120,8 @@ static void a_wider_strand_covers_more(void** state)
     assert_true(covered[1] > 2 * covered[0]);
 }
 
-// Grey at rest; red where a guide is stretched: here all of them by a tenth.
+// Check that guides are grey at rest, and red where they are stretched. Here all guides are
+// stretched by a tenth.
 static void guides_are_drawn_in_the_colour_of_their_stretch(void** state)
 {
     static float pixels[4 * SIDE * SIDE];

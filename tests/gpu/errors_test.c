@@ -1,4 +1,5 @@
-// errors_test.c - every wrong argument is refused with the right code and one sentence that names it.
+// errors_test.c - every wrong argument is refused with the right code and one message that names
+// it.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -97,7 +98,7 @@ static void null_arguments_are_named(void** state)
     drop(hair, groom);
 }
 
-// Every number of every desc -------------------------------------------------------------------------------
+// Every number of every desc ----------------------------------------------------------------------
 
 struct user {
     struct hair_test* test;
@@ -105,7 +106,7 @@ struct user {
     hair_instance* hair;
 };
 
-// Give the library this desc.
+// Pass the desc to the library.
 static hair_result use_hair_physics(struct user* user, void* desc)
 {
     return hair_set_physics(user->hair, desc);
@@ -146,12 +147,13 @@ static hair_result use_hair_groom_desc(struct user* user, void* given)
     static const uint32_t vertices[1] = {2};
     hair_groom_desc* desc = given;
     hair_groom* groom = NULL;
-    // 10 cm long, whatever its unit.
+    // The strand is 10 cm long in any unit.
     float positions[6] = {0, 0, 0, 0, desc->import ? 0.1f / desc->import->scale : 0.1f, 0};
     desc->host = &user->test->host.host;
     desc->positions = positions;
     desc->strand_vertices = vertices;
-    if (desc->strand_count == 0 && desc->header.version) desc->strand_count = 1; // which has no default
+    // This field has no default.
+    if (desc->strand_count == 0 && desc->header.version) desc->strand_count = 1;
     hair_result result = hair_groom_create(desc, &groom);
     hair_groom_destroy(groom);
     return result;
@@ -200,7 +202,7 @@ SUBJECT(hair_style_desc)
 #S, use_##S, init_##S, hair_fields_of_##S()                                                          \
     }
 
-// strand_count is the one number that the test fills in itself when it is 0.
+// Return whether the test replaces 0 by a valid value. Only strand_count is replaced.
 static int is_filled_in(const char* name)
 {
     return strcmp(name, "hair_groom_desc.strand_count") == 0;
@@ -259,8 +261,8 @@ static void every_number_outside_its_range_is_named(void** state)
     check_subjects(state, check_fields);
 }
 
-// At the ends of every range and at the defaults it works. Not hair_desc: a matrix of numbers that are all in
-// their range is no rigid motion.
+// Check that the library accepts both ends of every range, and the defaults. hair_desc is left out,
+// because a matrix of numbers within their ranges is no rigid motion.
 static void check_ends(struct user* user, const struct subject* subject)
 {
     struct hair_test_frame frame;
@@ -272,7 +274,7 @@ static void check_ends(struct user* user, const struct subject* subject)
         const struct hair_field* field = &subject->fields.field[i];
         if (strchr(field->name, '[') && field->max > 1e30) continue;
         if (field->type == HAIR_FIELD_UINT && field->max > 4096)
-            continue; // counts of arrays, which are not there
+            continue; // These fields are counts of arrays, which the desc does not have.
         for (int end = 0; end < 2; ++end) {
             subject->init(desc);
             double value = end ? field->max : field->min;
@@ -280,7 +282,7 @@ static void check_ends(struct user* user, const struct subject* subject)
             uint32_t whole = (uint32_t)value;
             memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
             if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
-                whole == HAIR_THREAD_MAPPING_FEEDBACK) // Which one solver has.
+                whole == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
                 ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
             hair_test_ok(user->test, subject->use(user, desc));
         }
@@ -302,7 +304,7 @@ static void check_made(struct user* user, const struct subject* subject)
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         subject->init(desc);
         memcpy(desc, &wrong[i], sizeof wrong[i]);
-        // Its host is not trusted, so that there may be no sentence.
+        // The library may not trust the host of a wrong desc, so there may be no message.
         hair_result result = subject->use(user, desc);
         if (result != HAIR_ERROR_VERSION)
             fail_msg("%s.header of (%u, %u): %s", subject->name, wrong[i].size, wrong[i].version,
@@ -316,7 +318,8 @@ static void a_desc_of_another_version_or_without_its_default_function_is_refused
     check_subjects(state, check_made);
 }
 
-// A caller compiled against an older header has shorter structs: what it does not know has its default.
+// Check that callers compiled against an older header may pass shorter structs. Fields beyond the
+// end have their defaults.
 static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
 {
     struct hair_test* test = *state;
@@ -325,14 +328,14 @@ static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
     hair_physics physics = hair_physics_default();
     physics.header.size = offsetof(hair_physics, collision_margin);
     physics.damping = 7;
-    physics.collision_margin = NAN; // beyond the end, and not to be read
+    physics.collision_margin = NAN; // Beyond the end, so it must not be read.
     hair_test_ok(test, hair_set_physics(hair, &physics));
     assert_true(hair->sim.physics.damping == 7);
     assert_true(hair->sim.physics.collision_margin == hair_physics_default().collision_margin);
     drop(hair, groom);
 }
 
-// Not rigid, steps, colliders ---------------------------------------------------------------------------------
+// Transforms that are not rigid, steps, colliders -------------------------------------------------
 
 static void transforms_that_are_not_rigid_are_refused(void** state)
 {
@@ -343,7 +346,8 @@ static void transforms_that_are_not_rigid_are_refused(void** state)
     for (int i = 0; i < 16; ++i) {
         float wrong[16];
         for (int kind = 0; kind < 3; ++kind) {
-            if (kind == 0 && i >= 12 && i < 15) continue; // A place may be anywhere, if it is finite.
+            // A position may be anywhere, if it is finite.
+            if (kind == 0 && i >= 12 && i < 15) continue;
             memcpy(wrong, desc.transform, sizeof wrong);
             wrong[i] = kind == 0 ? wrong[i] + 0.01f : kind == 1 ? NAN : INFINITY;
             refused(test, hair_set_transform(hair, wrong), HAIR_ERROR_ARGUMENT, "not a rigid motion");
@@ -428,7 +432,7 @@ static void views_without_sense_are_refused(void** state)
     view.lights = light;
     memset(light[0].direction, 0, sizeof light[0].direction);
     refused(test, hair_draw(hair, &view), HAIR_ERROR_ARGUMENT, "lights[0].direction has no direction");
-    light[0].kind = HAIR_LIGHT_POINT; // It needs none.
+    light[0].kind = HAIR_LIGHT_POINT; // A point light needs no direction.
     refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, "framebuffer is not complete");
     light[0] = hair_light_default();
     view.light_count = 2;

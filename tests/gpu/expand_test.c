@@ -1,4 +1,4 @@
-// expand_test.c - followers read back are where the double-precision reference has them.
+// expand_test.c - followers that are read back agree with the double-precision reference.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -18,10 +18,10 @@ struct fixture {
     hair_groom* groom;
     hair_instance* hair;
     struct hair_reference_sample* samples;
-    double longest; // of the guides, m
+    double longest; // Length of the longest guide, in metres.
 };
 
-// Guides in disorder, smoothed on the GPU and by the reference.
+// Create a hair with scattered guides, and smooth them on the GPU and by the reference.
 static struct fixture start(void** state)
 {
     static struct hair_state vertices[STATES];
@@ -33,7 +33,8 @@ static struct fixture start(void** state)
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_scatter(f.groom, 0.001f, 0, &random, vertices);
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
+    glFinish();
     glNamedBufferSubData(f.hair->sim.state, 0, f.groom->info.guide_vertex_count * sizeof *vertices, vertices);
     struct hair_gl* gl = &f.test->context->gl;
     hair_gl_enter(gl);
@@ -67,8 +68,9 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// A sample is right to 6 sqrt(20) 2^-24 m and its frame to 8 / 5 mm of that (smooth_test.c says why). The
-// frame turns offsets of up to 15 mm; those and up to three guides add.
+// A sample is exact to 6 sqrt(20) 2^-24 m, and its frame to 8 / 5 mm of the same error
+// (smooth_test.c gives the reasons). The frame rotates offsets of up to 15 mm. The errors of the
+// offset and of up to three guides add up.
 #define SAMPLE (6 * 4.5 / 16777216)
 #define TOLERANCE (3 * SAMPLE + 0.015 * 8 * SAMPLE / 0.005)
 
@@ -166,7 +168,7 @@ static void any_look_is_as_in_the_reference(void** state)
     finish(&f);
 }
 
-// As evaluate.glsl has them for what draws.
+// Link a program that computes the tangents of evaluate.glsl, which draws use.
 static GLuint link_tangents(const struct fixture* f)
 {
     static const char main[] =
@@ -225,7 +227,8 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
         }
     }
     print_message("    tangents off by %.2g, up to %.2g\n", sqrt(square), worst);
-    // These guides go every way: where three of them cancel each other out, little decides.
+    // These guides point in all directions. Rounding decides the tangent if three of them cancel
+    // out.
     assert_true(sqrt(square) < 1e-3 && worst < 0.05);
     free(got);
 }
@@ -243,7 +246,7 @@ static void tangents_of_any_look_are_as_in_the_reference(void** state)
     finish(&f);
 }
 
-// Far out in the world, positions are as near as floats of the world allow.
+// Check positions far from the origin of the world, to the rounding of floats there.
 static void what_is_read_is_in_the_world(void** state)
 {
     struct fixture f = start(state);

@@ -1,5 +1,5 @@
-// failures_test.c - OpenGL that is missing or too old, and shaders that are broken: the right code, one sentence,
-// and afterwards it works.
+// failures_test.c - OpenGL that is missing or too old, and shaders that are broken. The library
+// returns the right code and logs one message. Afterwards it works.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -31,7 +31,7 @@ static void drop(hair_instance* hair, hair_groom* groom)
     hair_groom_destroy(groom);
 }
 
-// OpenGL that is not there ---------------------------------------------------------------------------------
+// Missing OpenGL ----------------------------------------------------------------------------------
 
 static void without_a_current_context_every_call_says_so(void** state)
 {
@@ -89,7 +89,7 @@ static void each_missing_function_is_named(void** state)
         desc.host = &test->host.host;
         desc.get_proc = all_but_one;
         desc.get_proc_user = (void*)(uintptr_t)names[i];
-        // Without the first two the version cannot be asked.
+        // Without the first two functions the library cannot ask for the version.
         int first = strcmp(names[i], "glGetIntegerv") == 0 || strcmp(names[i], "glGetString") == 0;
         const char* words = first ? "get_proc does not find glGet" : names[i];
         refused(test, hair_context_create(&desc, &context), HAIR_ERROR_OPENGL, words);
@@ -120,7 +120,8 @@ static void expect(int code, const char* command)
     hair_test_shell_expect(code, command, "");
 }
 
-// Programs of solvers wait for the first hair that needs them.
+// A context with a shader that is broken later. Programs of solvers are compiled for the first hair
+// that needs them.
 struct broken {
     hair_context* context;
     hair_desc desc;
@@ -155,7 +156,7 @@ static void hair_create_finds_it(struct hair_test* test, struct broken* b)
     hair_test_ok(test, hair_create(b->context, b->groom, &b->desc, &b->hair));
 }
 
-// The last good program goes on, and what needs another is told.
+// Check that the last good program stays in use, and that hair that needs another program fails.
 static void a_reload_finds_it(struct hair_test* test, struct broken* b)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -172,7 +173,7 @@ static void a_reload_finds_it(struct hair_test* test, struct broken* b)
     hair_groom_destroy(longer);
 }
 
-// The first collider asks for a program that knows of contact.
+// Check a step with the first collider, which needs a program with contact.
 static void hair_step_finds_it(struct hair_test* test, struct broken* b)
 {
     static float before[300], after[300];
@@ -193,7 +194,8 @@ static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
 {
     struct hair_test* test = *state;
     expect(0, "cp -r glsl/* $D");
-    for (int way = 0; way < HAIR_TEST_WAYS; way += 3) { // a work group and a thread per guide, and redblack
+    // Workgroup per guide, thread per guide, and redblack.
+    for (int way = 0; way < HAIR_TEST_WAYS; way += 3) {
         hair_context_desc of = hair_context_desc_default();
         struct broken b = {.desc = hair_test_way(way)};
         of.host = &test->host.host;
@@ -213,7 +215,8 @@ static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
     }
 }
 
-// Mesa chooses its driver once in a process, so this one is asked for in a child. softpipe is OpenGL 3.3.
+// Return the exit code of a child that asks for softpipe, which is OpenGL 3.3. It needs a child
+// because Mesa chooses its driver once in a process.
 static int exit_code_of_an_old_driver(void)
 {
     struct hair_test_host host;
@@ -232,7 +235,7 @@ static void a_driver_that_is_too_old_is_an_opengl_error(void** state)
 {
     (void)state;
     if (!strstr((const char*)glGetString(GL_RENDERER), "llvmpipe"))
-        skip(); // No other has an old one beside it.
+        skip(); // No other driver has an old one beside it.
     pid_t child = fork();
     if (child == 0) {
         setenv("GALLIUM_DRIVER", "softpipe", 1);
@@ -246,7 +249,7 @@ static void a_driver_that_is_too_old_is_an_opengl_error(void** state)
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-// An older version than the driver's own, by a host that says so.
+// Return an older version than the driver's own.
 static void APIENTRY old_version(GLenum name, GLint* out)
 {
     glGetIntegerv(name, out);

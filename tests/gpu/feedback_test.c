@@ -1,4 +1,4 @@
-// feedback_test.c - redblack by transform feedback moves guides as it does by compute.
+// feedback_test.c - the solver redblack moves guides by transform feedback as by compute.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -11,8 +11,8 @@
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
-    hair_instance* hair[2]; // by compute, by transform feedback
-    double length; // of the longest guide, m
+    hair_instance* hair[2]; // The first runs by compute, the second by transform feedback.
+    double length; // Length of the longest guide, in metres.
     uint32_t vertices;
 };
 
@@ -42,7 +42,8 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// A step of both, the head turned and moved, a capsule that comes nearer: the greatest distance between them in lengths.
+// Step both instances with a head that turns and moves, and a capsule that comes nearer. Return the
+// maximum difference of coordinates, relative to the length.
 static double step(struct fixture* f, int frame, double* moved)
 {
     static float was[3 * 4096], at[2][3 * 4096];
@@ -70,7 +71,7 @@ static double step(struct fixture* f, int frame, double* moved)
 
 static void five_steps_are_those_of_compute(void** state)
 {
-    for (int off = 0; off < 3; ++off) { // Everything on; no angular forces; no angular constraints.
+    for (int off = 0; off < 3; ++off) { // All forces, no angular forces, or no angular constraints.
         hair_physics physics = hair_physics_default();
         double worst = 0, moved = 0;
         if (off == 1) physics.redblack.angular_hz = 0;

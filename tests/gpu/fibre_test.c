@@ -1,4 +1,5 @@
-// fibre_test.c - light that a fibre scatters, by the shader: none is lost, and its way may be turned round.
+// fibre_test.c - light scattered by a fibre, as the shader computes it: energy is conserved, and
+// the function is symmetric.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 
 #define EYES 16
 
-static const char text_of_sums[] = // One eye a thread: light from everywhere.
+static const char text_of_sums[] = // One eye per thread, lit from all directions.
     "layout(local_size_x = 16) in;\n"
     "layout(std430, binding = 0) buffer found_block { vec4 found[]; };\n"
     "const int ALONG = 120, ROUND = 180;\n"
@@ -76,8 +77,8 @@ static void light_everywhere(struct hair_test* test, const struct hair_fibre* fi
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-// A white furnace: lit with a radiance of 1 from everywhere, a fibre that absorbs nothing cannot be told from what is
-// behind it.
+// Check a white furnace. A fibre that absorbs nothing, lit with a radiance of 1 from all
+// directions, is invisible against its background.
 static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
 {
     static const float along[] = {0.1f, 0.3f, 0.6f, 1};
@@ -94,8 +95,8 @@ static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
     }
 }
 
-// With scales that are tilted it gains for some directions what it loses for others: that is the price of a symmetric
-// function.
+// Check tilted scales. They gain in some directions what they lose in others, which is the price of
+// a symmetric function.
 static void tilted_scales_move_light_and_lose_none(void** state)
 {
     struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};

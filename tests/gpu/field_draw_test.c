@@ -1,4 +1,4 @@
-// field_draw_test.c - colliders and a slice of the field as hair_draw shows them.
+// field_draw_test.c - colliders and a slice of the field as drawn by hair_draw.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -23,7 +23,8 @@ struct fixture {
 
 static struct fixture f;
 
-// A head turned half round at (0.2, 0, -1), colliders at its sides, seen from the world's origin along -z.
+// Make a head rotated by half a turn at (0.2, 0, -1), with colliders at its sides, seen from the
+// world's origin along -z.
 static void start(void** state)
 {
     const hair_collider colliders[COLLIDERS] = {
@@ -48,7 +49,7 @@ static void start(void** state)
     hair_test_ok(f.test, hair_step(f.hair, 0.01f));
     f.view.pass = HAIR_PASS_COLLIDERS;
     f.view.projection[0] = f.view.projection[5] = 3;
-    f.view.projection[8] = 0.6f; // Their middle is the picture\'s.
+    f.view.projection[8] = 0.6f; // Centres the colliders in the picture.
     f.view.projection[9] = 0.3f;
     f.view.projection[10] = -1.2f / 0.8f;
     f.view.projection[11] = -1;
@@ -74,7 +75,7 @@ static void draw(void)
     hair_test_frame_free(&frame);
 }
 
-// The point of the world at a distance of 1 along -z that the middle of a pixel sees.
+// Find the point of the world at a distance of 1 along -z that the centre of a pixel shows.
 static void find_ray(int i, double way[3])
 {
     double x = (i % SIDE + 0.5) / SIDE * 2 - 1, y = (i / SIDE + 0.5) / SIDE * 2 - 1;
@@ -83,7 +84,8 @@ static void find_ray(int i, double way[3])
     way[2] = -1;
 }
 
-// How near to a collider the ray comes, below 0 if it meets one at z = *meets.
+// Return the minimum distance of the ray to a collider. It is negative if the ray meets a collider,
+// at z = *meets.
 static double march(const double way[3], double from, double* meets)
 {
     double least = INFINITY;
@@ -126,7 +128,8 @@ static void a_collider_is_drawn_where_it_is_with_its_depth(void** state)
     finish();
 }
 
-// At the head's z of 0, which is the world's of -1: what is nearer to the eye is cut away.
+// Check a slice at z = 0 of the head, which is z = -1 of the world. Everything nearer to the eye is
+// cut away.
 static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** state)
 {
     start(state);
@@ -151,7 +154,7 @@ static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** stat
     }
     print_message("    %d pixels inside, %d outside\n", inside, outside);
     assert_true(inside > 100 && outside > 50);
-    // Of the ball before the slice nothing is left.
+    // Nothing remains of the ball before the slice.
     for (int i = 0; i < SIDE * SIDE; ++i)
         if (f.depths[i] < 1) assert_true((double)f.depths[i] > depth_at(-1) - 1e-4);
     finish();

@@ -1,4 +1,5 @@
-// field_mesh_test.c - forms in the field: resampled where they move, and there once for all who have them.
+// field_mesh_test.c - collision meshes in the field: resampled where they move, and stored once for
+// all colliders that use them.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ struct fixture {
     struct hair_test* test;
     hair_groom* groom;
     struct hair_collider_field field;
-    hair_collision_mesh* forms[2]; // a ball of 0.1 m and a box
+    hair_collision_mesh* forms[2]; // A ball of 0.1 m and a box.
     hair_collider colliders[COLLIDERS];
     uint32_t random;
 };
@@ -38,7 +39,7 @@ static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mes
     return form;
 }
 
-// Every other collider is a form; they overlap.
+// Make overlapping colliders. Every other collider is a collision mesh.
 static void begin(struct hair_test* test, struct fixture* out)
 {
     static const float half[] = {0.05f, 0.08f, 0.03f};
@@ -108,7 +109,8 @@ static void every_voxel_holds_the_distance_to_the_nearest_form_or_shape(void** s
     end(&f);
 }
 
-// Half a voxel of the field; the form's own are finer.
+// Compare a collision mesh of a ball with a sphere, to half a voxel of the field. The voxels of the
+// mesh are finer.
 static void a_form_of_a_ball_is_a_ball(void** state)
 {
     struct fixture f;
@@ -148,7 +150,7 @@ static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state
     assert_int_equal(forms->used, used);
     hair_field_destroy(&other);
     assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
-    // The first goes, and its place is another's.
+    // The first mesh is released, and another takes its place.
     for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[1];
     update(&f);
     assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
@@ -157,7 +159,7 @@ static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state
     end(&f);
 }
 
-// Again and again another form: what went makes room.
+// Check meshes that replace each other repeatedly. A released mesh makes room.
 static void forms_that_come_and_go_take_no_more_memory_than_a_few(void** state)
 {
     struct fixture f;

@@ -1,4 +1,5 @@
-// field_test.c - the field: what its voxels hold, what is written again and what is not, and hostile colliders.
+// field_test.c - the field: contents of its voxels, which voxels an update writes, and hostile
+// colliders.
 #include "tests/support/fields.h"
 
 #include <math.h>
@@ -14,7 +15,7 @@
 #define MANY 20
 
 static const struct hair_pose origin = {{0, 0, 0}, {0, 0, 0, 1}};
-// Turned, and where floats no longer resolve a voxel's hundredth.
+// A rotated pose, so far away that floats no longer resolve a hundredth of a voxel.
 static const struct hair_pose elsewhere = {{30, -20, 10}, {0.36f, 0.48f, 0, 0.8f}};
 
 struct fixture {
@@ -51,7 +52,7 @@ static uint32_t runs(struct fixture* f)
     return hair_test_runs(&f->test->context->gl, HAIR_GL_VOXELISE);
 }
 
-// What voxels hold --------------------------------------------------------------------------------------------
+// Contents of voxels ------------------------------------------------------------------------------
 
 static void check_voxels(struct fixture* f, uint32_t count)
 {
@@ -132,7 +133,7 @@ static void the_box_holds_the_hair_at_rest_and_some_of_its_swing_but_no_more_tha
     end(&f);
 }
 
-// Sampled -----------------------------------------------------------------------------------------------------
+// Samples -----------------------------------------------------------------------------------------
 
 #define POINTS 20000
 
@@ -140,7 +141,8 @@ struct sample {
     float gradient[3], distance;
 };
 
-// glsl/field.glsl at `points`, xyz from the head's origin along the world's axes, w unused.
+// Evaluate glsl/field.glsl at `points`. xyz is from the head's origin along the world's axes, and w
+// is unused.
 static void sample(struct fixture* f, const float (*points)[4], struct sample* out, uint32_t* numbers)
 {
     static const char rest[] = "layout(local_size_x = 50) in;\n"
@@ -175,9 +177,9 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
     glDeleteBuffers(3, buffer);
 }
 
-// Between voxels the field is interpolated: where a collider curves with a radius of R voxels that is wrong by 1 / 4R of
-// one, by up to a half where another begins, and by up to 0.87 where it has edges. Gradients are compared where none of
-// that is near.
+// Check interpolation between voxels. Its error is 1 / 4R voxels at a collider with a radius of R
+// voxels. It is up to a half between two colliders, and up to 0.87 at edges. Gradients are compared
+// away from all three.
 static void between_voxels_distance_sign_gradient_and_number_are_right(void** state)
 {
     static float points[POINTS][4];
@@ -196,7 +198,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
         uint32_t number, second;
         for (int k = 0; k < 3; ++k) point[k] = f.head.position[k] + (double)points[i][k];
         double right = hair_test_nearest(f.colliders, MANY, point, &number), own = (double)found[i].distance;
-        if (own == (double)f.field.box.far) { // Far off, or beyond the box.
+        if (own == (double)f.field.box.far) { // Far from all colliders, or outside the box.
             far += 1;
             assert_true(numbers[i] == HAIR_NO_COLLIDER || right > 3 * voxel);
             continue;
@@ -204,7 +206,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
         assert_true(fabs(right) < voxel || (own < 0) == (right < 0));
         if (fabs(right) > 2 * voxel) continue;
         ++near;
-        // Whether one collider alone is near, and that without edges.
+        // 1 if a single collider is near, and the collider has no edges.
         hair_collider others[MANY];
         memcpy(others, f.colliders, sizeof others);
         others[number] = others[number ? 0 : 1];
@@ -230,7 +232,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
     end(&f);
 }
 
-// What is written ---------------------------------------------------------------------------------------------
+// Writes ------------------------------------------------------------------------------------------
 
 static void assert_as_made_at_once(struct fixture* f, uint32_t count)
 {
@@ -254,16 +256,17 @@ static void after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once(void** 
     update(&f, count);
     for (int round = 0; round < 12; ++round) {
         uint32_t which = (uint32_t)(hair_random(&f.random) * (float)count);
-        if (round % 4 == 3) count = 1 + (uint32_t)(hair_random(&f.random) * (MANY - 1)); // Come or go.
+        // Colliders are added or removed.
+        if (round % 4 == 3) count = 1 + (uint32_t)(hair_random(&f.random) * (MANY - 1));
         f.colliders[which] = hair_test_any_collider(&f.field.box, &f.head, 0.15f, &f.random);
-        if (round % 4 == 2) f.colliders[which].position[1] += 100; // Out of the box.
+        if (round % 4 == 2) f.colliders[which].position[1] += 100; // Moves out of the box.
         update(&f, count);
         assert_as_made_at_once(&f, count);
     }
     end(&f);
 }
 
-// Of the functions that are called none is there.
+// Remove the functions of OpenGL, and check that an update without motion calls none.
 static void nothing_moved_is_no_call_of_opengl(void** state)
 {
     struct fixture f;
@@ -275,7 +278,7 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
 #include "lib/gl/functions.inl"
 #undef FUNCTION
     hair_result result = hair_field_update(&f.field, f.colliders, MANY, &f.head);
-    // Not by more than rounding either.
+    // Motion within rounding does not count either.
     f.colliders[3].position[0] += 1e-6f;
     hair_result again = hair_field_update(&f.field, f.colliders, MANY, &f.head);
     *gl = kept;
@@ -287,7 +290,8 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
     end(&f);
 }
 
-// Colliders that go with the head: their place in the world is rounded at each step, and that adds up to nothing.
+// Check colliders that move with the head. Their position in the world is rounded at each step, and
+// the errors must not add up.
 static void what_moves_with_the_head_is_not_written_again(void** state)
 {
     struct fixture f;
@@ -328,7 +332,7 @@ static void there_is_no_field_where_no_collider_is_near(void** state)
     assert_false(hair_field_is_near(&f.field));
     assert_int_equal(f.field.distance, 0);
     assert_int_equal(runs(&f), before);
-    f.colliders[0].position[2] -= 50; // One comes near, and goes.
+    f.colliders[0].position[2] -= 50; // A collider comes near, and leaves.
     update(&f, MANY);
     assert_true(hair_field_is_near(&f.field));
     f.colliders[0].position[2] += 50;
@@ -340,7 +344,7 @@ static void there_is_no_field_where_no_collider_is_near(void** state)
     end(&f);
 }
 
-// Hostile -----------------------------------------------------------------------------------------------------
+// Hostile colliders -------------------------------------------------------------------------------
 
 static void whatever_the_colliders_nothing_that_is_not_finite_is_written(void** state)
 {
@@ -440,7 +444,7 @@ static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(
     end(&f);
 }
 
-// As the application sees it ----------------------------------------------------------------------------------
+// The application's view --------------------------------------------------------------------------
 
 static void the_host_is_given_textures_and_where_they_are(void** state)
 {
@@ -451,7 +455,7 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
                           {0.05f, 0},        .scale = 1,    .friction = 1};
     hair_field_info info = hair_field_info_default();
     hair_instance* hair = NULL;
-    // Turned by 90 degrees about y.
+    // Rotated by 90 degrees about y.
     const float turned[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 2, 3, 1};
     memcpy(desc.transform, turned, sizeof turned);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
@@ -464,7 +468,8 @@ static void the_host_is_given_textures_and_where_they_are(void** state)
     float* texels = calloc((size_t)info.size[0] * info.size[1] * info.size[2], sizeof *texels);
     uint32_t bytes = info.size[0] * info.size[1] * info.size[2] * (uint32_t)sizeof *texels;
     glGetTextureImage(info.distance_texture, 0, GL_RED, GL_FLOAT, (GLsizei)bytes, texels);
-    // Its centre, and points on its surface, of the world.
+    // Offsets from the ball's centre along the axes of the world: the centre itself, and points on
+    // its surface.
     static const float points[][4] = {
         {0, 0, 0, -0.05f}, {0.05f, 0, 0, 0}, {0, 0.05f, 0, 0}, {0, 0, -0.05f, 0}};
     for (int i = 0; i < 4; ++i) {

@@ -1,4 +1,5 @@
-// fluid_flow_test.c - the fluid as a whole: air that goes round a ball, is kept in a box, and bears whatever happens to it.
+// fluid_flow_test.c - the fluid as a whole: flow round a ball and in a box, and recovery from
+// hostile input.
 #include "tests/support/fluids.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ static double fastest(const struct hair_test_fluid* f)
     return most;
 }
 
-// Pressed together --------------------------------------------------------------------------------------------
+// Projection --------------------------------------------------------------------------------------
 
 static void nothing_is_left_to_be_driven_out_of_cells(void** state)
 {
@@ -60,15 +61,15 @@ static void nothing_is_left_to_be_driven_out_of_cells(void** state)
     }
 }
 
-// Round a ball ------------------------------------------------------------------------------------------------
+// Flow round a ball -------------------------------------------------------------------------------
 
-// Through the sphere one cell around the ball, by what blows into it; both m/s.
+// Return the net flow through the sphere one cell outside the ball, relative to the inflow.
 static double flux(const struct hair_test_fluid* f)
 {
     enum { POINTS = 20000 };
     double *velocity = hair_test_fluid_velocity(f), sum = 0, in = 0;
     double radius = 1 + (double)HAIR_TEST_FLUID_BALL * f->cells / (double)HAIR_TEST_FLUID_SIDE;
-    for (int i = 0; i < POINTS; ++i) { // Evenly, along a spiral.
+    for (int i = 0; i < POINTS; ++i) { // The points are distributed evenly along a spiral.
         double z = 1 - (2 * i + 1.0) / POINTS, side = sqrt(1 - z * z), flow = 0;
         double normal[3] = {side * cos(2.399963 * i), side * sin(2.399963 * i), z}, place[3];
         for (int k = 0; k < 3; ++k) place[k] = f->cells / 2.0 + radius * normal[k];
@@ -87,7 +88,8 @@ static void add(const struct hair_test_fluid* f, double* sum)
     free(velocity);
 }
 
-// Root mean square difference from its mirror image in a plane along the wind.
+// Return the root mean square difference of the velocity from its mirror image in a plane along the
+// wind.
 static double one_sided(const struct hair_test_fluid* f, const double* velocity, int axis)
 {
     double sum = 0, n = f->cells;
@@ -105,7 +107,8 @@ static double one_sided(const struct hair_test_fluid* f, const double* velocity,
     return sqrt(sum);
 }
 
-// Along the wind, on the line through the ball's middle, so many radii behind that.
+// Return the velocity along the wind, on the line through the ball's middle. The point is `radii`
+// radii behind the middle.
 static double behind(const struct hair_test_fluid* f, const double* velocity, double radii)
 {
     double n = f->cells, cell = (double)HAIR_TEST_FLUID_SIDE / n;
@@ -158,7 +161,7 @@ static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(voi
         }
         free(velocity);
     }
-    // And as it becomes, at once.
+    // A change of the wind takes effect at once.
     f.now.wind = hair_v3(-2, 0, 7);
     advance(&f, 1);
     double *velocity = hair_test_fluid_velocity(&f), middle[3] = {8, 8, 8};
@@ -168,7 +171,8 @@ static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(voi
     hair_test_fluid_end(&f);
 }
 
-// By the pattern that the wind carries along as it is: how alike the fluid's middle is to it, and how much of it is there.
+// Compare the middle of the fluid with the pattern that the wind carries unchanged: their
+// correlation, and the fraction of energy that arrives.
 static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
 {
     struct hair_test_fluid f;
@@ -180,7 +184,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
     float* texel = hair_gusts_make(&f.test->host.host, wind.seed);
     assert_non_null(texel);
     double alike = 0, there = 0, all = 0;
-    for (int i = 0; i < 60; ++i) { // In 0.16 s all that is in the box has come in.
+    for (int i = 0; i < 60; ++i) { // After 0.16 s the air in the box has been replaced.
         f.now.gusts = hair_air_gusts_from(&air, &wind, &f.now.head);
         advance(&f, 1);
         air.moved[0] += WIND * f.now.dt;
@@ -205,7 +209,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
     hair_test_fluid_end(&f);
 }
 
-// A collider that moves --------------------------------------------------------------------------------------------
+// A moving collider -------------------------------------------------------------------------------
 
 static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
 {
@@ -213,7 +217,8 @@ static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
     hair_collider ball;
     begin(*state, 32, 1, &f);
     f.now.wind = hair_v3(0, 0, 0);
-    for (int i = 0; i < 6; ++i) { // With the head, to which the box goes along by whole cells.
+    // The collider moves with the head, and the box follows the head by whole cells.
+    for (int i = 0; i < 6; ++i) {
         ball = f.colliders.now.collider[0];
         hair_colliders_settle(&f.colliders);
         f.now.head.position[0] += WIND / 60;
@@ -228,7 +233,8 @@ static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
     double ahead = hair_test_fluid_at(&f, velocity, 0, place);
     place[0] = middle, place[1] = 16 + (double)HAIR_TEST_FLUID_BALL / cell + 1;
     double beside = hair_test_fluid_at(&f, velocity, 0, place);
-    // What has no rotation: (R / r)^3 of its speed ahead, half as much the other way beside.
+    // The irrotational flow has (R / r)^3 of the ball's speed ahead, and half as much in the other
+    // direction beside.
     print_message("    %.2f of its speed ahead, %.2f beside\n", ahead / WIND, beside / WIND);
     assert_true(ahead > 0.35 * WIND && ahead < 0.8 * WIND);
     assert_true(beside < 0);
@@ -236,7 +242,7 @@ static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
     hair_test_fluid_end(&f);
 }
 
-// In a closed box -----------------------------------------------------------------------------------------------
+// A closed box ------------------------------------------------------------------------------------
 
 static double energy(const double* velocity, size_t count)
 {
@@ -253,7 +259,8 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
     hair_test_fluid_begin(*state, &desc, 0, &f);
     f.now.wind = hair_v3(0, 0, 0);
     advance(&f, 1);
-    // Two rolls, so as to have no divergence: curls of sin(pi x) sin(pi y) along z, and of the same of y and z along x.
+    // Two rolls without divergence: the curl of sin(pi x) sin(pi y) along z, and the curl of sin(pi
+    // y) sin(pi z) along x.
     double *velocity = calloc(f.faces, sizeof *velocity), pi = 3.14159265358979, n = f.cells;
     size_t side = f.cells + 1, slots = side * side * side;
     for (size_t i = 0; i < slots; ++i) {
@@ -290,7 +297,7 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Hostile -------------------------------------------------------------------------------------------------------
+// Hostile input -----------------------------------------------------------------------------------
 
 static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
 {

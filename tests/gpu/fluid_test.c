@@ -1,4 +1,4 @@
-// fluid_test.c - each pass of the fluid does what its twin in double precision does.
+// fluid_test.c - each pass of the fluid agrees with its reference in double precision.
 #include "tests/support/fluids.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static void check(const char* what, const double* got, const double* expected, s
     for (size_t i = 0; i < count; ++i) hair_test_near(what, i, got[i], expected[i], tolerance);
 }
 
-// Faces that there are not hold anything. The others are between `least` and `most`.
+// Check that faces are between `least` and `most`. Slots without a face hold nothing.
 static void check_faces(const char* what, const double* got, const double* least, const double* most,
                         double tolerance)
 {
@@ -41,7 +41,7 @@ static void check_faces(const char* what, const double* got, const double* least
     }
 }
 
-// How open faces are ------------------------------------------------------------------------------------------
+// Openness of faces -------------------------------------------------------------------------------
 
 static void begin(struct hair_test* test, struct hair_test_fluid* f)
 {
@@ -50,7 +50,7 @@ static void begin(struct hair_test* test, struct hair_test_fluid* f)
     hair_fluid_place(&f->fluid, &f->now);
 }
 
-// From the ball whose middle is `user`, in sides of a cell.
+// Return the distance from the ball in cells. `user` is the middle of the ball.
 static double from_ball(const double place[3], const void* user)
 {
     const double* middle = user;
@@ -59,7 +59,7 @@ static double from_ball(const double place[3], const void* user)
     return sqrt(sum) - (double)HAIR_TEST_FLUID_BALL / cell;
 }
 
-// The head and the ball with it are somewhere else, and turned: the box goes by whole cells.
+// Move and rotate the head with the ball, and check faces. The box moves by whole cells.
 static void faces_are_as_open_as_the_ball_leaves_them(void** state)
 {
     struct hair_test_fluid f;
@@ -79,7 +79,8 @@ static void faces_are_as_open_as_the_ball_leaves_them(void** state)
                          (int32_t)(slot / (side * side))};
         if (at[0] == CELLS || at[1] == CELLS || at[2] == CELLS) continue;
         double expected = hair_reference_open(axis, at, from_ball, middle);
-        // The field is a half's rounding and the chord of 5 mm off, that is 1/40 of a cell at most; a face all along.
+        // The error of the field is the rounding of half floats and the chord of 5 mm. Together
+        // they are at most 1/40 of a cell, all along a face.
         hair_test_near("share", i, open[i], expected, 0.1);
         most = fmax(most, fabs(open[i] - expected));
     }
@@ -100,7 +101,7 @@ static void coarser_faces_are_as_open_as_their_four_parts(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Colliders turn about and go with: each face's wall has the speed of the ball there.
+// Check colliders that rotate and translate. Each face's wall has the speed of the ball there.
 static void walls_move_as_the_collider_does(void** state)
 {
     struct hair_test_fluid f;
@@ -128,9 +129,9 @@ static void walls_move_as_the_collider_does(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Carried -----------------------------------------------------------------------------------------------------
+// Advection ---------------------------------------------------------------------------------------
 
-// Halves, as the texture holds them: exact in sixteenths up to 64.
+// Fill the texture, whose format is half floats. Multiples of 1/16 are exact up to 64.
 static double* put_air(struct hair_test_fluid* f, double most)
 {
     double* air = any_numbers(3 * f->count, most, 5);
@@ -145,8 +146,9 @@ static double* put_air(struct hair_test_fluid* f, double most)
     return air;
 }
 
-// OpenGL names no precision for how a texture is read between its texels; there are GPUs with eight bits of a texel's side.
-// Rounded down to that, which is the worse way, air of up to 3 m/s is 0.012 cells off where it comes from.
+// Maximum error of texture coordinates, in cells. OpenGL requires no precision of filtering, and
+// some GPUs have eight bits per texel side. Rounded down to eight bits, which is the worse
+// direction, air of up to 3 m/s comes from 0.012 cells off.
 #define BLUR 0.03
 
 static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
@@ -177,7 +179,7 @@ static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Pressure ----------------------------------------------------------------------------------------------------
+// Pressure ----------------------------------------------------------------------------------------
 
 struct pressed {
     struct hair_test_fluid f;
@@ -268,7 +270,7 @@ static void coarser_cells_take_what_is_left_and_give_their_pressure_back(void** 
     end_pressed(&p);
 }
 
-// 16 sweeps that go 1.4 times as far, from no pressure.
+// Check 16 sweeps of over-relaxation by 1.4, from no pressure.
 static void the_coarsest_level_is_solved_at_once(void** state)
 {
     struct pressed p;

@@ -1,5 +1,5 @@
-// follow_rest_test.c - the solvers follow and redblack come to rest: built-in haircuts after a head shake, alone and
-// among colliders that touch them.
+// follow_rest_test.c - the solvers follow and redblack come to rest: built-in haircuts after a head
+// shake, alone and among colliders that touch them.
 #include "tests/support/haircut.h"
 #include "tests/support/living.h"
 
@@ -29,7 +29,8 @@ static void turn_head(struct hair_test* test, hair_instance* hair, double yaw)
     hair_test_ok(test, hair_set_transform(hair, transform));
 }
 
-// Shake the head for a second, wait for ten. Return the speed of the fastest vertex in the last frame, m/s.
+// Shake the head for a second, wait for ten. Return the speed of the fastest vertex in the last
+// frame, m/s.
 static double shake_and_wait(struct hair_test* test, hair_instance* hair, uint32_t vertices)
 {
     float *before = malloc(3 * vertices * sizeof *before), *after = malloc(3 * vertices * sizeof *after);
@@ -89,7 +90,8 @@ static void redblack_hair_comes_to_rest(void** state)
     check(*state, HAIR_STYLE_CURLY, HAIR_SOLVER_REDBLACK, 0);
 }
 
-// A clamped strand whose rest strain bears its weight, of 5 cm, which is stiff enough for that.
+// Check a clamped strand of 5 cm with and without gravity preload. The strand is stiff enough for
+// its rest strain to bear its weight.
 static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
 {
     for (int held = 0; held < 2; ++held) {
@@ -110,10 +112,11 @@ static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
     }
 }
 
-// Strands that their weight bends a lot: a rigid strand beyond each segment would bend them at the clamp only.
+// Check strands that their weight bends a lot. A strand that is rigid beyond each segment would
+// bend at the clamp only.
 static void limp_strands_hang_as_the_reference_does(void** state)
 {
-    static const float ways[] = {-0.577f, 0, -2}; // y over x
+    static const float ways[] = {-0.577f, 0, -2}; // Slope y / x of each strand.
     for (int k = 0; k < 3; ++k)
         for (uint32_t vertices = 16; vertices <= 64; vertices *= 2) {
             hair_physics physics = hair_test_bare();

@@ -1,5 +1,6 @@
-// hidden_lent_test.c - textures and matrices of a host that is wrong, or hostile: an error that names the field, or a picture; never
-// an OpenGL error, nor what is no number.
+// hidden_lent_test.c - wrong and hostile textures and matrices of the application. Each gives an
+// error that names the field, or a picture. None gives an OpenGL error or a number that is not
+// finite.
 #include "tests/support/support.h"
 
 #include <float.h>
@@ -83,7 +84,7 @@ static void refuse(struct fixture* f, GLuint texture)
         f->view.pass = passes[i];
         hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT, words);
     }
-    f->view.pass = HAIR_PASS_GUIDES; // Which are drawn whatever hides hair.
+    f->view.pass = HAIR_PASS_GUIDES; // Occlusion culling does not apply to guides.
     hair_test_ok(f->test, hair_draw(f->hair, &f->view));
     f->view.pass = HAIR_PASS_COLOR;
     assert_int_equal(glGetError(), GL_NO_ERROR);
@@ -109,9 +110,9 @@ static void what_is_no_texture_of_depth_is_refused(void** state)
         texture = make_texture(kinds[i].target, kinds[i].format, 8);
         refuse(&f, texture);
         glDeleteTextures(1, &texture);
-        refuse(&f, texture); // There is none any more.
+        refuse(&f, texture); // The texture has been deleted.
     }
-    glGenTextures(1, &texture); // A name of nothing yet, then without an image.
+    glGenTextures(1, &texture); // The name has no texture object at first, and then no image.
     refuse(&f, texture);
     glBindTexture(GL_TEXTURE_2D, texture);
     glBindTexture(GL_TEXTURE_2D, 0);
@@ -119,7 +120,7 @@ static void what_is_no_texture_of_depth_is_refused(void** state)
     glDeleteTextures(1, &texture);
     refuse(&f, 4711);
     refuse(&f, UINT32_MAX);
-    refuse(&f, f.hair->draw.patch_texture); // Of a buffer, and the library's own.
+    refuse(&f, f.hair->draw.patch_texture); // A buffer texture, which is the library's own.
     f.view.occluder_depth = 0;
     assert_true(draw(&f) > 0);
     finish(&f);
@@ -152,7 +153,8 @@ static void every_format_of_depth_is_read(void** state)
     finish(&f);
 }
 
-// The first two have everything far beside the picture, or behind the eye; the others at one place, on a line, or flat.
+// Check that any matrix gives a picture. The first two have everything far outside the picture or
+// behind the eye. The others map everything to one point, to a line, or to a plane.
 static void by_any_matrix_there_is_a_picture(void** state)
 {
     static const float odd[][16] = {

@@ -1,5 +1,6 @@
-// hidden_test.c - strands behind what the host has drawn are not drawn: the picture is the same, by every path and projection, and
-// without a texture of depth there is nothing of it.
+// hidden_test.c - occlusion culling. Strands behind the application's depth are not drawn, and the
+// picture is the same with every render path and projection. Without a depth texture, culling
+// neither runs nor uses memory.
 #include "tests/support/support.h"
 
 #include <hair/hair_asset.h>
@@ -13,15 +14,17 @@
 #include "tests/support/trace.h"
 
 #define SIZE 96
-#define AWAY 1.2f // m, of the eye from the middle of the hair
+#define AWAY 1.2f // Distance of the eye from the middle of the hair, in metres.
 
+// Kind of projection. REVERSED has an infinite far plane. RANGED reverses depth by glDepthRange,
+// and is upside down.
 enum kind {
     PERSPECTIVE,
     ORTHOGRAPHIC,
     REVERSED,
     RANGED,
     KINDS
-}; // the third without end, the last by glDepthRange, and upside down
+};
 
 struct fixture {
     struct hair_test* test;
@@ -29,7 +32,7 @@ struct fixture {
     hair_groom* groom;
     hair_instance* hair;
     struct hair_test_frame frame;
-    GLuint depth; // of the frame, to be lent
+    GLuint depth; // The frame's depth, which the view passes to the library.
     hair_view view;
     enum kind kind;
 };
@@ -113,7 +116,7 @@ static void finish(struct fixture* f)
     hair_context_destroy(f->context);
 }
 
-// What the depth of something is that is so far away.
+// Return the depth of a point at distance `away`.
 static float depth_at(const struct fixture* f, float away)
 {
     const float* m = f->view.projection;
@@ -136,7 +139,7 @@ static void put_wall(const struct fixture* f, const int at[4], float away)
     glClearTexSubImage(f->depth, 0, at[0], at[1], 0, at[2], at[3], 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
 }
 
-// Into a depth that has the wall in it. Primitives are those of tessellators.
+// Draw into a depth texture that contains the wall. Return the number of primitives.
 static uint32_t draw(const struct fixture* f, int lends, const int at[4], float away, float* pixels)
 {
     hair_view view = f->view;
@@ -182,7 +185,8 @@ static float sum(const float* pixels)
     return all;
 }
 
-// Nothing is behind what is far, all is behind what is near, and some behind what is near and covers half of the picture.
+// Check three walls: a far wall culls nothing, a near wall culls everything, and a near wall over
+// half of the picture culls a part.
 static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void** state)
 {
     static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
@@ -222,7 +226,8 @@ static void move(struct fixture* f, float turn, int collider)
     hair_test_ok(f->test, hair_step(f->hair, 1.0f / 30));
 }
 
-// By all that has a say in where strands are drawn, and how wide.
+// Check that culling removes no visible strand, with all settings that affect the position and
+// width of strands.
 static void no_strand_that_is_seen_is_left_out(void** state)
 {
     static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
@@ -250,7 +255,8 @@ static void no_strand_that_is_seen_is_left_out(void** state)
         draw(&f, 0, at, 0.5f + 0.5f * number[5], kept);
         draw(&f, 1, at, 0.5f + 0.5f * number[5], some);
         uint32_t now = read_hidden(&f, NULL);
-        // Of shares that are as far away as others, any is blended first, and another one in each picture: 0.09 has been seen.
+        // Equally distant fragments may be blended in either order, and the order differs between
+        // pictures. Differences of 0.09 have been observed.
         float most = hair_draw_covers(&f.view) ? 0.12f : 0;
         if (differ(kept, some) > most)
             fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
@@ -262,7 +268,7 @@ static void no_strand_that_is_seen_is_left_out(void** state)
     finish(&f);
 }
 
-// Of another size, what a texel shows is there all over it.
+// Check depth textures of other sizes. A texel then holds the depth of its whole area.
 static void depth_may_be_of_any_size(void** state)
 {
     static const GLsizei sizes[][2] = {{1, 1}, {7, 3}, {8, 8}, {33, 300}, {1000, 700}};
@@ -278,7 +284,8 @@ static void depth_may_be_of_any_size(void** state)
         assert_int_equal(read_hidden(&f, NULL), f.hair->draw.patches);
         draw(&f, 1, all, 4, pixels);
         assert_int_equal(read_hidden(&f, NULL), 0);
-        if (w < SIZE) continue; // Texels of 24 mm and more, of which eight are looked up as one.
+        // These texels are 24 mm or larger, and the Hi-Z test reads eight of them as one.
+        if (w < SIZE) continue;
         draw(&f, 1, left, 0.3f, pixels);
         assert_in_range(read_hidden(&f, NULL), 1, f.hair->draw.patches - 1);
     }
@@ -287,7 +294,7 @@ static void depth_may_be_of_any_size(void** state)
     finish(&f);
 }
 
-// The same patches as in the view that it was drawn in, from wherever they are looked at.
+// Check the depth of another view. It culls the same patches as in its own view, from any eye.
 static void depth_may_be_that_of_another_view(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
@@ -325,7 +332,7 @@ static hair_report_row report(const struct fixture* f)
     return none;
 }
 
-// And when it is gone its memory goes too.
+// Check also that the memory is freed when the depth texture is gone.
 static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
@@ -356,15 +363,17 @@ static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
     finish(&f);
 }
 
-// Nothing of it is hidden.
+// Check a depth texture whose picture does not show the hair. It culls nothing.
 static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-    draw(&f, 0, all, 4, pixels); // After which guides are smooth.
-    for (int i = 0; i < 2; ++i) { // Beside it; and where depth tells no near from far.
+    draw(&f, 0, all, 4, pixels); // Guides are smoothed by this draw.
+    // The first picture is beside the hair. In the second, the depth function tells no near from
+    // far.
+    for (int i = 0; i < 2; ++i) {
         hair_mat4_multiply(f.view.projection, f.view.view, f.view.occluder_matrix);
         f.view.occluder_matrix[12] += i == 0 ? 20 : 0;
         glDepthFunc(i == 0 ? GL_LESS : GL_ALWAYS);
@@ -376,7 +385,7 @@ static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** s
     finish(&f);
 }
 
-// Lists that were made behind a wall are of no use to who sees past it.
+// Check that strand lists made behind a wall are not used for a view past the wall.
 static void what_was_hidden_is_listed_again_when_it_is_not(void** state)
 {
     static float kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];

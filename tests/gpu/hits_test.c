@@ -1,5 +1,5 @@
-// hits_test.c - followers that meet colliders are found, and led round them, as the double-precision reference has it;
-// where nothing can be met, nothing is done.
+// hits_test.c - followers that hit colliders are found and pushed out as in the double-precision
+// reference. Without colliders in reach, nothing runs.
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
 
@@ -33,7 +33,8 @@ static void smooth(struct fixture* f)
                                       .rotation_after = {0, 0, 0, 1},
                                       .rotation_now = {0, 0, 0, 1}};
     hair_test_scatter(f->groom, 0.001f, 0, &random, vertices);
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
+    glFinish();
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *vertices,
                          vertices);
     hair_gl_enter(gl);
@@ -64,8 +65,9 @@ static hair_collider collider_of(hair_shape shape, const float position[3], cons
     return collider;
 }
 
-// Guides in disorder, smoothed on the GPU and by the reference, with colliders among them. `alone`: followers have one
-// guide; else those of many lie anywhere on the ball, and no follower of theirs is like a hair.
+// Create hair with scattered guides, smoothed on the GPU and by the reference, and with colliders
+// among them. With `alone`, each follower has one guide. Otherwise a follower's guides lie anywhere
+// on the ball, and followers do not resemble hair.
 static struct fixture start(void** state, int alone)
 {
     struct fixture f = {.test = *state, .look = hair_look_default()};
@@ -75,7 +77,7 @@ static struct fixture start(void** state, int alone)
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     for (uint32_t n = 0; n < wanted.followers && alone; ++n)
         f.groom->followers[n].guide1 = f.groom->followers[n].guide2 = f.groom->followers[n].guide0;
-    desc.field_voxel = 0.001f; // As fine as it gets.
+    desc.field_voxel = 0.001f; // The minimum.
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     smooth(&f);
     f.colliders[0] = collider_of(HAIR_SHAPE_SPHERE, (float[3]){0.15f, 0, 0}, (float[4]){0, 0, 0, 1}, 0.05f);
@@ -94,7 +96,7 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// At t from 0 to 1.
+// Find the follower's point at t in [0, 1].
 static void find_point(const struct fixture* f, uint32_t number, double t,
                        const struct hair_reference_repair* repair, struct hair_reference_point* out)
 {
@@ -106,7 +108,7 @@ static double distance_to(const hair_collider* collider, const double p[3])
 {
     const float* q = collider->rotation;
     double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
-    // The second column of the rotation: where its own y points.
+    // The second column of the rotation is the direction of the collider's y axis.
     double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3], along = 0;
     double half = collider->shape == HAIR_SHAPE_CAPSULE ? (double)collider->size[1] : 0;
     for (int k = 0; k < 3; ++k) {
@@ -125,11 +127,11 @@ static double distance_to_all(const struct fixture* f, const double p[3])
     return least;
 }
 
-// As in expand_test.c, and as much again for what repairs add.
+// SAMPLE is derived in expand_test.c. The factor 2 in TOLERANCE is for the error of repairs.
 #define SAMPLE (6 * 4.5 / 16777216)
 #define TOLERANCE (2 * (3 * SAMPLE + 0.015 * 8 * SAMPLE / 0.005))
 
-// What the field may be off where the surface is. m.
+// Maximum error of the field near the surface, in metres.
 #define FIELD 3e-4
 
 static float* read_followers(struct fixture* f, hair_follower_collision collision)
@@ -148,7 +150,8 @@ static void read_buffer(struct fixture* f, GLuint buffer, size_t each, void* out
     glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(f->groom->info.follower_count * each), out);
 }
 
-// The first vertex inside, and how far from the surface any up to it comes nearest: there rounding decides.
+// Return the index of the first vertex inside a collider. `nearest` is the minimum distance from
+// the surface of the vertices up to the returned one. Near the surface, rounding decides.
 static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
 {
     *nearest = INFINITY;
@@ -192,7 +195,8 @@ static void the_first_vertex_inside_is_found(void** state)
     finish(&f);
 }
 
-// On a GPU threads of a work group share the vertices of a follower.
+// Check the program for a work group. On a GPU, the threads of a work group divide the vertices of
+// a follower.
 static void a_work_group_finds_the_same(void** state)
 {
     static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
@@ -208,12 +212,12 @@ static void a_work_group_finds_the_same(void** state)
         float* before = read_followers(&f, collision);
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
         f.test->context->gl.software = !software;
-        f.hair->draw.hits.fresh = 0; // Nothing is looked for twice.
+        f.hair->draw.hits.fresh = 0; // Forces another search.
         float* after = read_followers(&f, collision);
         f.test->context->gl.software = software;
         read_buffer(&f, f.hair->draw.hits.hit, sizeof *others, others);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
-        assert_in_range(differ, 0, 1); // Where a vertex is on the surface, rounding decides.
+        assert_in_range(differ, 0, 1); // Rounding decides where a vertex is on the surface.
         if (!differ)
             assert_memory_equal(before, after,
                                 3 * sizeof *after * f.groom->info.follower_count * (f.look.segments + 1));
@@ -225,7 +229,8 @@ static void a_work_group_finds_the_same(void** state)
     finish(&f);
 }
 
-// Both evaluate the same function in other stages: where a vertex is on the surface, rounding decides.
+// Compare the prepass with compute. Both evaluate the same function in different shader stages, so
+// rounding decides where a vertex is on the surface.
 static void a_prepass_finds_the_same(void** state)
 {
     static const uint32_t segments[] = {1, 31, 64, 100};
@@ -281,7 +286,8 @@ static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
     read_buffer(&f, f.hair->draw.hits.hit, sizeof *hits, hits);
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
         int hit = (double)hits[n] < HAIR_NO_HIT;
-        assert_true(!hit || f.groom->followers[n].multi > 0); // There is nothing to switch in the others.
+        // The other followers have nothing to switch.
+        assert_true(!hit || f.groom->followers[n].multi > 0);
         switched += hit;
         for (uint32_t k = 0; k <= f.look.segments; ++k) {
             struct hair_reference_repair repair;
@@ -348,7 +354,8 @@ static struct strand measure(const struct fixture* f, const float* vertices, uin
     return strand;
 }
 
-// Strands whose roots are inside, or all but, have nowhere to go at once: they are not looked at.
+// Check followers that are pushed out of colliders. Strands whose roots are inside, or nearly
+// inside, have no direct way out, and are left out.
 static void followers_pushed_out_of_colliders_are_outside_and_as_long_as_before(void** state)
 {
     struct fixture f = start(state, 1);
@@ -378,8 +385,9 @@ static void followers_pushed_out_of_colliders_are_outside_and_as_long_as_before(
     finish(&f);
 }
 
-// A collider that comes by and by moves followers by and by: what it does has no jumps. But one that has come over a strand
-// until its middle is past it pushes it out on the other side, and guides that are simulated are not there.
+// Check that followers move continuously with a collider. Strands that the collider covers beyond
+// its middle are left out, because they leave on the other side. Simulated guides do not occur
+// there.
 static void a_collider_that_moves_a_little_moves_followers_a_little(void** state)
 {
     struct fixture f = start(state, 1);
@@ -430,7 +438,7 @@ static void where_no_collider_is_in_reach_there_is_no_pass_and_no_memory(void** 
     finish(&f);
 }
 
-// Once for all views and readings of one step.
+// Check that hits are found once for all views and reads of a step.
 static void nothing_is_looked_for_twice(void** state)
 {
     struct fixture f = start(state, 0);

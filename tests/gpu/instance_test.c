@@ -1,4 +1,5 @@
-// instance_test.c - one head of hair as an application has it: reset, teleported, far away, beside others.
+// instance_test.c - one head of hair as an application uses it: reset, teleported, far away, beside
+// others.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@
 
 #define MOST 4096
 
-static int way; // in which hair is simulated: main goes through all
+static int way; // Solver and mapping. main runs all tests for each.
 
 struct strands {
     float positions[3 * MOST];
@@ -25,7 +26,7 @@ static void identity(float out[16])
     for (int i = 0; i < 16; ++i) out[i] = i % 5 == 0;
 }
 
-// A turn about the y axis, and a place.
+// Make a rotation about the y axis and a translation.
 static void pose(float angle, float x, float y, float z, float out[16])
 {
     identity(out);
@@ -53,7 +54,7 @@ static void read(struct hair_test* test, hair_instance* hair, hair_read_source w
     assert_in_range(out->vertices, 1, MOST);
 }
 
-// A head that swings to and fro for `steps` steps of 1/60 s around x.
+// Swing the head to and fro around x, for `steps` steps of 1/60 s.
 static void swing(struct hair_test* test, hair_instance* hair, float x, int steps)
 {
     float transform[16];
@@ -109,7 +110,8 @@ static void a_reset_is_as_good_as_new(void** state)
     hair_groom_destroy(groom);
 }
 
-// What is seen of the head's own coordinates: p - place, turned back by the angle.
+// Convert a point from the world to the head's coordinates: translate by the negative position, and
+// rotate back.
 static void to_head(const float transform[16], const float* p, float out[3])
 {
     float d[3] = {p[0] - transform[12], p[1] - transform[13], p[2] - transform[14]};
@@ -141,15 +143,17 @@ static void a_teleport_takes_shape_and_motion_along(void** state)
     hair_physics still = hair_physics_default();
     float here[16], there[16];
     look.segments = 8;
-    // Gravity has a direction of its own in the world; without it the world looks alike from everywhere.
+    // Gravity has a fixed direction in the world. Without gravity, all rotations of the world are
+    // equivalent.
     memset(still.gravity, 0, sizeof still.gravity);
     for (int i = 0; i < 2; ++i) {
         hair_test_ok(test, hair_set_look(i ? other : hair, &look));
         hair_test_ok(test, hair_set_physics(i ? other : hair, &still));
         swing(test, i ? other : hair, 0, 12);
-        hair_test_ok(test, hair_step(i ? other : hair, 0.003f)); // between two ends of substeps
+        // The time is between two ends of substeps.
+        hair_test_ok(test, hair_step(i ? other : hair, 0.003f));
     }
-    pose(0.5f * sinf(3.3f), 0.05f * sinf(4.4f), 0, 0, here); // where swing has left the head
+    pose(0.5f * sinf(3.3f), 0.05f * sinf(4.4f), 0, 0, here); // The head's pose after swing().
     pose(2.5f, 3, -1, 2, there);
     hair_test_ok(test, hair_teleport(hair, there));
     for (int steps = 0; steps < 5; ++steps) {
@@ -158,7 +162,7 @@ static void a_teleport_takes_shape_and_motion_along(void** state)
             read(test, hair, whats[i], &after);
             compare_in_heads(&before, here, &after, there, hair_test_way_rounding(way));
         }
-        // Nothing swings that would not have swung.
+        // The teleport must not add motion.
         hair_test_ok(test, hair_step(other, 1.0f / 60));
         hair_test_ok(test, hair_step(hair, 1.0f / 60));
     }
@@ -180,7 +184,8 @@ static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** sta
     read(test, hair, HAIR_READ_GUIDES, &strands);
     uint32_t tip = groom->guides[0].count - 1;
     hair_test_near("root", 0, strands.positions[0], groom->rest[0].position.x + 0.5, 1e-6);
-    assert_true(strands.positions[3 * tip] < groom->rest[tip].position.x + 0.45f); // It lags behind.
+    // The tip lags behind.
+    assert_true(strands.positions[3 * tip] < groom->rest[tip].position.x + 0.45f);
     hair_destroy(hair);
     hair_groom_destroy(groom);
 }
@@ -210,7 +215,8 @@ static void strands_rest_on_a_collider_that_moves_into_them(void** state)
     for (uint32_t g = 0; g < groom->info.guide_count; ++g)
         for (uint32_t i = 2; i < groom->guides[g].count; ++i) {
             const float* p = strands.positions + 3 * (groom->guides[g].first + i);
-            float y = fminf(fmaxf(p[1], 0), 0.2f); // nearest height of the capsule's axis
+            // Height of the nearest point on the capsule's axis.
+            float y = fminf(fmaxf(p[1], 0), 0.2f);
             double from_axis = hypot(hypot(p[0] - 0.15, p[1] - y), p[2]);
             hair_test_near("inside the sphere", i, fmin(sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]), 0.091),
                            0.091, 1e-5);
@@ -222,8 +228,8 @@ static void strands_rest_on_a_collider_that_moves_into_them(void** state)
     hair_groom_destroy(groom);
 }
 
-// The greatest share by which a segment of a guide is longer or shorter than at rest. In the state itself:
-// out there floats of the world are millimetres.
+// Return the maximum relative stretch or compression of a guide's segment. It is measured in the
+// state, because floats of the world are spaced by millimetres out there.
 static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
 {
     static struct hair_state state[MOST];
@@ -254,12 +260,13 @@ static void far_from_the_origin_nothing_stretches_more(void** state)
         hair_destroy(hair);
     }
     print_message("    stretch %.4f at the origin, %.4f at 1e5 m\n", stretch[0], stretch[1]);
-    // Floats at 1e5 m are 8 mm apart: the head itself jerks by that much.
+    // Floats at 1e5 m are spaced by 8 mm, so the head itself jerks by 8 mm.
     assert_true(stretch[1] <= stretch[0] + 0.02);
     hair_groom_destroy(groom);
 }
 
-// A head that stands still there gives the same bits as at the origin: positions are from the head.
+// Check that a head at rest far away gives the same bits as at the origin, because positions are
+// relative to the head.
 static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
 {
     static struct hair_state near[MOST], far[MOST];
@@ -287,7 +294,7 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
 {
     hair_view view = hair_view_default();
     view.primitive = HAIR_PRIMITIVE_LINES; // Ribbons are much narrower than these pixels.
-    // 0.8 m wide around the head, seen along -z.
+    // The view is 0.8 m wide around the head, along -z.
     view.projection[0] = view.projection[5] = 2.5f;
     view.projection[10] = -0.5f;
     view.projection[13] = -0.3f;
@@ -356,7 +363,7 @@ static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
     hair_destroy(other);
 }
 
-// Whatever the application does, every vertex is a number.
+// Check that every vertex is finite after any call of the application.
 static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
 {
     static struct strands strands;
@@ -389,7 +396,8 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
     hair_groom_destroy(groom);
 }
 
-// However far the head goes in one step, and wherever in a substep the step ends.
+// Check that hair follows the head over any distance in one step, wherever in a substep the step
+// ends.
 static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** state)
 {
     static struct strands strands;
@@ -412,7 +420,8 @@ static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** 
     hair_groom_destroy(groom);
 }
 
-// A step that is a small part of a substep, and ends one: colliders are where they were set, not beyond.
+// Check a step that is a small part of a substep and ends the substep. Colliders must be at their
+// last positions, and not beyond.
 static void a_step_shorter_than_rounding_moves_no_collider_too_far(void** state)
 {
     static struct strands before, after;
@@ -427,7 +436,8 @@ static void a_step_shorter_than_rounding_moves_no_collider_too_far(void** state)
     hair_test_ok(test, hair_step(hair, (float)((1 - 3e-6) / 120)));
     read(test, hair, HAIR_READ_GUIDES, &before);
     for (int i = 0; i < 110; ++i) {
-        collider.position[1] -= 0.0145f; // In the end at 1.4: it touches no hair.
+        // The last height is 1.4 m, where the collider touches no hair.
+        collider.position[1] -= 0.0145f;
         hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
         hair_test_ok(test, hair_step(hair, 2e-8f / 120));
         read(test, hair, HAIR_READ_GUIDES, &after);

@@ -1,8 +1,9 @@
-// isolines_test.c - every follower is drawn once and whole, however many vertices that takes, by every path.
+// isolines_test.c - every follower is drawn once and whole, with any number of vertices, by every
+// render path.
 //
-// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits and repeats earlier strands in place
-// of later ones, without an error and with the right count of primitives. So what is drawn is captured and
-// looked at.
+// Mesa's llvmpipe numbers the vertices of a tessellated draw in 16 bits. It repeats earlier strands
+// in place of later ones, without an error and with the right count of primitives. Therefore the
+// tests capture the drawn vertices and examine them.
 #include "tests/support/passes.h"
 
 #include <math.h>
@@ -16,20 +17,20 @@
 #include "tests/support/passes.h"
 
 struct vertex {
-    float x, y, z, radius; // strand_position of strand.tese
+    float x, y, z, radius; // The output strand_position of strand.tese.
 };
 
-// What stands between the library and OpenGL while its draws are captured.
+// Functions and state that capture draws between the library and OpenGL.
 static struct {
     void(APIENTRY* patches)(GLenum, GLint, GLsizei, GLsizei);
     void(APIENTRY* listed)(GLenum, GLenum, const void*, GLsizei, GLsizei);
     GLuint feedback, buffer, queries[2];
-    GLintptr at; // bytes captured so far
+    GLintptr at; // Number of bytes captured so far.
     uint64_t generated, draws;
 } capture;
 
-// Each draw is a run of transform feedback: one that was under way would not let the library change its
-// program.
+// Start a capture. Each draw is its own transform feedback, because the library could not change
+// its program during an active one.
 static void begin_capture(void)
 {
     GLint64 size;
@@ -74,7 +75,7 @@ static void APIENTRY capture_listed(GLenum mode, GLenum type, const void* comman
 }
 
 struct drawn {
-    struct vertex* vertices; // two a segment, in the order drawn
+    struct vertex* vertices; // Two per segment, in drawing order.
     size_t segments;
     uint64_t generated, draws;
 };
@@ -83,7 +84,8 @@ struct drawn {
 #define SHADED_LINES (HAIR_GL_WITH(SHADED) | HAIR_GL_WITH(LINES))
 #define HITS HAIR_GL_WITH(HITS)
 
-// What makes lines, and the same without pixels: without and with colliders in reach.
+// Passes that draw lines, and their stages without the fragment shader: without and with colliders
+// in reach.
 static const struct {
     hair_gl_pass pass[2];
     const char* stages[2];
@@ -101,8 +103,8 @@ static const struct {
 
 #define PATHS (sizeof paths / sizeof *paths)
 
-// hair_draw as lines, with what becomes of it instead of pixels. `hits`: there are colliders in reach. The caller frees the
-// vertices.
+// Draw lines by hair_draw, and return the captured vertices instead of pixels. `hits` is 1 if
+// colliders are in reach. The caller frees the vertices.
 static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_render_path path,
                              size_t most_segments, int hits, const hair_lod* lod)
 {
@@ -118,11 +120,11 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_r
     capture.listed = gl->MultiDrawElementsIndirect;
     glCreateTransformFeedbacks(1, &capture.feedback);
     glCreateBuffers(1, &capture.buffer);
-    // Room for more than is right, so that too much is seen too.
+    // The buffer has room for more than the right number of vertices, to detect too many.
     glNamedBufferStorage(capture.buffer, (GLsizeiptr)((most_segments + 64) * 2 * sizeof(struct vertex)), NULL,
                          0);
 
-    struct hair_test_frame frame; // Without one every draw fails.
+    struct hair_test_frame frame; // Without a framebuffer every draw fails.
     hair_test_frame_make(&frame, 4, 4, GL_RGBA8, 0);
     own->program = program;
     gl->DrawArraysInstanced = capture_patches;
@@ -155,7 +157,7 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_rende
     return draw_lod(test, hair, path, most_segments, hits, NULL);
 }
 
-// The rest of the library's followers tell themselves apart by their radius (grooms.c), if nothing tapers it.
+// Return a look without taper. The radius of a follower then identifies it (grooms.c).
 static hair_look look_of(uint32_t segments)
 {
     hair_look look = hair_look_default();
@@ -182,7 +184,8 @@ static int by_follower(const void* a, const void* b)
     return p->at < q->at ? -1 : p->at > q->at;
 }
 
-// Tessellators draw the isolines of a patch in any order, a GPU's in another than llvmpipe's.
+// Sort strands by follower. Tessellators draw the isolines of a patch in any order, and orders
+// differ between GPUs and llvmpipe.
 static void sort_strands(struct drawn* drawn)
 {
     struct segment* segments = malloc(drawn->segments * sizeof *segments + 1);
@@ -200,12 +203,13 @@ static int is_at(const struct vertex* vertex, const float* position, double tole
            fabs(vertex->z - position[2]) <= tolerance;
 }
 
-// Every path is one function of GLSL, compiled anew: lengths under 0.5 m, rounded to 2^-24 of them, in another order. Of
-// strands of 0.07 m and more this is less than 1e-5 of the length.
+// Absolute tolerance, in metres. Every path evaluates one GLSL function, compiled separately.
+// Lengths under 0.5 m are rounded to a relative 2^-24 in another order. For strands of 0.07 m and
+// more the tolerance is less than 1e-5 of the length.
 #define TOLERANCE (10 * 0.5 / 16777216)
 
-// Which segment of the follower a drawn one is: the one beginning where it begins, on after the last one
-// found.
+// Return the follower's segment that a drawn segment starts at. The search starts at the previous
+// result.
 static uint32_t find_segment(const struct vertex* drawn, const float* follower, uint32_t segments,
                              uint32_t guess)
 {
@@ -227,7 +231,7 @@ static void check_every_segment(const struct drawn* drawn, const float* expected
         const struct vertex* vertices = drawn->vertices + 2 * i;
         long follower = follower_of(&vertices[0]);
         assert_in_range(follower, 0, followers - 1);
-        assert_int_equal(follower_of(&vertices[1]), follower); // No segment runs from one strand to another.
+        assert_int_equal(follower_of(&vertices[1]), follower); // No segment connects two strands.
         uint32_t s =
             find_segment(vertices, expected + (size_t)follower * (segments + 1) * 3, segments, guess);
         if (s == UINT32_MAX)
@@ -242,8 +246,8 @@ static void check_every_segment(const struct drawn* drawn, const float* expected
     free(seen);
 }
 
-// A groom of so many followers and isolines to a patch is drawn whole, and where it is read, also where it meets a
-// collider.
+// Check that a groom with these numbers of followers and isolines per patch is drawn whole, and as
+// it is read. Check the part that meets a collider too.
 static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t isolines, uint32_t segments,
                           hair_follower_collision collision)
 {
@@ -312,20 +316,21 @@ static void the_most_segments_are_drawn_whole(void** state)
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) check(*state, 150, 64, counts[i]);
 }
 
-// As one draw these would be of just under, just over and twice 65,536 vertices.
+// Check sizes that, as one draw, would have just under, just over and twice 65,536 vertices.
 static void the_65536th_vertex_is_no_boundary(void** state)
 {
-    check(*state, 1985, 64, 32); // 65,505
-    check(*state, 1986, 64, 32); // 65,538
-    check(*state, 1008, 64, 64); // 65,520
-    check(*state, 1009, 64, 64); // 65,585
-    check(*state, 2048, 1, 31); // 65,536
-    check(*state, 32768, 64, 1); // 65,536
-    check(*state, 4100, 64, 32); // 135,300
-    check(*state, 1025, 64, 128); // beyond, in each of two parts
+    check(*state, 1985, 64, 32); // 65,505 vertices.
+    check(*state, 1986, 64, 32); // 65,538 vertices.
+    check(*state, 1008, 64, 64); // 65,520 vertices.
+    check(*state, 1009, 64, 64); // 65,585 vertices.
+    check(*state, 2048, 1, 31); // 65,536 vertices.
+    check(*state, 32768, 64, 1); // 65,536 vertices.
+    check(*state, 4100, 64, 32); // 135,300 vertices.
+    check(*state, 1025, 64, 128); // More vertices, in each of two parts.
 }
 
-// The self-test of context creation finds the fault: with its finding put aside, strands go missing.
+// Check that the self-test of context creation detects the fault. If its result is ignored, strands
+// are missing.
 static void a_driver_that_loses_strands_is_found_out(void** state)
 {
     struct hair_test* test = *state;
@@ -363,7 +368,8 @@ static void a_density_of_0_draws_nothing(void** state)
         assert_int_equal(count_drawn(*state, path, 0, 8), 0);
 }
 
-// The last isoline of each patch, of which there are 16, is drawn when any of it is wanted.
+// Check the density. The last isoline of each of the 16 patches is drawn if any part of it is
+// included.
 static void density_is_the_share_of_followers_drawn(void** state)
 {
     for (hair_render_path path = 0; path < PATHS; ++path) {
@@ -395,7 +401,8 @@ static void a_patch_of_no_density_draws_nothing(void** state)
     hair_groom_destroy(groom);
 }
 
-// Two sets: of one the first patch grows, of the other the second, twice as thick.
+// Check two sets of maps. The first patch grows hair with the first set. The second patch grows
+// hair with the second set, twice as thick.
 static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
 {
     struct hair_test* test = *state;
@@ -413,7 +420,8 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
     desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < 7 * PATHS; ++i) {
-        float set = 0.25f * (float)(i % 7), blend = fminf(set, 1); // Beyond the last set there is no other.
+        // There is no set beyond the last one.
+        float set = 0.25f * (float)(i % 7), blend = fminf(set, 1);
         look.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
         struct drawn drawn = draw(test, hair, (hair_render_path)(i / 7), (size_t)64 * 4, 0);
@@ -431,7 +439,8 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
     hair_groom_destroy(groom);
 }
 
-// Strands whose segments are no whole number of those of the look. Where there is no tessellator some have no length.
+// Check numbers of segments that are not whole. Without a tessellator, some of the segments have no
+// length.
 static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
 {
     static const float shares[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};

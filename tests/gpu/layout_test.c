@@ -1,4 +1,5 @@
-// layout_test.c - C and GLSL lay out every struct of glsl/shared.h alike, in storage and in uniform buffers.
+// layout_test.c - C and GLSL have equal layouts of every struct of glsl/shared.h, in storage and in
+// uniform buffers.
 #include "tests/support/passes.h"
 
 #include <stdio.h>
@@ -10,7 +11,9 @@
 
 struct member {
     const char* owner;
-    const char* name; // as GLSL's interface query says it: of an array of structs, a member of its element
+    // Name in GLSL's interface query. An array of structs is represented by a member of its
+    // element.
+    const char* name;
     size_t offset, size;
     GLenum type;
 };
@@ -23,7 +26,7 @@ struct member {
 #define UINT(S, name) ROW(S, name, GL_UNSIGNED_INT)
 // clang-format on
 
-// In order, so that each begins where the one before ends and none is forgotten.
+// Members in order. Each begins where the previous one ends, so that none is missing.
 static const struct member members[] = {
     VEC4(hair_guide, root_frame),
     UINT(hair_guide, first),
@@ -415,7 +418,7 @@ static const struct {
 #define STRUCTS (sizeof structs / sizeof *structs)
 #define MEMBERS (sizeof members / sizeof *members)
 
-// A program that holds two of the struct in a storage buffer and two in a uniform buffer.
+// Link a program with two elements of the struct in a storage buffer and two in a uniform buffer.
 static GLuint link_program(const hair_host* host, const char* name)
 {
     struct hair_gl_source shared;
@@ -453,10 +456,11 @@ static void compare(GLuint program, GLenum interface, const char* array, size_t 
     for (size_t i = 0; i < 2; ++i) {
         char name[128];
         if (interface == GL_BUFFER_VARIABLE && i)
-            continue; // Of the outermost array only the first is listed.
+            continue; // Only the first element of the outermost array is listed.
         snprintf(name, sizeof name, "%s[%zu].%s", array, i, member->name);
         GLuint index = glGetProgramResourceIndex(program, interface, name);
-        // Arrays of vectors are one resource, named by its first element; the others follow at its stride.
+        // An array of vectors is one resource, named by its first element. The others follow at its
+        // stride.
         char* bracket = strrchr(name, '[');
         size_t element = 0;
         if (index == GL_INVALID_INDEX && bracket && name[strlen(name) - 1] == ']') {
@@ -505,8 +509,9 @@ static void the_stride_of_every_struct_is_its_size_in_c(void** state)
     }
 }
 
-// The table above names every member: none begins later than the one before ends. Arrays of structs are named
-// by some of their members only, arrays by some elements, and count for as many as they have.
+// Check that the table above has every member: none begins after the end of the previous one. For
+// an array of structs the table has only some members, and for an array only some elements. They
+// count for the whole array.
 static void no_member_is_forgotten(void** state)
 {
     (void)state;
@@ -528,7 +533,8 @@ static void no_member_is_forgotten(void** state)
 #define COLLIDERS HAIR_GL_WITH(COLLIDERS)
 #define THREAD HAIR_GL_WITH(THREAD)
 
-// Of a storage buffer the size is that of one element.
+// Check the binding and size of every buffer. The size of a storage buffer is the size of one
+// element.
 static void the_passes_have_the_buffers_of_shared_h(void** state)
 {
     struct hair_test* test = *state;
@@ -618,7 +624,7 @@ static void the_passes_have_the_buffers_of_shared_h(void** state)
         if (block == GL_INVALID_INDEX)
             fail_msg("%s has no %s", hair_gl_row_label(uses[i].pass), uses[i].block);
         assert_int_equal(ask(program, uses[i].interface, block, GL_BUFFER_BINDING), uses[i].binding);
-        // Some drivers round up to a vec4.
+        // Some drivers round the size up to a vec4.
         assert_in_range(ask(program, uses[i].interface, block, GL_BUFFER_DATA_SIZE), uses[i].size,
                         (uses[i].size + 15) / 16 * 16);
     }
@@ -633,7 +639,8 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
     return size[0];
 }
 
-// A guide's work group has a thread for each of its vertices, in the smallest group of the four that has.
+// Check that a work group has a thread for each vertex of a guide, and is the smallest of the four
+// sizes that does.
 static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,
@@ -650,13 +657,14 @@ static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
         }
 }
 
-// As many in a work group as sim.c counts on, whatever their length.
+// Check the number of guides per work group that sim.c assumes, for any length of guides.
 static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | COLLIDERS,
                                           HAIR_GL_MIXED_SOLVER | THREAD | COLLIDERS};
-    static const int most[] = {3, 3, 3, 2}; // sizes that a GPU has memory for: see lib/sim/programs.c
+    // Number of sizes for which a GPU has enough memory. See lib/sim/programs.c.
+    static const int most[] = {3, 3, 3, 2};
     const struct hair_test* test = *state;
     for (size_t i = 0; i < sizeof groups / sizeof *groups; ++i)
         for (int size = 0; size < (test->context->gl.software ? 4 : most[i]); ++size)

@@ -1,4 +1,5 @@
-// lengths_test.c - from strands to pixels with guides of any number of vertices, as an application asks for it.
+// lengths_test.c - guides of any number of vertices, from strands to pixels, as an application uses
+// them.
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
 
@@ -22,17 +23,18 @@ struct fixture {
     hair_instance* hair;
 };
 
-// All but those that would differ from one of these in nothing that is tested here.
+// Solvers and mappings, without those that differ from one of these in nothing tested here.
 static const int ways[] = {0, 1, 2, 4, 6};
 #define WAYS (sizeof ways / sizeof *ways)
 
-// Of the first way all; the others go by the same text for what lies between the ends, and compile for long.
+// Return whether the test tries this length. The first way tries all lengths. The others use the
+// same source for the lengths between, and take long to compile.
 static int is_tried(int way, uint32_t vertices)
 {
     return way == ways[0] || vertices == 2 || vertices == 65 || vertices == 256;
 }
 
-// Waves that hang from a disc of 10 cm, 30 cm long.
+// Evaluate a wave of 30 cm that hangs from a disc of 10 cm.
 static hair_vec3 wave(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -40,7 +42,8 @@ static hair_vec3 wave(float t, uint32_t strand, const void* user)
     return hair_v3(r * cosf(angle) + 0.03f * sinf(6 * t), -0.3f * t, r * sinf(angle) + 0.02f * sinf(4 * t));
 }
 
-// Full strands, half of them with more vertices than any guide may have, the others with 8 to 13.
+// Create full strands. Half of them have more vertices than a guide may have, and the others have 8
+// to 13.
 static struct fixture start_in(void** state, hair_context* context, uint32_t guide_vertices, int way)
 {
     struct fixture f = {.test = *state};
@@ -83,7 +86,8 @@ static uint32_t read(struct fixture* f, hair_read_source what, float** out)
     return count;
 }
 
-// What a guide costs follows the longest: a sample at every vertex and between.
+// Check the number of samples. The cost of a guide follows the longest guide: one sample at every
+// vertex and between two vertices.
 static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
@@ -98,8 +102,9 @@ static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
     }
 }
 
-// Offsets are fitted to guides as the CPU smooths them, and drawn off guides as the GPU does. Both round positions of
-// up to 0.3 m to 2e-8, and frames to that over the shortest segment, 1 mm; offsets are up to 2 cm.
+// Compare followers at rest with the fitted strands. Offsets are fitted to guides smoothed on the
+// CPU, and drawn from guides smoothed on the GPU. Both round positions of up to 0.3 m to 2e-8 m.
+// Both round frames to 2e-8 m over the shortest segment, 1 mm. Offsets are up to 2 cm.
 static void followers_at_rest_are_where_they_were_fitted(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
@@ -121,8 +126,8 @@ static void followers_at_rest_are_where_they_were_fitted(void** state)
 
 #define THREAD HAIR_GL_WITH(THREAD)
 
-// Of the solver and of smoothing only the size that the longest guide needs is compiled and run; of a guide that a thread
-// would have too much to do with a work group's.
+// Check that the solver and smoothing compile and run only the size for the longest guide. Guides
+// that would be too much work for a thread use a work group.
 static void check_sizes(void** state, hair_context* context, int way)
 {
     static const hair_gl_pass solvers[HAIR_TEST_WAYS] = {HAIR_GL_MIXED_SOLVER, HAIR_GL_MIXED_SOLVER | THREAD,
@@ -194,7 +199,7 @@ static double farthest(const float* a, const float* b, uint32_t count)
     return most;
 }
 
-// The greatest share by which a segment is longer or shorter than at rest.
+// Return the maximum relative stretch or compression of a segment.
 static double greatest_stretch(const struct fixture* f, const float* p)
 {
     double worst = 0;
@@ -207,9 +212,10 @@ static double greatest_stretch(const struct fixture* f, const float* p)
     return worst;
 }
 
-// Swayed, and the head back where it was. Pinned at two vertices, a guide of two goes with the head; all others hang
-// behind, and no farther than they are long; following the leader may turn one of 40 cm right over. Beyond a hundredth
-// of its length no segment of a rod is left to stretch.
+// Check guides after a swaying head has returned to its position. A guide of two vertices has both
+// pinned, and moves with the head. All others lag behind by at most their length. Following the
+// leader may turn a guide of 40 cm right over. No segment of a rod stretches by more than a
+// hundredth of its length.
 static void check_motion(struct fixture* f, uint32_t vertices)
 {
     float *before, *after, transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

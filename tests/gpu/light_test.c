@@ -1,5 +1,5 @@
-// light_test.c - lights of a view: they add up, get weaker with distance, end where they should, and never make what is
-// not a number.
+// light_test.c - lights of a view: they add up, weaken with distance, end at their limits, and
+// always give finite pixels.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -28,12 +28,12 @@ static struct fixture start(void** state, hair_shading shading)
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     look.shading = shading, look.segments = 8, look.radius = 0.002f;
-    look.roughness[0] = look.roughness[1] = 0.05f; // The sharpest lobes.
+    look.roughness[0] = look.roughness[1] = 0.05f; // These are the sharpest lobes.
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
-    // Straight down -z at a square of 0.6 m.
+    // The view looks straight down -z at a square of 0.6 m.
     f.view.projection[0] = f.view.projection[5] = 1 / 0.3f;
     f.view.projection[10] = -1;
     for (int i = 0; i < 16; ++i) f.light[i] = hair_light_default();
@@ -135,12 +135,14 @@ static void a_spot_shines_into_its_cone_and_no_farther(void** state)
     draw(&f, 1, point);
     f.light[0].kind = HAIR_LIGHT_SPOT;
     f.light[0].direction[0] = f.light[0].direction[1] = 0, f.light[0].direction[2] = 1;
-    f.light[0].inner_angle = 0.05f, f.light[0].outer_angle = 0.06f; // 10 and 12 cm of 30.
+    // Radii of 10 and 12 cm in a half width of 30 cm.
+    f.light[0].inner_angle = 0.05f, f.light[0].outer_angle = 0.06f;
     draw(&f, 1, spot);
     for (int i = 0; i < SIZE * SIZE; ++i) {
         double r = 0.6 / SIZE * hypot(i % SIZE + 0.5 - SIZE / 2.0, i / SIZE + 0.5 - SIZE / 2.0);
         if (point[4 * i] <= 0) continue;
-        if (r < 0.07) { // Strands are nearer than what they cover, so that some room must be left.
+        // Strands are nearer than the surface they cover, so the limits leave a margin.
+        if (r < 0.07) {
             hair_test_near("inside", (size_t)i, (double)spot[4 * i], (double)point[4 * i],
                            1e-4 * (double)point[4 * i]);
             ++inside;
@@ -153,7 +155,8 @@ static void a_spot_shines_into_its_cone_and_no_farther(void** state)
     finish(&f);
 }
 
-// An even sky is the same as harmonics of order 0; what is brighter above lights what faces up more.
+// Check spherical harmonics. A uniform sky equals harmonics of order 0. A sky that is brighter
+// above lights surfaces that face up more.
 static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
@@ -161,20 +164,22 @@ static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
     static float even[VALUES], pixels[VALUES];
     for (int i = 0; i < 3; ++i) f.view.ambient[i] = 2;
     draw(&f, 0, even);
-    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0, sky[i] = 2 / 0.886227f; // pi times 0.282095
+    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0, sky[i] = 2 / 0.886227f; // Pi times 0.282095.
     f.view.sky = sky;
     draw(&f, 0, pixels);
     hair_test_near("an even sky", 0, sum_of(pixels) / sum_of(even), 1, 1e-5);
-    sky[8] = sky[0] / 2; // z: towards the eye, which sees what faces it
+    sky[8] = sky[0] / 2; // Along z, towards the eye, which sees the surfaces that face it.
     draw(&f, 0, pixels);
-    // Of pi/4 of the 2/3 pi times 0.488603 of order 1: what is seen of a cylinder.
+    // The visible half of a cylinder receives pi / 4 of the harmonics of order 1, which are 2/3 pi
+    // times 0.488603.
     double more = 0.5 * 3.14159265 / 4 * 1.023328 / 0.886227;
     print_message("    %.4f times as bright\n", sum_of(pixels) / sum_of(even));
     assert_true(sum_of(pixels) / sum_of(even) > 1 && sum_of(pixels) / sum_of(even) < 1 + more + 1e-4);
     finish(&f);
 }
 
-// As bright as can be, on vertices of strands and nowhere, in directions that are next to none.
+// Check the brightest lights, on vertices of strands and infinitely far, in nearly undefined
+// directions.
 static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** state)
 {
     for (int shading = 0; shading < 2; ++shading) {

@@ -1,4 +1,4 @@
-// lives_test.c - what contexts and instances make, count and leave.
+// lives_test.c - objects that contexts and instances create, count and leave behind.
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
 
@@ -12,7 +12,7 @@
 
 #define MOST 4096
 
-// Objects of OpenGL that are alive, by trying names.
+// Count the OpenGL objects that exist, by trying all names.
 static uint32_t count_objects(void)
 {
     uint32_t count = 0;
@@ -39,7 +39,7 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_set_look(hair, &look));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
-    hair_test_ok(test, hair_set_physics(hair, &other)); // which makes rods anew
+    hair_test_ok(test, hair_set_physics(hair, &other)); // Makes the rods again.
     hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
     hair_test_ok(test, hair_draw(hair, &view));
@@ -54,7 +54,8 @@ static void two_hundred_lives_leave_nothing(void** state)
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
-        live_once(test, groom, way, 1); // Programs are compiled when first needed, and stay.
+        // Programs are compiled when they are first needed, and stay.
+        live_once(test, groom, way, 1);
         uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
         for (int life = 0; life < 200 / HAIR_TEST_WAYS + 1; ++life)
             live_once(test, groom, way, life % 10 == 0);
@@ -112,7 +113,8 @@ static void timings_count_the_runs_of_every_pass(void** state)
     assert_in_range(count, 3, 16);
     for (uint32_t i = 0; i < count; ++i) {
         int solves = !strcmp(timings[i].pass, "sim/mixed_32");
-        int smooth = !strcmp(timings[i].pass, "interpolate/smooth_32"); // Nobody has looked.
+        // Nothing has read the guides.
+        int smooth = !strcmp(timings[i].pass, "interpolate/smooth_32");
         if (solves || smooth) assert_int_equal(timings[i].runs, solves ? 9 : 0);
         assert_null(strstr(timings[i].pass, "draw/"));
         assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
@@ -135,7 +137,7 @@ static uint32_t read_smooth(struct hair_test* test, hair_instance* hair, float* 
 static const float straight[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 static const float turned[16] = {0.8f, 0.6f, 0, 0, -0.6f, 0.8f, 0, 0, 0, 0, 1, 0, 0.1f, 0.2f, 0.3f, 1};
 
-// What moves guides, but for steps. The last puts them where they were.
+// Move the guides without a step. The last way restores their positions.
 static void move(struct hair_test* test, hair_instance* hair, int how)
 {
     static unsigned char bytes[1 << 20];
@@ -148,7 +150,8 @@ static void move(struct hair_test* test, hair_instance* hair, int how)
     hair_test_ok(test, hair_load(hair, bytes, size));
 }
 
-// One is looked at after every step, the other once: drawn, and what was drawn is read.
+// Check smoothing on demand. One instance is read after every step. The other is drawn once and
+// read after the draw.
 static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(void** state)
 {
     static float often[3 * MOST], once[3 * MOST];
@@ -170,7 +173,7 @@ static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(voi
             read_smooth(test, a, often);
             assert_int_equal(hair_test_runs(&context->gl, HAIR_GL_SMOOTH), before + (uint32_t)i + 1);
         }
-        hair_test_ok(test, hair_set_transform(b, turned)); // For the step to come.
+        hair_test_ok(test, hair_set_transform(b, turned)); // The next step uses this.
         hair_test_ok(test, hair_draw(b, &view));
         assert_int_equal(hair_test_runs(&context->gl, HAIR_GL_SMOOTH), before + 5);
         count = read_smooth(test, b, once);
@@ -205,7 +208,8 @@ static uint32_t count_solvers(const hair_context* context)
     return count;
 }
 
-// Of the many programs that solvers have: straight hair needs not what curls, and what meets no collider no contact.
+// Check which programs of the solvers are compiled. Straight hair needs no program for curls, and
+// hair without colliders needs no program with contact.
 static void check_compiled(struct hair_test* test, int way)
 {
     static const hair_gl_pass rows[HAIR_TEST_WAYS] = {
@@ -217,7 +221,8 @@ static void check_compiled(struct hair_test* test, int way)
     hair_physics limp = hair_physics_default();
     hair_gl_pass passes[4];
     uint32_t compiled = 0;
-    limp.gravity_preload = 0; // Straight hair that bears its weight is curved when nothing pulls at it.
+    // With gravity preload, straight hair is curved in the absence of forces.
+    limp.gravity_preload = 0;
     for (int kind = 0; kind < 4; ++kind) {
         struct hair_test_handmade wanted = hair_test_handmade_default();
         hair_instance* hair = NULL;
@@ -228,7 +233,7 @@ static void check_compiled(struct hair_test* test, int way)
         hair_groom* groom = hair_test_groom(&test->host.host, wanted);
         hair_test_ok(test, hair_create(context, groom, &desc, &hair));
         hair_test_ok(test, hair_set_colliders(hair, &collider, (uint32_t)colliders, sizeof collider));
-        hair_test_ok(test, hair_step(hair, 1e-6f)); // It runs no substep.
+        hair_test_ok(test, hair_step(hair, 1e-6f)); // Runs no substep.
         hair_gl_pass pass = rows[way];
         if (hair_sim_is_mixed(&hair->sim))
             pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);

@@ -1,4 +1,5 @@
-// lod_test.c - less is drawn of what appears small or is not seen at all, and nobody notices.
+// lod_test.c - less is drawn of hair that is small or out of view, and the picture does not change
+// visibly.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -21,7 +22,7 @@ struct fixture {
     hair_instance* hair;
 };
 
-// A built-in haircut of few strands, each as wide as several.
+// Make a built-in haircut of few strands, each as wide as several.
 static struct fixture start(void** state, hair_style style, uint32_t followers, float radius)
 {
     struct fixture f = {.test = *state};
@@ -35,12 +36,13 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// From in front of the head, or from `turn` radians to the side of that, at a distance; as wide as high.
+// Make a view of the head at a distance, from the front or `turn` radians from it. The picture is
+// square.
 static hair_view view_from(float distance, float turn)
 {
     static const float target[3] = {0, 1.55f, 0};
     hair_view view = hair_view_default();
-    view.render_path = HAIR_RENDER_PATH_TESSELLATION; // The others make segments without length.
+    view.render_path = HAIR_RENDER_PATH_TESSELLATION; // The other paths draw segments of no length.
     float s = sinf(turn), c = cosf(turn);
     const float rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
     for (int i = 0; i < 3; ++i) {
@@ -50,7 +52,7 @@ static hair_view view_from(float distance, float turn)
             view.view[12 + i] -= rows[i][k] * target[k];
         }
     }
-    view.projection[0] = view.projection[5] = 4; // 28 degrees
+    view.projection[0] = view.projection[5] = 4; // 28 degrees.
     view.projection[10] = -1, view.projection[14] = -0.02f;
     view.projection[11] = -1, view.projection[15] = 0;
     return view;
@@ -58,7 +60,7 @@ static hair_view view_from(float distance, float turn)
 
 struct picture {
     float pixels[4 * PIXELS];
-    uint64_t primitives; // triangles, two a segment
+    uint64_t primitives; // Triangles, two per segment.
 };
 
 static void draw(struct fixture* f, const hair_view* view, const hair_view* before, struct picture* out)
@@ -79,7 +81,7 @@ static void draw(struct fixture* f, const hair_view* view, const hair_view* befo
     out->primitives = count;
 }
 
-// Strands all of one colour and light: how much of each pixel they cover.
+// Return the area that strands of one uniform colour cover, in pixels.
 static double coverage_of(struct fixture* f, float distance, const hair_lod* lod)
 {
     static struct picture picture;
@@ -119,7 +121,7 @@ static float encode(float linear)
     return x <= 0.0031308f ? 12.92f * x : 1.055f * powf(x, 1 / 2.4f) - 0.055f;
 }
 
-// Four pixels of a picture become one.
+// Average four pixels of a picture into one.
 static void develop(const struct picture* picture, float* rgb, unsigned char* mask)
 {
     for (int y = 0; y < SIDE / 2; ++y)
@@ -134,7 +136,7 @@ static void develop(const struct picture* picture, float* rgb, unsigned char* ma
         }
 }
 
-// FLIP over what hair covers in either and 8 pixels around.
+// Return the FLIP error over the hair of both pictures, with a border of 8 pixels.
 static double flip_between(const struct picture* a, const struct picture* b)
 {
     static float rgb[2][3 * PIXELS / 4];
@@ -147,7 +149,7 @@ static double flip_between(const struct picture* a, const struct picture* b)
     return error.flip;
 }
 
-// Of 300 frames on the way from 0.9 m to 27 m every tenth, and the one after it.
+// Check pairs of consecutive frames. Every tenth of 300 frames from 0.9 m to 27 m starts a pair.
 static void walking_away_shows_no_step(void** state)
 {
     enum { FRAMES = 300, EVERY = 10 };
@@ -176,7 +178,7 @@ static void walking_away_shows_no_step(void** state)
     finish(&f);
 }
 
-// A segment more or less, and a strand: on either side of that the pictures are the same but for a millionth.
+// Check both sides of a change in the number of segments or strands. The pictures differ by little.
 static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
 {
     static struct picture picture[2];
@@ -203,12 +205,14 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
     finish(&f);
 }
 
-// Where what leads followers round a collider moves them by a pixel, that begins to be shown, by two all of it is; on either side of
-// both the pictures are the same but for little. As long as none is shown no follower has been looked at.
+// Check pushing followers out at a distance. A displacement of one pixel starts the effect, and a
+// displacement of two pixels shows all of it. On either side of both limits the pictures differ by
+// little. Below the first limit no follower is tested.
 static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** state)
 {
     static struct picture picture[4];
-    static const float pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f}; // of 5 mm
+    // Sizes of 5 mm in the picture.
+    static const float pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f};
     struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
     hair_view view = view_from(0.9f, 0.5f);
     hair_lod lod = hair_lod_default();
@@ -217,12 +221,12 @@ static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** 
     collider.position[0] = skull.x, collider.position[1] = skull.y, collider.position[2] = skull.z;
     collider.size[0] = 1.3f * skull.w;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-    lod.strand_pixels = 0.01f; // All of them,
-    lod.segment_pixels = 0.1f; // whole.
+    lod.strand_pixels = 0.01f; // Draws all strands.
+    lod.segment_pixels = 0.1f; // Draws all segments.
     view.lod = &lod;
     for (int i = 0; i < 4; ++i) {
         lod.importance = 1;
-        draw(&f, &view, NULL, &picture[i]); // It says how many pixels a metre has.
+        draw(&f, &view, NULL, &picture[i]); // Computes the number of pixels per metre.
         lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels);
         hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
         hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
@@ -246,7 +250,7 @@ static int differ(const struct picture* a, const struct picture* b)
     return memcmp(a->pixels, b->pixels, sizeof a->pixels) != 0;
 }
 
-// As large as it appears, nothing need be left out.
+// Return a level of detail so important that only culling removes strands.
 static hair_lod only_culling(void)
 {
     hair_lod lod = hair_lod_default();
@@ -256,8 +260,8 @@ static hair_lod only_culling(void)
     return lod;
 }
 
-// The view passes over the head while that shakes, so that hair is where it is not at rest.
-// With and without levels of detail. Of hair whose roots are free nothing may be left out.
+// Move the view over a shaking head, so that hair is away from its rest pose. Test with and without
+// levels of detail. With free roots, nothing may be left out.
 static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** state)
 {
     static struct picture full, plain, culled;
@@ -295,14 +299,14 @@ static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** 
     assert_int_equal(culled.primitives, 0);
 
     hair_physics physics = hair_physics_default();
-    physics.root = HAIR_ROOT_FREE; // Then there is no telling where it is.
+    physics.root = HAIR_ROOT_FREE; // The bounds of hair with free roots are unknown.
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     draw(&f, &away, NULL, &culled);
     assert_int_equal(culled.primitives, full.primitives);
     finish(&f);
 }
 
-// With the head in front of it, drawn as a collider, what is behind is not missed.
+// Draw the head in front as a collider. The picture then must not miss the strands behind.
 static void what_the_head_hides_is_not_drawn(void** state)
 {
     static struct picture full, culled;
@@ -331,7 +335,7 @@ static void what_the_head_hides_is_not_drawn(void** state)
         assert_true(error < 0.01);
         if (left < least) least = left;
     }
-    assert_true(least < 0.85); // From behind nothing is hidden.
+    assert_true(least < 0.85); // In the view from behind, nothing is occluded.
     finish(&f);
 }
 

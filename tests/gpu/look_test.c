@@ -1,4 +1,5 @@
-// look_test.c - what a look asks of followers is what they do: shares, radii and lengths; what is off changes no bit.
+// look_test.c - followers do what the look specifies: fractions, radii and lengths. Disabled
+// settings change no bit.
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
 
@@ -20,7 +21,7 @@ struct fixture {
     hair_instance* hair;
 };
 
-// Straight guides, so that what a look adds is across a line.
+// Create straight guides. Offsets by the look are then perpendicular to a line.
 static struct fixture start(void** state)
 {
     struct fixture f = {.test = *state};
@@ -63,7 +64,7 @@ static double distance_at(const float* a, const float* b, size_t i)
     return sqrt(sum);
 }
 
-// Share of the strands of which a vertex from `first` to `last` is elsewhere.
+// Return the fraction of strands that have a moved vertex between `first` and `last`.
 static double share_moved(const float* a, const float* b, size_t first, size_t last)
 {
     uint32_t moved = 0;
@@ -88,7 +89,8 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
     float* all = read_with(&f, &look);
     print_message("    %.3f stray at their tips, %.3f all along\n", share_moved(plain, tips, 0, SEGMENTS),
                   share_moved(plain, whole, 0, SEGMENTS));
-    // Of 4,000 strands 30 % are within 2.2 % with a certainty of three standard deviations, 10 % within 1.4 %.
+    // Tolerances are three standard deviations. For 4,000 strands they are 2.2 % at a fraction of
+    // 30 %, and 1.4 % at 10 %.
     hair_test_near("tips", 0, share_moved(plain, tips, 0, SEGMENTS), 0.3, 0.022);
     hair_test_near("tips, in the first two fifths", 0, share_moved(plain, tips, 0, 2 * SEGMENTS / 5), 0, 0);
     hair_test_near("whole", 0, share_moved(plain, whole, 0, SEGMENTS), 0.1, 0.014);
@@ -99,7 +101,7 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
     finish(&f);
 }
 
-// All along, so that the tip gets no nearer to the root.
+// Check the radius of curls all along the strand. Therefore the tip gets no nearer to the root.
 static void curls_are_as_far_from_the_way_as_their_radius(void** state)
 {
     struct fixture f = start(state);
@@ -131,7 +133,8 @@ static void strands_are_cut_where_the_look_says(void** state)
     float* thinned = read_with(&f, &look);
     double mean = 0;
     for (size_t n = 0; n < FOLLOWERS; ++n) {
-        // Half a strand of as many segments: every second of its vertices is one of the whole strand.
+        // A half strand has as many segments, so every second vertex is a vertex of the whole
+        // strand.
         for (size_t k = 0; k <= SEGMENTS / 2; ++k)
             for (size_t i = 0; i < 3; ++i)
                 hair_test_near("vertex", n, half[3 * (n * EACH + 2 * k) + i], whole[3 * (n * EACH + k) + i],
@@ -145,7 +148,8 @@ static void strands_are_cut_where_the_look_says(void** state)
         mean += sqrt(b / a) / FOLLOWERS;
     }
     print_message("    thinned to %.3f on average\n", mean);
-    hair_test_near("thinned", 0, mean, 0.6, 0.03); // Between 0.2 and 1, evenly.
+    // Lengths are uniformly distributed from 0.2 to 1.
+    hair_test_near("thinned", 0, mean, 0.6, 0.03);
     free(whole), free(half), free(thinned);
     finish(&f);
 }
@@ -166,7 +170,7 @@ static void single_strands_without_offsets_are_their_guide(void** state)
             const struct hair_follower* follower = &f.groom->followers[n];
             double u = (double)follower->length_ratio * (double)k / SEGMENTS * (each - 1);
             size_t at = follower->guide0 * each + (u < each - 2 ? (size_t)u : each - 2);
-            double w = u - floor(fmin(u, each - 2)); // Beyond its tip a straight guide goes on.
+            double w = u - floor(fmin(u, each - 2)); // A straight guide continues beyond its tip.
             for (size_t i = 0; i < 3; ++i) {
                 double expected = (1 - w) * smooth[3 * at + i] + w * smooth[3 * at + 3 + i];
                 hair_test_near("coordinate", n, positions[3 * (n * EACH + k) + i], expected, 1e-6);
@@ -199,16 +203,16 @@ static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** sta
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
     float* plain = read_with(&f, &look);
-    off.tip_stray_distance = off.stray_distance = hair_curve_line(0.1f, 0.2f); // Of no strand.
+    off.tip_stray_distance = off.stray_distance = hair_curve_line(0.1f, 0.2f); // No strand strays.
     off.frizz_wavelength = 0.1f;
-    off.curl_profile = hair_curve_line(2, 1); // Of no radius.
+    off.curl_profile = hair_curve_line(2, 1); // The radius is 0.
     off.curl_wavelength = 0.01f;
     off.curl_turns = 7, off.curl_flatness = 0.5f, off.curl_left_fraction = 0.5f, off.curl_strand_phase = 1,
     off.curl_spread = 0.5f;
     float* same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
     off.tip_stray_fraction = off.stray_fraction = 1;
-    off.tip_stray_distance = off.stray_distance = hair_curve_line(0, 0); // Nowhere.
+    off.tip_stray_distance = off.stray_distance = hair_curve_line(0, 0); // The distance is 0.
     off.curl_radius = 0.1f;
     off.curl_profile = hair_curve_line(0, 0);
     free(same);

@@ -1,5 +1,6 @@
-// motion_test.c - velocities on the screen are those of the strands: of moving hair, of a moving camera, at every level of
-// detail, through teleports and resets; and pictures move by the jitter that is asked for, velocities do not.
+// motion_test.c - velocities on the screen. They agree with the strands for moving hair and a
+// moving camera, at every level of detail, and through teleports and resets. Jitter moves pictures,
+// and not velocities.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -13,13 +14,13 @@
 #define SIDE 96
 #define SEGMENTS 16u
 #define ROUNDED                                                                                              \
-    1e-4 // pixels: what stands still may go, of which two programs work out where it was and where it is
+    1e-4 // Pixels. Two programs compute the previous and the present position.
 
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
     hair_instance* hair;
-    uint32_t count; // vertices of all followers
+    uint32_t count; // Vertices of all followers.
     float *now, *before;
 };
 
@@ -53,7 +54,8 @@ static void set_matrix(float m[16], float x, float y, float z)
     m[12] = x, m[13] = y, m[14] = z;
 }
 
-// A head's breadth away, in perspective; the eye has moved by a bit since the frame before.
+// Make a perspective view at the distance of a head's breadth. The eye has moved slightly since the
+// previous frame.
 static hair_view view_of(hair_pass pass, float moved)
 {
     hair_view view = hair_view_default();
@@ -141,7 +143,8 @@ static void strand_at(const float* positions, uint32_t strand, double t, double 
     }
 }
 
-// Every pixel's velocity against that of the strand it shows. Returns the greatest velocity, pixels.
+// Compare every pixel's velocity with the velocity of its strand. Return the maximum velocity in
+// pixels.
 static double check(const char* what, const hair_view* view, const struct picture* picture, const float* now,
                     const float* before)
 {
@@ -151,7 +154,7 @@ static double check(const char* what, const hair_view* view, const struct pictur
         if (picture->motion[4 * i + 3] == 9) continue;
         ++covered;
         const uint32_t* id = picture->id + 4 * i;
-        if (!id[0]) continue; // The pictures of both passes have other rounding at edges.
+        if (!id[0]) continue; // Edges are rounded differently in the pictures of the two passes.
         double p[3], a[2], b[2], off = 0;
         strand_at(now, id[0] - 1, id[2] / 65535.0, p);
         project(view->view, view->projection, p, a);
@@ -191,13 +194,13 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
     step(&f, 0.01f);
     draw(&f, &view, &picture);
     assert_true(check("moved", &view, &picture, f.now, f.before) > 0.5);
-    // Nothing is stepped: hair stands still, whatever was before.
+    // Without a step hair stands still, whatever it did before.
     draw(&f, &view, &picture);
     assert_true(check("paused", &view, &picture, f.now, f.now) < ROUNDED);
     view = view_of(HAIR_PASS_MOTION, 0.02f);
     draw(&f, &view, &picture);
     assert_true(check("camera", &view, &picture, f.now, f.now) > 0.5);
-    // Two steps and a shadow map between two frames.
+    // Two steps and a shadow map lie between two frames.
     float* shown = malloc(3 * sizeof(float) * f.count);
     memcpy(shown, f.now, 3 * sizeof(float) * f.count);
     struct hair_test_frame frame;
@@ -244,9 +247,10 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
     read_now(&f);
     draw(&f, &view, &picture);
     step(&f, 0.01f);
-    lod.strand_fraction = 0.8f, lod.segment_fraction = 0.71f; // Other vertices than in the frame before.
+    // Uses other vertices than the previous frame.
+    lod.strand_fraction = 0.8f, lod.segment_fraction = 0.71f;
     draw(&f, &view, &picture);
-    // Its segments are chords of those that the strand has.
+    // The segments drawn are chords of the strand's segments.
     double sum = 0;
     uint32_t count = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -272,16 +276,17 @@ static void teleports_take_along_and_resets_forget(void** state)
     static struct picture picture;
     struct fixture f = start(state);
     hair_view view = view_of(HAIR_PASS_MOTION, 0);
-    float far[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 500, 3, -200, 1}; // A quarter turn about y.
+    // A rotation by 90 degrees about y.
+    float far[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 500, 3, -200, 1};
     read_now(&f);
     draw(&f, &view, &picture);
     step(&f, 0.01f);
     draw(&f, &view, &picture);
     hair_test_ok(f.test, hair_teleport(f.hair, far));
     read_now(&f);
-    // The eye goes along: it sees what it saw.
+    // The eye moves with the head, so its view does not change.
     static const float seen[16] = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 200.01f, -3, -500.8f, 1};
-    // Head to world and on to view is what it was: view = old view * (new head * old head^-1)^-1.
+    // The product of view and head is unchanged: view = old view * (new head * old head^-1)^-1.
     memcpy(view.view, seen, sizeof seen);
     view.view[12] = 0.01f - (seen[0] * 500 + seen[4] * 3 + seen[8] * -200);
     view.view[13] = 0 - (seen[1] * 500 + seen[5] * 3 + seen[9] * -200);

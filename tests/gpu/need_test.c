@@ -1,5 +1,5 @@
-// need_test.c - programs, buffers and textures: made when they are first needed, kept by the host, freed when nothing needs
-// them any more, and no more of them than a limit lets.
+// need_test.c - programs, buffers and textures are made when they are first needed, cached by the
+// application, and freed when they are no longer needed. Their size stays within a limit.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/passes.h"
 #include "tests/support/support.h"
@@ -16,7 +16,7 @@
 
 enum { SIZE = 48, KEPT = 32, FLIPS = 60 };
 
-// A host's cache in memory ----------------------------------------------------------------------------------
+// The application's cache, in memory --------------------------------------------------------------
 
 struct kept {
     uint64_t key;
@@ -62,7 +62,7 @@ static void empty(struct cache* cache)
     for (uint32_t i = 0; i < cache->count; ++i) free(cache->kept[i].bytes);
 }
 
-// Hair ------------------------------------------------------------------------------------------------------
+// Hair --------------------------------------------------------------------------------------------
 
 struct fixture {
     struct hair_test* test;
@@ -126,7 +126,7 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
     hair_test_frame_read(&f->frame, pixels);
 }
 
-// Programs --------------------------------------------------------------------------------------------------
+// Programs ----------------------------------------------------------------------------------------
 
 static void each_program_is_compiled_when_something_first_needs_it(void** state)
 {
@@ -137,7 +137,8 @@ static void each_program_is_compiled_when_something_first_needs_it(void** state)
     f.context = make_context(f.test, NULL);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
     hair_test_ok(f.test, create(&f, &f.hair));
-    assert_int_equal(hair_test_count_programs(&f.context->gl), 3); // It is placed, solved and smoothed.
+    // The instance is placed, solved and smoothed.
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 3);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     hair_test_ok(f.test, hair_step(f.hair, 0.05f));
     assert_int_equal(hair_test_count_programs(&f.context->gl), 3);
@@ -191,12 +192,12 @@ static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** st
         assert_int_equal(cache.count, puts);
         finish(&f);
     }
-    assert_true(puts >= 5); // Four and the self-test.
+    assert_true(puts >= 5); // Four programs and the self-test.
     assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
     empty(&cache);
 }
 
-// The program of the smallest shader, out of what is kept if it can be.
+// Link the program of the smallest shader, from the cache if possible. Return the number of links.
 static uint32_t count_links(struct hair_gl* gl)
 {
     GLuint program = 0;
@@ -232,7 +233,7 @@ static void what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew(void** 
             assert_int_equal(count_links(&context->gl), 1);
             assert_int_equal(count_links(&context->gl), 0);
         }
-        // That of another program under this one's key.
+        // The binary of another program, under the key of this one.
         kept->size = cache.kept[0].size < size ? cache.kept[0].size : size;
         memcpy(kept->bytes, cache.kept[0].bytes, kept->size);
         assert_int_equal(count_links(&context->gl), 1);
@@ -257,7 +258,7 @@ static void a_cache_without_both_functions_is_refused(void** state)
                       "hair_cache.get is NULL");
 }
 
-// Memory ----------------------------------------------------------------------------------------------------
+// Memory ------------------------------------------------------------------------------------------
 
 static hair_memory memory_of(struct fixture* f)
 {
@@ -274,7 +275,7 @@ static uint64_t reported(struct fixture* f)
     return info.bytes;
 }
 
-// Everything that an instance can have is counted, once, and given back.
+// Check that everything an instance can have is counted once, and freed.
 static void memory_is_what_instances_report_and_all_comes_back(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
@@ -337,7 +338,7 @@ static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else
     hair_test_refused(f.test, create(&f, &other), HAIR_ERROR_MEMORY, "in use would be beyond the limit of");
     assert_null(other);
     assert_true(memory_of(&f).bytes <= bytes + 1000);
-    hair_test_ok(f.test, hair_step(f.hair, 0.05f)); // It has what it needs.
+    hair_test_ok(f.test, hair_step(f.hair, 0.05f)); // The instance has all that it needs.
     hair_test_ok(f.test, hair_reset(f.hair));
     draw(&f, &plain, pixels[1]);
     assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
@@ -351,7 +352,7 @@ static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else
     finish(&f);
 }
 
-// The same picture before, meanwhile and after, on every path.
+// Compare the pictures before, meanwhile and after, on every render path.
 static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
@@ -375,13 +376,14 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
             hair_test_ok(f.test, hair_set_look(f.hair, &look));
             for (int i = 0; i < 250; ++i) {
                 hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
-                if (i == 100) assert_true(memory_of(&f).bytes > least); // Not at once.
+                // The memory is not freed at once.
+                if (i == 100) assert_true(memory_of(&f).bytes > least);
                 if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &plain));
             }
             assert_int_equal(memory_of(&f).bytes, least);
             look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         }
-        // Shares of segments that are as far away as each other are blended in any order.
+        // Equally distant fragments of segments are blended in any order.
         double most = 0;
         for (int i = 0; i < 4 * SIZE * SIZE; ++i)
             most = fmax(most, fabs((double)pixels[0][i] - (double)pixels[1][i]));
@@ -390,7 +392,8 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
     finish(&f);
 }
 
-// Depth draws the vertices that colour wrote, and does not keep what light fell onto them.
+// Check a depth pass after colour. It draws the vertices that the colour pass wrote, and does not
+// keep their shaded colours.
 static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(void** state)
 {
     static float pixels[4 * SIZE * SIZE];

@@ -1,5 +1,6 @@
-// opacity_test.c - what hair takes of a light, for what it falls on: as many rays as are counted, whatever the size of texels, the
-// width of strands, the level of detail and the path; only hair before the first body; and the host's state is as it was.
+// opacity_test.c - the opacity map of hair for a light. It agrees with counted rays for any size of
+// texels, width of strands, level of detail and render path. Only hair before the first opaque
+// surface counts. The application's state is kept.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -11,9 +12,9 @@
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 
-#define HALF 0.2f // of what is seen, m
+#define HALF 0.2f // Half of the side of the visible square, in metres.
 #define RAYS 4096
-#define MOST 1024 // texels
+#define MOST 1024 // Maximum number of texels per side.
 
 struct fixture {
     struct hair_test* test;
@@ -58,7 +59,7 @@ static void finish(struct fixture* f)
     free(f);
 }
 
-// A map with so many texels to each side, of the format that hair.h says will do.
+// Create a map with `texels` texels per side. hair.h permits its format.
 static void make_map(struct fixture* f, GLsizei texels)
 {
     glDeleteTextures(1, &f->opacity);
@@ -75,7 +76,7 @@ static void make_map(struct fixture* f, GLsizei texels)
     f->texels = texels;
 }
 
-// The left half of it has bodies at a depth.
+// Draw the map. Opaque geometry at depth `bodies` covers the left half.
 static void draw(struct fixture* f, float bodies)
 {
     static const float far_away = 1, none = 0;
@@ -87,11 +88,11 @@ static void draw(struct fixture* f, float bodies)
     glGetTextureImage(f->opacity, 0, GL_RED, GL_FLOAT, sizeof f->pixels, f->pixels);
 }
 
-// Those that meet strands no farther back than z = `behind`.
+// Count the rays that meet strands at z >= `behind`.
 static void count_rays(struct fixture* f, double behind)
 {
     uint32_t each = f->hair->draw.look.segments + 1, count = f->hair->draw.followers * each;
-    f->view.render_path = HAIR_RENDER_PATH_CACHED; // Which leaves vertices and radii.
+    f->view.render_path = HAIR_RENDER_PATH_CACHED; // Stores vertices and radii in a buffer.
     make_map(f, 16);
     draw(f, 1);
     hair_vec4* vertices = malloc(count * sizeof *vertices);
@@ -113,7 +114,9 @@ static void count_rays(struct fixture* f, double behind)
 }
 
 struct found {
-    double mean, expected, off; // opacity over all of it; root of the mean square over texels that have any
+    // Opacity: mean over the map, expected mean, and root mean square error over texels that have
+    // any.
+    double mean, expected, off;
 };
 
 static struct found compare(const struct fixture* f)
@@ -136,8 +139,9 @@ static struct found compare(const struct fixture* f)
     return found;
 }
 
-// Hair of which some places take nearly all light. By how far apart strands are in a texel they are told no better than by
-// chance, of which clumps are not: texels of 12.5 mm are as wide as a whole lock.
+// Compare opacity with rays, for hair that blocks nearly all light at some places. Strands in a
+// texel are taken as independent of each other, and clumps are not. Texels of 12.5 mm are as wide
+// as a whole lock.
 static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
 {
     static const float radii[] = {4e-5f, 2e-4f, 1e-3f};
@@ -174,8 +178,9 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
             part.strand_fraction = shares[k], part.segment_fraction = k ? 0.5f : 1.0f;
             f->view.render_path = (hair_render_path)path;
             f->view.lod = k ? &part : NULL;
+            // The pass draws ribbons with both settings.
             f->view.primitive =
-                k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS; // It has ribbons either way.
+                k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
             draw(f, 1);
             struct found found = compare(f);
             double error = found.mean / found.expected - 1;
@@ -187,12 +192,14 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
     f->view.opacity = 0.25f, f->view.lod = NULL;
     draw(f, 1);
     double weak = compare(f).mean;
+    // A single strand has a quarter of the opacity. Two strands have a little less than twice that.
     assert_true(weak > 0.25 * all &&
-                weak < 0.5 * all); // Of strands alone a quarter, of two a bit less than twice that.
+                weak < 0.5 * all);
     finish(f);
 }
 
-// Hair in front of the head's origin; then with a body there, of which the right half of the map knows nothing.
+// Check hair in front of the head's origin. Then put opaque geometry there, in the left half of the
+// map only.
 static void only_hair_before_the_first_body_counts(void** state)
 {
     struct fixture* f = start(state, 1500, 1e-4f);

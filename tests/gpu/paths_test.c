@@ -1,4 +1,5 @@
-// paths_test.c - by whatever path hair is drawn it looks alike, and HAIR_RENDER_PATH_AUTO takes the one that is known to be fast.
+// paths_test.c - all render paths draw hair alike, and HAIR_RENDER_PATH_AUTO selects a path that is
+// known to be fast.
 #include "tests/support/support.h"
 
 #include <stdlib.h>
@@ -22,7 +23,7 @@ struct fixture {
     hair_instance* hair;
 };
 
-// Few strands, each as wide as several; `curly`: in curls, and a ball that many of them run into.
+// Make few strands, each as wide as several. `curly` adds curls, and a ball that many strands hit.
 static struct fixture start(void** state, int curly)
 {
     struct fixture f = {.test = *state};
@@ -50,7 +51,7 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// From in front of the head, 0.8 m away.
+// Make a view from the front of the head, 0.8 m away.
 static hair_view front(hair_render_path path, hair_primitive primitive)
 {
     hair_view view = hair_view_default();
@@ -64,10 +65,10 @@ static hair_view front(hair_render_path path, hair_primitive primitive)
 
 struct picture {
     float pixels[4 * PIXELS], shown[3 * PIXELS];
-    unsigned char mask[PIXELS]; // of what hair covers, and 8 pixels around
+    unsigned char mask[PIXELS]; // Area of the hair, with a border of 8 pixels.
 };
 
-// Of depth the share that is left up to the far plane, ten times as steep.
+// Read ten times the difference of depth from the far plane.
 static void read_depths(const struct hair_test_frame* frame, float* pixels)
 {
     static float depths[PIXELS];
@@ -96,7 +97,7 @@ static void draw(struct fixture* f, const hair_view* view, struct picture* out)
     assert_true(hair_mask_dilate(out->mask, SIDE, SIDE, 8));
 }
 
-// The pass that drew colour in this frame.
+// Return the name of the pass that drew colour in this frame.
 static const char* drawn_by(struct fixture* f)
 {
     hair_report_info info = hair_report_info_default();
@@ -108,7 +109,8 @@ static const char* drawn_by(struct fixture* f)
     return "";
 }
 
-// Compute makes no lines; and with levels of detail vertices are another view's.
+// Return the expected name of the pass. The path by compute draws no lines. With levels of detail,
+// the vertices belong to one view.
 static const char* name_of(hair_render_path path, const hair_view* view)
 {
     if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
@@ -141,7 +143,8 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
                           primitive ? "lines" : "ribbons", error.flip, count_hits(&f));
-            // Drawn samples have the colour of their pixel's middle, those made by compute their own.
+            // ^Samples drawn by OpenGL have the colour at the middle of their pixel. Samples made
+            // by compute have their own colour.
             assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
         }
         assert_true(count_hits(&f) > 100);
@@ -149,7 +152,8 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
     finish(&f);
 }
 
-// Vertices of levels of detail are written for each view: where those that are drawn without that are.
+// Compare paths with levels of detail. Their vertices are written for each view, into the buffers
+// that draws without levels use.
 static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
@@ -177,7 +181,8 @@ static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
     finish(&f);
 }
 
-// Red on one side of the head and green on the other, by all paths; and where the look wants none of it, as if there were none.
+// Compare colours of the groom, red on one side of the head and green on the other, by all paths. A
+// look without groom colours draws as if there were none.
 static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
 {
     static struct picture picture[PATHS + 2];
@@ -234,7 +239,7 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
     finish(&f);
 }
 
-// What would take too much memory is not chosen for being fast.
+// Check that a fast path is not selected if it needs too much memory.
 static void auto_does_not_expand_more_than_fits(void** state)
 {
     struct fixture f = start(state, 0);

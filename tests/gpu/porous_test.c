@@ -1,5 +1,5 @@
-// porous_test.c - hair in the way of the fluid: it holds air back as its twin in double precision does, as decay and potential
-// flow say, and at any density.
+// porous_test.c - hair as a porous obstacle in the fluid. Its drag agrees with the reference in
+// double precision, with decay, and with potential flow. The fluid stays sound at any density.
 #include "tests/support/fluids.h"
 
 #include <math.h>
@@ -17,7 +17,8 @@
 #define NU (1.82e-5 / 1.204)
 #define DIAMETER 8e-5
 
-// A fluid that knows of hair. A mass of 2^20 at a node is `density` metres of strands in a cubic metre.
+// Begin a fluid with hair. A mass of 2^20 at a node stands for `density` metres of strands per
+// cubic metre.
 static void begin(struct hair_test* test, uint32_t cells, int ball, double density, struct hair_test_fluid* f)
 {
     struct hair_fluid_desc desc = hair_test_fluid_desc(cells);
@@ -40,12 +41,12 @@ static void put_hair(struct hair_test_fluid* f, const int32_t* grid)
     glNamedBufferSubData(f->fluid.hair.grid.buffer, 0, (GLsizeiptr)(4 * node_count(f) * sizeof *grid), grid);
 }
 
-// A share of the density where the shape is.
+// Fill the nodes with a fraction of the density, which `shape` gives.
 static void fill(struct hair_test_fluid* f, double (*shape)(const double place[3]))
 {
     size_t n = hair_fluid_nodes(&f->fluid);
     int32_t* grid = calloc(4 * n * n * n, sizeof *grid);
-    for (size_t i = 0; i < n * n * n; ++i) { // Of places in the box from 0 to 1.
+    for (size_t i = 0; i < n * n * n; ++i) { // Positions in the box are from 0 to 1.
         double place[3] = {((double)(i % n) + 0.5) / (double)n, ((double)(i / n % n) + 0.5) / (double)n,
                            ((double)(i / n / n) + 0.5) / (double)n};
         grid[4 * i] = (int32_t)(shape(place) * 1048576);
@@ -62,7 +63,7 @@ static void advance(struct hair_test_fluid* f, int steps)
     }
 }
 
-// Where hair moves as it likes, among colliders, and in a box that has moved.
+// Check faces in hair that moves at random, among colliders, and in a box that has moved.
 static void faces_are_as_open_as_hair_leaves_them(void** state)
 {
     struct hair_test_fluid f;
@@ -108,7 +109,7 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
         int there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < 16 || k == axis;
         if (!there) continue;
-        // A share is one of 1023; what closes a face that is nearly open is not known to that.
+        // Openness has steps of 1 / 1023. A nearly closed face may be off by one more step.
         hair_test_near("open", i, got[i], open[i],
                        1.1 / 1023 + (open[i] > 0 && open[i] < 1.0 / 1023 ? 1.0 : 0) / 1023);
         if (got[i] < 0.95) hair_test_near("wall", i, closing[i], wall[i], 0.15);
@@ -127,13 +128,14 @@ static double nowhere(const double place[3])
     return 0;
 }
 
-// A slab along the wind, from end to end of the box: pressure has nothing to do with it.
+// Return 1 in a slab along the wind, from end to end of the box. Pressure has no effect in it.
 static double slab(const double place[3])
 {
     return fabs(place[1] - 0.5) < 0.1 ? 1 : 0;
 }
 
-// Of air against one metre of strands in a cubic metre, by its velocity against them. m^2/s.
+// Return the decay rate of air by one metre of strands per cubic metre, in m^2/s. `speed` is the
+// speed of the air relative to the strands.
 static double rate(double speed)
 {
     double reynolds = speed * DIAMETER / NU;
@@ -148,7 +150,7 @@ static void air_in_a_slab_along_the_wind_decays_as_drag_says(void** state)
     begin(*state, 32, 0, density, &f);
     f.now.dt = dt;
     fill(&f, nowhere);
-    advance(&f, 1); // The wind everywhere.
+    advance(&f, 1); // The wind fills the box.
     fill(&f, slab);
     double speed = WIND, rough = WIND;
     for (int i = 0; i < STEPS; ++i) {
@@ -174,7 +176,8 @@ static double ball(const double place[3])
     return sqrt(sum) < (double)HAIR_TEST_FLUID_BALL ? 1 : 0;
 }
 
-// Of what is let through a share b, in a flow that begins at once: 3 b / (2 + b) of it inside, as in a dielectric ball.
+// Check a porous ball in a flow that begins at once. With a transmitted fraction b, the flow inside
+// is 3 b / (2 + b) of the wind, as in a dielectric ball.
 static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(void** state)
 {
     static const double densities[] = {2e5, 1e6, 1e7};
@@ -201,7 +204,8 @@ static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(voi
     }
 }
 
-// As if hair were a collider that moves: no faster than the wind anywhere near, and with the hair.
+// Check hair of extreme density, which acts like a moving collider. Air near it is no faster than
+// the wind, and moves with the hair.
 static void air_is_sound_in_hair_of_any_density(void** state)
 {
     struct hair_test_fluid f;
@@ -232,7 +236,7 @@ static void air_is_sound_in_hair_of_any_density(void** state)
     hair_test_fluid_end(&f);
 }
 
-// Of a head of a few guides, which stand for many strands.
+// Check a head of few guides, which stand for many strands.
 static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(void** state)
 {
     struct hair_test_living living;
@@ -241,7 +245,7 @@ static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(
     hair_wind wind = hair_wind_default();
     double way[2];
     physics.drag = 0.3f;
-    for (int i = 0; i < 64; ++i) // A curtain across the wind, and one behind it.
+    for (int i = 0; i < 64; ++i) // A curtain across the wind, and one strand behind it.
         hair_test_add_straight(
             &strands, 8, hair_v3(-0.06f + 0.02f * (float)(i / 16), 0.05f, -0.15f + 0.02f * (float)(i % 16)),
             hair_v3(0, -1, 0), 0.15f);

@@ -1,4 +1,5 @@
-// precompile_test.c - what a frame runs is compiled before it, in the driver's threads or one program a call.
+// precompile_test.c - programs that a frame runs are compiled before it, in the driver's threads or
+// one per call.
 #include "tests/support/passes.h"
 
 #include "lib/api/api.h"
@@ -13,7 +14,7 @@ struct fixture {
     hair_groom* groom;
     hair_instance* hair;
     struct hair_test_frame frame;
-    GLuint depth; // what a view may lend
+    GLuint depth; // A depth texture for views.
 };
 
 static struct fixture start(struct hair_test* test)
@@ -51,7 +52,7 @@ static hair_view view_of(hair_render_path path)
     return view;
 }
 
-// Returns how many calls it took.
+// Precompile everything. Return the number of calls.
 static uint32_t prepare(struct fixture* f, const hair_view* view)
 {
     uint32_t ready = 0, calls = 0;
@@ -69,7 +70,7 @@ static void live(struct fixture* f, const hair_view* view)
     }
 }
 
-// Ways of living, in which frames run other programs -----------------------------------------------------------
+// Ways of living, in which frames run different programs ------------------------------------------
 
 static void put_a_ball_into(struct fixture* f, hair_view* view)
 {
@@ -208,13 +209,15 @@ static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(vo
     assert_int_equal(ready, 0);
     assert_int_equal(hair_test_count_programs(&f.context->gl), before + 1);
     uint32_t calls = 1 + prepare(&f, &view);
+    // The last call finds nothing left.
     assert_int_equal(calls,
-                     hair_test_count_programs(&f.context->gl) - before + 1); // the last finds nothing left
+                     hair_test_count_programs(&f.context->gl) - before + 1);
     live(&f, &view);
     finish(&f);
 }
 
-// What is begun and not asked for again is waited for where it is run, and freed where it is not.
+// Check a frame before all programs are ready. A program under compilation is waited for if it is
+// run, and freed if it is not.
 static void a_frame_may_come_before_all_is_ready(void** state)
 {
     for (int lives = 0; lives < 2; ++lives) {

@@ -1,4 +1,5 @@
-// raster_test.c - pixels that are made of segments by compute are those that OpenGL draws, whatever the host has set.
+// raster_test.c - pixels that compute makes of segments are those that OpenGL draws, with any state
+// of the application.
 #include "tests/support/support.h"
 
 #include <stdlib.h>
@@ -16,7 +17,7 @@ struct fixture {
     hair_instance* hair;
 };
 
-// Wavy hair of that radius, m.
+// Make wavy hair of that radius, in metres.
 static struct fixture start(void** state, uint32_t followers, float radius)
 {
     struct fixture f = {.test = *state};
@@ -31,19 +32,19 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// From so far in front of the middle of the head, m.
+// Make a view from the front, at distance `away` from the middle of the head, in metres.
 static hair_view front(hair_render_path path, float away)
 {
     hair_view view = hair_view_default();
     view.render_path = path;
     view.view[13] = -1.6f, view.view[14] = -away;
     view.projection[0] = 2.4f, view.projection[5] = 3;
-    view.projection[10] = -1, view.projection[14] = -0.02f; // 1 cm away -1, far away 1
+    view.projection[10] = -1, view.projection[14] = -0.02f; // Depth -1 at 1 cm, and 1 at infinity.
     view.projection[11] = -1, view.projection[15] = 0;
     return view;
 }
 
-// What a host may have set, and by whom it is put back.
+// Settings that an application may have made. put_back() restores them.
 static void set_nothing(hair_view* view)
 {
     (void)view;
@@ -143,7 +144,8 @@ static void draw(struct fixture* f, hair_render_path path, hair_pass pass, float
     draw_lod(f, path, pass, away, set, NULL, out);
 }
 
-// How many pixels are covered by both, how many by one alone, and of the others of how many it is not the same that is seen.
+// Numbers of pixels: covered in both pictures, covered in only one, and covered in both with
+// different contents.
 struct difference {
     uint32_t covered, alone, apart;
 };
@@ -162,7 +164,8 @@ static struct difference compare(const struct picture* a, const struct picture* 
     return d;
 }
 
-// What draws rounds corners to parts of a pixel, so that edges may fall to either side of its middle.
+// Compare compute with drawing. Drawing rounds vertices to fractions of a pixel, so that edges may
+// be on either side of a pixel's middle.
 static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set(void** state)
 {
     static const struct {
@@ -232,7 +235,7 @@ static void levels_of_detail_are_those_that_are_drawn(void** state)
     finish(&f);
 }
 
-// Whichever thread comes first.
+// Check that the order of threads does not matter.
 static void the_same_hair_is_made_the_same_bits(void** state)
 {
     static struct picture first, second;
@@ -245,7 +248,8 @@ static void the_same_hair_is_made_the_same_bits(void** state)
     finish(&f);
 }
 
-// Each sample of a pixel sees what a pixel there would; also in front of what the host has drawn into some of them.
+// Check multisampling. Each sample sees what a pixel in its place would, also in front of geometry
+// that the application has drawn into some samples.
 static void samples_cover_as_much_as_those_that_are_drawn(void** state)
 {
     static float pixels[2][4 * PIXELS];
@@ -285,7 +289,7 @@ static void what_compute_does_not_make_is_drawn(void** state)
     view.lod = &lod;
     view.primitive = HAIR_PRIMITIVE_LINES;
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
-    view.pass = HAIR_PASS_ID; // More than levels of detail write of a vertex.
+    view.pass = HAIR_PASS_ID; // This pass needs more than levels of detail write for a vertex.
     assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_INSTANCED);
     view.pass = HAIR_PASS_COLOR;
     view.lod = NULL;
@@ -303,7 +307,7 @@ static void what_compute_does_not_make_is_drawn(void** state)
     finish(&f);
 }
 
-// In the host's own shader pixels are made where they are drawn.
+// Check shading by the application. Its shader runs where the pixels are drawn.
 static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
@@ -339,7 +343,7 @@ static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(v
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     assert_int_equal(own->nearest, 0);
     view.render_path = HAIR_RENDER_PATH_COMPUTE;
-    view.view[14] = -40; // where it is a few pixels
+    view.view[14] = -40; // The hair is a few pixels there.
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     print_message("    %zu numbers of %d pixels\n", own->room, PIXELS);
     assert_in_range(own->room, 1, PIXELS / 10);

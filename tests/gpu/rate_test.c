@@ -1,4 +1,4 @@
-// rate_test.c - hair of which fewer and longer substeps are made moves as it would, as smoothly, for less.
+// rate_test.c - hair at a lower substep rate moves alike, as smoothly, for less work.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -12,10 +12,10 @@
 
 enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MOST = 1024 };
 
-// Where the tips are drawn in every frame, seen from the head.
+// Positions of the drawn tips in every frame, relative to the head.
 struct run {
     hair_vec3 tip[FRAMES][GUIDES];
-    uint32_t runs; // of the solver
+    uint32_t runs; // Number of the solver's runs.
 };
 
 struct fixture {
@@ -45,7 +45,8 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// The head turns to and fro for two seconds, at most by half a radian, beginning and ending softly; then it is still.
+// Return the angle of the head. It turns to and fro for two seconds, by at most half a radian, with
+// a soft start and end. Then it is still.
 static float angle_at(uint32_t frame)
 {
     float s = sinf(3.14159265f * (float)frame / (2 * PER_SECOND));
@@ -70,14 +71,15 @@ static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUID
     for (uint32_t i = 0; i < GUIDES; ++i) tip[i] = hair_load3(at + 3 * ((i + 1) * each - 1));
 }
 
-// `rate_at`: of a frame. `is_seen`: in a frame; where it is not, a quarter is enough. NULL: always.
+// Simulate all frames. `rate_at` returns a frame's substep rate. `is_seen` returns whether hair is
+// visible in a frame, and a quarter of the rate is enough otherwise. NULL: always visible.
 static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_seen)(uint32_t frame),
                 struct run* out)
 {
     hair_physics physics = hair_physics_default();
     hair_desc desc = hair_desc_default();
     hair_instance* hair = NULL;
-    physics.sleep_threshold = 0; // It would leave out runs of its own.
+    physics.sleep_threshold = 0; // Sleep would skip runs too.
     physics.substep_rate = rate_at(0);
     physics.offscreen_substep_rate = is_seen ? 0.25f : 1;
     desc.physics = &physics;
@@ -91,7 +93,7 @@ static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_se
         hair_test_ok(f->test, hair_set_physics(hair, &physics));
         hair_test_ok(f->test, hair_set_transform(hair, head));
         hair_test_ok(f->test, hair_step(hair, 1.0f / PER_SECOND));
-        double unseen = hair->sim.unseen; // The test's own look is none.
+        double unseen = hair->sim.unseen; // The test's own read must not count as a view.
         read_tips(f, hair, out->tip[i]);
         if (is_seen && !is_seen(i)) hair->sim.unseen = unseen;
         for (int g = 0; g < GUIDES; ++g) {
@@ -122,20 +124,21 @@ static float at_quarter(uint32_t frame)
 {
     return (void)frame, 0.25f;
 }
-// There and back, twice while the head turns.
+// Return a rate that falls and rises, twice while the head turns.
 static float at_any(uint32_t frame)
 {
     static const float rates[] = {1, 0.5f, 0.25f, 0.5f};
     return rates[frame * 16 / FRAMES % 4];
 }
 
-// Not in the half second after the first, while the head turns: of which a quarter of a second is as if it were.
+// Return whether hair is visible. It is invisible for half a second after the first second, while
+// the head turns. The library treats the first quarter of a second as visible.
 static int is_now_and_then_seen(uint32_t frame)
 {
     return frame < PER_SECOND || frame >= 3 * PER_SECOND / 2;
 }
 
-// How far tips are on average from where they are on average, and that.
+// Return the mean distance of tips from their mean positions. `mean` is the mean positions.
 static double swing_of(const struct run* run, hair_vec3 mean[GUIDES])
 {
     double sum = 0;
@@ -149,7 +152,7 @@ static double swing_of(const struct run* run, hair_vec3 mean[GUIDES])
     return sum;
 }
 
-// The greatest change of a tip's step from a frame to the next.
+// Return the maximum change of a tip's step from one frame to the next.
 static double jerk_of(const struct run* run)
 {
     double most = 0;
@@ -171,11 +174,12 @@ static double fastest_of(const struct run* run)
     return most;
 }
 
-// How far off a run at a lower rate may be.
+// Maximum differences of a run at a lower rate.
 struct bounds {
-    double swing; // share
-    double mean, last; // m, of tips on average and at the end
-    double step; // share of the longest step of a frame that a step may differ from the one before
+    double swing; // Relative difference of the mean swing.
+    double mean, last; // Differences of the mean and the last position of tips, in metres.
+    // Maximum change between consecutive steps, as a fraction of the longest step of a frame.
+    double step;
 };
 
 static void compare(const char* name, const struct run* full, const struct run* low, struct bounds bounds)
@@ -213,7 +217,8 @@ static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
     finish(&f);
 }
 
-// While substeps become shorter, time is drawn at most twice as fast; while they become longer, at half the pace.
+// Check changes of the rate. Time runs at most twice as fast while substeps become shorter, and at
+// half speed while they become longer.
 static void nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again(void** state)
 {
     static struct run full, low;

@@ -12,9 +12,9 @@
 #include "lib/reference/reference.h"
 #include "tests/support/handmade.h"
 
-#define STATES 4096 // Guide vertices of a test at most.
+#define STATES 4096 // Maximum number of guide vertices in a test.
 
-// A groom in a state of which every part is switched on or off by the params.
+// A groom and a state. The parameters switch every part of the solver on or off.
 struct fixture {
     struct hair_test* test;
     hair_groom* groom;
@@ -40,7 +40,7 @@ static void scatter(struct fixture* f, float away, float moved)
     hair_test_scatter(f->groom, away, moved, &f->random, f->state);
 }
 
-// All of the solver off: nothing moves but pinned vertices.
+// Start with all of the solver switched off. Only pinned vertices move.
 static struct fixture start_with(void** state, struct hair_test_handmade wanted)
 {
     struct fixture f = {.test = *state, .random = 12345};
@@ -58,7 +58,7 @@ static struct fixture start_with(void** state, struct hair_test_handmade wanted)
     return f;
 }
 
-// One guide of each number of vertices up to `most`.
+// Start with one guide of each number of vertices up to `most`.
 static struct fixture start_up_to(void** state, uint32_t most)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -113,15 +113,20 @@ static void switch_all_on(struct fixture* f)
     put_colliders(f);
 }
 
-// How far a position may be from its double: the probabilistic bound of Higham and Mary 2019 ("A New Approach
-// to Probabilistic Rounding Error Analysis"): after n operations the error is no more than l sqrt(n) u |x|
-// but for a share 2 exp(-l^2 / 2) of all cases. u = 2^-24; no position is farther than 1 m from the head's
-// origin; a million comparisons want l = 6. Those operations count that round at the size of a position; all
-// others work on what neighbours differ by, a hundredth of it:
-//   a substep       4 to integrate, and 4 to add what the angular force does
-//   an iteration    1 for each of two distance and two bend links, 2 for each collider
-// Constraints hardly make errors larger: a link divides them among its ends; out of a collider by more than half
-// its radius nothing is pushed here. Hence the factor 2.
+// Return the maximum error of a position, by the probabilistic bound of Higham and Mary 2019 ("A
+// New Approach to Probabilistic Rounding Error Analysis").
+//
+// After n operations the error is at most l sqrt(n) u |x|, except for a fraction 2 exp(-l^2 / 2) of
+// all cases. Here u = 2^-24 is the unit roundoff. |x| is at most 1 m, the distance from the head's
+// origin. A million comparisons need l = 6.
+//
+// n counts operations that round at the size of a position. All others work on differences between
+// neighbours, which are a hundredth of it. A substep has 4 operations to integrate, and 4 for the
+// angular force. An iteration has 1 for each of two distance and two bend links, and 2 for each
+// collider.
+//
+// Constraints hardly increase errors. A link divides errors among its ends, and no collider here
+// pushes by more than half its radius. Hence the factor 2.
 static double tolerance(const struct fixture* f)
 {
     const struct hair_step_params* params = &f->params;
@@ -136,7 +141,8 @@ static void run_pass(struct fixture* f, hair_gl_pass pass)
     struct hair_gl* gl = &f->test->context->gl;
     size_t size = f->groom->info.guide_vertex_count * sizeof *f->state;
     hair_test_ok(f->test, hair_gl_need(gl, pass));
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
+    glFinish();
     glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
     hair_gl_enter(gl);
@@ -163,7 +169,7 @@ static struct hair_reference_vertex in_double(const struct hair_state* state)
     return (struct hair_reference_vertex){{p.x, p.y, p.z}, {d.x, d.y, d.z}};
 }
 
-// Step the GPU and the reference from the same state; they end in the same.
+// Step the GPU and the reference from one state. Check that their results agree.
 static void compare(struct fixture* f, const char* what)
 {
     static struct hair_reference_vertex expected[STATES];
@@ -227,8 +233,8 @@ static void distance_constraints_are_as_the_reference_has_them(void** state)
     finish(&f);
 }
 
-// From the rest pose the distance constraints have nothing to do. What bends over two segments is then told
-// to be longer.
+// Compare angular constraints. In the rest pose the distance constraints have nothing to do. The
+// rest lengths over two segments are then increased.
 static void angular_constraints_are_as_the_reference_has_them(void** state)
 {
     struct fixture f = start(state);
@@ -280,7 +286,8 @@ static void one_to_five_substeps_are_as_the_reference_has_them(void** state)
     }
 }
 
-// A bit of `off` for each: angular forces, bend, collisions, pull, all iterations but one.
+// Switch parts off, one bit of `off` each: angular forces, bend, collisions, pull, and all
+// iterations except one.
 static void switch_off(struct fixture* f, int off)
 {
     if (off & 1) f->params.angular = 0;
@@ -290,7 +297,7 @@ static void switch_off(struct fixture* f, int off)
     if (off & 16) f->params.iterations = 1;
 }
 
-// Every stage off alone, and on alone.
+// Check with every part off alone, and on alone.
 static void each_stage_does_its_part_among_the_others(void** state)
 {
     for (int i = 0; i < 10; ++i) {
@@ -307,13 +314,13 @@ static void each_stage_does_its_part_among_the_others(void** state)
     }
 }
 
-// hair_step, from what the application says to where the guides are: the head turns and moves, a collider moves,
-// in a step of four substeps.
+// Check hair_step from its input to the positions of guides. The head turns and moves, and a
+// collider moves, in a step of four substeps.
 static void a_step_is_what_the_application_asked_for(void** state)
 {
     struct fixture f = start(state);
     hair_physics physics = hair_physics_default();
-    // None at its default, which may change.
+    // No value is its default, which may change.
     physics.damping = 3, physics.shape_frequency_root = 5, physics.shape_frequency_tip = 0.75f,
     physics.redblack.angular_hz = 1.5f;
     physics.redblack.bend = 0.15f, physics.redblack.iterations = 19, physics.collision_margin = 0.002f,
@@ -405,8 +412,9 @@ static void guides_move_the_same_in_a_larger_work_group(void** state)
     finish(&f);
 }
 
-// One to ten guides of so many vertices, each time with a longer one among them: every size of the work group, with
-// guides that fill it and guides that leave most of it idle. None is longer than 1 m: see tolerance().
+// Compare one to ten guides with these numbers of vertices, each time with a longer guide among
+// them. They cover every size of the work group, with guides that fill it and guides that leave
+// most of it idle. None is longer than 1 m, as tolerance() requires.
 static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** state)
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
@@ -425,7 +433,8 @@ static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** sta
     }
 }
 
-// The scalp pins two vertices: a guide that has no more is in its rest pose under the head, whatever happens.
+// Check guides of two vertices. The scalp pins two vertices, so that such a guide is always in its
+// rest pose under the head.
 static void a_guide_of_two_vertices_is_rigid(void** state)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -446,8 +455,8 @@ static void a_guide_of_two_vertices_is_rigid(void** state)
     finish(&f);
 }
 
-// Of a strand that is not finite every vertex goes back to the rest pose, in one substep; the others do not
-// notice.
+// Check a strand that is not finite. All its vertices return to the rest pose in one substep, and
+// the other strands are unaffected.
 static void what_is_not_finite_goes_back_to_rest_alone(void** state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};
@@ -456,7 +465,7 @@ static void what_is_not_finite_goes_back_to_rest_alone(void** state)
         struct fixture f = start(state);
         switch_all_on(&f);
         f.params.shape_frequency_root = f.params.shape_frequency_tip =
-            0; // which would bring 1e6 m back by itself
+            0; // A positive frequency would bring 1e6 m back.
         run(&f);
         memcpy(sound, f.state, sizeof sound);
 

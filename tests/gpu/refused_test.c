@@ -1,5 +1,5 @@
-// refused_test.c - memory and objects of OpenGL that are refused, one after the other: an error and a sentence each
-// time, nothing leaked, and a retry works.
+// refused_test.c - memory and OpenGL objects that are refused, one after the other. Each gives an
+// error and a message, leaks nothing, and a retry works.
 #include "tests/support/support.h"
 
 #include <string.h>
@@ -8,9 +8,10 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-// A driver that refuses -------------------------------------------------------------------------------------
+// A driver that refuses ---------------------------------------------------------------------------
 
-static uint32_t creations, refused_creation; // the one that fails, from 1; 0: none
+// Number of objects created, and number of the creation that fails, from 1. 0 refuses none.
+static uint32_t creations, refused_creation;
 
 static int refuses(void)
 {
@@ -48,7 +49,8 @@ static void APIENTRY buffer_storage(GLuint buffer, GLsizeiptr size, const void* 
 static void APIENTRY buffer_data(GLuint buffer, GLsizeiptr size, const void* data, GLenum usage)
 {
     if (data || !refuses())
-        glNamedBufferData(buffer, size, data, usage); // With data it is written, not made.
+        // A call with data only writes an existing buffer.
+        glNamedBufferData(buffer, size, data, usage);
 }
 
 static void* find(const char* name, void* user)
@@ -71,7 +73,7 @@ static void* find(const char* name, void* user)
     return hair_egl_get_proc(name, user);
 }
 
-// What is done ----------------------------------------------------------------------------------------------
+// Calls -------------------------------------------------------------------------------------------
 
 struct user {
     struct hair_test* test;
@@ -82,7 +84,7 @@ struct user {
     float damping;
 };
 
-// Objects of OpenGL that are alive, by trying names.
+// Count the OpenGL objects that exist, by trying all names.
 static uint32_t count_objects(void)
 {
     uint32_t count = 0;
@@ -108,7 +110,7 @@ static hair_result create_context(struct user* user)
     hair_instance* hair = NULL;
     hair_result result = make_context(user, &context);
     assert_true((result == HAIR_OK) == (context != NULL));
-    if (!result) // Compiles what it is the first to need.
+    if (!result) // Compiles the programs that it is the first to need.
         result = hair_create(context, user->groom, &user->desc, &hair);
     assert_true((result == HAIR_OK) == (hair != NULL));
     hair_destroy(hair);
@@ -125,7 +127,7 @@ static hair_result create_instance(struct user* user)
     return result;
 }
 
-// Rods are made anew for these.
+// Step with changed physics, for which the rods are made again.
 static hair_result step_with_other_physics(struct user* user)
 {
     hair_physics physics = hair_physics_default();
@@ -156,17 +158,18 @@ static hair_result save_and_load(struct user* user)
     return result ? result : hair_load(user->hair, bytes, size);
 }
 
-// Refusing --------------------------------------------------------------------------------------------------
+// Refusals ----------------------------------------------------------------------------------------
 
 struct refusal {
-    uint32_t* done; // so far
-    uint32_t* refuse; // which of them, from 1
+    uint32_t* done; // Number of allocations or creations so far.
+    uint32_t* refuse; // Number of the one to refuse, from 1.
     const char* what;
-    uint32_t least; // there are of them, or this tests nothing
+    uint32_t least; // Minimum number. With fewer, the test would test nothing.
 };
 
-// Refuse the first, then the second, … until there are no more: each time the call fails, leaks nothing, and works
-// when it is made again. After the first 32 only every `stride`-th: shaders are many and read alike.
+// Refuse the first allocation or creation, then the second, and so on until there are no more. Each
+// time the call must fail, leak nothing, and work when repeated. After the first 32, only every
+// `stride`-th is refused, because shaders are many and read alike.
 static void torture(struct user* user, hair_result (*call)(struct user*), struct refusal of, uint32_t stride)
 {
     struct hair_test* test = user->test;
@@ -220,7 +223,7 @@ static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** stat
         uint32_t rods = user.desc.solver != HAIR_SOLVER_REDBLACK;
         hair_test_ok(user.test, make_context(&user, &user.context));
         hair_test_ok(user.test, hair_create(user.context, user.groom, &user.desc, &user.hair));
-        hair_test_ok(user.test, read_all(&user)); // What compiles programs has compiled them.
+        hair_test_ok(user.test, read_all(&user)); // Has compiled all programs afterwards.
         torture(&user, create_instance, of_memory(&user, 5 + 4 * rods), 1);
         torture(&user, create_instance, of_objects(20 + 8 * rods), 1);
         torture(&user, step_with_other_physics, of_memory(&user, rods), 1);

@@ -1,4 +1,5 @@
-// report_test.c - the report says what was done and what was not, why, and what memory it has; what is off has none.
+// report_test.c - the report lists the work that was done, the work that was skipped and the
+// reason, and memory. Disabled features have none.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -71,7 +72,7 @@ static const hair_report_row* row_of(const struct fixture* f, const char* work)
     return NULL;
 }
 
-// `memory`: 1: it has some, 0: none, -1: either.
+// Check a row. `memory` is 1 if the row must have memory, 0 if it must not, and -1 if it may.
 static void check(const struct fixture* f, const char* work, hair_skip_reason why, int memory)
 {
     const hair_report_row* row = row_of(f, work);
@@ -84,7 +85,8 @@ static void check(const struct fixture* f, const char* work, hair_skip_reason wh
         fail_msg("%s has %llu bytes", work, (unsigned long long)row->bytes);
 }
 
-// No wind, colliders, crowd, skinned scalp, list or written vertices: neither a pass nor memory of any.
+// Check a scene without wind, colliders, hair-hair grid, skinned scalp, strand list or vertex
+// cache. None of them has a pass or memory.
 static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 {
     static const char* const none[] = {"scalp",  "ride",  "wind", "crowd",   "seat",
@@ -102,7 +104,8 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
     check(&f, "solve", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "smooth", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
-    assert_int_equal(hair_test_trace_count("glDispatch"), 2); // solve, smooth
+    // The dispatches are solve and smooth.
+    assert_int_equal(hair_test_trace_count("glDispatch"), 2);
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
     report(&f);
     assert_int_equal(row_of(&f, "color")->runs, 2);
@@ -110,7 +113,7 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
     finish(&f);
 }
 
-// And what has come is let go again when it is gone.
+// Check that memory of removed features is freed.
 static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
 {
     struct fixture f = start(state, NULL);
@@ -155,8 +158,9 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
     check(&f, "expand", HAIR_SKIP_REASON_UNCHANGED, 1);
     check(&f, "list", HAIR_SKIP_REASON_UNCHANGED, 1);
     check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
+    // Vertices that a pass of their own shades count as colour.
     check(&f, "colliders", HAIR_SKIP_REASON_NOT_CALLED,
-          0); // Vertices that are shaded by themselves are colour.
+          0);
     f.view.view[12] = 20;
     run_frame(&f);
     check(&f, "color", HAIR_SKIP_REASON_OUT_OF_VIEW, 1);
@@ -165,7 +169,8 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
     finish(&f);
 }
 
-// Asked in every frame, of two instances in turn: nothing is waited for, frames come in order, and none is the other's.
+// Check reports in every frame, of two instances in turn. Nothing waits, frames are in order, and
+// each report belongs to its instance.
 static void reports_come_without_waiting_and_are_of_one_instance(void** state)
 {
     struct fixture f = start(state, NULL), other = {0};

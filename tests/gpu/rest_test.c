@@ -1,4 +1,4 @@
-// rest_test.c - the measure of hair at rest: what moves is seen at its speed, what sleeps is still.
+// rest_test.c - the measure of hair at rest: moving hair has its speed, and sleeping hair is still.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static void falling_hair_is_measured_at_its_speed(void** state)
     physics.root = HAIR_ROOT_FREE;
     physics.damping = 0;
     struct bench_rest rest = hang(*state, &physics);
-    double fallen = 9.81 * 4; // m/s
+    double fallen = 9.81 * 4; // In m/s.
     print_message("    %.2f m/s of %.2f\n", rest.max_speed, fallen);
     assert_true(fabs(rest.max_speed / fallen - 1) < 0.01);
     assert_true(rest.moving_fraction == 1 && rest.finite && !isfinite(rest.seconds_asleep));

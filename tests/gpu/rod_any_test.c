@@ -1,4 +1,5 @@
-// rod_any_test.c - strands as rods, and forms, and a thousand colliders: swept, spun in, begun in, come upon.
+// rod_any_test.c - strands as rods with collision meshes and a thousand colliders, which sweep,
+// spin, contain the hair at the start, or appear on it.
 #include "lib/collide/distance.h"
 #include "tests/support/living.h"
 #include "tests/support/meshes.h"
@@ -7,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SOLVERS HAIR_SOLVER_REDBLACK // all before it
+#define SOLVERS HAIR_SOLVER_REDBLACK // The number of solvers before redblack.
 #define MARGIN 1e-3
-#define VOXEL 5e-3 // m: of the field, by default
+#define VOXEL 5e-3 // Default voxel of the field, in metres.
 
 static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
 {
@@ -26,7 +27,8 @@ static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mes
     return form;
 }
 
-// A box of these half sides: itself, or a form of its mesh at half the size, twice as large.
+// Return a box with these half sides. With `is_form` it is a collision mesh of half the size,
+// scaled by two.
 static hair_collider box_of(struct hair_test* test, int is_form, float x, float y, float z)
 {
     const float half[] = {x / 2, y / 2, z / 2};
@@ -63,7 +65,7 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
     hair_test_strands_free(&strands);
 }
 
-// Four strands that hang from a row.
+// Create four strands that hang from a row.
 static void live_row(struct hair_test* test, int solver, const hair_physics* physics,
                      struct hair_test_living* out)
 {
@@ -76,9 +78,9 @@ static void live_row(struct hair_test* test, int solver, const hair_physics* phy
     hair_test_strands_free(&strands);
 }
 
-// At rest ---------------------------------------------------------------------------------------------------
+// Rest --------------------------------------------------------------------------------------------
 
-// A strand begins level and comes to hang over an edge, or over a ball.
+// Check a strand that starts level and comes to hang over an edge, or over a ball.
 static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
@@ -98,7 +100,8 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
             deepest = fmax(deepest, hair_test_depth(&living, &collider) + MARGIN);
         }
         double touching = hair_test_depth(&living, &collider) + MARGIN;
-        // Follow-the-leader knows no tension that would keep a strand on a ball: it slides off, and hangs.
+        // Follow-the-leader has no tension to keep a strand on a ball. The strand slides off, and
+        // hangs.
         int slides = solver == HAIR_SOLVER_FOLLOW;
         if (slides) {
             hair_test_wait(&living, 600);
@@ -117,7 +120,8 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
     }
 }
 
-// On a slope of 0.4 rad, of which Coulomb holds what has a coefficient above its tangent, 0.42.
+// Check a slope of 0.4 rad. Coulomb friction holds strands if the coefficient exceeds its tangent,
+// 0.42.
 static void a_form_has_friction(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
@@ -181,9 +185,10 @@ static void forms_that_move_and_spin_carry_hair_along(void** state)
     }
 }
 
-// Stress ----------------------------------------------------------------------------------------------------
+// Stress ------------------------------------------------------------------------------------------
 
-// 0.1 s after: nothing deeper than a voxel, all as long as it was; and a second later, when it is gone, all hang.
+// Check strands 0.1 s after the stress: none is deeper than a voxel, and all have their length. A
+// second after the collider is removed, all hang.
 static void check_after(struct hair_test_living* living, const hair_collider* collider, const char* what,
                         int solver)
 {
@@ -216,13 +221,13 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
             hair_collider collider =
                 what == 1 ? box_of(*state, is_form, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_form, 0.05f);
             live_row(*state, solver, &physics, &living);
-            if (what == 0) // 5 m/s, and there it stops.
+            if (what == 0) // At 5 m/s, and then stopped.
                 for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
                     at(&collider, x, -0.15, 0);
                     hair_test_set_colliders(&living, &collider, 1);
                     hair_test_wait(&living, 1);
                 }
-            if (what == 1) // 21 rad/s
+            if (what == 1) // At 21 rad/s.
                 for (int k = 0; k < 45; ++k) {
                     at(&collider, 0.03, -0.18, 0);
                     hair_test_turn(&collider, 2, 0.35 * k);
@@ -243,7 +248,7 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
         }
 }
 
-// Many ------------------------------------------------------------------------------------------------------
+// Many colliders ----------------------------------------------------------------------------------
 
 #define MANY 1000
 
@@ -310,7 +315,7 @@ static void among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_
 
 #define POST_BALLS 100
 
-// Hair that begins inside a post and about it, between its axis and its surface.
+// Create hair that starts inside a post and around it, between its axis and its surface.
 static void live_in_post(struct hair_test* test, hair_thread_mapping mapping, const hair_collider* colliders,
                          uint32_t count, struct hair_test_living* out)
 {
@@ -325,7 +330,8 @@ static void live_in_post(struct hair_test* test, hair_thread_mapping mapping, co
     hair_test_set_colliders(out, colliders, count);
 }
 
-// Each of the balls alone would push them up and down as well.
+// Compare a row of balls with the post that they form. Each ball alone would also push strands up
+// and down.
 static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void** state)
 {
     static const char* const names[] = {"post", "balls", "balls, a work group per guide"};

@@ -1,13 +1,15 @@
-// rod_bodies_test.c - strands as rods on boxes, cylinders, cones and planes: laid over, swept, spun in, held by friction.
+// rod_bodies_test.c - strands as rods on boxes, cylinders, cones and planes: at rest, swept, spun,
+// and held by friction.
 #include "lib/collide/distance.h"
 #include "tests/support/living.h"
 
 #include <math.h>
 
-#define SOLVERS HAIR_SOLVER_REDBLACK // all before it
+#define SOLVERS HAIR_SOLVER_REDBLACK // The number of solvers before redblack.
 #define MARGIN 1e-3
 
-// How far a vertex is in a collider, or in the margin around it, at most; negative: how near.
+// Return the maximum depth of a vertex in a collider or its margin. A negative value is the
+// distance.
 static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
     return MARGIN + hair_test_depth(living, collider);
@@ -21,7 +23,8 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
     hair_test_live(test, strands, &desc, out);
 }
 
-// A strand starts level and comes to hang over an edge, a back, a flank, the ground.
+// Check a strand that starts level and comes to hang over an edge, a curved surface, a flank, or
+// the ground.
 static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
 {
     hair_collider bodies[] = {
@@ -53,7 +56,8 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
                 n, solver, deepest, hair_test_stretch(&living), 60 * hair_test_moved(&living));
             assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 4e-3 : 1e-3) &&
                         hair_test_stretch(&living) < 2e-3);
-            // Follow-the-leader knows no tension that would keep a strand on an edge: it slides off first.
+            // Follow-the-leader has no tension to keep a strand on an edge. The strand slides off
+            // first.
             if (solver == HAIR_SOLVER_FOLLOW) {
                 hair_test_wait(&living, 600);
                 hair_test_read_guides(&living);
@@ -66,7 +70,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
         }
 }
 
-// A plate of 30 mm, three segments of the strand, that moves 80 mm in a frame.
+// Check a plate of 30 mm, three segments of the strand, that moves 80 mm in a frame.
 static void a_plate_swept_through_hair_takes_it_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
@@ -90,7 +94,8 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
             }
         }
         print_message("    solver %d: up to %.2g m deep\n", solver, deepest);
-        // At the edge that holds it. Follow-the-leader lets it come in by half of the plate.
+        // The strand is deepest at the edge that holds it. Follow-the-leader lets it enter by half
+        // of the plate.
         assert_true(deepest < (solver == HAIR_SOLVER_FOLLOW ? 15e-3 : 12e-3));
         hair_test_die(&living);
         hair_test_strands_free(&strands);
@@ -108,7 +113,7 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
         box.size[0] = 0.08f, box.size[1] = 0.02f, box.size[2] = 0.05f;
         live(*state, solver, hair_v3(0, -1, 0), &physics, &strands, &living);
         for (int k = 0; k < 90; ++k) {
-            if (k < 80) hair_test_turn(&box, 2, 0.35 * k); // 21 rad/s, and then it stops.
+            if (k < 80) hair_test_turn(&box, 2, 0.35 * k); // At 21 rad/s, and then stopped.
             hair_test_set_colliders(&living, &box, 1);
             hair_test_wait(&living, 1);
             hair_test_read_guides(&living);
@@ -123,7 +128,8 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
     }
 }
 
-// On a slope of 0.4 rad, of which Coulomb holds what has a coefficient above its tangent, 0.42.
+// Check a slope of 0.4 rad. Coulomb friction holds strands if the coefficient exceeds its tangent,
+// 0.42.
 static void a_collider_has_friction_of_its_own(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};

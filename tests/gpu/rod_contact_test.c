@@ -1,4 +1,5 @@
-// rod_contact_test.c - strands as rods and colliders: laid over them, sliding and held by friction, carried, swept, freed.
+// rod_contact_test.c - strands as rods and colliders: at rest on them, sliding, held by friction,
+// carried, swept, and freed.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@
 
 #define STRIKING 8
 #define STRIKING_FRAMES 24
-#define SOLVERS HAIR_SOLVER_REDBLACK // all before it
+#define SOLVERS HAIR_SOLVER_REDBLACK // The number of solvers before redblack.
 #define MARGIN 1e-3
 
 static hair_collider sphere(double x, double y, double z, double radius)
@@ -16,7 +17,7 @@ static hair_collider sphere(double x, double y, double z, double radius)
                            .scale = 1,        .friction = 1};
 }
 
-// Its axis along z, turned by `angle` about it.
+// Return a capsule with its axis along z, rotated by `angle` about it.
 static hair_collider capsule(double x, double y, double radius, double angle)
 {
     double h = sqrt(0.5), c = cos(angle / 2), s = sin(angle / 2);
@@ -29,8 +30,8 @@ static hair_collider capsule(double x, double y, double radius, double angle)
     return collider;
 }
 
-// How far a vertex is in a collider, or in the margin around it, at most; negative: how near. The root, which the scalp
-// holds, does not count when it is held.
+// Return the maximum depth of a vertex in a collider or its margin. A negative value is the
+// distance. A root that the scalp holds does not count.
 static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
     double most = -INFINITY;
@@ -46,7 +47,8 @@ static double depth(const struct hair_test_living* living, const hair_collider* 
     return most;
 }
 
-// A strand of 0.25 m whose root is above a ball, to its side, laid over it. Seconds pass.
+// Lay a strand of 0.25 m over a collider, with its root above and to the side, and wait for
+// `seconds`.
 static void lay(struct hair_test* test, hair_solver solver, const hair_physics* physics,
                 const hair_collider* over, uint32_t seconds, struct hair_test_living* out)
 {
@@ -73,7 +75,7 @@ static void a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep(voi
             hair_collider collider = kind ? capsule(0.02, 0, 0.05, 0) : sphere(0.02, 0, 0, 0.05);
             struct hair_test_living living;
             lay(*state, (hair_solver)solver, &physics, &collider, 8, &living);
-            assert_true(hair_test_tip(&living, 0).x > 0.06f); // Over the top.
+            assert_true(hair_test_tip(&living, 0).x > 0.06f); // The strand lies over the top.
             assert_true(depth(&living, &collider) > -1e-5);
             hair_test_wait(&living, 600);
             hair_test_read_guides(&living);
@@ -97,8 +99,9 @@ static void without_friction_it_slides_off(void** state)
     }
 }
 
-// A free strand along a capsule of 5 m, where that slopes by half a radian: it slides as a bead does on a circle,
-// R a'' = g (sin a - mu cos a) + mu R a'^2; or sticks.
+// Check a free strand along a capsule of 5 m, at a slope of half a radian. It either sticks, or
+// slides as a bead on a circle: R a'' = g (sin a - mu cos a) + mu R a'^2. R is the radius, a the
+// angle from the top, mu the coefficient of friction, and g gravity.
 static void a_strand_on_a_slope_obeys_coulomb(void** state)
 {
     static const double mu[] = {0, 0.3, 0.5, 0.6}; // tan 0.5 = 0.546
@@ -168,7 +171,8 @@ static void colliders_that_move_and_spin_carry_hair_along(void** state)
     }
 }
 
-// The angle by which a strand goes around the point (x, y), seen along z: negative while it lies to the right.
+// Return the angle by which a strand winds around the point (x, y), seen along z. It is negative
+// while the strand lies to the right.
 static double winding(const struct hair_test_living* living, double x, double y)
 {
     double sum = 0;
@@ -180,7 +184,8 @@ static double winding(const struct hair_test_living* living, double x, double y)
     return sum;
 }
 
-// From left to right through a strand that hangs down: it must be pushed along and never be left behind.
+// Sweep a collider from left to right through a hanging strand. The strand must be pushed along and
+// never be left behind.
 static void what_is_swept_through_hair_takes_it_along(void** state)
 {
     static const struct {
@@ -300,7 +305,8 @@ static void among_64_colliders_hair_stays_out_of_all_with_the_same_bits_every_ti
     }
 }
 
-// Eight strands fall on a bar, each at another place, and where they are after each frame of so many substeps is written down.
+// Drop eight strands on a bar, each at another place. Record their positions after each frame of
+// `substeps` substeps.
 static void fall_over_bar(struct hair_test* test, int substeps, float* track, struct hair_test_living* out)
 {
     hair_physics physics = hair_test_loose(0.3f);
@@ -332,18 +338,20 @@ static void what_strikes_a_collider_at_few_substeps_goes_on_as_at_many(void** st
     for (int i = 0; i < FLOATS; ++i) sum += pow((double)track[0][i] - (double)track[1][i], 2);
     double error = sqrt(3 * sum / FLOATS) / 0.3;
     print_message("    off by %.2g of the length\n", error);
-    assert_true(error < 4.8e-3); // Where neighbours feel a strike by bending alone it is 5.2e-3.
+    assert_true(error < 4.8e-3); // 5.2e-3 if neighbours feel an impact by bending alone.
     hair_test_die(&living[0]);
     hair_test_die(&living[1]);
 }
 
-// Of 25 mm, that stand at 20 degrees from a head whose margin their roots are in, or whose inside.
+// Check strands of 25 mm, at 20 degrees to a head. Their roots are in the head's margin, or inside
+// the head.
 static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
 {
     hair_collider head = sphere(0, 0, 0, 0.1);
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0;
-    for (int any = 0; any < 2; ++any) // Of so many colliders there is a grid.
+    // With more than HAIR_FEW_COLLIDERS there is a grid of colliders.
+    for (int any = 0; any < 2; ++any)
         for (int solver = 0; solver < 2; ++solver) {
             hair_collider colliders[HAIR_FEW_COLLIDERS + 1];
             struct hair_test_living living;

@@ -1,4 +1,5 @@
-// rod_heap_test.c - hair on a heap of balls that overlap and move apart: what is not looked at would have done nothing.
+// rod_heap_test.c - hair on a heap of balls that overlap and move apart. Colliders that are not
+// tested would have had no effect.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -11,10 +12,10 @@
 #define HEAP_GUIDES 8
 #define HEAP_VERTICES (HEAP_GUIDES * 32)
 #define HEAP_FRAMES 96
-#define HEAP_RISES 90 // frame, from which on it does so at 10 m/s
+#define HEAP_RISES 90 // Frame from which on the heap rises, at 10 m/s.
 
-// A heap of balls that overlap, 6 to 25 mm, each of which goes its own way to and fro, and spins as a capsule can as well. In the end it
-// rises through the hair.
+// Place a heap of overlapping balls of 6 to 25 mm. Each moves to and fro in its own direction, and
+// spins as a capsule can. At the end the heap rises through the hair.
 static void place_heap(hair_collider* heap, int frame)
 {
     uint32_t random = 11;
@@ -34,7 +35,8 @@ static void place_heap(hair_collider* heap, int frame)
     }
 }
 
-// Hair falls over it, or begins inside, and where it is after each frame is written down. Returns how deep it ever was.
+// Drop hair on the heap, or start with hair inside it. Record positions after each frame. Return
+// the maximum depth.
 static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, hair_shape shape, int balls,
                            int inside, int guides, int frames, float* track)
 {
@@ -67,23 +69,26 @@ static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, 
     return deepest;
 }
 
-// Most of a ball's neighbours are not looked at, since it is deeper than they are, nor again any that is known to be left.
-// Capsules are looked at always. Elsewhere they stay out of them alike, not to the bit.
+// Compare balls with capsules of no length. Most balls near a place are not tested, because deeper
+// balls cover them. Balls that are known to be left are not tested again. Capsules are always
+// tested. On GPUs both keep hair out alike, but not to the bit.
 static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
     for (int n = 0; n < 4; ++n) {
         hair_thread_mapping mapping =
             n % 2 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE : HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
-        int balls = n == 2 ? FEWER : HEAP; // Of which a thread may look at all.
+        int balls = n == 2 ? FEWER : HEAP; // A thread may test all of this number.
         fall_on_heap(*state, mapping, HAIR_SHAPE_SPHERE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[0]);
         fall_on_heap(*state, mapping, HAIR_SHAPE_CAPSULE, balls, n / 2, HEAP_GUIDES, HEAP_FRAMES, track[1]);
-        if (((struct hair_test*)*state)->context->gl.software) // Which makes one arithmetic of both.
+        // llvmpipe makes equal arithmetic of both.
+        if (((struct hair_test*)*state)->context->gl.software)
             assert_memory_equal(track[0], track[1], sizeof track[0]);
     }
 }
 
-// Begun inside, a thread has more to look at than it may: it gives up what is found by many looks, not lengths, and comes out.
+// Check hair that starts inside. A thread then has more to test than its limit. It gives up the
+// iterations for contacts, and not lengths, and comes out.
 static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_group_does(void** state)
 {
     static float track[3 * HEAP_VERTICES * HEAP_FRAMES];
@@ -95,7 +100,7 @@ static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_gr
     assert_true(deepest[0] < 2 * deepest[1]);
 }
 
-// They keep nothing at hand.
+// Check many guides, whose work groups cache no colliders.
 static void many_guides_go_as_few_do(void** state)
 {
     enum { MANY = 2056, FRAMES = 8 };

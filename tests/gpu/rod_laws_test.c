@@ -1,12 +1,12 @@
-// rod_laws_test.c - what holds of strands as rods whatever they do: they fall by the formula, keep momentum and
-// energy, rest, and do not depend on how guides are spread over threads and time is cut.
+// rod_laws_test.c - laws of strands as rods: they fall by the formula, keep momentum and energy,
+// and rest. They do not depend on the mapping to threads or on the length of steps.
 #include "tests/support/living.h"
 
 #include <math.h>
 
 #define FRAME (1.0 / 60)
 
-// Guides of many lengths, numbers of vertices and spacings.
+// Add guides of many lengths, numbers of vertices and spacings.
 static void add_uneven(struct hair_test_strands* strands, uint32_t kind)
 {
     static const uint32_t vertices[] = {5, 32, 12, 31, 4, 20};
@@ -14,7 +14,7 @@ static void add_uneven(struct hair_test_strands* strands, uint32_t kind)
     hair_vec3 way = hair_normalize(hair_v3(1, -0.3f * fold, 0.2f), hair_v3(0, 1, 0));
     for (uint32_t i = 0; i < vertices[kind]; ++i) {
         float t = (float)i / (float)(vertices[kind] - 1);
-        t += kind % 2 ? 0.1f * sinf(3.14159f * t) : 0; // Longer segments first.
+        t += kind % 2 ? 0.1f * sinf(3.14159f * t) : 0; // Segments near the root are longer.
         hair_vec3 at = hair_add(hair_v3(0.02f * fold, 0, 0), hair_scale(way, length * t));
         hair_store3(strands->positions + 3 * (size_t)strands->vertex_count++, at);
     }
@@ -29,7 +29,7 @@ static struct hair_test_strands uneven(uint32_t first, uint32_t count)
     return strands;
 }
 
-// Brought to life, the head shaken for a third of a second, read, and the strands freed.
+// Create an instance, shake its head for a third of a second, read it, and free the strands.
 static void shake(struct hair_test* test, struct hair_test_strands* strands, const hair_desc* desc,
                   struct hair_test_living* out)
 {
@@ -51,7 +51,8 @@ static double apart(const struct hair_test_living* a, uint32_t guide, const stru
     return most;
 }
 
-// But for rounding: root frames are chosen by the mean direction of all.
+// Check guides together and alone. They differ by rounding only, because root frames are chosen by
+// the mean direction of all guides.
 static void guides_of_one_instance_do_not_notice_each_other(void** state)
 {
     hair_physics physics = hair_test_bare();
@@ -95,7 +96,7 @@ static void a_thread_per_guide_does_what_a_work_group_does(void** state)
     }
 }
 
-// A head that moves evenly, or stands, in steps of a frame and of a quarter of one.
+// Check a head that moves evenly or stands, in steps of a frame and of a quarter of a frame.
 static void motion_does_not_depend_on_how_time_is_cut(void** state)
 {
     hair_physics physics = hair_test_bare();
@@ -143,8 +144,10 @@ static void the_same_steps_give_the_same_bits(void** state)
     }
 }
 
-// dv/dt = g - c (v - u) of every vertex of a strand that nothing holds: no segment has anything to do. Exact under
-// accurate but for rounding; direct takes its first step by implicit Euler, which is 3/4 g h^2 too far.
+// Check dv/dt = g - c (v - u) for every vertex of a free strand, whose segments carry no force. v
+// is the velocity, u the wind, g gravity, and c the damping. The solver accurate is exact except
+// for rounding. The solver direct takes its first step by implicit Euler, which is too far by 3/4 g
+// h^2.
 static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
 {
     hair_physics physics = hair_test_bare();
@@ -182,7 +185,7 @@ static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
     }
 }
 
-// Kinked, and of segments between a third of a millimetre and eight.
+// Evaluate a kinked strand with segments from a third of a millimetre to eight.
 static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 {
     static const float at[][3] = {{0, 0, 0},
@@ -197,7 +200,8 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
     return hair_load3(at[(int)lroundf(7 * t)]);
 }
 
-// However stiff: what a force does to the whole of a strand is not lost beside what it does to its bends.
+// Check a very stiff strand. The effect of a force on the whole strand must not be lost in rounding
+// beside its bending.
 static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
 {
     static const hair_thread_mapping mappings[] = {HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
@@ -229,16 +233,18 @@ static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
 }
 
 struct motion {
+    // Per mass of one metre. Angular momentum is about the centre. Energy excludes elastic energy.
     double momentum[3], angular[3],
-        energy; // by the mass of a metre; angular about the centre; nothing elastic
+        energy;
 };
 
-// Of the substep between what was read last and what was before.
+// Return the motion in the substep between the last two reads.
 static struct motion motion_of(const struct hair_test_living* living, double h, double gravity)
 {
     struct motion m = {{0}, {0}, 0};
     double total = 0, centre[3] = {0}, x[3], v[3];
-    for (uint32_t k = 0; k < 2 * living->vertices; ++k) { // First for the centre, then about it.
+    // The first pass finds the centre. The second pass measures about the centre.
+    for (uint32_t k = 0; k < 2 * living->vertices; ++k) {
         uint32_t i = k % living->vertices, again = k / living->vertices;
         double after = (double)living->groom->rest[i].position.w;
         double mass = (after + (i > 0 ? (double)living->groom->rest[i - 1].position.w : 0)) / 2;
@@ -265,7 +271,8 @@ static double change(const double a[3], const double b[3])
     return sqrt(sum / size);
 }
 
-// Set in motion by a shaken head, then let go, without gravity and air: elastic forces and lengths cannot move it.
+// Check a strand set in motion by a shaken head and then freed, without gravity and air. Elastic
+// forces and length constraints must not change its momentum.
 static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
@@ -295,7 +302,8 @@ static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** sta
     }
 }
 
-// Of m g L / 2, in ten seconds of a chaotic chain; a solver that damps loses all of it.
+// Check the energy, in units of m g L / 2, over ten seconds of a chaotic chain. A solver with
+// damping loses all of it.
 static void accurate_keeps_the_energy_of_what_swings(void** state)
 {
     hair_physics physics = hair_test_bare();

@@ -1,4 +1,5 @@
-// rod_motion_test.c - strands as rods move as the reference does, converged in double precision: shaken, hinged, free.
+// rod_motion_test.c - strands as rods move like the converged reference in double precision:
+// shaken, hinged, and free.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -6,14 +7,14 @@
 #include <string.h>
 
 #define FRAME (1.0 / 60)
-#define LENGTH 0.3f // m
+#define LENGTH 0.3f // Metres.
 
 struct error {
-    double rms, stretch; // of the length
+    double rms, stretch; // Relative to the length.
 };
 
-// Side by side for `frames`, of a head that is shaken or still. The reference in substeps short enough for its error
-// not to matter: 1e-6 of the length.
+// Step the instance and the reference side by side for `frames`, with a head that is shaken or
+// still. The reference's substeps are short enough for an error of 1e-6 of the length.
 static struct error follow(struct hair_test_living* living, uint32_t guide, uint32_t frames, int shakes)
 {
     struct hair_reference_rod* rod = hair_test_reference(living, guide, NULL);
@@ -54,7 +55,8 @@ static struct error shake(struct hair_test* test, uint32_t vertices, const hair_
     return error;
 }
 
-// Bending of so fine vertices is stiff: accurate takes it implicitly from 64 on, which costs accuracy.
+// Check strands of 2 to 256 vertices. Bending is stiff with such fine vertices. From 64 vertices
+// on, the solver accurate integrates bending implicitly, which costs accuracy.
 static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 {
     static const struct {
@@ -77,7 +79,8 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
     }
 }
 
-// Soft hair, so that bending is not what limits the order, in which the error is h^2 at all of these substeps.
+// Check the order of the error with soft hair, whose bending does not limit the order. The error is
+// then proportional to h^2 at all of these substeps h.
 static void the_error_is_of_second_order_in_the_substep(void** state)
 {
     hair_physics physics = hair_test_bare();
@@ -95,10 +98,11 @@ static void the_error_is_of_second_order_in_the_substep(void** state)
     }
 }
 
-// The swing by which solvers are compared: released from the horizontal, nothing but gravity, the whip at 0.3 s.
+// Check the swing by which solvers are compared: a chain released from the horizontal, under
+// gravity only. It whips at 0.3 s.
 static void a_chain_released_from_the_horizontal_is_as_near_as_stated(void** state)
 {
-    static const double limit[] = {3.5e-3, 6e-4}; // m
+    static const double limit[] = {3.5e-3, 6e-4}; // Metres.
     hair_physics physics = hair_test_bare();
     physics.youngs_modulus = 0;
     physics.damping = 0;
@@ -151,7 +155,8 @@ static void pull_is_a_spring_to_the_rest_pose_under_the_head(void** state)
     hair_physics physics = hair_test_bare();
     physics.shape_frequency_root = 8, physics.shape_frequency_tip = 2;
     shake_both(*state, 16, &physics, 2e-3, 5e-5);
-    shake_both(*state, 70, &physics, 2e-3, 3e-4); // Implicit under accurate.
+    // The solver accurate integrates this one implicitly.
+    shake_both(*state, 70, &physics, 2e-3, 3e-4);
 }
 
 static void wind_carries_hair_as_the_reference_has_it(void** state)

@@ -1,5 +1,5 @@
-// rod_pins_test.c - guides whose vertices are tied: to the head, to the world; as chains are known to hang between two
-// ends; too far apart; let go.
+// rod_pins_test.c - guides with pinned vertices: to the head, to the world, as a catenary between
+// two ends, too far apart, and released.
 #include "tests/support/living.h"
 #include "tests/support/motion.h"
 
@@ -8,9 +8,10 @@
 #include <string.h>
 
 #define FRAME (1.0 / 60)
-#define LENGTH 0.3f // m
-#define WAYS 6 // in which rods are solved
-#define SOLVERS 3 // of them, in turn by a work group and by a thread: 0, 3, 4
+#define LENGTH 0.3f // Metres.
+#define WAYS 6 // Number of solvers times mappings.
+// Number of solvers. Their mappings alternate between work group and thread: ways 0, 3, 4.
+#define SOLVERS 3
 
 static hair_desc way_of(int way, const hair_physics* physics)
 {
@@ -67,7 +68,7 @@ static void live(struct hair_test* test, uint32_t count, uint32_t vertices, hair
     hair_test_strands_free(&strands);
 }
 
-// A second on a head that is shaken: the tip held by the head, then by a hand that moves.
+// Pin the tip for a second on a shaken head, first to the head and then to a hand that moves.
 static void hold_tip(struct hair_test_living* living)
 {
     hair_vec3 at = hair_v3(0.2f, -0.05f, 0.02f);
@@ -106,7 +107,7 @@ static void a_pinned_tip_is_where_its_pin_has_it(void** state)
     }
 }
 
-// Other programs.
+// Check flat hair with pull, hair-hair grid and a collider, which uses other programs.
 static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_colliders(void** state)
 {
     for (int way = 0; way < 2; ++way) {
@@ -125,7 +126,7 @@ static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_a
     }
 }
 
-// Of an inextensible chain, span and sag by the length.
+// Check an inextensible chain. Each row has its span and sag, relative to the length.
 static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
 {
     static const double rows[][2] = {{0.5, 0.3981941779}, {0.8, 0.2654375091}};
@@ -149,7 +150,8 @@ static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
     }
 }
 
-// A ponytail: what is above its pin is held at both ends, what is below hangs from it.
+// Check a ponytail. The part above its pin is held at both ends, and the part below hangs from the
+// pin.
 static void a_guide_can_be_pinned_at_several_vertices(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
@@ -170,7 +172,7 @@ static void a_guide_can_be_pinned_at_several_vertices(void** state)
                       (double)tip.z, hair_test_stretch(&living));
         hair_test_near("x of the tip", 0, (double)tip.x, 0.15, 0.06);
         assert_true(tip.y < -0.06f && hair_test_stretch(&living) < 1e-3);
-        assert_true(hair_test_tip(&living, 1).y < -0.2f); // Which nothing pins.
+        assert_true(hair_test_tip(&living, 1).y < -0.2f); // Nothing pins this guide.
         hair_test_die(&living);
     }
 }
@@ -323,7 +325,7 @@ static void pins_that_cannot_be_are_refused_and_leave_those_there_are(void** sta
     hair_test_read_guides(&living);
     assert_true(apart(hair_test_tip(&living, 0), hair_v3(0.2f, 0, 0)) < 1e-6);
 
-    // What may be asked for, and cannot be: a place that no hair reaches, and back from it.
+    // A position that no hair reaches is allowed. Hair must come back from it.
     pin_tip(&living, HAIR_PIN_WORLD, hair_v3(1e9f, -1e9f, 0));
     hair_test_wait(&living, 10);
     hair_test_read_guides(&living);

@@ -1,4 +1,5 @@
-// rod_shape_test.c - strands as rods keep their shape, bend and twist as the reference does, and hold their groom.
+// rod_shape_test.c - strands as rods keep their shape, bend and twist like the reference, and keep
+// their groom with gravity preload.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -8,7 +9,8 @@ static const hair_vec3 origin = {0, 0, 0};
 
 enum shape { WAVE, CURL, TRESS, SHAPES };
 
-// Of the length *user, more or less; a wave that stands out, a curl that does, and a strand that hangs.
+// Evaluate a curve of approximately the length *user: a wave that stands out, a curl that stands
+// out, or a strand that hangs.
 static hair_vec3 curve(float t, uint32_t strand, const void* user)
 {
     float l = *(const float*)user;
@@ -52,7 +54,8 @@ static void without_loads_a_groom_is_at_rest(void** state)
         }
 }
 
-// Stiff enough to stand out by itself, and not: then it is made so.
+// Check a strand that is stiff enough to stand out by itself, and one that gravity preload must
+// stiffen.
 static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** state)
 {
     static const float lengths[] = {0.05f, 0.14f};
@@ -78,7 +81,7 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
         }
 }
 
-// Three times its stiffness does not hold it.
+// Check a strand that even three times its stiffness does not hold.
 static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void** state)
 {
     hair_physics physics = hair_physics_default();
@@ -121,7 +124,8 @@ static void with_hold_waves_and_curls_stay_as_they_were_groomed(void** state)
     }
 }
 
-// 31 segments of 0.85 mm, of which three turn by 25 degrees: what is beyond a kink weighs on what is before it.
+// Evaluate a strand of 31 segments of 0.85 mm with three kinks of 25 degrees. The weight of the
+// part beyond a kink acts on the part before the kink.
 static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 {
     float x = 0, y = 0, z = 0, angle = 0.35f;
@@ -151,7 +155,8 @@ static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** stat
     }
 }
 
-// Farthest of any guide from the reference while the head is shaken, in lengths.
+// Return the maximum distance of any guide from the reference while the head is shaken, relative to
+// the length.
 static double shake(struct hair_test_living* living, uint32_t frames)
 {
     double most = 0;
@@ -191,8 +196,9 @@ static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
         }
 }
 
-// The head turns by 1.2 rad within a second, about some axis or along the first segment, about which only twist tells
-// the strand so; three seconds later every strand is in its rest shape under it.
+// Rotate the head by 1.2 rad within a second, about an oblique axis or along the first segment.
+// About the first segment only twist transmits the rotation. Three seconds later every strand must
+// be in its rest shape under the head.
 static void a_head_that_turns_takes_shapes_with_it(void** state)
 {
     const hair_vec3 axes[] = {{0.3f, 0.5f, -0.8f}, {0, 0, 0}};
@@ -229,7 +235,7 @@ static void a_head_that_turns_takes_shapes_with_it(void** state)
             }
 }
 
-// Hinges of 2.2 rad.
+// Evaluate a coil with hinges of 2.2 rad.
 static hair_vec3 coil(float t, uint32_t strand, const void* user)
 {
     float turn = 2.4f * 19 * t;
@@ -244,7 +250,8 @@ static struct hair_test_strands coarse_curl(void)
     return strands;
 }
 
-// A straight strand of that length, or the coarse curl where it is 0.
+// Compare a straight strand of that length with the reference. A length of 0 selects the coarse
+// curl.
 static void compare_at_rest(struct hair_test* test, const char* what, const hair_physics* physics,
                             float length, double direct, double accurate)
 {
@@ -267,11 +274,11 @@ static void compare_at_rest(struct hair_test* test, const char* what, const hair
     }
 }
 
-// Horizontal: a hair of 5, 10 and 30 cm under its own weight, Gamma = 1, 8 and 216.
+// Check horizontal hairs of 5, 10 and 30 cm under their own weight. Gamma is 1, 8 and 216.
 static void a_cantilever_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.sleep_threshold = 0; // Nothing stops before it is where it goes.
+    physics.sleep_threshold = 0; // With sleep, motion would stop before hair reaches equilibrium.
     physics.shape_frequency_root = physics.shape_frequency_tip = 0;
     physics.gravity_preload = 0;
     physics.damping = 8;
@@ -287,8 +294,9 @@ static void a_cantilever_hangs_as_the_reference_does(void** state)
     compare_at_rest(*state, "heavy at the tip", &physics, 0.05f, 2e-2, 5e-3);
 }
 
-// By the strain alone these hinges would be 4.5 times as soft. The limit is for twist at the clamp, whose stiffness
-// the reference multiplies by 2, and solvers by the factor of bending.
+// Check a coarse curl. By the strain alone, its hinges would be 4.5 times as soft. The limit allows
+// for twist at the clamp. The reference multiplies its stiffness by 2, and solvers multiply it by
+// the factor of bending.
 static void a_coarse_curl_hangs_as_the_reference_does(void** state)
 {
     hair_physics physics = hair_physics_default();
@@ -302,8 +310,9 @@ static void a_coarse_curl_hangs_as_the_reference_does(void** state)
     compare_at_rest(*state, "flat coarse curl", &physics, 0, 2e-3, 2e-3);
 }
 
-// The root frame of a strand along x has its own x along -y and its z along z: gravity along z bends it about the
-// section's long axis, the easy way.
+// Check a flat section. The root frame of a strand along x has its x axis along -y and its z axis
+// along z. Gravity along z bends the strand about the section's long axis, which is the easy
+// direction.
 static void a_flat_section_bends_about_its_long_axis(void** state)
 {
     hair_physics physics = hair_physics_default();

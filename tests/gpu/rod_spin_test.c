@@ -1,22 +1,23 @@
-// rod_spin_test.c - a straight strand on a spinning head trails as the converged reference does.
+// rod_spin_test.c - a straight strand on a spinning head trails like the converged reference.
 #include "tests/support/living.h"
 
 #include <math.h>
 
 #define FRAME (1.0 / 240)
-#define LENGTH 0.3f // m
-#define ROOT 0.1f // m, from the axis
-#define RISE 2.0 // s, until the head turns evenly
+#define LENGTH 0.3f // Metres.
+#define ROOT 0.1f // Metres from the axis.
+#define RISE 2.0 // Seconds until the head rotates evenly.
 #define FRAMES 960
 
-// Return the head's pose at a time, turned about the vertical axis.
+// Return the head's pose at a time, rotated about the vertical axis.
 static struct hair_reference_rod_pose turned(double rate, double time)
 {
     double turns = rate * (time < RISE ? time * time / (2 * RISE) : time - RISE / 2);
     return hair_test_pose_of(hair_v3(0, 0, 0), hair_v3(0, 1, 0), 2 * 3.14159265358979 * turns);
 }
 
-// The root is bent where the strand leaves the scalp's direction, and the bend turns with the head.
+// Spin the head and compare the strand with the reference. The root is bent where the strand leaves
+// the scalp's direction, and the bend rotates with the head.
 static void spin(struct hair_test* test, double rate)
 {
     hair_physics physics = hair_test_bare();

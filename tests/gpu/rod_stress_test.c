@@ -1,5 +1,5 @@
-// rod_stress_test.c - what no hair should be put through: strands as rods stay finite and of their length, and are back
-// in their rest shape four seconds later.
+// rod_stress_test.c - stress that no hair should suffer. Strands as rods stay finite, keep their
+// length, and are back in their rest shape four seconds later.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -8,13 +8,15 @@
 
 struct stress {
     const char* name;
-    // The head before the i-th frame, and how long that is; 0: over.
+    // Set the head before the i-th frame, and return the frame's length in seconds. 0 ends the
+    // stress.
     double (*frame)(uint32_t i, struct hair_reference_rod_pose* head);
-    // Other physics: from the start, or while it lasts.
+    // Change the physics. `lasting` changes them from the start, and otherwise only during the
+    // stress.
     void (*change)(hair_physics* physics);
     int lasting;
-    int returns; // to the rest shape
-    int blows; // wind of 1000 m/s along two axes
+    int returns; // 1 if strands must return to the rest shape.
+    int blows; // 1 for wind of 1000 m/s along two axes.
 };
 
 static const hair_vec3 up = {0, 1, 0};
@@ -109,7 +111,7 @@ static const struct stress stresses[] = {
     {"a root let go of", unevenly, make_loose, 0, 1, 0},
 };
 
-// A straight strand and a curl, which their rest shape bears.
+// Return a straight strand and a curl, which their rest strain supports.
 static struct hair_test_strands strands(void)
 {
     struct hair_test_strands s = hair_test_strands_make(2, 24);
@@ -123,7 +125,7 @@ static struct hair_test_strands strands(void)
     return s;
 }
 
-// And the calm after it: 4 s. Returns the largest stretch of all frames.
+// Apply the stress and then 4 s of calm. Return the maximum stretch of all frames.
 static double suffer(struct hair_test_living* living, const struct stress* stress)
 {
     struct hair_reference_rod_pose head, home = hair_test_pose_of(hair_v3(0, 0, 0), up, 0);
@@ -163,7 +165,7 @@ static struct hair_test_living start(struct hair_test* test, hair_solver solver,
     return living;
 }
 
-// Farthest that a guide is from its rest pose, in its lengths.
+// Return the maximum distance of a guide from its rest pose, relative to its length.
 static double from_rest(const struct hair_test_living* living)
 {
     double most = 0;
@@ -204,7 +206,8 @@ static void so_it_does_with_a_thread_per_guide(void** state)
     try_all(*state, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1);
 }
 
-// From vertex to vertex another way: of no such strand are lengths found soon.
+// Evaluate a strand that changes direction at every vertex. Length constraints of such strands
+// converge slowly.
 static hair_vec3 jagged(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -235,7 +238,8 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
     return most;
 }
 
-// Software rasterisers end loops that go on for long: a substep that takes them all may not leave anything undone.
+// Check guides with the maximum number of vertices. Software rasterisers end long loops, and a
+// substep that uses all iterations must still finish its work.
 static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
 {
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
@@ -246,7 +250,8 @@ static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
         }
 }
 
-// Far from the world's origin floats know centimetres: positions are from the head's. Brought home they are compared.
+// Check a head far from the world's origin, where floats resolve centimetres. Positions are
+// relative to the head. Both heads are teleported home to be compared.
 static void a_head_100_km_out_is_a_head_like_any_other(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
@@ -306,11 +311,11 @@ static void solver_stats_says_what_happened(void** state)
             start(*state, (hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, NULL);
         hair_test_wait(&living, 60);
         hair_test_healthy(&living);
-        suffer(&living, &stresses[4]); // No method but following the leader bears a jump of 10 m.
+        suffer(&living, &stresses[4]); // Only following the leader bears a jump of 10 m.
         hair_solver_stats solver_stats = hair_test_solver_stats(&living);
         assert_true(solver_stats.euler_fallbacks > 0 || solver_stats.parts > 0);
         assert_true(!solver_stats.euler_fallbacks ||
-                    !solver_stats.parts); // A program does the one or the other.
+                    !solver_stats.parts); // Each program has only one of the two.
         assert_true(solver_stats.follow_fallbacks > 0);
         assert_int_equal(solver_stats.reset, 0);
         hair_test_die(&living);

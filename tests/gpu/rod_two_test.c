@@ -1,5 +1,5 @@
-// rod_two_test.c - many guides on a GPU go by two programs: one that knows the solver's own method only, and one that knows all
-// for those that it leaves.
+// rod_two_test.c - many guides on a GPU go through two programs. The first has only the solver's
+// own method. The second has all methods, for guides that the first leaves.
 #include "tests/support/living.h"
 
 #include <string.h>
@@ -7,12 +7,13 @@
 #include "lib/api/api.h"
 
 #define GUIDES 1500
-#define UNITS 20 // that a GPU is said to have, so that it has few for so many
+// Number of units that the GPU is said to have. It is small for this number of guides.
+#define UNITS 20
 #define VERTICES 5
 #define FRAMES 30
 
-// Strands of several lengths over a ball, under a head that goes on calmly, jumps aside at 60 m/s, is gone for a frame, and comes
-// back.
+// Simulate strands of several lengths over a ball. The head moves calmly, jumps aside at 60 m/s, is
+// not finite for a frame, and comes back.
 static void run(struct hair_test* test, int units, float* track, hair_solver_stats* solver_stats)
 {
     struct hair_gl* gl = &test->context->gl;
@@ -39,7 +40,8 @@ static void run(struct hair_test* test, int units, float* track, hair_solver_sta
         float aside = frame < 12 ? 0 : frame == 20 ? 6e4f : 1;
         struct hair_reference_rod_pose head =
             hair_test_pose_of(hair_v3(aside, 0.001f * (float)frame, 0), hair_v3(0, 1, 0), 0.01 * frame);
-        hair_test_blow(&living, frame == 14 ? &wind : NULL); // Then all go through one.
+        // With wind, all guides go through one program.
+        hair_test_blow(&living, frame == 14 ? &wind : NULL);
         hair_test_advance(&living, &head, 1.0 / 60);
         hair_test_read_guides(&living);
         memcpy(track + (size_t)frame * 3 * living.vertices, living.positions, 12 * living.vertices);
@@ -59,7 +61,8 @@ static void in_two_programs_guides_go_as_in_one(void** state)
                   solver_stats[1].euler_fallbacks, solver_stats[1].follow_fallbacks, solver_stats[1].reset);
     assert_true(solver_stats[1].euler_fallbacks > 0 && solver_stats[1].follow_fallbacks > 0 &&
                 solver_stats[1].reset >= GUIDES);
-    if (!((struct hair_test*)*state)->context->gl.software) return; // Two programs round in two ways.
+    // The two programs round differently on GPUs.
+    if (!((struct hair_test*)*state)->context->gl.software) return;
     assert_memory_equal(track[0], track[1], sizeof track[0]);
     assert_memory_equal(&solver_stats[0], &solver_stats[1], sizeof solver_stats[0]);
 }

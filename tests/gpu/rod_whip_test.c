@@ -1,4 +1,5 @@
-// rod_whip_test.c - energy of straight strands that nothing damps, let go from high up: their tips whip.
+// rod_whip_test.c - energy of undamped straight strands that are released from high up, so that
+// their tips whip.
 #include "tests/support/crowd.h"
 
 #include <math.h>
@@ -7,8 +8,8 @@
 #define LENGTH 0.3f
 #define GRAVITY 9.81
 
-// Return the energy over the mass of a metre, in the middle of the last substep. Kinetic energy is that of the
-// displacement, and potential energy the mean of both ends.
+// Return the energy per mass of a metre, in the middle of the last substep. The kinetic energy is
+// by the displacement, and the potential energy is the mean of both ends.
 static double energy_of(const struct hair_test_living* living)
 {
     const struct hair_sim* sim = &living->hair->sim;
@@ -16,7 +17,8 @@ static double energy_of(const struct hair_test_living* living)
     struct hair_state* at = hair_test_buffer(sim->state, n * sizeof *at);
     struct hair_rod* rod = hair_test_buffer(sim->rod, n * sizeof *rod);
     double sum = 0, last[2][3] = {{0}};
-    double part = fmin((double)at[0].position.w, 1); // of the substep, the last leap
+    // Fraction of the substep that the last leap covers.
+    double part = fmin((double)at[0].position.w, 1);
     for (uint32_t i = 0; i < n; ++i) {
         double mass = rod[i].segment.y > 0 ? 1 / (double)rod[i].segment.y : 0;
         for (int start = 0; start < 2; ++start) {
@@ -48,15 +50,17 @@ static double energy_of(const struct hair_test_living* living)
 
 struct whip {
     uint32_t vertices;
-    double degrees; // from down
+    double degrees; // Degrees from straight down.
     hair_root root;
     hair_thread_mapping mapping;
-    double substep; // s; 0 leaves it to the solver
-    int beside; // 1 puts a ball beside the plane of the whip, nearer to the root than 2 cm
+    double substep; // Seconds. 0 lets the solver choose.
+    // 1 puts a ball beside the plane of the whip, nearer to the root than 2 cm.
+    int beside;
 };
 
-// Let a strand go and compare its energy after five seconds, counted from where it would hang straight down. Short waves
-// that a substep samples coarsely make the energy vary in between.
+// Release a strand and check its energy after five seconds. The energy is relative to the strand
+// hanging straight down. Substeps sample short waves coarsely, which makes the energy vary in
+// between.
 static void keep_energy(struct hair_test* test, const struct whip* whip)
 {
     hair_physics physics = hair_test_bare();
@@ -107,7 +111,7 @@ static void a_whip_keeps_its_energy(void** state)
     for (size_t k = 0; k < sizeof whips / sizeof *whips; ++k) keep_energy(*state, &whips[k]);
 }
 
-// Move a strand for two seconds, so many substeps in a step, and return its state.
+// Simulate a strand for two seconds, with `substeps` substeps per step, and return its state.
 static struct hair_state* whip_in_steps(struct hair_test* test, hair_thread_mapping mapping, int substeps)
 {
     hair_physics physics = hair_test_bare();
@@ -123,16 +127,18 @@ static struct hair_state* whip_in_steps(struct hair_test* test, hair_thread_mapp
     return at;
 }
 
-// The second program begins anew with all substeps of a dispatch, and may take them in several dispatches.
+// Check longer steps. The second program starts anew with all substeps of a dispatch, and may take
+// them in several dispatches.
 static void a_whip_is_the_same_in_longer_steps(void** state)
 {
-    if (!((struct hair_test*)*state)->context->gl.software) return; // Two programs round in two ways.
+    // The two programs round differently on GPUs.
+    if (!((struct hair_test*)*state)->context->gl.software) return;
     for (int by_thread = 0; by_thread < 2; ++by_thread) {
         hair_thread_mapping mapping =
             by_thread ? HAIR_THREAD_MAPPING_THREAD_PER_GUIDE : HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
         struct hair_state* one = whip_in_steps(*state, mapping, 1);
         struct hair_state* many = whip_in_steps(*state, mapping, 16);
-        assert_true(one[0].position.w < 1); // in parts
+        assert_true(one[0].position.w < 1); // The last substep was taken in parts.
         assert_memory_equal(one, many, 32 * sizeof *one);
         free(one), free(many);
     }

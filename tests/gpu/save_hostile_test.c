@@ -9,7 +9,7 @@
 
 #define refused hair_test_refused
 
-// Where the fields are: lib/sim/save.c.
+// Offsets of the fields, as in lib/sim/save.c.
 enum {
     VERSION = 8,
     WHOLE = 12,
@@ -19,13 +19,14 @@ enum {
     STRUCK = 80,
     POSES = 84,
     HEAD = POSES + 3 * 40,
-    COLLIDERS = POSES + 4 * 40 + 3 * 8, // after the way of gusts
+    COLLIDERS = POSES + 4 * 40 + 3 * 8, // After the displacement of gusts.
     COLLIDER_BYTES = 72,
     PIN_BYTES = 36,
-    SLEEP = 144 // bytes, of hair that is looked at by nobody, and of air that is no fluid
+    // Bytes of sleeping without a pending measurement, and of wind without a fluid.
+    SLEEP = 144
 };
 
-// As the library hashes, so that what is harmful looks undamaged.
+// Compute the library's hash, so that harmful bytes look undamaged.
 static void seal(struct hair_test_blob* blob)
 {
     uint64_t hash = 0xcbf29ce484222325u;
@@ -34,9 +35,9 @@ static void seal(struct hair_test_blob* blob)
     hair_write_u64(blob->bytes + blob->size - 8, hash);
 }
 
-#define CROWD 3 // the way in which hair feels the hair around it, and is saved within a block
+#define CROWD 3 // Index of the way with a hair-hair grid, saved within a block.
 
-// Small, on its way, with two colliders; and with a pin where there is a crowd.
+// Create a small moving instance with two colliders. The way with a hair-hair grid has a pin.
 static hair_instance* make_small(struct hair_test* test, int way)
 {
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -133,7 +134,8 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     struct hair_test* test = *state;
     hair_instance* hair = make_small(test, 0);
     struct hair_test_blob good = hair_test_save(test, hair);
-    // Colliders now and before, and no pins; then of every vertex its state, its frame, its rates, and, after a flag, its force and turns.
+    // The state has the present and previous colliders and no pins. Then it has each vertex's
+    // state, frame, rates, and, after a flag, force and rotations.
     size_t vertices = hair->sim.guide_vertices,
            states = COLLIDERS + 12 +
                     COLLIDER_BYTES * (hair->sim.colliders.now.count + hair->sim.colliders.before.count),
@@ -141,7 +143,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     size_t forces = 4 + 48 * vertices;
     assert_int_equal(rates + 32 * vertices + forces + 4 + SLEEP + 8,
-                     good.size); // and where in the crowd's block it is
+                     good.size); // The position within the grid's block follows.
 
     // clang-format off
     const struct wrong wrongs[] = {
@@ -184,16 +186,18 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     // clang-format on
 
     struct hair_test_blob wrong = {malloc(good.size + 4), good.size};
-    hair_test_step(test, hair, &(struct hair_test_subject){0}, 1); // It is not where the state was saved.
+    // The instance then differs from the saved state.
+    hair_test_step(test, hair, &(struct hair_test_subject){0}, 1);
     hair_test_look(test, hair, &before);
-    hair_instance as_it_was = *hair; // With what is found out only when someone looks.
+    // The copy includes what the library computes only when it is read.
+    hair_instance as_it_was = *hair;
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; ++i) {
         memcpy(wrong.bytes, good.bytes, good.size);
         refused(test, wrongs[i].load(hair, wrong, wrongs[i].at), wrongs[i].result, wrongs[i].words);
         assert_memory_equal(hair, &as_it_was, sizeof as_it_was);
         hair_test_look(test, hair, &after);
         hair_test_same(&after, &before);
-        as_it_was = *hair; // Looking counts what it writes.
+        as_it_was = *hair; // A read counts what it writes.
     }
     hair_test_ok(test, hair_load(hair, good.bytes, good.size));
     hair_destroy(hair);
@@ -214,8 +218,9 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     others[1].groom.guides = 6, subject.groom.guides = 6;
     others[1].groom.fewest = 15, others[1].groom.most = 17;
     others[2].desc.substep = 0.01f;
+    // The guides have 16 vertices each. The total equals that of guides of 15 to 17.
     hair_instance* six =
-        hair_test_subject_make(test, &subject); // of 16 vertices each, as many in all as 15 to 17
+        hair_test_subject_make(test, &subject);
     for (int i = 0; i < 3; ++i) {
         hair_instance* other = hair_test_subject_make(test, &others[i]);
         struct hair_test_blob blob = hair_test_save(test, other);
@@ -233,7 +238,8 @@ static void a_state_cut_off_at_any_byte_is_refused(void** state)
     hair_instance* hair = make_small(test, 0);
     struct hair_test_blob good = hair_test_save(test, hair), cut = {malloc(good.size), 0};
     for (cut.size = 0; cut.size < good.size; ++cut.size) {
-        unsigned char* exact = malloc(cut.size ? cut.size : 1); // so that reading beyond it is seen
+        // The exact size lets tools detect reads beyond the end.
+        unsigned char* exact = malloc(cut.size ? cut.size : 1);
         memcpy(exact, good.bytes, cut.size);
         refused(test, hair_load(hair, exact, cut.size), HAIR_ERROR_FILE, "saved state");
         free(exact);
@@ -245,7 +251,8 @@ static void a_state_cut_off_at_any_byte_is_refused(void** state)
     free(good.bytes), free(cut.bytes);
 }
 
-// Refused, or loaded and finite: now, and after a step that goes through substeps. Returns whether loaded.
+// Load sealed bytes. Check that they are refused, or finite at once and after a step with substeps.
+// Return whether they are loaded.
 static int survives(struct hair_test* test, hair_instance* hair, struct hair_test_blob blob)
 {
     static struct hair_test_seen seen;
@@ -269,15 +276,17 @@ static void flip_every_bit(struct hair_test* test, int way)
         memcpy(wrong.bytes, good.bytes, good.size);
         wrong.bytes[bit / 8] ^= (unsigned char)(1u << bit % 8);
         refused(test, hair_load(hair, wrong.bytes, wrong.size), HAIR_ERROR_FILE, "saved state");
-        // Beyond the head one in each byte will do, a different one of each number's.
+        // Beyond the header one bit per byte is enough, and a different bit in each byte of a
+        // number.
         if (bit >= 64 * 8 && bit % 8 != bit / 8 * 3 % 8) continue;
         accepted += (uint32_t)survives(test, hair, wrong);
         ++sealed;
     }
     print_message("    %u of %u accepted once they are sealed\n", accepted, sealed);
-    // Every bit of the magic, of the version and of the five that say whose it is, and of some exponents.
+    // All bits of the magic, the version, and the five fields that identify the owner are refused,
+    // and some exponents too.
     assert_in_range(accepted, sealed / 2, sealed - 8 * (8 + 4 + 40) - 30);
-    for (int n = 0; n < 200; ++n) { // several numbers at once
+    for (int n = 0; n < 200; ++n) { // Several numbers at once.
         memcpy(wrong.bytes, good.bytes, good.size);
         for (int k = 0; k < 4; ++k) {
             size_t at = 64 + 4 * (size_t)((double)hair_random(&random) * (double)((good.size - 72) / 4));
@@ -295,7 +304,7 @@ static void any_flipped_bit_is_refused_or_harmless(void** state)
     for (int way = 0; way < HAIR_TEST_WAYS; way += 3) flip_every_bit(*state, way);
 }
 
-// The greatest of every number that is let through, all together.
+// Load the maximum of every accepted number, all together.
 static void load_the_farthest(struct hair_test* test, int way)
 {
     hair_instance* hair = make_small(test, way);

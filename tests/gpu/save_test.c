@@ -1,13 +1,14 @@
-// save_test.c - a run that is saved and loaded goes on with the same bits, whatever else runs beside it.
+// save_test.c - a run that is saved and loaded continues with the same bits, whatever else runs
+// beside it.
 #include "tests/support/motion.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define AFTER 14 // steps that are compared after loading
+#define AFTER 14 // Number of steps compared after loading.
 
-// From between the i-th move and the i-th step on, where nothing is settled.
+// Record the run from the i-th move on. Between a move and its step nothing is settled.
 static void follow(struct hair_test* test, hair_instance* hair, const struct hair_test_subject* subject,
                    uint32_t i, struct hair_test_seen seen[AFTER + 1])
 {
@@ -19,7 +20,7 @@ static void follow(struct hair_test* test, hair_instance* hair, const struct hai
     }
 }
 
-// Into the same instance, which is elsewhere by then, and into one that has just been made. Returns whether time had
+// Load into the same instance, which has moved on, and into a new one. Return whether time had
 // passed since the last substep.
 static int check_run(struct hair_test* test, const struct hair_test_subject* subject, uint32_t i)
 {
@@ -35,7 +36,8 @@ static int check_run(struct hair_test* test, const struct hair_test_subject* sub
             hair_destroy(hair);
             hair = hair_test_subject_make(test, subject);
         }
-        hair_test_run(test, hair, subject, 20, 23); // Still under way on the GPU when the state is loaded.
+        // The GPU still runs this when the state is loaded.
+        hair_test_run(test, hair, subject, 20, 23);
         hair_test_set(test, hair, subject, i);
         hair_test_ok(test, hair_load(hair, blob.bytes, blob.size));
         follow(test, hair, subject, i, again);
@@ -48,11 +50,11 @@ static int check_run(struct hair_test* test, const struct hair_test_subject* sub
 
 static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void** state)
 {
-    static const uint32_t saved[] = {0, 7, 12, 17, 28}; // 12 ends in a teleport, 28 in a reset
+    static const uint32_t saved[] = {0, 7, 12, 17, 28}; // 12 ends in a teleport, 28 in a reset.
     int between = 0, all = 0;
     for (uint32_t way = 0; way < HAIR_TEST_WAYS; ++way)
         for (uint32_t i = 0; i < sizeof saved / sizeof *saved; ++i, ++all) {
-            // Every two of way, moment and subject are together once.
+            // Every pair of way, moment and subject occurs once.
             struct hair_test_subject subject = hair_test_subject_of((way + i) % HAIR_TEST_SUBJECTS);
             subject.desc.solver = hair_test_way((int)way).solver;
             subject.desc.thread_mapping = hair_test_way((int)way).thread_mapping;
@@ -62,7 +64,7 @@ static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void*
     assert_true(between > all / 2);
 }
 
-// What is saved says all: bytes of a state and bytes of what was loaded from them are the same.
+// Check that a loaded state saves as the bytes it was loaded from.
 static void a_loaded_state_saves_as_the_same_bytes(void** state)
 {
     struct hair_test* test = *state;
@@ -78,7 +80,7 @@ static void a_loaded_state_saves_as_the_same_bytes(void** state)
     free(first.bytes), free(second.bytes);
 }
 
-// Settings are the instance's own.
+// Check that loading keeps the instance's own settings.
 static void loading_leaves_physics_and_look_as_they_are(void** state)
 {
     struct hair_test* test = *state;
@@ -130,7 +132,8 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
     for (uint32_t n = 0; n < 3; ++n) hair_destroy(hair[n]);
 }
 
-// What was set but not yet stepped to does not turn the hair where the last step left it.
+// Check a transform that was set without a step. It must not rotate the hair where the last step
+// left it.
 static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void** state)
 {
     static struct hair_test_seen once, twice;
@@ -143,7 +146,7 @@ static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void**
     hair_test_look(test, hair, &once);
     hair_test_pose(3, there);
     hair_test_ok(test, hair_set_transform(hair, there));
-    hair_test_ok(test, hair_teleport(hair, there)); // by nothing
+    hair_test_ok(test, hair_teleport(hair, there)); // Moves by nothing.
     hair_test_look(test, hair, &twice);
     assert_int_equal(once.count, twice.count);
     for (size_t i = 0; i < once.count; ++i)

@@ -1,4 +1,5 @@
-// scalp_test.c - roots ride on a scalp that the host skins, given from memory or from a buffer.
+// scalp_test.c - roots follow a scalp that the application skins, passed from memory or in a
+// buffer.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -11,8 +12,8 @@
 
 #define CELLS 4
 #define VERTICES ((CELLS + 1) * (CELLS + 1))
-#define SIDE 0.2f // m
-#define GUIDES 37 // at the scalp's vertices, and some between them
+#define SIDE 0.2f // Metres.
+#define GUIDES 37 // Guides are at the scalp's vertices and between some of them.
 #define FOLLOWERS 300
 #define SEGMENTS 8
 #define STEP (1.0f / 30)
@@ -20,10 +21,10 @@
 struct skinned {
     hair_groom* groom;
     hair_instance* hair;
-    float rest[3 * VERTICES], positions[3 * VERTICES]; // of the scalp
+    float rest[3 * VERTICES], positions[3 * VERTICES]; // Vertices of the scalp.
 };
 
-// From the scalp, which is level, upwards and leaning.
+// Evaluate a strand upwards from the level scalp, at a slant.
 static hair_vec3 strand(float t, uint32_t number, const void* user)
 {
     (void)user;
@@ -58,13 +59,14 @@ static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_t
     desc.thread_mapping = mapping;
     hair_look look = hair_look_default();
     look.segments = SEGMENTS;
+    // Rounding may decide whether a follower hits a collider.
     look.follower_collision =
-        HAIR_FOLLOWER_COLLISION_NONE; // Whether a follower meets a collider may hang on rounding.
+        HAIR_FOLLOWER_COLLISION_NONE;
     desc.look = &look;
     desc.solver = solver;
     s.groom = make_groom(test, s.rest);
     hair_test_ok(test, hair_create(test->context, s.groom, &desc, &s.hair));
-    hair_groom_destroy(s.groom); // What an instance needs of it it holds.
+    hair_groom_destroy(s.groom); // An instance keeps what it needs of the groom.
     memcpy(s.positions, s.rest, sizeof s.positions);
     return s;
 }
@@ -106,7 +108,7 @@ static double farthest(const struct seen* a, const struct seen* b)
     return most;
 }
 
-// A nod about an axis that goes past the scalp, and a walk.
+// Make a nod about an axis beside the scalp, and a walk.
 static void pose_at(float time, float m[16])
 {
     float turn = 0.5f * sinf(4 * time), c = cosf(turn), s = sinf(turn);
@@ -122,9 +124,11 @@ static void carry(const float m[16], const float* from, float* out)
                 m[k] * from[3 * i] + m[4 + k] * from[3 * i + 1] + m[8 + k] * from[3 * i + 2] + m[12 + k];
 }
 
-// In a step the head takes its origin along a line and turns about it; every root of a scalp takes a line of its own.
-// The two are apart by r (1 - cos(half the turn)) at most, here 0.2 m (1 - cos 0.034) = 0.12 mm in the middle of a
-// step, and together at its ends. Hair, whose roots are jerked so, is no farther apart than some times that.
+// Maximum distance between both instances, in metres. In a step a head moves its origin along a
+// line and rotates about the origin. Every root of a scalp moves along its own line. Both differ by
+// at most r (1 - cos(half the rotation)). Here that is 0.2 m (1 - cos 0.034) = 0.12 mm in the
+// middle of a step, and 0 at its ends. Hair with roots jerked by this distance is apart by a few
+// times the distance.
 #define CHORD 1e-3
 
 static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
@@ -142,7 +146,7 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
         float time = 0;
         for (int frame = 1; frame <= 25; ++frame) {
             float m[16];
-            float dt = frame % 5 == 4 ? 0.001f : STEP; // Of several substeps, or none.
+            float dt = frame % 5 == 4 ? 0.001f : STEP; // The step has several substeps, or none.
             time += dt;
             pose_at(time, m);
             hair_test_ok(test, hair_set_transform(head.hair, m));
@@ -172,7 +176,8 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
     }
 }
 
-// Substeps get longer and shorter, between two of them or at once, so that some end before a step begins.
+// Check substeps that become longer and shorter, either between two substeps or at once. Some of
+// them end before a step begins.
 static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void** state)
 {
     static const float rates[] = {1, 0.25f, 0.5f, 1, 1, 0.0625f};
@@ -185,7 +190,8 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
     for (int frame = 1; frame <= 90; ++frame) {
         float m[16];
         physics.substep_rate = rates[frame / 5 % 6];
-        if (frame % 30 == 0) physics.youngs_modulus *= 1.1f; // Which does not wait for a substep's end.
+        // This change does not wait for the end of a substep.
+        if (frame % 30 == 0) physics.youngs_modulus *= 1.1f;
         float dt = frame % 10 == 5 ? STEP : 1.0f / 250;
         time += dt;
         pose_at(time, m);
@@ -208,8 +214,9 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
     drop(&head), drop(&scalp);
 }
 
-// Given in the head's space as it is at rest, it leaves all as it is, whatever else hair meets. But that followers, as
-// the first segments of guides are bent a little, would else leave the scalp by that.
+// Check a scalp at rest, passed in the head's space. It changes nothing, with any collider.
+// Followers are an exception, because the first segments of guides are slightly bent, and followers
+// would leave the scalp by this distance.
 static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 {
     struct hair_test* test = *state;
@@ -246,7 +253,8 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
     drop(&head), drop(&scalp);
 }
 
-// More than a step's parameters hold: looked for where hair may be, which the head does not say.
+// Check more colliders than a step's parameters hold. They are searched where the hair may be,
+// which the head does not determine.
 static void a_scalp_taken_far_from_the_head_meets_colliders_there(void** state)
 {
     struct hair_test* test = *state;
@@ -289,7 +297,7 @@ static void stretch(const struct skinned* s, float by, float* out)
     for (int i = 0; i < 3 * VERTICES; ++i) out[i] = s->rest[i] * by;
 }
 
-// Roots, which are on it, go where it goes; hair keeps its shape and direction.
+// Check that roots move with the scalp, and that hair keeps its shape and direction.
 static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
 {
     struct hair_test* test = *state;
@@ -320,7 +328,7 @@ static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
     }
 }
 
-// Waves that go over the scalp.
+// Move waves over the scalp.
 static void bulge(struct skinned* s, float time)
 {
     for (int i = 0; i < VERTICES; ++i) {
@@ -360,7 +368,7 @@ static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
         struct given given = put_in_buffer(&buffer, layouts[frame % 3][0], layouts[frame % 3][1]);
         hair_test_ok(test,
                      hair_set_scalp_buffer(buffer.hair, given.buffer, given.offset, given.stride, NULL));
-        glDeleteBuffers(1, &given.buffer); // It has been read.
+        glDeleteBuffers(1, &given.buffer); // The library has read the buffer.
         hair_test_ok(test, hair_step(memory.hair, STEP));
         hair_test_ok(test, hair_step(buffer.hair, STEP));
         look(test, &memory, HAIR_READ_GUIDES, &a);
@@ -373,7 +381,7 @@ static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
     drop(&memory), drop(&buffer);
 }
 
-// Given in a space that goes along, far out or near, it is the same to the head.
+// Check a scalp that is passed in a moving space, far away or near. The head sees no difference.
 static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void** state)
 {
     struct hair_test* test = *state;
@@ -383,7 +391,7 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
     float away[16];
     memcpy(away, m, sizeof m);
     hair_physics physics = hair_physics_default();
-    physics.gravity[1] = 0; // Which has a direction of its own.
+    physics.gravity[1] = 0; // Gravity has a fixed direction in the world.
     hair_test_ok(test, hair_set_physics(near.hair, &physics));
     hair_test_ok(test, hair_set_physics(far.hair, &physics));
     hair_test_ok(test, hair_teleport(far.hair, m));
@@ -400,7 +408,8 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
     }
     look(test, &near, HAIR_READ_FOLLOWERS, &a);
     look(test, &far, HAIR_READ_FOLLOWERS, &b);
-    for (uint32_t i = 0; i < b.count; ++i) { // Back to where the other is: floats of 5 km have 0.5 mm.
+    // Moves positions back to the other instance. Floats at 5 km are spaced by 0.5 mm.
+    for (uint32_t i = 0; i < b.count; ++i) {
         hair_vec3 p = hair_sub(hair_load3(b.at + 3 * i), hair_v3(away[12], away[13], away[14]));
         hair_store3(b.at + 3 * i, hair_v3(p.y, -p.x, p.z));
     }
@@ -410,7 +419,8 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
     drop(&near), drop(&far);
 }
 
-// What is not finite, or has no plane, leaves what sits on it where it is against the head; the rest goes on.
+// Check scalps that are not finite or degenerate. Hair on them stays where it is relative to the
+// head, and the rest continues.
 static void whatever_a_buffer_holds_hair_stays_finite(void** state)
 {
     struct hair_test* test = *state;
@@ -421,9 +431,11 @@ static void whatever_a_buffer_holds_hair_stays_finite(void** state)
             bulge(&s, STEP * (float)frame);
             float* p = s.positions;
             if (frame % 4 == 1) p[7] = NAN, p[20] = INFINITY, p[33] = 3e38f;
-            if (frame % 4 == 2) memcpy(p + 3, p, 12), memcpy(p + 12, p, 12); // Triangles that are points.
+            // Makes triangles that are points.
+            if (frame % 4 == 2) memcpy(p + 3, p, 12), memcpy(p + 12, p, 12);
             if (frame % 4 == 3)
-                for (int i = 0; i < VERTICES; ++i) p[3 * i + 1] = p[3 * i + 2] = p[3 * i]; // All on one line.
+                // All on one line.
+                for (int i = 0; i < VERTICES; ++i) p[3 * i + 1] = p[3 * i + 2] = p[3 * i];
             if (frame > 8)
                 for (int i = 0; i < 3 * VERTICES; ++i) p[i] = frame % 2 ? NAN : -3e38f;
             struct given given = put_in_buffer(&s, 0, 12);
@@ -436,7 +448,7 @@ static void whatever_a_buffer_holds_hair_stays_finite(void** state)
             if (frame == 6) hair_test_ok(test, hair_reset(s.hair));
         }
         look(test, &s, HAIR_READ_GUIDES, &seen);
-        for (uint32_t k = 0; k < GUIDES; ++k) // Still where the last good one had them.
+        for (uint32_t k = 0; k < GUIDES; ++k) // The root is still where the last good scalp had it.
             assert_true(hair_distance(hair_load3(seen.at + 30 * k), hair_load3(before.at + 30 * k)) < 0.03f);
         drop(&s);
     }
@@ -465,7 +477,7 @@ static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
     p[7] = 0;
     struct given in = put_in_buffer(&s, 8, 16);
     GLuint of[2];
-    glGenBuffers(2, of); // Names that are no buffers yet.
+    glGenBuffers(2, of); // The names have no buffers yet.
     hair_test_refused(test, hair_set_scalp_buffer(h, 0, 0, 12, NULL), bad, "gl_buffer is 0, not a buffer");
     hair_test_refused(test, hair_set_scalp_buffer(h, of[0], 0, 12, NULL), bad, "not a buffer");
     hair_test_refused(test, hair_set_scalp_buffer(h, in.buffer, 8, 10, NULL), bad, "stride is 10");
@@ -514,7 +526,8 @@ static void run(struct hair_test* test, struct skinned* s, int from, int to)
     }
 }
 
-// Saved between a scalp and its step: into the same instance, another, and one that has never had a scalp.
+// Save between a scalp and its step. Load into the same instance, another one, and one that has
+// never had a scalp.
 static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
 {
     struct hair_test* test = *state;
@@ -543,7 +556,7 @@ static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
             assert_memory_equal(again[i].at, straight[i].at, 12 * again[i].count);
         drop(&other);
     }
-    // What was saved before there was a scalp is of one at rest.
+    // A state saved before there was a scalp has a scalp at rest.
     hair_test_ok(test, hair_load(s.hair, plain, plain_size));
     look(test, &s, HAIR_READ_FOLLOWERS, &straight[0]);
     struct skinned fresh = make(test, HAIR_SOLVER_DIRECT);

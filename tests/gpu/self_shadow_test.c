@@ -1,5 +1,6 @@
-// self_shadow_test.c - light that hair leaves to itself: the grid holds all of it, light is what a twin in double precision
-// finds there, a shadow map hides what lies behind it and no strand from itself, and without it nothing is run or kept.
+// self_shadow_test.c - light that hair lets through to itself. The grid holds all hair, and light
+// agrees with a reference in double precision. A shadow map shadows what lies behind it, and no
+// strand by itself. Without self shadows, nothing runs or uses memory.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -27,10 +28,10 @@ struct fixture {
     hair_view view;
     hair_light light[LIGHTS];
     GLuint map;
-    // As the GPU has them, in the head's frame:
+    // The GPU's data, in the head's frame.
     struct hair_reference_grid grid;
-    double *density, *met; // per node, the last of the sky and of each light
-    hair_vec4* position; // per vertex
+    double *density, *met; // Per node. The last arrays are for the sky and for each light.
+    hair_vec4* position; // Per vertex.
     uint32_t numbers[VERTICES * EACH];
 };
 
@@ -90,11 +91,11 @@ static float from_ordered(uint32_t u)
 static double half_of(uint32_t h)
 {
     uint32_t exponent = h >> 10 & 31, fraction = h & 1023;
-    assert_true(exponent < 31); // Finite.
+    assert_true(exponent < 31); // The number is finite.
     return exponent ? ldexp(1024 + fraction, (int)exponent - 25) : ldexp(fraction, -24);
 }
 
-// Positions into the head's frame, by the transpose of `turned`.
+// Convert a position to the head's frame, by the transpose of `turned`.
 static void into_head(const float* p, double out[3])
 {
     for (int i = 0; i < 3; ++i) {
@@ -154,7 +155,8 @@ static void the_grid_holds_the_area_of_all_strands(void** state)
         area += sqrt(pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2) + pow(b[2] - a[2], 2)) * width;
         hair_reference_fill(&f.grid, a, b, width, twin);
     }
-    // Rounding of positions moves places by 1e-7 m of 12 mm; each of some 30 adds rounds to half a unit.
+    // Rounding moves positions by 1e-7 m of a cell of 12 mm. Each of about 30 additions rounds to
+    // half a unit.
     for (size_t n = 0; n < node_count(&f); ++n) {
         hair_test_near("density", n, f.density[n], twin[n], 1e-4 * (twin[n] + 1) + 30 / HAIR_DENSITY_UNITS);
         sum += f.density[n] * f.grid.cell * f.grid.cell;
@@ -193,7 +195,7 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
         for (int i = 0; i < 3; ++i) way[i] /= reach;
         double sky = hair_reference_sky(&f.grid, at), met = hair_reference_met(&f.grid, at, to, 1e9, NULL);
         most = fmax(most, met);
-        // A last step may or may not be within the grid, or nearer than the lamp.
+        // Rounding decides whether the last step is within the grid, or nearer than the lamp.
         hair_test_near("sky", n, f.met[n], sky, 1e-3);
         hair_test_near("met", n, f.met[nodes + n], met, 1e-3 * (1 + met));
         hair_test_near("met before the lamp", n, f.met[2 * nodes + n],
@@ -213,7 +215,7 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
         double met = hair_reference_met(&f.grid, at, to, 1e9, f.met + nodes) *
                      sqrt(fmax(1 - along * along / length, 0));
         double sky = hair_reference_around(&f.grid, at, f.met);
-        // Halves have 11 bits.
+        // Half floats have 11 bits.
         hair_test_near("sky at vertex", (size_t)v, half_of(f.numbers[v * EACH] & 0xffff), sky, 0.002);
         hair_test_near("met at vertex", (size_t)v, half_of(f.numbers[v * EACH + 1] >> 16), met,
                        0.002 * (1 + met));
@@ -223,7 +225,7 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
     finish(&f);
 }
 
-// Straight down -z, 1.2 m of it, as the picture is.
+// Make a light with a map that looks straight down -z, 1.2 m wide like the picture.
 static void light_with_map(struct fixture* f, float depth)
 {
     f->light[0].direction[0] = f->light[0].direction[1] = 0, f->light[0].direction[2] = 1;
@@ -308,7 +310,7 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
     assert_true(row_of(&f, "light").bytes > 4 * HAIR_DENSITY_NODES);
     f.light[1].position[1] = 1;
     draw(&f);
-    assert_int_equal(row_of(&f, "light").runs, 6); // The grid is the same.
+    assert_int_equal(row_of(&f, "light").runs, 6); // The grid does not change.
     look.self_shadow = HAIR_SELF_SHADOW_DEPTH;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
@@ -319,7 +321,8 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
     finish(&f);
 }
 
-// Of a quarter of the strands: only they are lit, and the grid holds as much hair, for they are as much wider.
+// Check a quarter of the strands. Only these are lit, and the grid holds the same area of hair,
+// because strands are wider.
 static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(void** state)
 {
     static const uint32_t none = 0xffffffffu;
@@ -345,7 +348,7 @@ static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(voi
     }
     for (uint32_t p = 0; p < f.groom->info.patch_count; ++p) {
         const struct hair_patch* patch = &f.groom->patches[p];
-        uint32_t drawn = 1 + (uint32_t)(0.25 * patch->count); // The next one may be about to be.
+        uint32_t drawn = 1 + (uint32_t)(0.25 * patch->count); // The next strand may be fading in.
         for (uint32_t s = 0; s < patch->count; ++s)
             for (uint32_t k = 0; k < (SEGMENTS + 1) * EACH; ++k) {
                 int is = f.numbers[(patch->first + s) * (SEGMENTS + 1) * EACH + k] != none;

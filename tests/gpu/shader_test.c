@@ -1,5 +1,5 @@
-// shader_test.c - shading of the host's own: it has what it is promised, its errors have its own lines, and no text breaks
-// anything.
+// shader_test.c - shading by the application. It receives the documented inputs, errors have its
+// line numbers, and no source text breaks anything.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -66,7 +66,8 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
     hair_test_frame_free(&frame);
 }
 
-// Strand, guide and place along it, each from 1; 0 where there is no hair.
+// Draw the indices of strand and guide and the position along the strand, each from 1. 0 marks
+// pixels without hair.
 static void draw_ids(struct fixture* f, uint32_t* ids)
 {
     GLuint framebuffer, target[2];
@@ -110,7 +111,7 @@ static void a_shader_that_calls_ours_changes_nothing(void** state)
     finish(&f);
 }
 
-// The pass of numbers says which strand is where.
+// Compare with the pass of indices, which gives the strand of each pixel.
 static void shaders_of_pixels_know_strand_place_and_side(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
@@ -185,7 +186,7 @@ static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
             const float* p = pixels + 4 * i;
             if (p[3] == 0) continue;
             ++covered;
-            if (target == 0) { // The defaults, without shadow.
+            if (target == 0) { // The default lights, without shadow.
                 for (int k = 0; k < 3; ++k) hair_test_near("light", (size_t)k, p[k], 3, 1e-5);
                 hair_test_near("alpha", 0, p[3], 0.5, 0);
             } else {
@@ -278,14 +279,15 @@ static void no_text_breaks_anything(void** state)
     finish(&f);
 }
 
-// On a square scalp of 0.4 m whose uvs are its x and z. Roots are where they say.
+// Check a square scalp of 0.4 m whose texture coordinates are x and z. Roots have the coordinates
+// of their positions.
 static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = {.test = *state};
     struct hair_test_scalp scalp = hair_test_scalp_make(4, 0.4f);
     struct hair_test_strands guides = hair_test_strands_make(9, 4);
-    for (int i = 0; i < 9; ++i) // Slanted, lest strands are seen end on.
+    for (int i = 0; i < 9; ++i) // The guides are slanted, so that strands are not seen end on.
         hair_test_add_straight(&guides, 4, hair_v3(0.1f * (float)(i % 3 + 1), 0, 0.1f * (float)(i / 3 + 1)),
                                hair_v3(0.3f, 1, 0), 0.1f);
     hair_groom_desc groom = hair_test_groom_desc(&f.test->host, &guides);
@@ -308,14 +310,14 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
                  make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(f.uv + 1.0, 0.0, f.t + 1.0); }",
                       HAIR_SHADE_PIXELS, &shader));
     hair_view view = view_of(HAIR_PASS_COLOR, shader);
-    memset(view.view, 0, sizeof view.view); // From above: x to the right, z down.
+    memset(view.view, 0, sizeof view.view); // View from above, with x to the right and z down.
     view.view[0] = view.view[6] = view.view[15] = 1, view.view[9] = -1, view.view[14] = -0.5f;
     view.projection[13] = 0;
     draw(&f, &view, pixels);
     uint32_t covered = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const float* p = pixels + 4 * i;
-        if (p[3] == 0 || p[3] > 1.2f) continue; // Near roots.
+        if (p[3] == 0 || p[3] > 1.2f) continue; // Only pixels near roots count.
         ++covered;
         double x = ((i % SIDE + 0.5) / SIDE - 0.5), z = -((i / SIDE + 0.5) / SIDE - 0.5);
         hair_test_near("u", (size_t)i, p[0] - 1, x / 0.4, 0.06);
@@ -324,7 +326,7 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
     print_message("    %u pixels near roots\n", covered);
     assert_true(covered > 50);
 
-    // Half of the scalp has blue hair, the other none that light comes from.
+    // Half of the scalp has blue hair, and the hair of the other half reflects no light.
     static const unsigned char halves[] = {0, 0, 255, 255, 0, 0, 0, 255};
     GLuint texture;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);

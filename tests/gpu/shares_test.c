@@ -1,5 +1,6 @@
-// shares_test.c - pixels that show strands by the share that they cover: as much as finer pixels see, the nearest in front
-// whatever the order of strands, over what is there and as far as its depth lets them; and nothing of it where it is not asked for.
+// shares_test.c - pixels blend strands by coverage. The coverage agrees with finer pixels, and the
+// nearest strand is in front in any order of strands. Blending respects colour and depth that are
+// already there. Without coverage, nothing runs.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 #define SIDE 96
 #define FINE 8
-#define WIDE 384 // strands are seven pixels wide on it
+#define WIDE 384 // Strands are seven pixels wide at this size.
 
 struct fixture {
     struct hair_test* test;
@@ -42,7 +43,7 @@ static void finish(struct fixture* f)
     hair_groom_destroy(f->groom);
 }
 
-// A metre around the head, seen along -z.
+// Make a view of 1 m around the head, along -z.
 static hair_view view_of(hair_coverage coverage)
 {
     hair_view view = hair_view_default();
@@ -71,13 +72,14 @@ static double mean_alpha(const float* pixels, GLsizei side)
     return sum / side / side;
 }
 
-// Few strands, so that hardly two share a pixel. A pixel is a 48th of a metre.
+// Check few strands, so that two rarely share a pixel. A pixel is 1/48 m.
 static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[4 * SIDE * FINE * SIDE * FINE];
     static const float widths[] = {0.08f, 0.25f, 0.5f, 1, 1.5f};
     for (size_t i = 0; i < sizeof widths / sizeof *widths; ++i) {
-        // Of thinner strands finer pixels than these see too little: they are taken to cover in proportion.
+        // Finer pixels than these underestimate thinner strands, so coverage is taken to be
+        // proportional to the width.
         float seen = fmaxf(widths[i], 0.5f), pixel = 1.0f / SIDE;
         struct fixture f = start(state, 5, 0.5f * seen * pixel);
         hair_view view = view_of(HAIR_COVERAGE_MSAA);
@@ -101,7 +103,7 @@ static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
     }
 }
 
-// Where strands are wide, whole pixels are covered by the nearest alone: that is what opaque ones leave.
+// Check wide strands. The nearest strand alone covers whole pixels, as with opaque strands.
 static void the_nearest_strand_is_in_front(void** state)
 {
     static float opaque[4 * WIDE * WIDE], shares[4 * WIDE * WIDE];
@@ -128,7 +130,7 @@ static void the_nearest_strand_is_in_front(void** state)
         for (int i = 0; i < WIDE * WIDE; ++i) sum += opaque[4 * i + 3] < 1 ? 0 : (double)opaque[4 * i + 1];
         print_message("    %u pixels, off by %.4f of the mean\n", covered, off / sum);
         assert_true(covered > 1000);
-        assert_true(off / sum < 0.06); // Edges within pixels, where 4 samples and shares differ.
+        assert_true(off / sum < 0.06); // Edges within pixels differ between 4 samples and coverage.
     }
     finish(&f);
 }
@@ -169,7 +171,7 @@ static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
     assert_int_equal(f.hair->draw.sorted.bucket, 0);
     assert_int_equal(f.hair->draw.sorted.index, 0);
     view.coverage = HAIR_COVERAGE_ALPHA;
-    view.pass = HAIR_PASS_DEPTH; // Of depth there are no shares.
+    view.pass = HAIR_PASS_DEPTH; // This pass has no coverage.
     draw(&f, &view, SIDE, 0, pixels, NULL);
     assert_int_equal(f.hair->draw.sorted.bucket, 0);
     finish(&f);

@@ -1,4 +1,5 @@
-// sleep_test.c - hair that has come to rest is not simulated, and moves as if it had been once something stirs it.
+// sleep_test.c - hair that has come to rest is not simulated. When something disturbs it, it moves
+// as if it had been simulated.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -54,15 +55,16 @@ static void step(struct hair_test* test, hair_instance* hair)
     hair_test_ok(test, hair_step(hair, 1.0f / FPS));
 }
 
-// As hosts do that show their frames: a GPU is fewer than `most` of them behind. One that falls behind for ever says
-// when hair is at rest when that is long past.
+// Step like an application that shows its frames, so that the GPU is fewer than `most` frames
+// behind. A GPU that falls behind without limit would report rest much too late.
 static void show(struct hair_test* test, hair_instance* hair, uint32_t frame, uint32_t most)
 {
     step(test, hair);
     if (frame % most == 0) glFinish();
 }
 
-// Shaken for half a second, and then left alone. Frames until it sleeps, PATIENCE if it does not.
+// Shake the hair for half a second, and then leave it alone. Return the number of frames until it
+// sleeps, or PATIENCE if it does not.
 static uint32_t let_sleep(struct hair_test* test, hair_instance* hair, uint32_t most)
 {
     uint32_t frame = 0;
@@ -94,7 +96,7 @@ static hair_collider ball_at(float x)
     return ball;
 }
 
-// How far the nearest vertex is from the ball.
+// Return the distance of the nearest vertex from the ball.
 static float nearest(struct hair_test* test, hair_instance* hair, const hair_collider* ball)
 {
     float at[3 * MOST], near = 1;
@@ -118,7 +120,8 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-// The head is set anew in every frame, and so are colliders, as hosts do it.
+// Check the cost of a step of sleeping hair. The head and colliders are set in every frame, as
+// applications do.
 static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(void** state)
 {
     struct hair_test* test = *state;
@@ -148,8 +151,9 @@ static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(voi
     hair_context_destroy(context);
 }
 
-// Shaken, left alone for seconds, and shaken again: the hair that sleeps meanwhile beside hair that never does. With a ball
-// against which it lies, which then moves too.
+// Shake two instances, leave them alone for seconds, and shake them again. One of them sleeps
+// meanwhile, and the other never sleeps. `colliders` adds a ball that hair lies against, and that
+// moves too.
 static void check_waking(struct hair_test* test, hair_context* context, hair_solver solver, float bound,
                          int colliders)
 {
@@ -191,14 +195,14 @@ static void hair_that_wakes_is_within_the_bound_of_hair_that_never_slept(void** 
     hair_context_destroy(context);
 }
 
-// Hair asleep, one that is used up by every question asked of it.
+// Sleeping hair. Every check destroys its state.
 struct dozing {
     struct hair_test* test;
     hair_instance* hair;
     struct hair_test_blob blob;
 };
 
-// The next step is slept through, or is not. Asleep again afterwards.
+// Check whether the next step wakes the hair. Afterwards put it to sleep again.
 static void check_stir(struct dozing* d, const char* what, int stirs)
 {
     hair_test_trace_clear();
@@ -289,7 +293,7 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
     uint32_t frames[2];
-    for (uint32_t i = 0; i < 2; ++i) { // A frame behind at most, or three.
+    for (uint32_t i = 0; i < 2; ++i) { // The GPU is at most one frame behind, or three.
         hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
         frames[i] = let_sleep(test, hair, 1 + 2 * i);
         hair_test_look(test, hair, &seen[i]);
@@ -301,8 +305,8 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
     hair_context_destroy(context);
 }
 
-// A round of looks that an answer makes longer is one that the next may not be compared with: what slows down has made most
-// of its way at its beginning.
+// Check a GPU that is behind. A late answer prolongs a round of measurements. The next round must
+// not be compared with the prolonged one, because decaying motion is fastest at its beginning.
 static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** state)
 {
     struct hair_test* test = *state;
@@ -356,7 +360,8 @@ static void what_is_saved_falls_asleep_as_it_would_have(void** state)
         hair_test_look(test, hair, &straight);
         hair_test_look(test, other, &loaded);
         assert_int_equal(straight.count, loaded.count);
-        if (hair->sim.sleep.asleep) // What is shown of sleeping hair is not placed anew as time goes by.
+        // The drawn position of sleeping hair does not change with time.
+        if (hair->sim.sleep.asleep)
             for (size_t i = 0; i < straight.count; ++i)
                 hair_test_near("shown", i, (double)straight.number[i], (double)loaded.number[i], 1e-9);
         else
@@ -368,7 +373,7 @@ static void what_is_saved_falls_asleep_as_it_would_have(void** state)
     hair_context_destroy(context);
 }
 
-// Which nothing dampens: it swings by more than the bound for ever.
+// Check undamped hair, which swings by more than the bound for ever.
 static void hair_that_swings_and_hair_that_may_not_never_sleep(void** state)
 {
     struct hair_test* test = *state;

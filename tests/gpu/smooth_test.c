@@ -18,10 +18,10 @@ struct fixture {
     hair_instance* hair;
     struct hair_step_params params;
     struct hair_state state[STATES];
-    hair_vec4 position[SAMPLES], tangent[SAMPLES], frame[SAMPLES]; // from the GPU
+    hair_vec4 position[SAMPLES], tangent[SAMPLES], frame[SAMPLES]; // Results of the GPU.
     struct hair_reference_sample expected[SAMPLES];
     uint32_t samples, random;
-    double direction, turn; // how far unit vectors and frames may be off
+    double direction, turn; // Maximum errors of unit vectors and of frames.
 };
 
 static hair_vec4 turn_about(hair_vec3 axis, float angle)
@@ -30,8 +30,9 @@ static hair_vec4 turn_about(hair_vec3 axis, float angle)
     return (hair_vec4){axis.x, axis.y, axis.z, cosf(angle / 2)};
 }
 
-// Lengths and positions are under 1 m and rounded to 2^-24 of that, some 20 times for a sample: by Higham and
-// Mary 2019 within 6 sqrt(20) of that, but for one of a million cases.
+// Maximum error of a position, in metres. Lengths and positions are under 1 m and rounded to a
+// relative 2^-24, about 20 times per sample. By Higham and Mary 2019, the error is within 6
+// sqrt(20) 2^-24 in all but one of a million cases.
 #define POSITION (6 * 4.5 / 16777216)
 
 static struct fixture* start_with(void** state, struct hair_test_handmade wanted)
@@ -51,15 +52,15 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
     f.params.last_displacement = (hair_vec4){0.003f, -0.004f, 0.001f, 0};
     f.params.alpha = 0.375f;
     f.samples = f.params.guides * f.params.smooth_vertices;
-    // A direction is a difference of positions that are half a segment apart or more; a frame carries the errors of
-    // all before it, which add up as their square root.
+    // A direction is the difference of positions that are at least half a segment apart. A frame
+    // has the errors of all frames before it, which add up as the square root of their number.
     f.direction = POSITION / (0.5 * (double)wanted.segment);
     f.turn = sqrt(f.groom->most_vertices) * f.direction;
     hair_test_scatter(f.groom, 0.1f * wanted.segment, 0.2f * wanted.segment, &f.random, f.state);
     return &f;
 }
 
-// One guide of each number of vertices.
+// Start with one guide of each number of vertices.
 static struct fixture* start(void** state, uint32_t fewest, uint32_t most)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -76,7 +77,8 @@ static void finish(struct fixture* f)
 static void run(struct fixture* f)
 {
     struct hair_gl* gl = &f->test->context->gl;
-    glFinish(); // One driver loses what is written to a buffer that a dispatch under way writes.
+    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
+    glFinish();
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *f->state,
                          f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
@@ -113,7 +115,7 @@ static void compare(struct fixture* f)
         near3("position", i, &f->position[i], expected->position, POSITION);
         hair_test_near("length from the root", i, f->position[i].w, expected->to_root, POSITION);
         near3("tangent", i, &f->tangent[i], expected->tangent, f->direction);
-        // q and -q are one rotation.
+        // q and -q are the same rotation.
         hair_vec4 frame = f->frame[i];
         const double* q = expected->frame;
         if (frame.x * q[0] + frame.y * q[1] + frame.z * q[2] + frame.w * q[3] < 0)
@@ -138,7 +140,7 @@ static void guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference(void** 
         uint32_t most = vertices[guides - 1];
         struct hair_test_handmade wanted = hair_test_handmade_default();
         wanted.guides = guides, wanted.vertices = vertices;
-        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f; // None is longer than 1 m.
+        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f; // No guide is longer than 1 m.
         struct fixture* f = start_with(state, wanted);
         run(f);
         compare(f);
@@ -157,8 +159,9 @@ static void at_both_ends_of_a_substep_too(void** state)
     finish(f);
 }
 
-// The stretch is that of the segment the sample lies on. Where it lies within rounding of a vertex either of
-// the two will do: those of the samples before and after, of which there are two on every segment.
+// Check that a sample has the stretch of its segment. Near a vertex, rounding may choose either
+// segment. Every segment has two samples, so the adjacent samples have the stretch of both
+// segments.
 static void the_stretch_of_each_segment_is_told(void** state)
 {
     struct fixture* f = start(state, 2, 64);
@@ -172,7 +175,8 @@ static void the_stretch_of_each_segment_is_told(void** state)
     finish(f);
 }
 
-// What the drawing relies on: unit tangents and frames whose y axis they are, roots under the scalp.
+// Check what drawing requires: unit tangents, frames with tangents as their y axis, and roots under
+// the scalp.
 static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
 {
     struct fixture* f = start(state, 2, 64);
@@ -197,7 +201,7 @@ static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
     finish(f);
 }
 
-// Vertices that coincide and strands without length: nothing that is not a number.
+// Check that coincident vertices and strands of no length give finite numbers.
 static void a_strand_without_length_stays_finite(void** state)
 {
     struct fixture* f = start(state, 4, 16);

@@ -1,4 +1,5 @@
-// solver_stats_test.c - what hair_solver_stats tells: healthy hair is called healthy, hair that thrashes or gains energy is not.
+// solver_stats_test.c - results of hair_get_solver_stats: healthy hair is reported as healthy, and
+// hair that thrashes or gains energy is not.
 #include <math.h>
 #include <stdio.h>
 
@@ -29,7 +30,7 @@ static void shake(struct hair_test* test, hair_instance* hair, uint32_t frames)
     }
 }
 
-// Put a box where the tip of the first guide is.
+// Put a box at the tip of the first guide.
 static void add_box(struct hair_test* test, hair_instance* hair)
 {
     static float at[3 * 4096];
@@ -88,7 +89,8 @@ static void haircuts_on_a_box_gain_no_energy(void** state)
     check_haircut(*state, HAIR_STYLE_CURLY, HAIR_SOLVER_DIRECT, 0, 1);
 }
 
-// Of both, relative to the whole: the greatest difference of a kind of energy. Both are for 1 kg/m.
+// Return the maximum difference of a kind of energy, relative to the total. Both energies are for 1
+// kg/m.
 static double energy_off(const struct hair_energy* energy, const struct hair_reference_rod_energy* exact)
 {
     double scale = fabs(exact->kinetic) + fabs(exact->elastic) + fabs(exact->gravity), most = 0;
@@ -98,7 +100,8 @@ static double energy_off(const struct hair_energy* energy, const struct hair_ref
     return most;
 }
 
-// Vertices as they are, with the velocity of BDF2, which both schemes have: see methods.glsl.
+// Set the reference to the positions, with the velocity of BDF2, which both schemes use (see
+// methods.glsl).
 static void set_reference(struct hair_reference_rod* rod, float at[3][3 * 64], uint32_t vertices, double h)
 {
     double place[3 * 64], speed[3 * 64];
@@ -111,7 +114,8 @@ static void set_reference(struct hair_reference_rod* rod, float at[3][3 * 64], u
 
 static void the_energy_is_that_of_the_reference(void** state)
 {
-    static const uint32_t vertices[] = {16, 40}; // by the scheme of straight rods, and by the mixed one
+    // The first uses the scheme of straight rods, and the second the mixed scheme.
+    static const uint32_t vertices[] = {16, 40};
     for (int k = 0; k < 2; ++k) {
         struct hair_test_strands strands =
             hair_test_straight(vertices[k], hair_v3(0, 0, 0), hair_v3(1, 0.2f, 0), 0.1f);
@@ -146,7 +150,8 @@ static void the_energy_is_that_of_the_reference(void** state)
     }
 }
 
-// The mixed scheme softens what is far too stiff for single precision, and nothing that hair is.
+// Check that the mixed scheme softens guides that are too stiff for single precision, and no
+// realistic hair.
 static void too_stiff_a_guide_is_softened(void** state)
 {
     for (int stiff = 0; stiff < 2; ++stiff) {
@@ -166,7 +171,7 @@ static void too_stiff_a_guide_is_softened(void** state)
     }
 }
 
-// Programs of a copy of the shaders, one of which is changed.
+// Make a context with a changed copy of the shaders.
 static hair_context* make_context(struct hair_test* test, const char* change)
 {
     hair_context* context = NULL;
@@ -193,7 +198,7 @@ static hair_solver_stats live_with(struct hair_test* test, const char* change, u
     desc.diagnose = diagnose;
     test->context = own;
     hair_test_live(test, &strands, &desc, &living);
-    hair_test_wait(&living, 210); // It falls, and damping needs 2.7 s.
+    hair_test_wait(&living, 210); // The strand falls, and damping needs 2.7 s.
     hair_solver_stats solver_stats = ask(test, living.hair);
     print_message("    %u vertices, %s: %u gain, %u restless, fastest %.3g m/s, stretch %.2g, %u reset\n",
                   vertices, change, solver_stats.gaining, solver_stats.restless, (double)solver_stats.fastest,
@@ -205,7 +210,7 @@ static hair_solver_stats live_with(struct hair_test* test, const char* change, u
     return solver_stats;
 }
 
-// A solver that is unchanged, then one that feeds motion where damping should take from it.
+// Check an unchanged solver, and one whose damping adds energy.
 static void a_solver_that_feeds_motion_is_found_out(void** state)
 {
     static const struct {

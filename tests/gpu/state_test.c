@@ -1,5 +1,5 @@
-// state_test.c - the host's OpenGL comes back as it was, its error flag too, and the library makes no errors
-// of its own.
+// state_test.c - the application's OpenGL state and error flag are restored, and the library causes
+// no OpenGL errors.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -13,20 +13,20 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-// A host with a debug context of its own, everything in it set to odd values.
+// An application with a debug context of its own, and odd values for all state.
 struct fixture {
     struct hair_test_host host;
     hair_egl* egl;
     EGLDisplay display;
     EGLContext debug;
-    int planting; // an error of the host's own
-    char message[512]; // the last error that was not planted
+    int planting; // 1 while the application causes an error of its own.
+    char message[512]; // The last error that the library caused.
     hair_groom* groom;
     hair_context* context;
     hair_instance* hair;
     GLuint shadow;
     hair_gl_state promise;
-    int way; // in which hair is simulated
+    int way; // Index of solver and mapping.
 };
 
 static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
@@ -76,7 +76,7 @@ static int finish(void** state)
 {
     struct fixture* f = *state;
     hair_groom_destroy(f->groom);
-    glPopDebugGroup(); // Mesa forgets those that are left.
+    glPopDebugGroup(); // Mesa loses groups that are still open.
     eglDestroyContext(f->display, f->debug);
     hair_egl_destroy(f->egl);
     int left = (int)f->host.blocks;
@@ -84,7 +84,7 @@ static int finish(void** state)
     return left;
 }
 
-// Every [GL] call, in an order in which they can be made.
+// Make every call that uses OpenGL, in a valid order.
 static hair_result create_context(struct fixture* f)
 {
     hair_context_desc desc = hair_context_desc_default();
@@ -102,7 +102,8 @@ static hair_result create(struct fixture* f)
 {
     hair_desc desc = hair_test_way(f->way);
     if (desc.solver == HAIR_SOLVER_REDBLACK)
-        desc.thread_mapping = HAIR_THREAD_MAPPING_FEEDBACK; // It touches more than compute.
+        // This mapping changes more state than compute.
+        desc.thread_mapping = HAIR_THREAD_MAPPING_FEEDBACK;
     desc.hit_method = f->way % 2 ? HAIR_HIT_METHOD_PREPASS : HAIR_HIT_METHOD_COMPUTE;
     return hair_create(f->context, f->groom, &desc, &f->hair);
 }
@@ -128,8 +129,8 @@ static hair_result set_all(struct fixture* f)
     wind.model = HAIR_WIND_FLUID;
     wind.resolution = 16;
     wind.velocity[0] = 1;
-    look.segments = 100; // of two parts
-    physics.damping = 5; // of which rods are made anew
+    look.segments = 100; // Draws in two parts.
+    physics.damping = 5; // Makes the rods again.
     hair_result result = hair_set_physics(f->hair, &physics);
     if (!result) result = hair_set_look(f->hair, &look);
     if (!result) result = hair_set_wind(f->hair, &wind);
@@ -142,7 +143,7 @@ static hair_result teleport(struct fixture* f)
     desc.transform[12] = 3;
     return hair_teleport(f->hair, desc.transform);
 }
-// One of the ways to draw: 5 by each path. In these every two of path, pass and primitive are together.
+// Number of ways to draw, 5 for each render path. Every pair of path, pass and primitive occurs.
 #define DRAWS (5 * 4)
 static hair_result draw_as(struct fixture* f, int i)
 {
@@ -163,7 +164,7 @@ static hair_result draw_as(struct fixture* f, int i)
     }
     view.lights = lit ? lights : NULL;
     view.light_count = lit ? 4 : 1;
-    // Of each path once alone, once with lights.
+    // Each path has the occluder depth once without lights and once with lights.
     view.occluder_depth = view.pass == HAIR_PASS_COLOR ? f->shadow : 0;
     return hair_draw(f->hair, &view);
 }
@@ -174,7 +175,8 @@ static hair_result draw_again(struct fixture* f)
     for (size_t i = 0; i < sizeof some / sizeof *some && !result; ++i) result = draw_as(f, some[i]);
     return result;
 }
-// However hair is simulated it is drawn the same: all ways to draw are seen of one, for they compile for long.
+// Draw in several ways. Only one way of simulation tests all of them, because drawing does not
+// depend on it and compilation takes long.
 static hair_result draw(struct fixture* f)
 {
     int all = !f->way && f->promise == HAIR_GL_STATE_RESTORE;
@@ -268,12 +270,13 @@ static void plant_an_error(struct fixture* f)
     f->planting = 0;
 }
 
-// What a context with HAIR_GL_STATE_CLOBBER may change, as hair.h lists it.
+// Return whether a context with HAIR_GL_STATE_CLOBBER may change the state, as listed in hair.h.
 static int may_change(const char* name)
 {
     static const char* const listed[] = {"GL_CURRENT_PROGRAM",
                                          "GL_VERTEX_ARRAY_BINDING",
-                                         "GL_ELEMENT_ARRAY_BUFFER_BINDING", // of the vertex array
+                                         // State of the vertex array.
+                                         "GL_ELEMENT_ARRAY_BUFFER_BINDING",
                                          "GL_PATCH_VERTICES",
                                          "GL_CULL_FACE",
                                          "GL_PRIMITIVE_RESTART",
@@ -323,7 +326,7 @@ static void check_all_calls(struct fixture* f, hair_gl_state promise)
     assert_true(before.count > 500);
     assert_int_equal(glGetError(), GL_NO_ERROR);
     f->promise = promise;
-    // A work group and a thread per guide, and redblack.
+    // Work group per guide, thread per guide, and redblack.
     for (f->way = 0; f->way < HAIR_TEST_WAYS; f->way += 3) check_calls(f, &before);
 }
 
@@ -337,7 +340,7 @@ static void a_clobbering_context_changes_only_what_is_listed(void** state)
     check_all_calls(*state, HAIR_GL_STATE_CLOBBER);
 }
 
-// Also where nothing at all is bound.
+// Check the state also if nothing is bound.
 static void in_an_untouched_context_nothing_is_left_bound(void** state)
 {
     struct fixture* f = *state;
@@ -354,7 +357,7 @@ static void in_an_untouched_context_nothing_is_left_bound(void** state)
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(listen, f);
-    GLuint target, frame; // Drawing wants one.
+    GLuint target, frame; // Drawing needs a framebuffer.
     glCreateRenderbuffers(1, &target);
     glNamedRenderbufferStorage(target, GL_RGBA8, 8, 8);
     glCreateFramebuffers(1, &frame);
@@ -369,7 +372,8 @@ static void in_an_untouched_context_nothing_is_left_bound(void** state)
 
 int main(void)
 {
-    // Many programs that draw next to nothing: Mesa's software rasteriser takes longest to optimise them. Nobody else knows the name.
+    // Draws here are tiny, and most time goes into Mesa's optimisation of the programs. Only Mesa's
+    // software rasteriser reads this variable.
     setenv("GALLIVM_PERF", "nopt", 0);
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {

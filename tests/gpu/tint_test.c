@@ -1,5 +1,5 @@
-// tint_test.c - colours of strands, by the shader: as many streaks as are asked for, in locks or not; ramps and spreads as
-// the look has them. And what water makes of a look.
+// tint_test.c - colours of strands in the shader: the number of streaks, in locks or single, and
+// ramps and spreads of the look. The effect of wetness on a look is checked too.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,9 +9,10 @@
 #include "lib/draw/params.h"
 
 #define STRANDS 8192u
-#define LOCKS 512u // of 16 strands each
+#define LOCKS 512u // Each lock has 16 strands.
 
-// xyz: colour; w: of its roughness, its tilt, whether it is a streak, and what glitters, one row each.
+// A program that writes one row per property. xyz is the colour. w is the roughness, the tilt, 1
+// for a streak, or the glitter.
 static const char text_of_strands[] =
     "layout(local_size_x = 64) in;\n"
     "layout(std430, binding = 0) buffer found_block { vec4 found[]; };\n"
@@ -91,7 +92,7 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
         const struct strand* strand = look_at(&f, &look, t);
         for (int k = 0; k < 3; ++k) {
             double at[2];
-            for (int end = 0; end < 2; ++end) { // Between two of eight places.
+            for (int end = 0; end < 2; ++end) { // The ends are two of the curve's eight points.
                 int n = i / 2 + (i % 2 ? end : 0);
                 double way = n / 7.0, factor = k == 0   ? look.tint_red.at[n]
                                                : k == 2 ? look.tint_blue.at[n]
@@ -136,7 +137,8 @@ static void as_many_strands_are_streaks_as_are_asked_for(void** state)
         }
         print_message("    locks %d: %.4f are streaks, %.3f of the locks mixed\n", locks, sum / STRANDS,
                       mixed / LOCKS);
-        // Three standard deviations: of 8,192 strands 1.5 %, of 512 locks 6.1 %.
+        // Tolerances are three standard deviations: 1.5 % for 8,192 strands, and 6.1 % for 512
+        // locks.
         hair_test_near("streaks", (size_t)locks, sum / STRANDS, 0.3, locks ? 0.061 : 0.016);
         hair_test_near("locks that are mixed", (size_t)locks, mixed / LOCKS, locks ? 0 : 1, locks ? 0 : 0.02);
     }

@@ -1,4 +1,4 @@
-// wind_test.c - air that moves: its drag on strands as the reference has it, and what no wind should do to hair.
+// wind_test.c - drag of the wind on strands agrees with the reference, and no wind harms hair.
 #include "tests/support/living.h"
 
 #include <math.h>
@@ -26,10 +26,11 @@ static struct hair_test_living straight(struct hair_test* test, uint32_t vertice
     return living;
 }
 
-// Of a strand that nothing holds, across the wind and at an angle: from rest, in a quarter of a second.
+// Check a free strand, across the wind and at an angle, which starts at rest. The test takes a
+// quarter of a second.
 static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
 {
-    static const float speeds[] = {0.05f, 1, 12}; // Reynolds numbers from 0.26 to 64
+    static const float speeds[] = {0.05f, 1, 12}; // Reynolds numbers from 0.26 to 64.
     static const hair_vec3 ways[] = {{1, 0, 0}, {1, 0, 1}};
     hair_physics physics = hair_test_bare();
     physics.gravity[1] = 0, physics.damping = 0, physics.drag = 1;
@@ -56,7 +57,8 @@ static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
         }
 }
 
-// Where a strand that hangs comes to rest in an even wind. Of the length that its tip is deflected by.
+// Check the equilibrium of a hanging strand in a uniform wind. The error is relative to the
+// deflection of its tip.
 static void a_strand_is_deflected_as_the_reference_has_it(void** state)
 {
     static const struct {
@@ -86,7 +88,7 @@ static void a_strand_is_deflected_as_the_reference_has_it(void** state)
         }
 }
 
-// Return the rate of the law across a hair that moves at `speed`. 1/s.
+// Return the rate of the law across a hair that moves at `speed`, in 1/s.
 static double rate_of_law(const hair_physics* physics, const hair_wind* wind, double speed)
 {
     double diameter = 2 * (double)physics->fiber_radius, density = (double)wind->density;
@@ -95,7 +97,7 @@ static double rate_of_law(const hair_physics* physics, const hair_wind* wind, do
     return (double)physics->drag * force / ((double)physics->fiber_density * PI * diameter * diameter / 4);
 }
 
-// Return the speed at which a level hair falls in the end, where the greater of damping and the law acts.
+// Return the terminal speed of a level hair, on which the greater of damping and the law acts.
 static double terminal_speed(const hair_physics* physics, const hair_wind* wind)
 {
     double low = 0, high = 100;

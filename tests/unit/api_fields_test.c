@@ -1,5 +1,5 @@
-// api_fields_test.c - what the comments of the public headers say of ranges and defaults is what the table
-// holds.
+// api_fields_test.c - ranges and defaults in the comments of the public headers agree with the
+// table.
 #include "tests/support/support.h"
 
 #include <ctype.h>
@@ -21,13 +21,13 @@ static const struct table {
 };
 #define TABLES (sizeof tables / sizeof *tables)
 
-// One member of a struct as its header declares it.
+// A member of a struct, as declared in its header.
 struct member {
     char owner[40], type[40], name[40];
     char comment[256];
 };
 
-static char headers[1 << 17]; // all of them
+static char headers[1 << 17]; // Text of all headers.
 static struct member members[512];
 static size_t member_count;
 
@@ -43,7 +43,8 @@ static void read_headers(void)
     }
 }
 
-// "    float     scale;   ///< Metres per unit. [1e-6, 1e6]. Default 1."
+// Read a member from a line such as "    float  scale;   ///< Metres per unit. [1e-6, 1e6]. Default
+// 1."
 static void read_member(const char* line, const char* owner)
 {
     struct member member = {0};
@@ -51,7 +52,7 @@ static void read_member(const char* line, const char* owner)
     const char* about = strstr(line, "///<");
     snprintf(member.owner, sizeof member.owner, "%s", owner);
     const char* parenthesis = strchr(line, '(');
-    if (!end || (parenthesis && parenthesis < end)) return; // No member, or a function.
+    if (!end || (parenthesis && parenthesis < end)) return; // The line is no member, or a function.
     if (sscanf(line, " %39s", member.type) != 1) return;
     const char* name = end;
     while (name > line && name[-1] != ' ' && name[-1] != '*') --name;
@@ -77,7 +78,8 @@ static int read_members(void** state)
     return 0;
 }
 
-// The value of an enumerator, which is its place among those before it; -1: there is none of that name.
+// Return the value of an enumerator, which is its position in its enum. Return -1 if there is none
+// of this name.
 static double find_enumerator(const char* name, size_t length)
 {
     for (const char* at = strstr(headers, "typedef enum"); at; at = strstr(at + 1, "typedef enum")) {
@@ -95,7 +97,8 @@ static double find_enumerator(const char* name, size_t length)
     return -1;
 }
 
-// Enumerators of the type but those that count them; 0: it is no enum.
+// Return the number of enumerators of the type, without the one that counts them. Return 0 if the
+// type is no enum.
 static int count_enumerators(const char* type)
 {
     char head[64];
@@ -113,7 +116,7 @@ static int count_enumerators(const char* type)
     return count;
 }
 
-// "3", "1/120", "HAIR_UP_Y".
+// Read a value such as "3", "1/120" or "HAIR_UP_Y".
 static double read_value(const char* at)
 {
     char* end;
@@ -124,7 +127,7 @@ static double read_value(const char* at)
     return value;
 }
 
-// "[a, b]", or "a (in words) to b". 0: there is no range.
+// Read a range such as "[a, b]", or "a (in words) to b". Return 0 if there is none.
 static int read_range(const char* comment, double* min, double* max)
 {
     for (const char* at = strchr(comment, '['); at; at = strchr(at + 1, '['))
@@ -133,13 +136,14 @@ static int read_range(const char* comment, double* min, double* max)
     if (!to || sscanf(to, ") to %lf", max) != 1) return 0;
     const char* from = to;
     while (from > comment && *from != '(') --from;
-    --from; // on the space before
+    --from; // Moves to the space before the parenthesis.
     while (from > comment && isdigit((unsigned char)from[-1])) --from;
     *min = strtod(from, NULL);
     return 1;
 }
 
-// The i-th value of "Default x", "Default (x, y, z)" or "Default identity". 0: there is none.
+// Read the i-th value of "Default x", "Default (x, y, z)" or "Default identity". Return 0 if there
+// is none.
 static int read_default(const char* comment, int i, double* out)
 {
     const char* at = strstr(comment, "Default ");
@@ -169,7 +173,7 @@ static void check(const char* field, const char* what, double said, double held)
         fail_msg("%s: the header says %s %.9g, the table has %.9g", field, what, said, held);
 }
 
-// The name that a header declares: of "taper.at[0]" it is taper, of "redblack.bend" it is bend.
+// Return the name that a header declares: taper for "taper.at[0]", and bend for "redblack.bend".
 static const char* declared_name(const char* name)
 {
     const char* dot = strchr(name, '.');
@@ -182,7 +186,7 @@ static void check_field(const char* owner, const struct hair_field* field)
     snprintf(name, sizeof name, "%s", declared_name(strchr(field->name, '.') + 1));
     char* bracket = strchr(name, '[');
     int index = bracket ? atoi(bracket + 1) : 0;
-    name[strcspn(name, "[.")] = 0; // Of a curve its numbers are members of a member.
+    name[strcspn(name, "[.")] = 0; // Numbers of a curve are members of a member.
     const struct member* member = find_member(owner, name);
     if (!member) fail_msg("%s is in no header", field->name);
 
@@ -240,7 +244,7 @@ static int has_table(const char* owner)
     return 0;
 }
 
-// What the library does not check, because it is in no table, must not be promised.
+// Check that headers promise no range outside the table, because the library checks only the table.
 static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
 {
     (void)state;
@@ -249,7 +253,7 @@ static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
         const struct member* member = &members[i];
         double min, max;
         if (!has_table(member->owner) || strcmp(member->type, "const") == 0)
-            continue; // Arrays are checked elsewhere.
+            continue; // Other tests check arrays.
         int range = read_range(member->comment, &min, &max);
         if (!range && count_enumerators(member->type) == 0) continue;
         ++ranges;
@@ -258,7 +262,7 @@ static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
     assert_true(ranges > 30);
 }
 
-// The table is what the default functions fill in.
+// Check that the default functions return the table's defaults.
 static void the_default_functions_follow_the_table(void** state)
 {
     (void)state;
@@ -273,7 +277,8 @@ static void the_default_functions_follow_the_table(void** state)
     assert_true(light.direction[1] == 0.8f);
 }
 
-// A member that is stored before the struct's end of an older caller must not lie across it.
+// Check that members do not overlap. A member inside an older caller's shorter struct must not
+// cross its end.
 static void no_two_fields_overlap(void** state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-// asset_hostile_test.c - files that are cut off, flipped or made to harm are refused or read safely.
+// asset_hostile_test.c - files that are cut off, have flipped bits, or are hostile are refused or
+// read safely.
 #include "tests/support/files.h"
 
 #include <float.h>
@@ -27,11 +28,12 @@ static int finish(void** state)
 
 static const struct {
     struct hair_test_file (*make)(void);
-    size_t header; // bytes; 0: the whole file
+    size_t header; // Bytes. 0 means the whole file.
 } formats[] = {{hair_test_tfx4, 160}, {hair_test_tfx3, 296}, {hair_test_tfx2, 0}};
 #define FORMATS (sizeof formats / sizeof *formats)
 
-// Read it with some import or other, and read what was made of it once more. Returns whether it was accepted.
+// Read the bytes with several imports, and read the resulting asset again. Return whether they were
+// accepted.
 static bool survives(const void* bytes, size_t size)
 {
     hair_import imports[3] = {hair_test_import(), hair_test_import(), hair_test_import()};
@@ -105,7 +107,8 @@ static uint32_t flip_every_bit(struct hair_test_file file, size_t size)
 static void every_flipped_bit_is_survived(void** state)
 {
     (void)state;
-    // Every bit of the magic, of both counts, the points bit and the segments in force are missed.
+    // Flips are refused in every bit of the magic, of both counts, of the points bit, and of the
+    // segments in use.
     assert_in_range(flip_every_bit(hair_test_hair(31), 128), 900, 1024 - 3 * 32 - 1);
     assert_in_range(flip_every_bit(hair_test_hair(2), 128), 850, 1024 - 4 * 32 - 1);
     for (size_t i = 0; i < FORMATS; ++i) {
@@ -113,7 +116,7 @@ static void every_flipped_bit_is_survived(void** state)
         size_t size = formats[i].header ? formats[i].header : file.size;
         assert_in_range(flip_every_bit(file, size), 100, 8 * size - 64);
     }
-    // The data too: any position, any text, any number.
+    // Flip the data too, which may be any position, text and number.
     struct hair_test_file hair = hair_test_hair(31), tfx4 = hair_test_tfx4();
     flip_every_bit(hair, hair.size);
     flip_every_bit(tfx4, tfx4.size);
@@ -131,7 +134,7 @@ static bool takes_hair(uint32_t arrays, size_t at, uint32_t value)
 static void hostile_hair_is_refused(void** state)
 {
     (void)state;
-    assert_false(takes_hair(3, 8, 0x55555556)); // Times 12 wraps to 8 in 32 bits.
+    assert_false(takes_hair(3, 8, 0x55555556)); // 12 times this wraps to 8 in 32 bits.
     assert_false(takes_hair(3, 8, 0x15555556));
     assert_false(takes_hair(3, 8, 0xffffffff));
     assert_false(takes_hair(3, 4, 0xffffffff));
@@ -139,17 +142,17 @@ static void hostile_hair_is_refused(void** state)
     assert_false(takes_hair(2, 4, 0xffffffff));
     assert_false(takes_hair(3, 4, 0));
     assert_false(takes_hair(3, 8, 0));
-    assert_false(takes_hair(3, 8, 8)); // Not the sum of the segments.
+    assert_false(takes_hair(3, 8, 8)); // The count is not the sum of the segments.
     assert_false(takes_hair(3, 8, 10));
-    assert_false(takes_hair(3, 12, 1)); // No points.
+    assert_false(takes_hair(3, 12, 1)); // The file has no points.
     assert_false(takes_hair(3, 12, 0));
     assert_false(takes_hair(3, 12, 4));
-    assert_false(takes_hair(2, 16, 0)); // d_segments
-    assert_false(takes_hair(2, 16, 0xffffffff)); // Plus one wraps to 0.
-    assert_false(takes_hair(2, 16, 0x55555557)); // Plus one, times 3 strands, wraps to 8.
-    assert_true(takes_hair(3, 16, 0xffffffff)); // Not in force.
+    assert_false(takes_hair(2, 16, 0)); // d_segments.
+    assert_false(takes_hair(2, 16, 0xffffffff)); // One more than this wraps to 0.
+    assert_false(takes_hair(2, 16, 0x55555557)); // One more than this, times 3 strands, wraps to 8.
+    assert_true(takes_hair(3, 16, 0xffffffff)); // The value is not used.
     assert_true(takes_hair(3, 12, 0xffffffe0 | 3));
-    assert_true(takes_hair(3, 20, 0x7fc00000)); // NaN where nothing is read.
+    assert_true(takes_hair(3, 20, 0x7fc00000)); // NaN in a number that is not read.
 }
 
 static void segments_whose_product_wraps_are_refused(void** state)
@@ -158,7 +161,7 @@ static void segments_whose_product_wraps_are_refused(void** state)
     struct hair_test_file file = hair_test_hair(2);
     hair_test_set_u32(&file, 4, 4);
     hair_test_set_u32(&file, 8, 8);
-    hair_test_set_u32(&file, 16, 0x40000001); // Plus one, times 4, is 8 in 32 bits.
+    hair_test_set_u32(&file, 16, 0x40000001); // One more than this, times 4, is 8 in 32 bits.
     assert_false(survives(file.bytes, file.size));
     hair_test_set_u32(&file, 16, 1);
     assert_true(survives(file.bytes, file.size));
@@ -190,7 +193,7 @@ static void strands_of_65535_segments_are_read(void** state)
     hair_test_set_u32(&file, 4, 2);
     hair_test_set_u32(&file, 8, 2 * 65536);
     hair_test_set_u32(&file, 12, 3);
-    hair_test_put_u32(&file, 0xffffffff); // The segments of both.
+    hair_test_put_u32(&file, 0xffffffff); // The segments of both strands.
     for (uint32_t i = 0; i < 2 * 65536; ++i) {
         hair_test_put_float(&file, 0.001f * (float)i);
         hair_test_put_float(&file, 0);
@@ -218,10 +221,11 @@ static void hostile_tfx_is_refused(void** state)
     (void)state;
     const uint32_t counts[] = {0, 1, 63, 64, 65, 0x80000000, 0xffffffff, 0x10000001};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
-        assert_false(takes_tfx(hair_test_tfx4(), 8, counts[i])); // Vertices of each strand.
+        // Number of vertices of each strand.
+        assert_false(takes_tfx(hair_test_tfx4(), 8, counts[i]));
         assert_false(takes_tfx(hair_test_tfx3(), 8, counts[i]));
-        if (counts[i] == 1) continue; // One strand is fine.
-        assert_false(takes_tfx(hair_test_tfx4(), 4, counts[i])); // Strands.
+        if (counts[i] == 1) continue; // One strand is valid.
+        assert_false(takes_tfx(hair_test_tfx4(), 4, counts[i])); // Number of strands.
         assert_false(takes_tfx(hair_test_tfx3(), 4, counts[i]));
     }
     const uint32_t versions[] = {0x7fc00000, 0x7f800000, 0xc0800000, 0, 0x40000000, 0x40a00000};
@@ -234,13 +238,14 @@ static void hostile_tfx_is_refused(void** state)
         for (size_t at = 12; at < 32; at += 4) assert_false(takes_tfx(hair_test_tfx4(), at, offsets[i]));
         for (size_t at = 144; at < 168; at += 4) assert_false(takes_tfx(hair_test_tfx3(), at, offsets[i]));
     }
-    assert_false(takes_tfx(hair_test_tfx4(), 12, 0)); // No positions.
+    assert_false(takes_tfx(hair_test_tfx4(), 12, 0)); // The file has no positions.
     assert_false(takes_tfx(hair_test_tfx3(), 144, 0));
-    assert_true(takes_tfx(hair_test_tfx4(), 12, 160)); // Over other sections.
+    assert_true(takes_tfx(hair_test_tfx4(), 12, 160)); // The section overlaps other sections.
     assert_true(takes_tfx(hair_test_tfx4(), 28, 160));
 }
 
-// Counts that a short file claims must not make the library ask for memory; hair_test_read watches the limit.
+// Check that counts which a short file claims do not make the library allocate memory.
+// hair_test_read checks the limit.
 static void claims_of_short_files_take_no_memory(void** state)
 {
     (void)state;
@@ -258,7 +263,8 @@ static void claims_of_short_files_take_no_memory(void** state)
     assert_true(test.peak < 4096);
 }
 
-// The most memory that a byte can ask for: many strands of two vertices, as briefly as a format can say it.
+// Check the maximum memory per byte of a file. The files have many strands of two vertices, in the
+// shortest form of each format.
 static void memory_stays_within_its_bound(void** state)
 {
     (void)state;
@@ -281,7 +287,7 @@ static void memory_stays_within_its_bound(void** state)
         hair_asset* asset = NULL;
         assert_int_equal(hair_test_read(&test, &import, files[i].bytes, files[i].size, &asset), HAIR_OK);
         assert_int_equal(asset->strands.strand_count, count);
-        assert_true(test.peak <= 2 * files[i].size); // Well within what hair_asset.h promises.
+        assert_true(test.peak <= 2 * files[i].size); // hair_asset.h promises a larger bound.
         hair_asset_free(asset);
         free(files[i].bytes);
     }

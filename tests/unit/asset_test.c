@@ -125,7 +125,7 @@ static struct hair_test_file write_file(const hair_asset* asset, hair_format for
     memset(file.bytes, 0x77, size + 8);
     assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
     assert_int_equal(again, size);
-    assert_int_equal(file.bytes[0], 0x77); // Too little capacity: nothing is written.
+    assert_int_equal(file.bytes[0], 0x77); // With too little capacity nothing is written.
     assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
     for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
     return file;
@@ -136,7 +136,7 @@ static float linear(float c)
     return c <= 0.04045f ? c / 12.92f : powf((c + 0.055f) / 1.055f, 2.4f);
 }
 
-// Of the k-th vertex of the file, as sRGB.
+// Return the colour of the k-th vertex of the file, as sRGB.
 static float color_of(uint32_t vertex, uint32_t channel)
 {
     return (float)(3 * vertex + channel) / 32;
@@ -155,7 +155,7 @@ static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** 
         uint32_t ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
         const float* colors = asset->strands.colors;
         assert_non_null(colors);
-        for (uint32_t i = 0; i < 9; ++i) { // of each strand, channel
+        for (uint32_t i = 0; i < 9; ++i) { // Each strand and channel.
             const float* own = colors + 3 * HAIR_STRAND_COLORS * (i / 3) + i % 3;
             assert_float_equal(own[0], linear(color_of(ends[i / 3][tip_first], i % 3)), 1e-6);
             assert_float_equal(own[3 * (HAIR_STRAND_COLORS - 1)],
@@ -163,7 +163,8 @@ static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** 
         }
         hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
         for (uint32_t i = 0; i < 3; ++i)
-            for (uint32_t k = 0; k < 6; ++k) { // What is between ends is as near as the vertices are close.
+            // Between the ends, the accuracy is limited by the distance of vertices.
+            for (uint32_t k = 0; k < 6; ++k) {
                 uint32_t at = 3 * HAIR_STRAND_COLORS * i + (k < 3 ? k : 3 * (HAIR_STRAND_COLORS - 1) + k - 3);
                 assert_float_equal(again->strands.colors[at], colors[at], 1e-6);
             }
@@ -216,7 +217,7 @@ static void tfx_holds_guides_wherever_its_sections_lie(void** state)
     hair_asset* asset = read_file(hair_test_tfx4());
     assert_int_equal(asset->format, HAIR_FORMAT_TFX4);
     assert_int_equal(asset->strand_set, HAIR_STRAND_SET_GUIDES);
-    assert_null(asset->strands.radii); // Its thickness is a factor.
+    assert_null(asset->strands.radii); // The thickness in the file is a factor.
     assert_strands(asset, (uint32_t[3]){4, 4, 4});
     hair_asset_free(asset);
 
@@ -245,7 +246,8 @@ static void tfx_of_any_number_of_vertices_is_read(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx4();
-    hair_test_set_u32(&file, 4, 2); // The twelve vertices are those of two strands, then of six.
+    // The twelve vertices belong to two strands, and each strand has six.
+    hair_test_set_u32(&file, 4, 2);
     hair_test_set_u32(&file, 8, 6);
     hair_asset* asset = read_file(file);
     assert_int_equal(asset->strands.vertices[1], 6);
@@ -318,7 +320,7 @@ static void tfx_reads_back_bit_for_bit(void** state)
     asset->strands.positions[4] = 0.1f / 3;
     struct hair_test_file file = write_file(asset, HAIR_FORMAT_TFX4);
     assert_int_equal(file.size, 160 + 12 * 16 + 3 * 8);
-    // The two vertices at the root are held.
+    // The two vertices at the root are pinned.
     const unsigned char one[4] = {0, 0, 0x80, 0x3f}, zero[4] = {0};
     for (int i = 0; i < 12; ++i) assert_memory_equal(file.bytes + 172 + 16 * i, i % 4 < 2 ? zero : one, 4);
     hair_asset* again = read_file(file);
@@ -365,7 +367,7 @@ static struct hair_test_file load(const char* name)
     return file;
 }
 
-// Haircuts of TressFX, where they are at hand; the other tests are whole without them.
+// Read haircuts of TressFX if they are available. The other tests are complete without them.
 static void real_haircuts_are_read(void** state)
 {
     (void)state;
@@ -400,7 +402,7 @@ static void degenerate_strands_of_a_real_haircut_are_repaired(void** state)
     struct hair_test_file file = load("ratboy_mohawk.tfx");
     if (!file.bytes) return;
     hair_asset* asset = read_file(file);
-    assert_int_equal(asset->repairs.dropped_short, 1); // 7.5 micrometres long.
+    assert_int_equal(asset->repairs.dropped_short, 1); // This strand is 7.5 micrometres long.
     assert_int_equal(asset->strands.strand_count, 2227);
     hair_asset_free(asset);
 }

@@ -1,4 +1,4 @@
-// asset_text_test.c - text .tfx as its many exporters write it.
+// asset_text_test.c - text .tfx in the variants that exporters write.
 #include "tests/support/files.h"
 
 #include <locale.h>
@@ -119,7 +119,8 @@ static void the_files_own_placement_is_used(void** state)
     assert_vertex(asset, 1, 18, 30, 42);
     hair_asset_free(asset);
 
-    // Quarter turns about x, y and z, then about z before x: the y axis goes to -x, and stays there.
+    // Rotations by 90 degrees about x, y and z. The last one is about z and then x, which moves the
+    // y axis to -x and leaves it there.
     const struct {
         const char* rotation;
         float y[3];
@@ -251,7 +252,8 @@ static void other_words_are_no_numbers(void** state)
 static void the_locale_does_not_matter(void** state)
 {
     (void)state;
-    // Where the machine has a locale with a decimal comma; elsewhere this is the test above once more.
+    // Use a locale with a decimal comma if the machine has one. Otherwise this test repeats the one
+    // above.
     const char* locales[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "C.UTF-8"};
     for (size_t i = 0; i < 4; ++i) {
         setlocale(LC_ALL, locales[i]);

@@ -1,4 +1,4 @@
-// bench_cases_test.c - the cases of hair-bench that judge curved, taut and resting hair.
+// bench_cases_test.c - cases of hair-bench for curved, taut and resting hair.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
 
@@ -21,8 +21,8 @@ static int make_folder(void** state)
     return hair_test_shell_start(TOOL);
 }
 
-// A wave that is curved at rest: the solver of higher cost is nearer to the reference, and one row is
-// of its own setting.
+// Check a wave that is curved at rest. The solver of higher cost is nearer to the reference, and
+// one row has its own setting.
 static void curved_hair_is_compared_with_the_reference(void** state)
 {
     (void)state;
@@ -47,7 +47,8 @@ static void curved_hair_is_compared_with_the_reference(void** state)
 static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
 {
     (void)state;
-    // Accurate solves a coil of 6 mm; an idle haircut sleeps, and then its fastest vertex stands still.
+    // The solver accurate solves a coil of 6 mm. An idle haircut sleeps, and then its fastest
+    // vertex is still.
     expect(0, "$T stability --quick --case 'rest *' --method accurate --json $D/s.json --csv /dev/null", "");
     json_t* root = hair_test_shell_json("s.json");
     json_t* rows = json_object_get(root, "rows");
@@ -68,7 +69,7 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
     expect(0, "rm $D/s.json", "");
 }
 
-// Rows that the solvers pass, and whose measure would be off by far if it were wrong.
+// Check rows that the solvers pass. A wrong measure would be far off for them.
 static void physics_cases_are_measured_against_what_is_known(void** state)
 {
     (void)state;

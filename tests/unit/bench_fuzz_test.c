@@ -1,4 +1,5 @@
-// bench_fuzz_test.c - a few of the random scenes of hair-bench stability: the ten thousand take hours.
+// bench_fuzz_test.c - a few of the random scenes of hair-bench stability, because all ten thousand
+// take hours.
 #include "tests/support/shell.h"
 
 #include <setjmp.h>
@@ -9,7 +10,7 @@
 
 #define TOOL HAIR_BUILD_DIR "/hair-bench"
 #define FUZZ "$T stability --case fuzz --csv - "
-#define ROW " | tail -1 | cut -d, -f2,4,18,29" // method, finite, scenes, pass
+#define ROW " | tail -1 | cut -d, -f2,4,18,29" // method, finite, scenes, pass.
 
 static int make_folder(void** state)
 {

@@ -1,4 +1,4 @@
-// bench_test.c - hair-bench as its users call it, and the parts of it that are arithmetic: the Pareto front, the
+// bench_test.c - the command line of hair-bench, and its arithmetic: the Pareto front, and the
 // frequency of a swing.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
@@ -27,7 +27,7 @@ static int make_folder(void** state)
     return hair_test_shell_start(TOOL);
 }
 
-// The command line ------------------------------------------------------------------------------------------
+// The command line --------------------------------------------------------------------------------
 
 static void wrong_use_exits_with_2(void** state)
 {
@@ -92,9 +92,9 @@ static void an_interrupted_run_exits_with_1_and_leaves_nothing(void** state)
     expect(0, "ls $D | wc -l", "0");
 }
 
-// Rows ------------------------------------------------------------------------------------------------------
+// Rows --------------------------------------------------------------------------------------------
 
-// The next field of CSV, unquoted, into `field`. False after the last of a line.
+// Read the next CSV field, unquoted, into `field`. Return 0 after the last field of a line.
 static int next_field(FILE* file, char* field)
 {
     int quoted = 0, c;
@@ -148,7 +148,8 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
 static void the_standard_output_has_the_table_or_the_file_that_is_asked_for(void** state)
 {
     (void)state;
-    expect(0, "$T " SMALL " | grep -c redblack", "1"); // Alike in all rows: once.
+    // Columns that are equal in all rows are printed once.
+    expect(0, "$T " SMALL " | grep -c redblack", "1");
     expect(0, "$T " SMALL " --json - 2>$D/e | head -1 && test ! -s $D/e", "{");
     expect(0, "$T " SMALL " --csv - --json /dev/null | head -1; rm $D/e", "case,method,vertices");
 }
@@ -190,7 +191,7 @@ static void the_other_suites_run(void** state)
            "drawn,\"tessellation, compute\",redblack,tessellation,200,166,64,4,");
     expect(0, "$T skip --quick --case 'idle head' --strands 100 --csv - | grep -cE ',0,[0-9]+,[0-9]+,3'",
            "1");
-    // Of 4,000 followers in two frames, none that was inside is left there.
+    // Two frames have 4,000 followers. No follower that was inside remains inside.
     expect(0, "$T collision --quick --case shoulders --method push_out --csv -", ",0,1,");
 }
 
@@ -226,13 +227,13 @@ static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** st
     assert_true(fabs(number(many, "coverage_error")) < 0.1);
     assert_true(number(one, "ms_min") > 0 && number(one, "ms_min") <= number(one, "ms"));
     size_t i;
-    json_array_foreach(rows, i, row) // No error that might as well be the reference's own.
+    json_array_foreach(rows, i, row) // Errors must be well above the reference's own error.
         if (!json_is_null(json_object_get(row, "flip"))) assert_true(number(row, "flip") >= 5 * halves);
     json_decref(root);
     expect(0, "rm $D/r.json", "");
 }
 
-// Arithmetic ------------------------------------------------------------------------------------------------
+// Arithmetic --------------------------------------------------------------------------------------
 
 static const char* const columns[] = {"case", "vertices", "ms", "rms_error", "front", "measured_by", NULL};
 
@@ -252,19 +253,19 @@ static void the_front_is_what_nothing_beats(void** state)
     (void)state;
     struct bench_rows rows;
     bench_rows_create(&rows, columns);
-    // 't' on the front, 'f' beaten, '-' no part in it.
+    // 't' is on the front, 'f' is dominated, and '-' takes no part.
     const char marks[] = "tfttft-t--t";
     add(&rows, "a", 16, 1, 0.5, "here");
-    add(&rows, "a", 16, 2, 0.5, "here"); // Slower for the same.
+    add(&rows, "a", 16, 2, 0.5, "here"); // This row is slower and equally accurate.
     add(&rows, "a", 16, 3, 0.1, "here");
-    add(&rows, "a", 16, 3, 0.1, "here"); // Two alike do not beat each other.
-    add(&rows, "a", 16, 3, 0.2, "here"); // Worse in the same time.
+    add(&rows, "a", 16, 3, 0.1, "here"); // Two equal rows do not dominate each other.
+    add(&rows, "a", 16, 3, 0.2, "here"); // This row is less accurate in the same time.
     add(&rows, "a", 16, 9, 0.0, "here");
-    add(&rows, "a", 16, 0.1, 0.0, "elsewhere"); // On another machine.
-    add(&rows, "a", 32, 9, 0.9, "here"); // Of other strands.
+    add(&rows, "a", 16, 0.1, 0.0, "elsewhere"); // This row is from another machine.
+    add(&rows, "a", 32, 9, 0.9, "here"); // This row has other strands.
     add(&rows, "a", 32, 1, NAN, "here");
     add(&rows, "a", 32, INFINITY, 0, "here");
-    add(&rows, "b", 32, 9, 0.9, "here"); // Of another case.
+    add(&rows, "b", 32, 9, 0.9, "here"); // This row is of another case.
     bench_mark_front(rows.rows, "ms", "rms_error");
     for (size_t i = 0; marks[i]; ++i) {
         const json_t* front = json_object_get(json_array_get(rows.rows, i), "front");
@@ -291,7 +292,7 @@ static void what_csv_must_quote_is_quoted(void** state)
     bench_rows_free(&rows);
 }
 
-// Among others, and while it dies away.
+// Find the frequency in a signal that has other frequencies and decays.
 static void the_frequency_of_a_swing_is_found(void** state)
 {
     (void)state;

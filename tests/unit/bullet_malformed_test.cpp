@@ -1,4 +1,5 @@
-// bullet_malformed_test.cpp - shapes of Bullet that are wrong or far too large: an error that says so, or bounded work.
+// bullet_malformed_test.cpp - shapes of Bullet that are wrong or far too large give an error
+// message, or bounded work.
 #include "tests/support/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
@@ -16,11 +17,11 @@ static hair_result take(const btCollisionShape& shape)
     assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
     const uint32_t before = test.host.errors;
     hair_result result = hair_bullet_add_shape(test.bullet, &shape, nullptr);
-    assert_true(result == HAIR_OK || test.host.errors > before); // Never without a sentence.
+    assert_true(result == HAIR_OK || test.host.errors > before); // Every error logs a message.
     return result;
 }
 
-// An error, or colliders of finite numbers.
+// Return whether the shape gives an error, or finite colliders.
 static bool is_borne(const btCollisionShape& shape)
 {
     hair_result result = take(shape);
@@ -80,7 +81,7 @@ static void no_number_leads_to_colliders_that_are_not_finite(void**)
                     hair_bullet_colliders(test.bullet, &count);
                     taken += count;
                 }
-    assert_true(taken > 50); // Some are right.
+    assert_true(taken > 50); // Some shapes are valid.
     test.host.errors = 0;
 }
 
@@ -100,7 +101,7 @@ static void meshes_with_vertices_that_are_no_numbers_are_errors(void**)
         mesh->addTriangle(btVector3(0, 0, 0), btVector3(wrong, 0, 0), btVector3(0, 1, 0));
         btBvhTriangleMeshShape shape(mesh.get(), false);
         assert_int_equal(take(shape), HAIR_ERROR_ARGUMENT);
-        assert_int_equal(take(shape), HAIR_ERROR_ARGUMENT); // And so it stays.
+        assert_int_equal(take(shape), HAIR_ERROR_ARGUMENT); // A second call also fails.
         colliders(0);
     }
     test.host.errors = 0;
@@ -117,14 +118,14 @@ static void meshes_scaled_to_nothing_are_errors(void**)
     assert_int_equal(take(scaled), HAIR_ERROR_ARGUMENT);
     scaled.setLocalScaling(btVector3(tiny, tiny, tiny));
     refused(scaled, "has a scale that is not in [1e-6, 1e6]");
-    scaled.setLocalScaling(btVector3(1, 0, 1)); // Flat, but there: a plate.
+    scaled.setLocalScaling(btVector3(1, 0, 1)); // The mesh is flat, which gives a plate.
     assert_true(is_borne(scaled));
     scaled.setLocalScaling(btVector3(-1, 1, 1));
     assert_int_equal(take(scaled), HAIR_OK);
     test.host.errors = test.host.warnings = 0;
 }
 
-// Lines and points among triangles do not make a mesh worse than it is; alone they are none.
+// Check degenerate triangles. They do not degrade a mesh, and without others they make no mesh.
 static void degenerate_triangles_are_left_out(void**)
 {
     std::unique_ptr<btTriangleMesh> mesh(tetrahedron(1));
@@ -140,7 +141,7 @@ static void degenerate_triangles_are_left_out(void**)
     for (int i = 0; i < 1000; ++i) points.addTriangle(a, b, i % 2 ? b : a);
     btBvhTriangleMeshShape dots(&points, true);
     refused(dots, "has triangles that make no collision mesh");
-    btTriangleMesh line; // Its corners differ: a thin shell.
+    btTriangleMesh line; // Different corners make a thin shell.
     line.addTriangle(a, b, c);
     btBvhTriangleMeshShape thread(&line, true);
     assert_true(is_borne(thread));
@@ -168,7 +169,7 @@ static void a_hull_of_millions_of_points_is_an_error(void**)
     test.host.errors = 0;
 }
 
-// As many triangles as it is told, of no memory.
+// A shape that reports `count` triangles without storing them.
 struct many : btConcaveShape {
     explicit many(int count) : count(count) { m_shapeType = TRIANGLE_MESH_SHAPE_PROXYTYPE; }
     int count;
@@ -199,7 +200,7 @@ static void a_mesh_of_no_triangles_is_an_error(void**)
     test.host.errors = 0;
 }
 
-// They are counted before any is kept, and once.
+// Check that triangles are counted once, before any is stored.
 static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
 {
     many mesh(10000000);
@@ -213,7 +214,7 @@ static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
     test.host.errors = 0;
 }
 
-// Nor are they counted in every frame where a world is asked, which says so once.
+// Check that a world reports too many triangles once, and does not count them again in every frame.
 static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
 {
     btDefaultCollisionConfiguration configuration;

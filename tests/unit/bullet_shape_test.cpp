@@ -1,4 +1,5 @@
-// bullet_shape_test.cpp - every shape of Bullet as colliders, against Bullet's own distance with its margin.
+// bullet_shape_test.cpp - every shape of Bullet as colliders, compared with Bullet's own distance
+// and margin.
 #include "tests/support/bullet.h"
 
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
@@ -18,7 +19,8 @@ static void take(const btCollisionShape& shape, const btTransform& where)
     assert_int_equal(hair_bullet_add_shape(test.bullet, &shape, matrix), HAIR_OK);
 }
 
-// m: of Bullet's own over what is curved, where it stops early; measured against closed forms.
+// Error of Bullet's distance to curved surfaces, in metres, measured against closed forms. Its
+// iteration stops early there.
 #define GJK_ERROR 8e-3
 
 struct error {
@@ -32,7 +34,8 @@ struct error {
     }
 };
 
-// At random points around, outside of the core, where GJK is exact. Signs: by EPA, farther than `limit` from the surface.
+// Compare distances at random points around the shape, outside the core, where GJK is exact. EPA
+// gives the sign farther than `limit` from the surface.
 static error compare(const char* what, const btConvexShape& shape, double limit, double band)
 {
     randoms random;
@@ -47,7 +50,7 @@ static error compare(const char* what, const btConvexShape& shape, double limit,
             const btVector3 p =
                 middle + (half * btScalar(1.3) + btVector3(1, 1, 1) * shape.getMargin()) * random.vector(1);
             const double exact = gjk(&shape, where, p), own = nearest(p);
-            if (std::isinf(exact)) continue; // GJK has no answer here.
+            if (std::isinf(exact)) continue; // GJK gives no result here.
             if (std::fabs(exact) > 2 * limit + 1e-4 && (own < 0) != (exact < 0))
                 fail_msg("%s: GJK says %g at point %d, the colliders %g", what, exact, i, own);
             if (exact > -0.9 * static_cast<double>(shape.getMargin()) && exact < band)
@@ -83,7 +86,8 @@ static void primitives_are_as_far_as_gjk_says(void**)
                 const bool is_round = shape->getShapeType() == SPHERE_SHAPE_PROXYTYPE ||
                                       shape->getShapeType() == CAPSULE_SHAPE_PROXYTYPE;
                 shape->setLocalScaling(btVector3(scale, scale, scale));
-                if (!is_round) shape->setMargin(margin); // Of round ones the margin is the radius.
+                // The margin of a round shape is its radius.
+                if (!is_round) shape->setMargin(margin);
                 worst = std::fmax(worst, compare(shape->getName(), *shape, GJK_ERROR, 1).worst);
                 colliders(1);
             }
@@ -108,7 +112,8 @@ static double voxel_of(const hair_collider& collider)
     return static_cast<double>(info.voxel_size * collider.scale);
 }
 
-// Near the surface, in voxels. Interpolated distances are wrong by up to 0.87 of one over a sharp edge.
+// Compare distances near the surface, in voxels. Interpolated distances have an error of up to 0.87
+// voxels over a sharp edge.
 static void compare_form(const char* what, const btConvexShape& shape)
 {
     take(shape, btTransform::getIdentity());
@@ -162,7 +167,7 @@ static void spheres_together_are_as_far_as_gjk_says(void**)
     compare_form("scaled spheres", others);
 }
 
-// Triangle by triangle.
+// Distance to a mesh, as the minimum over all triangles.
 struct brute : btTriangleCallback {
     btVector3 point;
     btScalar margin = 0;
@@ -210,7 +215,7 @@ static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar
         const double own = nearest(p);
         if (exact.distance > 3 * voxel || exact.distance < 0) continue;
         if (own < -static_cast<double>(shape.getMargin()))
-            continue; // Within, where Bullet has the other side.
+            continue; // Bullet has the opposite sign inside.
         worst = std::fmax(worst, std::fabs(own - exact.distance));
         ++count;
     }
@@ -230,7 +235,7 @@ static void triangle_meshes_are_as_far_as_their_triangles(void**)
     btScaledBvhTriangleMeshShape twice(&mesh, btVector3(2, 2, 2)),
         uneven(&mesh, btVector3(1, 2, btScalar(0.5)));
     compare_mesh("mesh twice as large", twice, btScalar(0.6));
-    assert_ptr_equal(colliders(1)[0].mesh, form); // The same one, scaled.
+    assert_ptr_equal(colliders(1)[0].mesh, form); // The mesh is shared and scaled.
     compare_mesh("mesh scaled unevenly", uneven, btScalar(0.6));
     assert_ptr_not_equal(colliders(1)[0].mesh, form);
 }
@@ -312,7 +317,7 @@ static void compounds_are_their_children_wherever_they_are(void**)
     colliders(0);
 }
 
-// Points in a plane, in a line, and one.
+// Check hulls of points in a plane, on a line, and at one position.
 static void flat_hulls_are_plates_capsules_and_spheres(void**)
 {
     const btScalar flat[][3] = {

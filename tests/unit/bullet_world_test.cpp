@@ -1,4 +1,4 @@
-// bullet_world_test.cpp - objects and worlds of Bullet: what is taken of them, in which order, and what it costs.
+// bullet_world_test.cpp - objects and worlds of Bullet: selection, order, and cost.
 #include "tests/support/bullet.h"
 
 #include <chrono>
@@ -56,7 +56,7 @@ static void only_what_touches_the_bounds_is_taken(void**)
     assert_true(touching > 20 && touching < 200);
 }
 
-// Also when objects go and come, which moves others within the world's own list.
+// Check order and keys also if objects are added and removed, which reorders the world's own list.
 static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
 {
     world world;
@@ -80,7 +80,7 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
     take(world, -1);
     list = colliders(40);
     uint32_t at = 0;
-    for (const hair_collider& one : before) { // All but the one that has gone, in the same order.
+    for (const hair_collider& one : before) { // All except the removed object must be in order.
         bool is_gone = true;
         for (uint32_t i = 0; i < 40; ++i) is_gone = is_gone && list[i].key != one.key;
         if (is_gone) continue;
@@ -137,7 +137,7 @@ struct soft : btSphereShape {
     soft() : btSphereShape(btScalar(0.1)) { m_shapeType = SOFTBODY_SHAPE_PROXYTYPE; }
 };
 
-// The rest of the world still counts.
+// Check that a warning is logged once, and that the rest of the world still counts.
 static void what_can_be_no_collider_is_warned_of_once_and_left_out(void**)
 {
     world world;
@@ -202,10 +202,10 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
     const hair_collision_mesh* form = take_hull();
     const uint32_t blocks = test.host.blocks, made = test.host.allocations;
     assert_ptr_equal(take_hull(), form);
-    assert_true(test.host.allocations - made < 10); // Its points only.
+    assert_true(test.host.allocations - made < 10); // Only its points were allocated.
     hull.setLocalScaling(btVector3(2, 2, 2));
     take_hull();
-    assert_int_equal(test.host.blocks, blocks); // The other one is free.
+    assert_int_equal(test.host.blocks, blocks); // The other mesh has been freed.
     hair_collision_mesh_info info = hair_collision_mesh_info_default();
     hair_collision_mesh_describe(colliders(1)[0].mesh, &info);
     assert_true(info.upper[0] > 1.9f);
@@ -236,7 +236,7 @@ static void every_refused_allocation_is_borne(void**)
         refusals += result == HAIR_ERROR_MEMORY;
         goes_on = test.host.allocations >= n;
         test.host.refuse = 0;
-        if (bullet) { // And then it goes on.
+        if (bullet) { // The next call succeeds.
             uint32_t count = 0;
             hair_bullet_clear(bullet);
             assert_int_equal(hair_bullet_add_world(bullet, &world.bullet, lower, upper, -1), HAIR_OK);
@@ -251,7 +251,7 @@ static void every_refused_allocation_is_borne(void**)
     test.host.errors = 0;
 }
 
-// The least of many times, so that a busy machine does not decide.
+// Return the minimum time of many runs, so that load of the machine has little effect.
 static double cost(const world& world)
 {
     double least = INFINITY;

@@ -1,4 +1,4 @@
-// capture_bullet_test.c - scenes of hair-capture with objects of Bullet's: where they are, and what is wrong with them.
+// capture_bullet_test.c - scenes of hair-capture with Bullet objects: positions and errors.
 #include "tests/support/shell.h"
 
 #include <setjmp.h>
@@ -25,7 +25,7 @@ static int start(void** state)
                            "f 1 2 4 \\r\\nf -4 -1 -2\\nf 2 3 4\\n' >$D/corner.obj");
 }
 
-// Frame 3 of a scene with this in it, into $D/NAME.
+// Capture frame 3 of a scene with these lists into $D/NAME.
 static void capture(const char* lists, const char* name)
 {
     char command[2048];
@@ -47,7 +47,7 @@ static int is_without_bullet(void)
     return 1;
 }
 
-// Bullet's sphere, capsule and plane are those of the library to the bit.
+// Compare Bullet's sphere, capsule and plane with the library's, bit for bit.
 static void objects_are_where_colliders_would_be(void** state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void objects_are_where_colliders_would_be(void** state)
     }
     capture("\"bullet\": []", "none.png");
     expect(0, "! cmp -s $D/none.png $D/bullet.png", "");
-    // What is out of reach is left where it is.
+    // Objects out of reach have no effect.
     capture("\"bullet\": [{\"shape\": \"sphere\", \"position\": [3, 0, -1], \"stays\": true}]", "far.png");
     expect(0, "cmp $D/none.png $D/far.png", "");
 }
@@ -107,7 +107,7 @@ static void every_shape_can_be_there(void** state)
         capture(list, "a.png");
         expect(0, "cat $D/a.png | cksum >>$D/sums", "");
     }
-    expect(0, "sort -u $D/sums | wc -l", "11\n"); // No two look alike.
+    expect(0, "sort -u $D/sums | wc -l", "11\n"); // All pictures differ.
 }
 
 static void what_is_wrong_is_named_with_its_range(void** state)

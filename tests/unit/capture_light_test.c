@@ -1,5 +1,6 @@
-// capture_light_test.c - lights of hair-capture's scenes: each that has a shadow leaves skin darker behind hair and body, the first
-// unless it says otherwise; of more than four it complains.
+// capture_light_test.c - lights in scenes of hair-capture. A light with a shadow leaves skin darker
+// behind hair and body. The first light has a shadow by default. More than four lights give an
+// error.
 #include "tests/support/shell.h"
 
 #include <setjmp.h>
@@ -14,14 +15,14 @@
 #include <string.h>
 
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
-// Hair that no light shows, so that only skin is seen.
+// Black hair, so that only skin is visible.
 #define BLACK                                                                                                \
     "--set shading=lines --set root_color.r=0 --set tip_color.r=0 --set specular.white=0 --set streaks=0 "   \
     "--set radius=0.0005 --set lod=off"
 #define WIDTH 96
 #define HEIGHT 72
 
-// A ball of fur. One of three lights shines, in red.
+// Write a scene with a ball of fur. One of three lights shines in red.
 static void write_scene(const char* name, int light, const char* shadow)
 {
     char path[512];
@@ -49,7 +50,7 @@ static void write_scene(const char* name, int light, const char* shadow)
     fclose(file);
 }
 
-// Of the picture's red, in 255ths a pixel.
+// Return the mean red of the picture, in 1/255.
 static double brightness(const char* name)
 {
     static uint8_t pixels[3 * WIDTH * HEIGHT];

@@ -1,4 +1,5 @@
-// capture_test.c - hair-capture as its users call it: pictures, videos, hashes, exit codes, whole files.
+// capture_test.c - the command line of hair-capture: pictures, videos, hashes, exit codes, and
+// complete files.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
 
@@ -12,12 +13,12 @@
 
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
 
-// As little hair and as few pixels as show the point; the head takes longest of all to make.
+// The least hair and the fewest pixels that suffice. The head takes longest to make.
 #define SMALL "$D/small.json --samples 1"
 #define FEW "--size 64x36 --followers 300 --samples 1"
 #define WITH_HEAD "--size 64x36 --followers 300 --guides 32 --samples 1 --set redblack.iterations=2"
 
-// Nothing but what was there before: no temporary left.
+// Check that no temporary file is left.
 #define ANY "[A-Za-z0-9]"
 #define TEMPORARY "*." ANY ANY ANY ANY ANY ANY
 #define CLEAN " && test -z \"$(find $D -name '" TEMPORARY "')\""
@@ -221,7 +222,7 @@ static void hashes_are_the_same_twice_and_with_any_number_of_threads(void** stat
     assert_int_equal(strlen(hair_test_said), strlen("strands 0123456789abcdef\npixels 0123456789abcdef\n"));
 }
 
-// Of two lines both must differ: strands and pixels.
+// Check that captures differ in both lines: the hash of strands and the hash of pixels.
 static void hashes_tell_one_capture_from_another(void** state)
 {
     (void)state;
@@ -239,7 +240,7 @@ static void hashes_tell_one_capture_from_another(void** state)
                  others[i]);
         expect(0, command, "4\n");
     }
-    // What is only looked at leaves the strands alone.
+    // The look does not change the strands.
     expect(0,
            "$T --hash --frames 2:4 " SMALL
            " --set root_color.r=0.9 >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
@@ -273,12 +274,13 @@ static void what_is_shown_is_what_was_asked_for(void** state)
         expect(0, command, "");
     }
     expect(0, "sort -u $D/shown | wc -l", "6");
-    expect(0, "$T $D/ball.json --samples 1 --frames 0:1 --hash | grep -c -f $D/shown", "1"); // As "hair".
+    // The default equals "hair".
+    expect(0, "$T $D/ball.json --samples 1 --frames 0:1 --hash | grep -c -f $D/shown", "1");
     expect(0, "rm $D/shown $D/ball.json", "");
 }
 
-// Every way to move leads to the same place: the picture is that of a collider which stands there.
-// Of the pixels' hash: hair, also of a step in wind; and the wind itself, which a source has, or the scene's velocity.
+// Check wind by the hash of pixels. It must change hair, also after a step, and the picture of the
+// wind itself, with a velocity or a source.
 static void wind_of_a_scene_blows_and_is_shown(void** state)
 {
     (void)state;
@@ -298,6 +300,8 @@ static void wind_of_a_scene_blows_and_is_shown(void** state)
     expect(0, "test $(sort -u $D/shown | wc -l) = 7 && rm $D/shown $D/blown.json", "");
 }
 
+// Check that every kind of motion leads to the same place. The picture equals that of a collider at
+// rest there.
 static void colliders_are_where_their_motion_says(void** state)
 {
     (void)state;
@@ -329,7 +333,7 @@ static void pictures_and_videos_are_in_their_formats(void** state)
     expect(0, "$T " SMALL " --frames 0:1 -o $D/p.exr && head -c 4 $D/p.exr | od -An -tx1", "76 2f 31 01");
     expect(0, "$T " SMALL " --frames 0:2 -o $D/p.y4m && head -n 1 $D/p.y4m",
            "YUV4MPEG2 W64 H36 F30000:1000 Ip A1:1 C420jpeg");
-    // A header line, then twice "FRAME" and one and a half bytes a pixel.
+    // A header line, and then twice "FRAME" with 1.5 bytes per pixel.
     expect(0, "test $(tail -n +2 $D/p.y4m | wc -c) = $((2 * (6 + 64 * 36 * 3 / 2)))", "");
     expect(0, "$T " SMALL " --frames 0:2 -o - | cmp - $D/p.y4m", "");
     expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o - | tail -n 1 | wc -c", "3\n");
@@ -344,7 +348,8 @@ static void an_mp4_can_be_played_before_all_of_it_is_there(void** state)
     expect(0,
            "test $(grep -abo moov $D/v.mp4 | cut -d: -f1) -lt $(grep -abo mdat $D/v.mp4 | cut -d: -f1)" CLEAN,
            "");
-    expect(0, "ffmpeg -v error -i $D/v.mp4 -f rawvideo -pix_fmt gray - | wc -c", "6912\n"); // 3 x 64 x 36
+    // 3 x 64 x 36.
+    expect(0, "ffmpeg -v error -i $D/v.mp4 -f rawvideo -pix_fmt gray - | wc -c", "6912\n");
 }
 
 static void an_encoder_that_fails_leaves_no_video(void** state)
@@ -425,7 +430,7 @@ static void stats_tell_what_was_drawn(void** state)
     assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
     assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
     assert_non_null(strstr(hair_test_said, "\"method\": \"sim/mixed"));
-    assert_null(strstr(hair_test_said, "redblack")); // nor any other pass that has not run
+    assert_null(strstr(hair_test_said, "redblack")); // A pass that has not run is not listed.
     assert_null(strstr(hair_test_said, "\"runs\": 0"));
     assert_non_null(strstr(hair_test_said, "\"solver_stats\": {\n    \"euler_fallbacks\": "));
     assert_non_null(strstr(hair_test_said, "\"reset\": 0"));

@@ -1,4 +1,5 @@
-// cells_test.c - the lists of colliders that guides look up: nothing that can be met is missing, and none is too long.
+// cells_test.c - lists of colliders per cell: no collider in reach is missing, and no list is too
+// long.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -56,7 +57,7 @@ static void set(uint32_t count)
     assert_int_equal(hair_colliders_set(&test.host, &colliders, given, count, sizeof *given), HAIR_OK);
 }
 
-// Of every shape but forms, as large as `size` at most; they move and turn in the step.
+// Scatter moving and rotating colliders of every shape except collision meshes, of at most `size`.
 static void scatter(uint32_t count, float size)
 {
     for (uint32_t i = 0; i < count; ++i) {
@@ -83,7 +84,7 @@ static int fill(const struct hair_cells_desc* desc)
     return changed;
 }
 
-// As the shader looks up.
+// Return the cell of a position, as the shader does.
 static uint32_t cell_of(hair_vec3 place)
 {
     const float at[] = {place.x - cells.lower.x, place.y - cells.lower.y, place.z - cells.lower.z};
@@ -108,7 +109,8 @@ static hair_vec4 mix(hair_vec4 a, hair_vec4 b, float t)
                        a.w + t * (b.w - a.w)};
 }
 
-// From a place that is from the head's origin, when that share of the step is done.
+// Return the distance of a contact from a position relative to the head's origin, when the fraction
+// `share` of the step is done.
 static double distance_of(const struct hair_contact* contact, const hair_collider* collider, float share,
                           hair_vec3 place)
 {
@@ -152,7 +154,7 @@ static void nothing_that_can_be_met_is_missing_in_a_list(void** state)
         assert_int_equal(cells.left_out, 0);
         check(&usual, 3000);
     }
-    struct hair_cells_desc anywhere = usual; // A root that nothing holds.
+    struct hair_cells_desc anywhere = usual; // The reach of a free root.
     anywhere.reach = 1e4f;
     fill(&anywhere);
     check(&anywhere, 3000);
@@ -176,7 +178,8 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
     for (uint32_t c = 0; c < cells.cells[0]; ++c)
         for (uint32_t i = cells.entry[c]; i + 1 < cells.entry[c + 1]; ++i)
             assert_true(cells.entry[i] < cells.entry[i + 1]);
-    for (uint32_t i = 0; i < 500; ++i) { // Of what is walked through fewer are kept.
+    // Fewer colliders of this kind are kept, because they are tested one by one.
+    for (uint32_t i = 0; i < 500; ++i) {
         given[i].shape = HAIR_SHAPE_BOX;
         for (int k = 0; k < 3; ++k) given[i].size[k] = 0.001f;
     }
@@ -196,7 +199,8 @@ static void lists_are_made_again_only_when_something_has_moved(void** state)
     struct hair_cells_desc later = usual;
     later.share_start = -0.1f;
     assert_int_equal(fill(&usual), 0);
-    assert_int_equal(fill(&later), 1); // It moves: from when on matters.
+    // The collider moves, so the start time of its motion matters.
+    assert_int_equal(fill(&later), 1);
     hair_colliders_settle(&colliders);
     assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &later), HAIR_OK);
     int changed;
@@ -204,7 +208,7 @@ static void lists_are_made_again_only_when_something_has_moved(void** state)
     assert_int_equal(changed, 1);
     assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &usual), HAIR_OK);
     assert_int_equal(hair_cells_list(&test.host, &cells, &usual, &changed), HAIR_OK);
-    assert_int_equal(changed, 0); // It stands still.
+    assert_int_equal(changed, 0); // The collider does not move.
     given[50].size[0] *= 1.5f;
     set(100);
     assert_int_equal(hair_cells_gather(&test.host, &cells, &colliders, &now, &now, &usual), HAIR_OK);

@@ -1,4 +1,4 @@
-// collider_test.c - colliders as the application gives them become capsules between two poses of the head.
+// collider_test.c - colliders of the application become capsules between two poses of the head.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -40,7 +40,7 @@ static void a_sphere_is_a_capsule_whose_ends_are_alike(void** state)
 {
     (void)state;
     hair_collider one = sphere(3);
-    one.size[1] = 99; // means nothing to a sphere
+    one.size[1] = 99; // A sphere does not use this size.
     set(&one, 1);
     assert_int_equal(hair_colliders_capsules(&colliders, &origin, &origin, capsules), 1);
     assert_memory_equal(&capsules[0].start[0], &capsules[0].start[1], sizeof(hair_vec4));
@@ -52,7 +52,7 @@ static void a_capsule_lies_along_its_local_y(void** state)
     (void)state;
     float half = sqrtf(0.5f);
     hair_collider one = {HAIR_SHAPE_CAPSULE, {1, 2, 3},  {0, 0, half, half},
-                         {0.25f, 2},         .scale = 1, .friction = 1}; // y to -x
+                         {0.25f, 2},         .scale = 1, .friction = 1}; // Rotates y to -x.
     set(&one, 1);
     hair_colliders_capsules(&colliders, &origin, &origin, capsules);
     hair_test_near("one end", 0, capsules[0].end[0].x, 3, 1e-6);
@@ -81,7 +81,7 @@ static void a_collider_moves_from_where_it_was_at_the_last_step(void** state)
     set(two, 2);
     hair_colliders_capsules(&colliders, &origin, &origin, capsules);
     assert_true(capsules[0].start[0].x == 1 && capsules[0].end[0].x == 2);
-    assert_true(capsules[1].start[0].x == 5); // One more than before starts where it is.
+    assert_true(capsules[1].start[0].x == 5); // A new collider starts at its position.
     hair_colliders_settle(&colliders);
     hair_colliders_capsules(&colliders, &origin, &origin, capsules);
     assert_true(capsules[0].start[0].x == 2);
@@ -139,14 +139,15 @@ static void a_wrong_collider_is_named_and_none_is_taken(void** state)
     assert_int_equal(test.errors, 2);
 }
 
-// Which are given does not depend on the order they come in; those given keep it.
+// Check that the selection does not depend on the order of colliders, and that the selected
+// capsules keep their order.
 static void of_many_capsules_the_nearest_to_the_head_are_given(void** state)
 {
     (void)state;
     enum { MANY = 1000 };
     static hair_collider many[MANY];
     for (uint32_t i = 0; i < MANY; ++i) many[i] = sphere(1 + (float)(i * 617 % MANY));
-    many[5].shape = HAIR_SHAPE_BOX; // No capsule.
+    many[5].shape = HAIR_SHAPE_BOX; // Not a capsule.
     many[5].size[1] = many[5].size[2] = 1;
     set(many, MANY);
     assert_int_equal(colliders.capsules, HAIR_STEP_COLLIDERS);
@@ -188,7 +189,7 @@ static void a_collider_is_known_by_its_key_wherever_it_stands(void** state)
         assert_true(hair_colliders_before(&colliders, i)->position[0] == before[i].position[0]);
 }
 
-// Sizes that a shape does not use may be anything.
+// Check that sizes which a shape does not use may have any value.
 static void every_shape_wants_its_own_sizes(void** state)
 {
     (void)state;
@@ -203,7 +204,7 @@ static void every_shape_wants_its_own_sizes(void** state)
             collider.size[k] = 0;
             assert_int_equal(hair_colliders_set(&test.host, &colliders, &collider, 1, sizeof collider),
                              is_line ? HAIR_OK : HAIR_ERROR_ARGUMENT);
-            collider.rounding = 0.1f; // Then it has a size in any case.
+            collider.rounding = 0.1f; // With rounding, any shape has a size.
             set(&collider, 1);
             collider.rounding = 0, collider.size[k] = 1;
         }

@@ -1,5 +1,5 @@
-// collision_mesh_test.c - distance fields of triangle meshes: exact near the surface, right about the inside, and made of any
-// mesh or refused.
+// collision_mesh_test.c - distance fields of triangle meshes: exact near the surface, with the
+// right sign, for any mesh that is not refused.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -51,8 +51,9 @@ static void node_at(const hair_collision_mesh* form, size_t node, double out[3])
     for (int k = 0; k < 3; ++k) out[k] = (double)form->origin[k] + (double)form->voxel * (double)at[k];
 }
 
-// The largest difference to the exact distance of a shape at the nodes, in voxels: within the band, and beyond as a
-// share of what is beyond. Signs must be right everywhere but on the surface.
+// Check the maximum error of the distance at the nodes. Within the band it is in voxels, and
+// outside it is relative to the distance from the band. The sign must be right everywhere except on
+// the surface.
 static void compare(const char* what, const hair_collision_mesh* form, hair_shape shape, const float size[3],
                     double limit)
 {
@@ -88,7 +89,7 @@ static void a_box_of_triangles_is_as_far_as_a_box(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-// A ball of many triangles sags under the sphere by its own faceting, r (1 - cos(half a step)).
+// Check a ball of many triangles. Its faces lie below the sphere by up to r (1 - cos(half a step)).
 static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
 {
     (void)state;
@@ -117,7 +118,7 @@ static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-// Vertices are the same by where they are: every triangle has its own three here.
+// Check a mesh whose triangles share no vertices. Vertices with equal positions are taken as equal.
 static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
 {
     (void)state;
@@ -139,7 +140,7 @@ static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
     hair_test_mesh_free(&soup);
 }
 
-// Without its last triangle a box has no inside: everything is as far as from a shell.
+// Check a box without its last triangle. It has no inside, so all distances are from a shell.
 static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
 {
     (void)state;
@@ -161,7 +162,7 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-// A ball in a ball, the inner one inside out: a hollow.
+// Check a ball in a ball, whose inner one is inverted and makes a cavity.
 static void what_lies_in_a_hollow_is_outside(void** state)
 {
     (void)state;
@@ -206,7 +207,8 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
         for (int k = 0; k < 3; ++k) far += p[k] * p[k];
         far = sqrt(far);
         if (far < 0.2) continue;
-        // Where the grid ends another point of the surface is nearest: too far, but by little.
+        // Beyond the grid, the nearest point of the surface differs. The distance is too large by
+        // little.
         double own = hair_distance_to_mesh(form, p, gradient), exact = far - 0.1;
         assert_true(own > exact - 1e-3 && own < 1.06 * exact + 1e-3);
         assert_true(gradient[0] * p[0] + gradient[1] * p[1] + gradient[2] * p[2] > 0.95 * far);
@@ -279,7 +281,7 @@ static void what_is_no_mesh_is_refused(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-// What has no area is a line to be near to.
+// Check a triangle without area, which acts like a line.
 static void degenerate_triangles_are_borne(void** state)
 {
     (void)state;
@@ -303,7 +305,7 @@ static void degenerate_triangles_are_borne(void** state)
     hair_collision_mesh_destroy(form);
 }
 
-// Any numbers: a form or a refusal, and always finite.
+// Check random meshes. Each gives a finite field or an error.
 static void random_meshes_make_finite_forms(void** state)
 {
     (void)state;
@@ -321,7 +323,8 @@ static void random_meshes_make_finite_forms(void** state)
         desc.voxel_size = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
         desc.thickness = n % 5 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
         desc.thickness = fminf(desc.thickness, 1e6f), desc.voxel_size = fminf(desc.voxel_size, 1e6f);
-        if (desc.voxel_size > 0 && desc.voxel_size < 0.01f) desc.voxel_size = 0; // Fine grids take long.
+        // Fine grids take long.
+        if (desc.voxel_size > 0 && desc.voxel_size < 0.01f) desc.voxel_size = 0;
         hair_result result = hair_collision_mesh_create(&desc, &form);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_ARGUMENT);
         if (result) continue;

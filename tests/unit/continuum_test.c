@@ -1,4 +1,4 @@
-// continuum_test.c - the solved rods and chains have the values that books and other programs give them.
+// continuum_test.c - solved rods and chains agree with values of books and of other programs.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ static void the_elastica_agrees_with_its_table(void** state)
 {
     (void)state;
     static const double table[][4] = {
-        // gamma, across, down, down / across
+        // Columns: gamma, across, down, and down / across.
         {0.1, 0.99991073, 0.01249844, 0.01249955},  {0.3, 0.99919788, 0.03745790, 0.03748797},
         {1, 0.99124640, 0.12347140, 0.12456177},    {3, 0.93151121, 0.33964839, 0.36462083},
         {5, 0.84665718, 0.49590504, 0.58572118},    {10, 0.65635376, 0.70019972, 1.06680232},
@@ -41,7 +41,7 @@ static void a_load_at_the_tip_bends_the_elastica_as_its_table_says(void** state)
     }
 }
 
-// Gamma / 8 of little weight, sqrt(gamma / 2) of much.
+// Check the limits: gamma / 8 for a small weight, and sqrt(gamma / 2) for a large one.
 static void the_elastica_has_its_two_limits(void** state)
 {
     (void)state;
@@ -51,7 +51,8 @@ static void the_elastica_has_its_two_limits(void** state)
     hair_test_near("heavy", 0, heavy.down / heavy.across / sqrt(1e5 / 2), 1, 0.01);
 }
 
-// With a small weight, by a clamp at any angle, the tip sinks by cos^2 / 8 of the weight and moves along.
+// Check a small weight with a clamp at any angle. The tip sinks by cos^2 / 8 of the weight, and
+// moves sideways accordingly.
 static void a_stiff_elastica_leaves_its_clamp_straight(void** state)
 {
     (void)state;
@@ -92,7 +93,8 @@ static void the_hanging_chain_swings_as_bessel_says(void** state)
     }
 }
 
-// A quarter of the discrete chain's error is left with twice the links, if the last mass is half.
+// Check convergence. With half the last mass, twice the links leave a quarter of the discrete
+// chain's error.
 static void linkages_swing_as_their_table_says(void** state)
 {
     (void)state;
@@ -118,7 +120,8 @@ static void a_wide_pendulum_swings_slower(void** state)
 {
     (void)state;
     static const double periods[] = {1.0174087976, 1.0731820071, 1.1803405990, 1.3728805006, 1.7622037295};
-    hair_test_near("agm", 0, hair_reference_agm(1, sqrt(2)), 1.198140234735592, 1e-15); // Gauss's constant.
+    // Gauss's constant.
+    hair_test_near("agm", 0, hair_reference_agm(1, sqrt(2)), 1.198140234735592, 1e-15);
     for (int k = 0; k < 5; ++k)
         hair_test_near("period", (size_t)k, hair_reference_pendulum_period((k + 1) * PI / 6), periods[k],
                        5.1e-11);
@@ -149,7 +152,8 @@ static void a_chain_between_pins_hangs_as_its_table_says(void** state)
     hair_test_near("many links", 1, many.tension, far.tension, 1e-4);
 }
 
-// Of equal masses, released from the horizontal: 2 and 4 links from another program.
+// Check linkages of equal masses released from the horizontal. The values for 2 and 4 links are
+// from another program.
 static void linkages_fall_as_their_table_says(void** state)
 {
     (void)state;

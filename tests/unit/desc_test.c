@@ -1,4 +1,5 @@
-// desc_test.c - descs grow at their end without breaking callers, and every number in them is checked.
+// desc_test.c - structs of the API grow at their end without breaking callers, and every number in
+// them is checked.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@ struct sample {
     hair_struct_header header;
     float share;
     uint32_t count;
-    float newer; // not in the struct of an older caller
+    float newer; // Not in the struct of an older caller.
 };
 
 static const struct hair_field rows[] = {
@@ -97,7 +98,7 @@ static void both_ends_of_a_range_are_inside(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
-    sample.share = 0.1f; // below 0.1 as a double
+    sample.share = 0.1f; // Less than 0.1 as a double.
     assert_int_equal(take(&sample, &own), HAIR_OK);
     sample.share = 0.9f;
     sample.count = 4000000000u;

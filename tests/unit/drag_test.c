@@ -1,4 +1,5 @@
-// drag_test.c - drag of cylinders by correlations, against what others measured and computed.
+// drag_test.c - drag of cylinders by correlations, compared with published measurements and
+// computations.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 
 #define PI 3.14159265358979323846
 
-// Without bound in a viscous flow: Kaplun 1957.
+// Return the drag in an unbounded viscous flow, by Kaplun 1957.
 static double slow_drag(double reynolds)
 {
     double e = 1 / (0.5 - 0.57721566 - log(reynolds / 8));
@@ -28,11 +29,12 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
         {10, 2.846},
         {20, 2.045},
         {40, 1.522},
-        // Park, Kwon and Choi 1998, mean of the flow that sheds vortices.
+        // Park, Kwon and Choi 1998, mean of the vortex-shedding flow.
         {60, 1.39},
         {80, 1.35},
         {100, 1.33},
-        // Wieselsberger 1922, NACA TN 121: read off its curve, whose lower end is Lamb's theory.
+        // Wieselsberger 1922, NACA TN 121, read off its curve. The lower end of the curve is Lamb's
+        // theory.
         {0.116, 54.1},
         {0.241, 30.5},
         {0.728, 13.2},
@@ -43,8 +45,9 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
         {63.6, 1.48},
         {196, 1.27},
         {356, 1.15},
-        // Navier and Stokes' equations, steady, solved for this test by second differences of the stream function and
-        // the vorticity out to 400 radii and more, on two grids; at 0.1 that gives 1 % more than Kaplun.
+        // Steady Navier-Stokes equations, solved for this test. The method is second differences of
+        // the stream function and the vorticity on two grids, out to 400 radii and more. At 0.1 the
+        // result is 1 % above Kaplun.
         {0.5, 16.86},
         {1, 10.50},
         {2, 6.76}};
@@ -55,7 +58,8 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
     }
 }
 
-// Bharti, Chhabra and Eswaran 2007 at a Prandtl number of 0.7, of which 1 has (1/0.7)^(1/3) as much.
+// Compare with Bharti, Chhabra and Eswaran 2007 at a Prandtl number of 0.7. Conversion to 1 is by
+// the factor (1/0.7)^(1/3).
 static void along_a_cylinder_it_is_what_heat_does(void** state)
 {
     (void)state;

@@ -165,7 +165,8 @@ static void refused_memory_is_a_memory_error(void** state)
     assert_non_null(strstr(ear.last_error, "out of memory"));
 }
 
-// Mesa chooses its driver once in a process, so this one is asked for in a child.
+// Return the exit code of a child that asks for an old driver. It needs a child because Mesa
+// chooses its driver once in a process.
 static int exit_code_of_an_old_driver(void)
 {
     struct ear ear = {0};

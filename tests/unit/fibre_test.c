@@ -1,4 +1,5 @@
-// fibre_test.c - the table of a fibre: no light is lost, and it leaves where rays traced through a cylinder leave it.
+// fibre_test.c - the scattering table of a fibre: energy is conserved, and lobes agree with rays
+// traced through a cylinder.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -45,11 +46,12 @@ static void the_more_a_fibre_absorbs_the_less_it_sends_on(void** state)
     hair_fibre_fill(&usual, table);
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {
         for (int i = 1; i < HAIR_FIBRE_COLUMNS; ++i) {
-            int little = i < HAIR_FIBRE_COLUMNS / 2; // Beyond, nothing that goes through comes out.
+            // Beyond this, no light leaves after passing through.
+            int little = i < HAIR_FIBRE_COLUMNS / 2;
             assert_true(table[2][row][i].x - table[2][row][i - 1].x <= (little ? -1e-6f : 0));
             assert_true(table[2][row][i].y <= table[2][row][i - 1].y);
         }
-        // What is reflected is not absorbed.
+        // Reflected light is not absorbed.
         assert_true(table[2][row][HAIR_FIBRE_COLUMNS - 1].y > 0.01f);
     }
 }
@@ -69,8 +71,9 @@ static double fresnel(double in, double out, double index)
     return 0.5 * (p * p + s * s);
 }
 
-// The angle by which light's way has been turned when it leaves a unit circle after `legs` legs inside, having come in
-// at height h along -x; by Snell's law at every meeting. share: of its light that leaves then; path: its way inside.
+// Return the angle by which a ray is deflected on leaving a unit circle after `legs` legs inside.
+// The ray enters at height h along -x, and is refracted by Snell's law. `share` is the fraction of
+// light that leaves then, and `path` the length inside.
 static double trace(double h, int legs, double index, double* share, double* path)
 {
     struct vec p = {sqrt(1 - h * h), h}, d = {-1, 0};
@@ -88,7 +91,8 @@ static double trace(double h, int legs, double index, double* share, double* pat
         *path += far;
         p = (struct vec){p.x + far * way.x, p.y + far * way.y};
         double meet = dot(p, way), leave = sqrt(1 - (1 - meet * meet) * index * index);
-        double r = fresnel(leave, meet, index); // As coming the other way, which is the same.
+        // The reflectance for the opposite direction is the same.
+        double r = fresnel(leave, meet, index);
         if (leg == legs) {
             *share *= 1 - r;
             struct vec n = {way.x * index + (leave - meet * index) * p.x,
@@ -100,8 +104,8 @@ static double trace(double h, int legs, double index, double* share, double* pat
     }
 }
 
-// Light that comes from +x and leaves at angle phi to it. The table's sum over the width is of as many rays, so that
-// only its own geometry is put to the test.
+// Compare lobes of light from +x that leaves at angle phi. The table sums over the width with as
+// many rays, so only its geometry is tested.
 static void lobes_lie_where_rays_traced_through_a_circle_leave_it(void** state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// gallery_test.c - hair-gallery as its users call it: a sheet of pictures, its rows, exit codes.
+// gallery_test.c - the command line of hair-gallery: a sheet of pictures, its rows, and exit codes.
 #include "tests/support/shell.h"
 
 #include <setjmp.h>
@@ -38,11 +38,11 @@ static void wrong_use_exits_with_2(void** state)
     hair_test_shell_expect_full("--list");
 }
 
-// Every picture that is listed can at least be begun: hair-capture knows its arguments.
+// Check that hair-capture accepts the arguments of every listed picture.
 static void every_row_has_arguments_that_hair_capture_takes(void** state)
 {
     (void)state;
-    expect(0, // They all reach what is wrong here on purpose.
+    expect(0, // All commands reach the error that is there on purpose.
            "$T --list | sed -n 's/^  .*: //p' | while read -r arguments; do eval " HAIR_BUILD_DIR
            "/hair-capture $arguments --frames 0:0 -o $D/a.png >$D/said 2>&1; "
            "if grep -v -- '--frames is 0:0' $D/said; then exit 1; fi; done",

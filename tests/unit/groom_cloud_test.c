@@ -1,4 +1,4 @@
-// groom_cloud_test.c - points cut in two, and searched for the nearest.
+// groom_cloud_test.c - a k-d tree of points: its construction, and searches for the nearest points.
 #include "lib/base/math.h"
 #include "lib/groom/cloud.h"
 #include "tests/support/host.h"
@@ -26,7 +26,7 @@ static int finish(void** state)
 
 #define COUNT 500
 
-// On a grid of `steps` per axis: few steps, many points alike.
+// Scatter points on a grid of `steps` per axis. With few steps, many points coincide.
 static void strew(float* points, uint32_t dimensions, uint32_t steps, uint32_t seed)
 {
     for (uint32_t i = 0; i < COUNT * dimensions; ++i)

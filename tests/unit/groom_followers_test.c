@@ -1,4 +1,4 @@
-// groom_followers_test.c - followers: bound to guides, grown around them, grown on a scalp.
+// groom_followers_test.c - followers: fitted to guides, grown around guides, and grown on a scalp.
 #include "tests/support/grooms.h"
 
 #include <hair/hair_asset.h>
@@ -44,9 +44,9 @@ static hair_vec3 root_of(const hair_groom* groom, uint32_t guide)
     return xyz(groom->rest[groom->guides[guide].first].position);
 }
 
-// Of full strands -------------------------------------------------------------------------------------------
+// Followers of full strands -----------------------------------------------------------------------
 
-// Over 10 cm by 10 cm; directions vary over it.
+// Evaluate a straight strand. Roots are in a square of 10 cm, and directions vary over it.
 static hair_vec3 straight(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -57,7 +57,8 @@ static hair_vec3 straight(float t, uint32_t strand, const void* user)
     return hair_add(root, hair_scale(hair_normalize(along, along), length * t));
 }
 
-// Waves of 4 cm that shift over the scalp, and swing out by 4 mm.
+// Evaluate a wavy strand. Waves are 4 cm long with an amplitude of 4 mm, and their phase varies
+// over the scalp.
 static hair_vec3 wavy(float t, uint32_t strand, const void* user)
 {
     hair_vec3 p = straight(t, strand, user);
@@ -67,10 +68,11 @@ static hair_vec3 wavy(float t, uint32_t strand, const void* user)
     return hair_add(p, hair_scale(hair_v3(sinf(phase), 0, cosf(phase)), 0.004f * fminf(30 * s, 1)));
 }
 
-// What `strand_set` HAIR_STRAND_SET_FULL makes of strands, against the strands: found by their roots.
+// Errors of the groom that HAIR_STRAND_SET_FULL makes of strands, which are found by their roots.
 struct fit {
-    double rms, worst, root; // as shares of each strand's length; root: m
-    double own; // rms when every follower were a copy of its guide, moved to its root
+    double rms, worst, root; // Relative to each strand's length. `root` is in metres.
+    // Root mean square error if every follower were a copy of its guide, moved to its root.
+    double own;
 };
 
 static double find_strand(const struct hair_test_strands* strands, hair_vec3 root, const float** found,
@@ -152,8 +154,8 @@ static void wavy_strands_are_followed_closely(void** state)
     struct hair_test_strands strands = hair_test_strands_make(2000, 32);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 32, wavy, NULL);
     struct fit fit = fit_strands("wavy", &strands, 200);
-    // Strands lie about 4 mm, 2.5 % of their length, from their guide, whose frame swings by 0.6 rad with its
-    // waves: that share of the distance no offset can follow.
+    // Strands are about 4 mm, 2.5 % of their length, from their guide. The guide's frame oscillates
+    // by 0.6 rad with its waves. Offsets cannot follow this fraction of the distance.
     assert_true(fit.rms < 0.6 * 0.025);
     assert_true(fit.rms < 0.4 * fit.own);
     assert_true(fit.root < 1e-6);
@@ -238,7 +240,7 @@ static void a_follower_is_as_long_as_its_strand(void** state)
     hair_groom_destroy(groom);
 }
 
-// Around guides ---------------------------------------------------------------------------------------------
+// Followers around guides -------------------------------------------------------------------------
 
 static void without_followers_asked_for_each_guide_is_drawn(void** state)
 {
@@ -284,16 +286,17 @@ static void followers_surround_their_guides_evenly_within_the_clump_radius(void*
         ++side[2 * (offset.x > 0) + (offset.z > 0)];
     }
     for (int i = 0; i < 100; ++i) assert_in_range(own[i], 50, 51);
-    // Within half the radius, one standard deviation: (1 - exp(-1/2)) / (1 - exp(-2)) = 0.455.
+    // The fraction within half the radius, which is one standard deviation, is (1 - exp(-1/2)) / (1
+    // - exp(-2)) = 0.455.
     assert_float_equal(inner / 5050.0, 0.455, 0.02);
     for (int i = 0; i < 4; ++i) assert_float_equal(side[i] / 5050.0, 0.25, 0.02);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }
 
-// On a scalp ------------------------------------------------------------------------------------------------
+// Followers on a scalp ----------------------------------------------------------------------------
 
-// Upright strands rooted at the vertices of a scalp of `cells` by `cells` over 20 cm.
+// Evaluate an upright strand, rooted at a vertex of a scalp of `cells` by `cells` over 20 cm.
 static hair_vec3 upright(float t, uint32_t strand, const void* user)
 {
     uint32_t row = *(const uint32_t*)user + 1;
@@ -301,14 +304,15 @@ static hair_vec3 upright(float t, uint32_t strand, const void* user)
                    0.2f * (float)(strand / row) / (float)(row - 1));
 }
 
-// The same where x < 0.1; beyond, they go down.
+// Evaluate a strand that is upright where x < 0.1, and hangs down beyond.
 static hair_vec3 parted(float t, uint32_t strand, const void* user)
 {
     hair_vec3 p = upright(t, strand, user);
     return p.x < 0.1f ? p : hair_v3(p.x, -p.y, p.z);
 }
 
-// The same, but from twice as far apart: no vertex of the scalp but every second has a guide.
+// Evaluate an upright strand whose root is between vertices of the scalp. The spacing is twice as
+// large, so only every second vertex has a guide.
 static hair_vec3 sparse(float t, uint32_t strand, const void* user)
 {
     hair_vec3 p = upright(t, strand, user);
@@ -384,7 +388,8 @@ static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_bet
         assert_true(follower->multi == 1);
         first += 1 - w1 - w2 >= fmaxf(w1, w2);
     }
-    // Guide 0 is drawn by weight: the heaviest of three is it in 11/18 of the cases over an even triangle.
+    // Guide 0 is drawn by weight. Over a uniform triangle it has the largest of three weights in
+    // 11/18 of the cases.
     assert_float_equal(first / 4000.0, 11.0 / 18, 0.03);
     hair_groom_destroy(groom);
     free_grown(&grown);
@@ -410,7 +415,8 @@ static void followers_are_between_guides_that_surround_them_where_corners_have_n
     free_grown(&grown);
 }
 
-// 40,000 followers over 1,600 cells of 25 each: a strewing at random has a standard deviation of 5.
+// Check 40,000 followers over 1,600 cells of 25 each. Independent random positions would have a
+// standard deviation of 5.
 static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
 {
     (void)state;
@@ -449,7 +455,7 @@ static void nothing_is_blended_across_a_parting(void** state)
         assert_float_equal(rise, (up ? 0.1f : -0.1f) * follower->length_ratio, 1e-5);
         apart += follower->weight1 == 0 || follower->weight2 == 0;
     }
-    assert_in_range(apart, 400, 1000); // A column of six, where there is one at all.
+    assert_in_range(apart, 400, 1000); // The parting is at most one column of six.
     hair_groom_destroy(groom);
     free_grown(&grown);
 }
@@ -458,7 +464,7 @@ static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewher
 {
     (void)state;
     struct grown grown = prepare(4, 4, 4000, upright);
-    float density[25] = {0}; // Columns of 0, 0, 1/2, 1, 1
+    float density[25] = {0}; // The densities of columns are 0, 0, 1/2, 1 and 1.
     for (int i = 0; i < 25; ++i) density[i] = fminf(fmaxf(0.5f * (float)(i % 5) - 0.5f, 0), 1);
     grown.desc.scalp_density = density;
     hair_groom* groom = make(&grown.desc);
@@ -480,7 +486,7 @@ static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewher
 static void triangles_of_other_densities_share_no_patch(void** state)
 {
     (void)state;
-    struct grown grown = prepare(20, 4, 4000, sparse); // Five followers on a triangle.
+    struct grown grown = prepare(20, 4, 4000, sparse); // Five followers per triangle.
     float density[441];
     for (int i = 0; i < 441; ++i) density[i] = i % 21 < 10 ? 0.25f : 0.75f;
     grown.desc.scalp_density = density;
@@ -493,7 +499,8 @@ static void triangles_of_other_densities_share_no_patch(void** state)
             if (p.x > 0.1001f) assert_float_equal(patch.density, 0.75f, 1e-6);
         }
     }
-    // But those of one do: of 800 triangles the 40 between the two densities have patches of their own.
+    // Triangles of equal density share patches. Among 800 triangles, the 40 between the two
+    // densities have patches of their own.
     assert_true(groom->info.patch_count < 200);
     hair_groom_destroy(groom);
     free_grown(&grown);
@@ -503,7 +510,7 @@ static void the_scalp_is_scaled_and_turned_as_the_strands_are(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 1000, upright);
-    // In centimetres, with z up: (x, y, z) of the library are (x, -z, y) there.
+    // Units are centimetres, with z up. A point (x, y, z) of the library is (x, -z, y) there.
     for (uint32_t i = 0; i < grown.strands.vertex_count + grown.scalp.vertex_count; ++i) {
         float* p = i < grown.strands.vertex_count
                        ? grown.strands.positions + 3 * i

@@ -1,4 +1,4 @@
-// groom_guides_test.c - which strands are simulated, and their rest shapes.
+// groom_guides_test.c - selection of the strands that are simulated, and their rest shapes.
 #include "tests/support/grooms.h"
 
 #include <setjmp.h>
@@ -48,14 +48,14 @@ static hair_vec3 vertex(const hair_groom* groom, uint32_t guide, uint32_t i)
     return xyz(groom->rest[groom->guides[guide].first + i].position);
 }
 
-// Curls of 2 turns, the strand's number apart.
+// Evaluate a curl of 2 turns, offset by the strand's number.
 static hair_vec3 curl(float t, uint32_t strand, const void* user)
 {
     (void)user;
     return hair_v3(0.1f * (float)strand + 0.02f * cosf(12.566f * t), -0.2f * t, 0.02f * sinf(12.566f * t));
 }
 
-// Roots all over a sphere, strands straight away from it.
+// Evaluate a straight strand that points away from a sphere, with roots all over the sphere.
 static hair_vec3 hedgehog(float t, uint32_t strand, const void* user)
 {
     float z = 1 - 2 * ((float)strand + 0.5f) / *(const float*)user, angle = 2.39996f * (float)strand;
@@ -97,7 +97,7 @@ static void guides_are_as_many_as_asked_for_or_one_in_ten(void** state)
     }
 }
 
-// 990 strands hang, 10 at the same place stand up.
+// Evaluate a strand. 990 strands hang, and 10 at the same place stand up.
 static hair_vec3 few_stand(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -126,8 +126,8 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     hair_test_strands_free(&strands);
 }
 
-// Of points chosen at random from a plane the nearest is half their spacing (density^-1/2) away on average,
-// of a square lattice 0.38 of it.
+// Check the mean distance to the nearest guide, relative to the spacing density^-1/2. It is half
+// for independent random points in a plane, and 0.38 for a square lattice.
 static void guides_lie_more_evenly_than_by_chance(void** state)
 {
     (void)state;
@@ -146,7 +146,7 @@ static void guides_lie_more_evenly_than_by_chance(void** state)
     hair_test_strands_free(&strands);
 }
 
-// By turns over a square of 10 cm, and over one of 1 cm beside it.
+// Evaluate a strand. Roots alternate between a square of 10 cm and one of 1 cm beside it.
 static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -155,7 +155,8 @@ static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
     return hair_v3(x + size * hair_random(&random), 0.1f * t, size * hair_random(&random));
 }
 
-// For as many strands as over the square of 1 cm, (10^2)^(2/3) = 22 times as many guides over that of 10 cm.
+// Check the distribution of guides. With equal numbers of strands, the square of 10 cm has
+// (10^2)^(2/3) = 22 times as many guides as the square of 1 cm.
 static void guides_go_where_strands_differ_more_than_where_they_are_many(void** state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void strands_that_are_all_alike_are_shared_out_too(void** state)
     struct hair_test_strands strands = hair_test_strands_make(300, 5);
     for (int i = 0; i < 300; ++i) {
         hair_test_strands_add(&strands, 5, hedgehog, &count);
-        strands.count -= 1; // The same strand again.
+        strands.count -= 1; // The next strand is the same one.
         strands.vertices[i] = 5;
     }
     strands.count = 300;
@@ -198,7 +199,8 @@ static void strands_that_are_all_alike_are_shared_out_too(void** state)
     hair_test_strands_free(&strands);
 }
 
-// Two are pinned by the scalp: a strand of fewer than four gets more, so that it moves, where guide_vertices allows.
+// Check the number of vertices. The scalp pins two, so a strand of fewer than four gets more if
+// guide_vertices permits, and can move.
 static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_may(void** state)
 {
     (void)state;
@@ -239,8 +241,8 @@ static double length_of(const float* p, uint32_t vertices)
     return sum;
 }
 
-// Arcs of 4 pi / 31 of turn per segment, at a slope: the chord is (turn per segment)^2 / 24 shorter, by the
-// share of the motion that is circular.
+// Check lengths. Arcs have 4 pi / 31 of rotation per segment, at a slope. A chord is shorter by
+// (rotation per segment)^2 / 24, times the circular fraction of the motion.
 static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples(void** state)
 {
     (void)state;
@@ -283,8 +285,8 @@ static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** st
     hair_test_strands_free(&strands);
 }
 
-// Over the upper half of the hedgehog: where neighbours' directions differ by an angle, their frames may
-// differ by little more.
+// Check frames over the upper half of the sphere. The frames of neighbours may differ by slightly
+// more than their directions.
 static void root_frames_vary_as_smoothly_as_the_roots(void** state)
 {
     (void)state;
@@ -305,13 +307,14 @@ static void root_frames_vary_as_smoothly_as_the_roots(void** state)
     hair_test_strands_free(&strands);
 }
 
-// 1 or -1 when both are the same rotation.
+// Return 1 or -1 if both are the same rotation.
 static float same_turn(hair_quat a, hair_vec4 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
 
-// F_i = T_i F_(i-1): vertex by vertex from the root frame, lengths and directions alone.
+// Check F_i = T_i F_(i-1), the frames along a guide, where T_i is the rotation at vertex i. Lengths
+// and directions alone reproduce the vertices from the root frame.
 static void lengths_and_directions_give_the_guide_back(void** state)
 {
     (void)state;
@@ -366,12 +369,13 @@ static hair_vec3 zigzag(float t, uint32_t strand, const void* user)
     return hair_v3(0.1f * (float)strand, (uint32_t)(t * (float)(vertices - 1) + 0.5f) % 2 ? 0.1f : 0, 0);
 }
 
-// Samples at equal distances all fall on the ends of the zigzag, or on one of them.
+// Check zigzag strands. Equidistant samples may all fall on both ends of the zigzag, or on one end.
 static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(3, 256);
-    static const uint32_t vertices[] = {4, 32, 241}; // Of 240 segments 41 samples take every sixth vertex.
+    // With 240 segments, 41 samples take every sixth vertex.
+    static const uint32_t vertices[] = {4, 32, 241};
     for (int i = 0; i < 3; ++i) hair_test_strands_add(&strands, vertices[i], zigzag, &vertices[i]);
     for (uint32_t guide_vertices = 2; guide_vertices <= HAIR_MAX_GUIDE_VERTICES; ++guide_vertices) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
@@ -393,7 +397,8 @@ static void strands_that_run_to_and_fro_become_sound_guides(void** state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
 
-// All at the root but the tip; all but the root at the tip; pairs.
+// Evaluate a strand whose vertices are bunched: all except the tip at the root, all except the root
+// at the tip, or in pairs.
 static hair_vec3 bunch(float t, uint32_t strand, const void* user)
 {
     uint32_t i = (uint32_t)(t * *(const float*)user + 0.5f);

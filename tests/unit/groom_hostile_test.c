@@ -1,4 +1,4 @@
-// groom_hostile_test.c - whatever the numbers, a groom is refused with a sentence or sound.
+// groom_hostile_test.c - a groom of any numbers is valid, or refused with a message.
 #include "tests/support/grooms.h"
 
 #include <setjmp.h>
@@ -30,7 +30,8 @@ static uint32_t below(struct hostile* h, uint32_t limit)
     return (uint32_t)(hair_random(&h->random) * (float)limit);
 }
 
-// `wild` in 100 of the numbers are of any size, or none.
+// Return a random number. With a probability of `wild` / 100 it has an extreme value, or is not
+// finite.
 static float number(struct hostile* h, uint32_t wild)
 {
     static const float extremes[] = {0, 1, -1, 1e-30f, 1e6f, -1e6f, 7e5f, 1e18f, 3e38f, 1e-6f, INFINITY, NAN};
@@ -58,7 +59,7 @@ static void invent(struct hostile* h, uint32_t seed)
         left -= h->vertices[i];
     }
     for (uint32_t i = 0; i < 3 * VERTICES; ++i) h->positions[i] = number(h, wild);
-    // Strands that stand still, and strands that run to and fro.
+    // Some strands have repeated vertices, and some alternate.
     for (uint32_t i = 6; i < 3 * VERTICES; ++i)
         if (seed % 3 == 1 && below(h, 2)) h->positions[i] = h->positions[i - 6];
     h->desc.positions = h->positions;

@@ -1,4 +1,5 @@
-// groom_maps_test.c - maps on the scalp: which followers are drawn where, in which order, and how thick.
+// groom_maps_test.c - maps on the scalp: the followers drawn at each place, their order, and their
+// thickness.
 #include "tests/support/grooms.h"
 
 #include <setjmp.h>
@@ -23,12 +24,12 @@ static int finish(void** state)
     return test.blocks ? -1 : 0;
 }
 
-#define SIDE 0.2f // m: of the scalp, whose uv are x / SIDE and z / SIDE
+#define SIDE 0.2f // Metres. The scalp's texture coordinates are x / SIDE and z / SIDE.
 #define CELLS 5
 #define VERTICES ((CELLS + 1) * (CELLS + 1))
 #define TRIANGLES (2 * CELLS * CELLS)
 
-// Guides at the scalp's vertices, straight up, and followers between them; or all strands given.
+// A groom of upright guides at the scalp's vertices and followers between them, or of full strands.
 struct grown {
     struct hair_test_strands strands;
     struct hair_test_scalp scalp;
@@ -49,7 +50,7 @@ static hair_vec3 strewn(float t, uint32_t strand, const void* user)
     (void)user;
     uint32_t random = hair_hash(strand);
     float x = SIDE * hair_random(&random);
-    return hair_v3(x, 0.001f + 0.1f * t, SIDE * hair_random(&random)); // A little above the scalp.
+    return hair_v3(x, 0.001f + 0.1f * t, SIDE * hair_random(&random)); // Slightly above the scalp.
 }
 
 static void prepare(struct grown* grown, uint32_t followers, int all)
@@ -104,13 +105,13 @@ static hair_vec3 root_of(const hair_groom* groom, uint32_t follower)
     return hair_test_single(groom, &groom->followers[follower], 0);
 }
 
-// How many followers of a patch are drawn of a set: as glsl/patch.glsl.
+// Return how many followers of a patch are drawn with a set, as in glsl/patch.glsl.
 static float wanted_of(const struct hair_patch* patch, float map_density, float share)
 {
     return (float)patch->count * patch->density * map_density * share;
 }
 
-// Drawn in each of ten columns.
+// Count the drawn followers in each of ten columns.
 static void count_columns(const hair_groom* groom, float share, double count[10])
 {
     memset(count, 0, 10 * sizeof *count);
@@ -143,7 +144,8 @@ static void nothing_is_drawn_where_an_image_is_black(void** state)
             sum += patch.count;
             assert_in_range(patch.count, 1, HAIR_MAX_ISOLINES);
             for (uint32_t k = 0; (float)k < wanted_of(&patch, patch.map_density.y, 1); ++k) {
-                float u = 10 * root_of(groom, patch.first + k).x / SIDE; // Black from middle to middle.
+                // The image is black between the middles of its black texels.
+                float u = 10 * root_of(groom, patch.first + k).x / SIDE;
                 assert_false((u > 2.501f && u < 4.499f) || (u > 7.501f && u < 8.499f));
             }
         }
@@ -153,15 +155,16 @@ static void nothing_is_drawn_where_an_image_is_black(void** state)
     }
 }
 
-// A column of n, each drawn by chance of its own, would be off by sqrt(n / 4), 14 of 800; quartered patches keep it
-// nearer than that.
+// Check a ramp. If each of n followers in a column were drawn independently, the error would be
+// sqrt(n / 4), which is 14 for 800. Patches divided in four have a smaller error.
 static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(void** state)
 {
     (void)state;
     static const float ramp[2] = {0, 1};
     struct grown grown;
     prepare(&grown, 8000, 0);
-    grown.set[0].density = image(ramp, 2, 1); // 0 up to a quarter, 1 from three quarters on
+    // The image is 0 up to a quarter, and 1 from three quarters on.
+    grown.set[0].density = image(ramp, 2, 1);
     grown.desc.map_sets[0] = &grown.set[0];
     hair_groom* groom = make(&grown.desc);
     for (int k = 1; k <= 4; ++k) {
@@ -176,7 +179,7 @@ static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(vo
     free_grown(&grown);
 }
 
-// Stripes narrower than patches, of two densities near enough to share one.
+// Check stripes narrower than patches, of two densities that are similar enough to share a patch.
 static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
 {
     (void)state;
@@ -199,7 +202,7 @@ static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
                 drawn[stripe] += (double)fminf(fmaxf(wanted - (float)j, 0), 1);
             }
         }
-        // A quarter of a stripe is on the way to the next.
+        // A quarter of a stripe is the transition to the next stripe.
         assert_float_equal(drawn[0] / all[0], (0.55 * 7 + 0.75) / 8 * k / 4, 0.015);
         assert_float_equal(drawn[1] / all[1], (0.75 * 7 + 0.55) / 8 * k / 4, 0.015);
     }
@@ -243,7 +246,7 @@ static float of_set(const hair_vec4* v, int set)
     return (&v->x)[set];
 }
 
-// Each set's own density and thickness, in one order of followers for all.
+// Check that each set has its own density and thickness, with one order of followers for all sets.
 static void patches_tell_of_every_set(void** state)
 {
     (void)state;
@@ -264,13 +267,15 @@ static void patches_tell_of_every_set(void** state)
         const struct hair_patch* patch = &groom->patches[i];
         for (int set = 0; set < 4; ++set)
             sum[set] += (double)(of_set(&patch->map_density, set) * (float)patch->count);
-        assert_float_equal(patch->map_density.w, patch->map_density.z, 0); // What the last says.
+        // Missing sets repeat the last set.
+        assert_float_equal(patch->map_density.w, patch->map_density.z, 0);
         for (uint32_t k = 0; k < patch->count; ++k) {
             float u = root_of(groom, patch->first + k).x / SIDE;
             float ramp = fminf(fmaxf(2 * u - 0.5f, 0), 1);
             assert_float_equal(patch->map_density.x, 1 - ramp, 0.2501);
             assert_float_equal(patch->map_density.y, ramp, 0.2501);
-            float most = fmaxf(1, 0.5f + 1.5f * ramp); // What the follower's own radius has of it.
+            // Maximum over all sets, which the follower's own radius includes.
+            float most = fmaxf(1, 0.5f + 1.5f * ramp);
             assert_float_equal(patch->map_thickness.x, 1 / most, 0.1251);
             assert_float_equal(patch->map_thickness.y, (0.5f + 1.5f * ramp) / most, 0.1251);
         }

@@ -1,4 +1,4 @@
-// groom_paint_test.c - the radii and colours that strands bring along are those of the followers that are made of them.
+// groom_paint_test.c - followers take the radii and colours of the strands that they are made of.
 #include "tests/support/grooms.h"
 
 #include <setjmp.h>
@@ -26,7 +26,8 @@ static int finish(void** state)
     return test.blocks ? -1 : 0;
 }
 
-// Its place on the x axis is a strand's red at the root, on the z axis its green at the tip.
+// Make a groom. A strand's red at the root is its x coordinate, and its green at the tip is its z
+// coordinate.
 static hair_groom* make(struct hair_test_strands* strands, hair_groom_desc* desc, float* colors, float* radii)
 {
     hair_groom* groom = NULL;
@@ -65,7 +66,8 @@ static void followers_of_strands_have_what_these_have(void** state)
     hair_test_strands_free(&strands);
 }
 
-// What grows between guides: its red is that of the place where it grows, as far as weights tell it.
+// Check followers between guides. Their red is approximately the x coordinate of their root, as the
+// weights interpolate it.
 static void followers_between_guides_have_what_lies_between(void** state)
 {
     (void)state;
@@ -126,7 +128,7 @@ static void wrong_values_are_named(void** state)
         radii[5] = 1;
     }
     assert_null(groom);
-    memset(radii, 0, sizeof radii); // All alike, then.
+    memset(radii, 0, sizeof radii); // All radii are equal then.
     assert_int_equal(hair_groom_create(&desc, &groom), HAIR_OK);
     assert_float_equal(groom->followers[3].offset[0].w, 1, 0);
     hair_groom_destroy(groom);

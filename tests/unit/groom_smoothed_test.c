@@ -1,4 +1,5 @@
-// groom_smoothed_test.c - guides and followers at rest, as the groom fits them, are those that will be drawn.
+// groom_smoothed_test.c - guides and followers at rest, as fitted by the groom, agree with those
+// that are drawn.
 #include "tests/support/grooms.h"
 
 #include <setjmp.h>
@@ -10,7 +11,7 @@
 
 #include "lib/reference/reference.h"
 
-// Curved strands, 2 cm apart, about 20 cm long.
+// Evaluate a curved strand. Roots are 2 cm apart, and lengths about 20 cm.
 static hair_vec3 curved(float t, uint32_t strand, const void* user)
 {
     (void)user;
@@ -25,10 +26,10 @@ static struct hair_test_host host;
 struct fixture {
     hair_groom* groom;
     struct hair_reference_sample* samples;
-    uint32_t each; // samples of a guide
+    uint32_t each; // Samples of a guide.
 };
 
-// A third of the strands has more vertices than any guide may.
+// Create a groom. A third of its strands have more vertices than a guide may have.
 static struct fixture start(uint32_t guide_vertices)
 {
     struct fixture fixture = {0};
@@ -42,7 +43,7 @@ static struct fixture start(uint32_t guide_vertices)
     assert_int_equal(hair_groom_create(&desc, &fixture.groom), HAIR_OK);
     hair_test_strands_free(&strands);
 
-    // At rest, with the head where the groom is.
+    // The guides are at rest, and the head is at the groom's position.
     hair_groom* groom = fixture.groom;
     static struct hair_step_params params;
     params.rotation_before = params.rotation_after = params.rotation_now = (hair_vec4){0, 0, 0, 1};
@@ -71,7 +72,8 @@ static void finish(struct fixture* fixture)
     assert_int_equal(host.blocks, 0);
 }
 
-static const uint32_t sizes[] = {2, 3, 4, 32, 33, 64, 65, 128, 129, 255, 256}; // of guides
+// Numbers of vertices of guides.
+static const uint32_t sizes[] = {2, 3, 4, 32, 33, 64, 65, 128, 129, 255, 256};
 #define SIZES (sizeof sizes / sizeof *sizes)
 
 static void assert_vec3(hair_vec3 a, const double b[3], double tolerance)

@@ -1,4 +1,4 @@
-// groom_test.c - grooms as a whole: what is refused, what is promised of all, memory, time.
+// groom_test.c - grooms as a whole: refused input, general guarantees, memory, and time.
 #include "tests/support/grooms.h"
 
 #include <hair/hair_asset.h>
@@ -44,7 +44,7 @@ static void assert_refused(const hair_groom_desc* desc, const char* words)
     test.errors = 0;
 }
 
-// One for each of the four sources of followers.
+// An example for each of the four sources of followers.
 struct example {
     struct hair_test_strands strands;
     struct hair_test_scalp scalp;
@@ -232,7 +232,7 @@ static void memory_may_run_out_anywhere_and_nothing_is_left_behind(void** state)
             test.refuse = n;
             hair_result result = hair_groom_create(&example.desc[source], &groom);
             if (!result) {
-                assert_true(n > 10); // The refusals were reached.
+                assert_true(n > 10); // The test has reached the refusals.
                 hair_groom_destroy(groom);
                 assert_int_equal(test.blocks, 0);
                 break;
@@ -303,7 +303,7 @@ static void followers_of_a_patch_are_neighbours(void** state)
     struct hair_test_strands strands = hair_test_fur(20000);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     hair_groom* groom = make(&desc);
-    // 64 of 20,000 strands on a square metre take a square of 57 mm.
+    // 64 of 20,000 strands per square metre take a square of 57 mm.
     double sum = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
@@ -329,7 +329,7 @@ static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5000;
     hair_groom* groom = make(&desc);
-    // Of ten followers of a guide, some but not all are in the first half of the patch.
+    // The first half of a patch has some of the ten followers of a guide, but not all.
     uint32_t *first = calloc(500, sizeof *first), split = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i)
         for (uint32_t j = 0; j < groom->patches[i].count / 2; ++j)
@@ -362,7 +362,7 @@ static void followers_differ_in_their_seeds_and_with_the_seed_of_the_groom(void*
     qsort(seeds, 4000, sizeof *seeds, compare);
     uint32_t alike = 0;
     for (int i = 1; i < 4000; ++i) alike += seeds[i] == seeds[i - 1];
-    assert_in_range(alike, 0, 2); // 4000^2 / 2^33 of 32 bits would meet by chance.
+    assert_in_range(alike, 0, 2); // About 4000^2 / 2^33 pairs of 32 bits are equal by chance.
     hair_test_strands_free(&strands);
 }
 

@@ -1,4 +1,5 @@
-// groom_tool_test.c - hair-groom as its users call it: files, pipes, exit codes, nothing left half written.
+// groom_tool_test.c - the command line of hair-groom: files, pipes, exit codes, and no partially
+// written files.
 #include "tests/support/files.h"
 #include "tests/support/shell.h"
 
@@ -160,7 +161,7 @@ static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
            "$T convert $D/a.hair $D/link.hair && test -L $D/link.hair && stat -c %a $D/old.hair && "
            "$T info $D/old.hair",
            "640");
-    expect(0, "ls $D | grep -c 'hair\\.......' || true", "0"); // No temporary names.
+    expect(0, "ls $D | grep -c 'hair\\.......' || true", "0"); // There are no temporary files.
 }
 
 static void a_reader_that_went_away_is_a_failed_write(void** state)
@@ -179,7 +180,8 @@ static void help_and_version_are_printed(void** state)
     expect(0, "$T --version", "hair-groom 0.");
     hair_test_shell_expect_full("--help");
     hair_test_shell_expect_full("--version");
-    expect(0, "$T info --help --scale", "--scale"); // At once, whatever follows.
+    // Help is printed at once, ignoring the arguments that follow.
+    expect(0, "$T info --help --scale", "--scale");
 }
 
 int main(void)

@@ -1,4 +1,4 @@
-// gusts_test.c - the texture of gusts: its spectrum, its standard deviation, that it has no sources, its seed.
+// gusts_test.c - the texture of gusts: spectrum, standard deviation, zero divergence, and seed.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -59,7 +59,7 @@ static void its_standard_deviation_is_1_where_it_is_read(void** state)
     hair_free(&host->host, gusts);
 }
 
-// Of the waves themselves, whose derivative along an axis this is.
+// Check the divergence. `slope` is the spectral derivative along an axis.
 static void no_air_comes_from_nowhere(void** state)
 {
     struct hair_test_host* host = *state;
@@ -82,8 +82,8 @@ static void no_air_comes_from_nowhere(void** state)
     hair_free(&host->host, gusts);
 }
 
-// Along x, of the x components: F(k) ~ (1 + (k l)^2)^(-5/6), of waves that are not so short that the texture lacks others of
-// their length.
+// Check the spectrum along x of the x component: F(k) ~ (1 + (k l)^2)^(-5/6), with wave number k
+// and length scale l. Waves so short that the texture lacks others of similar length are left out.
 static void its_spectrum_is_von_karmans(void** state)
 {
     struct hair_test_host* host = *state;

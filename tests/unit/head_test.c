@@ -1,4 +1,4 @@
-// head_test.c - the bust that tools draw: on the built-in scalp, and around its colliders.
+// head_test.c - the bust that tools draw, on the built-in scalp and around its colliders.
 #include "tests/support/host.h"
 
 #include <hair/hair_asset.h>
@@ -51,19 +51,22 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
         point p = load_point(mesh.positions + 3 * i), n = load_point(mesh.normals + 3 * i);
         if (p.y > HEAD_BOTTOM + 0.01f) assert_true(fabsf(head_distance(p)) < 1.5e-3f);
-        assert_true(fabsf(dot(n, n) - 1) < 0.2f); // Between two vertices it is not made unit again.
+        // Normals are not normalized between two vertices.
+        assert_true(fabsf(dot(n, n) - 1) < 0.2f);
         for (int k = 0; k < 3; ++k) assert_true(mesh.colors[3 * i + k] > 0 && mesh.colors[3 * i + k] < 1);
     }
-    // The garment is there, and nowhere but below the collar.
+    // The garment exists, and only below the collar.
     uint32_t worn = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
-        int is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2]; // Blue, as skin never is.
+        // Cloth is blue, and skin never is.
+        int is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2];
         float below = head_below_collar(load_point(mesh.positions + 3 * i));
         assert_true(is_cloth ? below > -1e-3f : below < 1e-3f);
         worn += (uint32_t)is_cloth;
     }
     assert_true(worn > 3000);
-    // The volume under a closed surface that faces outwards is positive: about that of a bust of 25 kg.
+    // The volume under a closed, outward-facing surface is positive. It is about the volume of a
+    // bust of 25 kg.
     double volume = 0;
     uint32_t cloth = 0;
     for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
@@ -83,7 +86,7 @@ static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
 
 static float collider_distance(const hair_collider* collider, point p)
 {
-    // The axis is +y turned by the quaternion.
+    // The axis is +y rotated by the quaternion.
     const float* q = collider->rotation;
     point axis = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
                   2 * (q[1] * q[2] + q[3] * q[0])};
@@ -92,7 +95,7 @@ static float collider_distance(const hair_collider* collider, point p)
     return length(sub(d, (point){axis.x * t, axis.y * t, axis.z * t})) - collider->size[0];
 }
 
-// The roots have to be outside, and hair must find the skull where it is seen.
+// Check that roots are outside the colliders, and that the skull is at the place where it is drawn.
 static void colliders_fill_the_scalp_from_inside(void** state)
 {
     (void)state;

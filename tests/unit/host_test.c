@@ -1,4 +1,4 @@
-// host_test.c - memory and log go through the host and nowhere else.
+// host_test.c - memory and log go only through the application's callbacks.
 #include "tests/support/support.h"
 
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static void memory_is_zero_and_aligned(void** state)
     }
 }
 
-// The test host counts what comes back in bytes.
+// Check sizes at deallocation, which the test host counts in bytes.
 static void what_is_freed_is_as_large_as_what_was_allocated(void** state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-// image_error_test.c - the difference of two pictures is what the published evaluator of FLIP says it is.
+// image_error_test.c - the difference of two pictures agrees with the published evaluator of FLIP.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 enum { WIDTH = 64, HEIGHT = 48, PIXELS = WIDTH * HEIGHT };
 
-// Ramps, edges of arcs, and noise; the second picture is another of the same kind.
+// Paint ramps, edges of arcs, and noise. `which` selects one of two similar pictures.
 static void paint(int which, float* out)
 {
     for (int y = 0; y < HEIGHT; ++y)
@@ -42,7 +42,8 @@ static double mean(const float* map)
 static void its_map_is_that_of_the_published_evaluator(void** state)
 {
     (void)state;
-    // Of flip-evaluator 1.7, float arithmetic: these two pictures, LDR, 67.0206 pixels per degree.
+    // Values of flip-evaluator 1.7 in float arithmetic, for these two pictures, LDR, 67.0206 pixels
+    // per degree.
     static const struct {
         int x, y;
         double error;
@@ -80,7 +81,7 @@ static void colours_are_as_far_apart_as_the_published_evaluator_has_them(void** 
         float a[3], b[3];
         double error;
     } expected[] = {{{0, 0, 0}, {1, 1, 1}, 0.967390954},
-                    {{0, 1, 0}, {0, 0, 1}, 1}, // The most that there is.
+                    {{0, 1, 0}, {0, 0, 1}, 1}, // The maximum.
                     {{0.5f, 0.5f, 0.5f}, {0.52f, 0.5f, 0.5f}, 0.077514656},
                     {{1, 0, 0}, {0, 1, 1}, 0.979907870}};
     static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
@@ -117,7 +118,8 @@ static void what_is_too_fine_to_be_seen_differs_less(void** state)
     static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
     for (int i = 0; i < PIXELS; ++i)
         for (int k = 0; k < 3; ++k) {
-            a[3 * i + k] = (float)((i + i / WIDTH) % 2); // a board of pixels, and its negative
+            // A chequerboard of pixels, and its inverse.
+            a[3 * i + k] = (float)((i + i / WIDTH) % 2);
             b[3 * i + k] = 1 - a[3 * i + k];
         }
     double before = 1;

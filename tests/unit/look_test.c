@@ -1,5 +1,5 @@
-// look_test.c - kinds of looks, colours and curls like an example are looks that the library takes; and what they make of a
-// strand has the slopes that it should.
+// look_test.c - the presets, colours and fitted curls of looks are valid, and tangents of the
+// styled strands are the slopes of their positions.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -27,7 +27,7 @@ static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
         hair_look_color(&kind[i], HAIR_COLOR_RED);
         hair_look red = kind[i];
         kind[i].density = 0.5f;
-        for (int again = 0; again < 2; ++again) // Whatever was set before.
+        for (int again = 0; again < 2; ++again) // Independent of the previous settings.
             assert_int_equal(
                 hair_look_apply_preset(&kind[i], (hair_look_preset)(again ? i : (i + 1) % HAIR_LOOK_COUNT)),
                 HAIR_OK);
@@ -60,7 +60,7 @@ static void each_has_a_name_of_its_own(void** state)
     assert_null(hair_color_name(HAIR_COLOR_COUNT));
 }
 
-// A turn of a helix of 7 mm in 40 mm, about an axis that is none of the world's.
+// Make a turn of a helix about an oblique axis.
 static void make_helix(float* positions, uint32_t vertices, double radius, double height)
 {
     for (uint32_t i = 0; i < vertices; ++i) {
@@ -102,7 +102,7 @@ static void examples_that_are_none_are_refused(void** state)
     assert_int_equal(hair_look_fit_curl(&look, NULL, 20), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_fit_curl(&look, positions, 2), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_fit_curl(&look, positions, 70000), HAIR_ERROR_ARGUMENT);
-    make_helix(positions, 30, 0.007, 0.0001); // As good as closed.
+    make_helix(positions, 30, 0.007, 0.0001); // The turn is almost closed.
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     make_helix(positions, 30, 0.2, 0.04);
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
@@ -113,20 +113,22 @@ static void examples_that_are_none_are_refused(void** state)
         assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     }
     assert_memory_equal(&look, &untouched, sizeof look);
-    make_helix(positions, 30, 0, 0.04); // Straight: no curl, and nothing that is not a number.
+    // The strand is straight. It has no curl, and the result is finite.
+    make_helix(positions, 30, 0, 0.04);
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_OK);
     assert_true(look.curl_radius < 1e-6f);
-    for (int i = 0; i < 30; ++i) memcpy(positions + 3 * i, positions, 12); // No length.
+    // The strand has no length.
+    for (int i = 0; i < 30; ++i) memcpy(positions + 3 * i, positions, 12);
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_apply_preset(&look, HAIR_LOOK_COUNT), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_apply_preset(NULL, HAIR_LOOK_CURLY), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_look_color(&look, HAIR_COLOR_COUNT), HAIR_ERROR_ARGUMENT);
-    memset(&look, 0, sizeof look); // Not made by the default function.
+    memset(&look, 0, sizeof look); // The default function did not make this look.
     assert_int_equal(hair_look_apply_preset(&look, HAIR_LOOK_CURLY), HAIR_ERROR_VERSION);
     assert_int_equal(hair_look_color(&look, HAIR_COLOR_RED), HAIR_ERROR_VERSION);
 }
 
-// Three guides that go round circles of their own, of 64 samples each.
+// Make three guides on circles of their own, with 64 samples each.
 #define SAMPLES 64
 static void make_guides(struct hair_reference_sample* samples, double bend)
 {
@@ -144,7 +146,7 @@ static void make_guides(struct hair_reference_sample* samples, double bend)
         }
 }
 
-// The greatest angle between a tangent and the way from shortly before to shortly after.
+// Return the maximum angle between a tangent and the difference of positions around it.
 static double worst_tangent(hair_look look, double bend, double step)
 {
     static struct hair_reference_sample samples[3 * SAMPLES];
@@ -187,7 +189,8 @@ static void tangents_are_the_slopes_of_positions(void** state)
             print_message("    %s %d: %.2g rad, with bent guides %.2g\n",
                           hair_look_name((hair_look_preset)kind), mode, straight, bent);
             assert_true(straight < 1e-3);
-            // Positions go straight from sample to sample of a guide, tangents do not: half of 10 rad/m times 3.5 mm.
+            // Positions are linear between samples of a guide, and tangents are not. The angle is
+            // half of 10 rad/m times 3.5 mm.
             assert_true(bent < 0.05);
         }
 }

@@ -87,7 +87,8 @@ static void the_rotation_between_two_directions_is_the_least(void** state)
         if (i == 1) b = a;
         hair_quat q = hair_quat_between(a, b);
         near3(hair_rotate(q, a), b, i == 0 ? 1e-3 : 1e-4);
-        if (i > 1) near3(hair_rotate(q, hair_cross(a, b)), hair_cross(a, b), 1e-5); // Its axis stays.
+        // The axis is unchanged.
+        if (i > 1) near3(hair_rotate(q, hair_cross(a, b)), hair_cross(a, b), 1e-5);
     }
 }
 
@@ -96,7 +97,7 @@ static void axes_become_a_quaternion_and_back(void** state)
     (void)state;
     for (int i = 0; i < CASES; ++i) {
         hair_quat q = any_rotation();
-        if (i < 4) q = (hair_quat){i == 0, i == 1, i == 2, i == 3}; // half turns, and none
+        if (i < 4) q = (hair_quat){i == 0, i == 1, i == 2, i == 3}; // Half turns, and the identity.
         hair_vec3 x = hair_rotate(q, hair_v3(1, 0, 0)), y = hair_rotate(q, hair_v3(0, 1, 0)),
                   z = hair_rotate(q, hair_v3(0, 0, 1));
         hair_quat p = hair_quat_from_axes(x, y, z);
@@ -111,7 +112,7 @@ static void slerp_goes_evenly_and_the_shortest_way(void** state)
         float angle = between(-3, 3), t = between(0, 1);
         hair_quat a = {0, 0, 0, 1};
         hair_quat b = {0, sinf(angle / 2), 0, cosf(angle / 2)};
-        if (i % 2) b = (hair_quat){-b.x, -b.y, -b.z, -b.w}; // the same rotation
+        if (i % 2) b = (hair_quat){-b.x, -b.y, -b.z, -b.w}; // This is the same rotation.
         if (i % 5 == 0) angle *= 0.01f, b = (hair_quat){0, sinf(angle / 2), 0, cosf(angle / 2)};
         hair_quat q = hair_slerp(a, b, t);
         near3(hair_rotate(q, hair_v3(1, 0, 0)), hair_v3(cosf(t * angle), 0, -sinf(t * angle)), 1e-5);
@@ -132,8 +133,8 @@ static void matrices_multiply_column_by_column(void** state)
         }
 }
 
-// Of n even numbers in b bins, each bin has n/b give or take sqrt(n/b); five of these are one case in a
-// million.
+// Check bins of n uniform numbers. Each of b bins has n/b numbers with a standard deviation of
+// sqrt(n/b). Five standard deviations occur in one of a million cases.
 static void random_numbers_are_even(void** state)
 {
     (void)state;
@@ -147,8 +148,8 @@ static void random_numbers_are_even(void** state)
     for (int i = 0; i < 16; ++i) assert_in_range(bins[i], 9500, 10500);
 }
 
-// The values of the PCG hash of Jarzynski and Olano 2020, worked out by hand in integers:
-// state = 2891336453, word = ((state >> (10 + 4)) ^ state) * 277803737, (word >> 22) ^ word.
+// Check the PCG hash of Jarzynski and Olano 2020 with values computed in integers: state =
+// 2891336453, word = ((state >> (10 + 4)) ^ state) * 277803737, (word >> 22) ^ word.
 static void the_hash_is_pcg(void** state)
 {
     (void)state;

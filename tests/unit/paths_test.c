@@ -1,4 +1,4 @@
-// paths_test.c - light among fibres by its paths: what is known of it holds.
+// paths_test.c - path tracing of light among fibres agrees with known results.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -25,13 +25,13 @@ static struct hair_reference_fibre fibre_of(const struct hair_fibre* of, double 
     return (struct hair_reference_fibre){&table[0][0][0], (double)variance[0], tilt};
 }
 
-// In a box of 0.1 m, straight, any way.
+// Fill a box of 0.1 m with straight strands in random directions.
 static void fill(float* positions)
 {
     for (int i = 0; i < 6 * STRANDS; ++i) positions[i] = 0.1f * share();
 }
 
-// Rays along -z onto the box from above it.
+// Make rays along -z onto the box from above.
 static void look_down(double* from, double* way, int rays)
 {
     for (int i = 0; i < 3 * rays; ++i) {
@@ -87,7 +87,7 @@ static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
                                        .lights = 2};
     look_down(from, way, RAYS);
     hair_reference_paths(&hair, from, way, RAYS, 1, &glow);
-    hair_test_near("share of rays", 0, (double)glow.met / RAYS, 0.25, 0.02); // 2 cm of 8
+    hair_test_near("share of rays", 0, (double)glow.met / RAYS, 0.25, 0.02); // 2 cm of 8.
     for (int l = 0; l < 2; ++l) {
         double expected[3], cosine = sqrt(1 - light[3 * l + 1] * light[3 * l + 1]);
         hair_reference_scatter(&hair.fibre, tangent, light + 3 * l, eye, mu, 3, expected);
@@ -98,8 +98,9 @@ static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
     }
 }
 
-// Any density will do if it is that of what is chosen: the mean of 1 over it is the whole sphere, and of light that a fibre
-// scatters what the furnace says.
+// Check the density of sampled directions. Any density gives the right mean if directions are
+// sampled by it. The mean of 1 / density is the area of the unit sphere, and the mean of scattered
+// light agrees with the furnace test.
 static void directions_are_chosen_by_the_density_that_is_said(void** state)
 {
     (void)state;

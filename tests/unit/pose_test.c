@@ -12,7 +12,7 @@ static void a_rigid_matrix_becomes_its_pose(void** state)
 {
     (void)state;
     struct hair_pose pose;
-    // A quarter turn about z, x to y, at (1, 2, 3).
+    // A rotation by 90 degrees about z, x to y, at (1, 2, 3).
     float m[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1};
     assert_true(hair_pose_from_matrix(m, &pose));
     hair_vec3 x = hair_rotate(pose.rotation, hair_v3(1, 0, 0));
@@ -66,7 +66,8 @@ static void between_poses_the_way_is_straight_and_even(void** state)
     }
 }
 
-// Floats at 1e6 m are 6 cm apart; doubles keep the micrometre.
+// Check the precision of offsets. Floats at 1e6 m are spaced by 6 cm, and doubles resolve
+// micrometres.
 static void an_offset_far_from_the_origin_keeps_its_digits(void** state)
 {
     (void)state;

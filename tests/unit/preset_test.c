@@ -1,4 +1,4 @@
-// preset_test.c - kinds of hair are physics that the library takes, and no two alike.
+// preset_test.c - presets of physics are valid, and all differ.
 #include <string.h>
 
 #include "tests/support/support.h"
@@ -21,7 +21,7 @@ static void presets_differ_and_leave_what_is_not_of_a_hair(void** state)
         all[i].redblack.iterations = 7;
         assert_int_equal(hair_physics_preset(&all[i], (hair_preset)i), HAIR_OK);
         assert_true(all[i].gravity[1] == -1.62f && all[i].redblack.iterations == 7);
-        // Checked against its own ranges when it is taken again.
+        // The second call checks the ranges of the fields that the first one set.
         assert_int_equal(hair_physics_preset(&all[i], (hair_preset)i), HAIR_OK);
         for (int k = 0; k < i; ++k) assert_memory_not_equal(&all[i], &all[k], sizeof all[i]);
     }
@@ -46,7 +46,7 @@ static void wrong_presets_and_physics_are_refused(void** state)
     assert_int_equal(hair_physics_preset(NULL, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
     physics.youngs_modulus = -1;
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
-    memset(&physics, 0, sizeof physics); // Not made by the default function.
+    memset(&physics, 0, sizeof physics); // The default function did not make these.
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_VERSION);
 }
 

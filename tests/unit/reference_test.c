@@ -1,4 +1,4 @@
-// reference_test.c - the double-precision reference agrees with what can be worked out by hand.
+// reference_test.c - the double-precision reference agrees with values worked out by hand.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #define PI 3.141592653589793
 #define MOST HAIR_MAX_GUIDE_VERTICES
 
-// A guide of `count` vertices, links of the length `link`, straight down from `root`.
+// A guide of `count` vertices with links of length `link`, straight down from `root`.
 struct fixture {
     struct hair_guide guide;
     struct hair_rest rest[MOST];
@@ -25,7 +25,8 @@ static struct hair_reference_guide whole(const struct fixture* f)
 static struct fixture straight_down(uint32_t count, float link)
 {
     struct fixture f = {
-        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}}; // Half a turn about x: y points down.
+        // The root frame is half a turn about x, so y points down.
+        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
     for (uint32_t i = 0; i < count; ++i) {
         f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
         f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
@@ -55,7 +56,7 @@ static void near3(const char* what, const double* a, double x, double y, double 
     hair_test_near(what, 2, a[2], z, tolerance);
 }
 
-// rotate(q, v) for unit q, by the matrix of q.
+// Compute rotate(q, v) for unit q, by the matrix of q.
 static void rotate(const double q[4], const double v[3], double out[3])
 {
     double x = q[0], y = q[1], z = q[2], w = q[3];
@@ -65,8 +66,8 @@ static void rotate(const double q[4], const double v[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
-// Around a plane curve every turn is about the plane's normal: a closed circle brings the frame back as it
-// was.
+// Check a frame around a plane curve. All its rotations are about the plane's normal, so a closed
+// circle returns the frame to its initial value.
 static void a_frame_carried_around_a_circle_comes_back(void** state)
 {
     (void)state;
@@ -88,8 +89,8 @@ static void a_frame_carried_around_a_circle_comes_back(void** state)
     }
 }
 
-// Around a triangle on the sphere of directions with three right angles, parallel transport turns a frame by
-// the triangle's area, pi/2 (Gauss and Bonnet).
+// Check parallel transport around a triangle on the sphere of directions with three right angles.
+// It rotates a frame by the triangle's area, pi/2 (Gauss and Bonnet).
 static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state)
 {
     (void)state;
@@ -99,8 +100,8 @@ static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state
     near3("x", x, 0, 0, -1, 1e-14);
 }
 
-// Without damping or constraints Verlet is exact for constant acceleration: after n substeps from rest a
-// vertex has fallen g dt^2 n (n + 1) / 2.
+// Check free fall. Without damping or constraints, Verlet is exact for constant acceleration. After
+// n substeps from rest, a vertex has fallen g dt^2 n (n + 1) / 2.
 static void an_unhindered_vertex_falls_as_verlet_says(void** state)
 {
     (void)state;
@@ -120,8 +121,8 @@ static void an_unhindered_vertex_falls_as_verlet_says(void** state)
     }
 }
 
-// A velocity that decays by the factor k a substep carries 1 + k + k^2 + … = (1 - k^n) / (1 - k)
-// displacements far.
+// Check a velocity that decays by the factor k per substep. Its total distance is 1 + k + k^2 + ...
+// = (1 - k^n) / (1 - k) displacements.
 static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
 {
     (void)state;
@@ -137,7 +138,8 @@ static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
     }
 }
 
-// In the head's moving coordinates a strand that nothing holds stays behind by just what the head moved.
+// Check a free strand. In the head's moving coordinates it lags behind by exactly the motion of the
+// head.
 static void a_free_vertex_does_not_follow_the_head(void** state)
 {
     (void)state;
@@ -149,7 +151,8 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
     near3("pinned", p, 0, 0, 0, 0);
 }
 
-// A spring taken implicitly comes to its aim in the limit, and half way there at w dt = 1.
+// Check an implicit spring. It converges to its target, and goes half way if frequency times dt is
+// 1.
 static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
 {
     (void)state;
@@ -183,7 +186,8 @@ static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
     double p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
     hair_reference_distance(whole(&f), 1, p);
     near3("pinned", p + 3, 0, -0.01, 0, 0);
-    near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16); // along (3, -4) / 5
+    // The direction is (3, -4) / 5.
+    near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16);
     hair_reference_distance(whole(&f), 0, p);
     near3("pinned", p + 3, 0, -0.01, 0, 0);
 }
@@ -194,9 +198,9 @@ static void bend_removes_its_share_of_the_error_over_two_segments(void** state)
     struct fixture f = straight_down(8, 0.01f);
     double p[3 * 8] = {0};
     f.params.bend = 0.25f;
-    for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // half as long as at rest
+    for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // Half as long as at rest.
     double rest = (double)(2 * 0.01f), wrong = rest - 0.01;
-    hair_reference_bend(whole(&f), 1, p); // (2,4), (3,5), (6,8) does not exist
+    hair_reference_bend(whole(&f), 1, p); // The pairs are (2,4) and (3,5). (6,8) does not exist.
     hair_test_near("length", 2, distance(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
     hair_test_near("length", 3, distance(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
     hair_test_near("root", 0, p[3], 0, 0);
@@ -211,7 +215,7 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
     f.params.collision_margin = 0.25f;
     f.params.collider[0] =
         (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
-    f.params.substep[0].displacement.w = 0.5f; // half way: its axis is at x = 4
+    f.params.substep[0].displacement.w = 0.5f; // Half way, so the axis is at x = 4.
     double p[3 * 4] = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
     hair_reference_collide(whole(&f), 0, p);
     near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
@@ -221,7 +225,7 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
     near3("outside", outside + 6, 5.3, 1, 0, 0);
 }
 
-// A bent guide, in its rest pose, turned as a whole with its head: nothing is to be corrected.
+// Check a bent guide in its rest pose, rotated with its head. The force must correct nothing.
 static void the_angular_force_leaves_the_rest_pose_alone(void** state)
 {
     (void)state;
@@ -235,7 +239,7 @@ static void the_angular_force_leaves_the_rest_pose_alone(void** state)
         f.rest[i + 1].position.z = (float)p[3 * i + 5];
     }
     f.params.angular = 1e6f;
-    // A right angle about z: x to y, y to -x.
+    // A right angle about z, x to y and y to -x.
     f.params.substep[0].rotation = (hair_vec4){0, 0, (float)sqrt(0.5), (float)sqrt(0.5)};
     double turned[3 * 9];
     for (int i = 0; i < 9; ++i) {
@@ -262,7 +266,8 @@ static void angular_moves_of(struct fixture* f, const double* bent, int coordina
     for (int k = 0; k < 21; ++k) out[k] = moved[6 + k] - from[6 + k];
 }
 
-// A force that has a potential has a symmetric derivative. Any other can feed the strand without end.
+// Check that the derivative of the force is symmetric, as for any force with a potential. Any other
+// force can add energy to the strand without limit.
 static void the_angular_force_has_a_potential(void** state)
 {
     (void)state;
@@ -285,8 +290,8 @@ static void the_angular_force_has_a_potential(void** state)
         hair_test_near("derivative", (size_t)i, jacobian[i / 21][i % 21], jacobian[i % 21][i / 21], 1e-6);
 }
 
-// A parabola p(s) = c0 + c1 s + c2 s^2 at uneven s: its slopes come out exactly, and then the cubic is the
-// parabola.
+// Check a parabola p(s) = c0 + c1 s + c2 s^2 at uneven s. Its slopes are exact, so that the cubic
+// equals the parabola.
 static void hermite_reproduces_parabolas_exactly(void** state)
 {
     (void)state;
@@ -309,10 +314,12 @@ static void hermite_reproduces_parabolas_exactly(void** state)
     }
 }
 
-// Vertices around a circle of radius 1, at angles a: chords of length 2 sin(a/2), slopes of length cos(a/2)
-// along the tangents. Half way between two vertices the chord is cos(a/2) from the centre; the cubic of
-// Hermite adds an eighth of the chord's length times the difference of the slopes, which is 2 sin(a/2)
-// cos(a/2) = sin(a), outwards. Together 1 - 3/128 a^4.
+// Check vertices around a circle of radius 1, at angles a. Chords have the length 2 sin(a/2).
+// Slopes have the length cos(a/2), along the tangents.
+//
+// Half way between two vertices the chord is cos(a/2) from the centre. Hermite's cubic adds an
+// eighth of the chord's length times the difference of the slopes, outwards. The difference is 2
+// sin(a/2) cos(a/2) = sin(a). Together the radius is 1 - 3/128 a^4.
 static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 {
     (void)state;
@@ -341,7 +348,8 @@ static void a_smoothed_circle_is_round_to_fourth_order(void** state)
     }
 }
 
-// What is drawn lies between the ends of the last substep, as the head carries it.
+// Check that drawn positions are interpolated between the ends of the last substep, relative to the
+// moving head.
 static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
 {
     (void)state;
@@ -350,12 +358,12 @@ static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
     f.params.smooth_vertices = 7;
     f.params.alpha = 0.25f;
     f.params.last_displacement.x = 1;
-    for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // against the head: 0.2
+    for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // Relative to the head: 0.2.
     hair_reference_smooth(whole(&f), f.state, samples);
     for (int k = 0; k < 7; ++k) hair_test_near("x", k, samples[k].position[0], -0.2 * 0.75, 1e-15);
 }
 
-// Nothing strays, nothing clumps.
+// Return a look without strays or clumps.
 static hair_look plain_look(float radius)
 {
     hair_look look = hair_look_default();
@@ -365,7 +373,8 @@ static hair_look plain_look(float radius)
     return look;
 }
 
-// Around a straight vertical guide that hangs down, a follower is its Bezier curve in the guide's frame.
+// Check a follower of a straight guide that hangs down. It is its Bezier curve in the guide's
+// frame.
 static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
 {
     (void)state;
@@ -379,15 +388,16 @@ static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
     struct hair_follower follower = {.length_ratio = 1,
                                      .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
     hair_reference_follower(&follower, &look, 7, samples, 0.5, NULL, &point);
-    // In the middle 3/8 of each inner control point; half a turn about x keeps x and turns z.
+    // In the middle, each inner control point has a weight of 3/8. Half a turn about x keeps x and
+    // inverts z.
     near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
     hair_test_near("radius", 0, point.radius, 0.5 * 2 * 0.75, 1e-7);
-    follower.length_ratio = 1.5f; // Beyond the tip straight on.
+    follower.length_ratio = 1.5f; // Extrapolated straight beyond the tip.
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
     near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
 }
 
-// Between three straight parallel guides a follower is the weighted mean of them, until it clumps.
+// Check a follower of three straight parallel guides. It is their weighted mean, until it clumps.
 static void a_follower_between_guides_is_their_mean(void** state)
 {
     (void)state;

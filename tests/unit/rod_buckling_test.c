@@ -1,5 +1,5 @@
-// rod_buckling_test.c - how much weight the reference rod bears before it falls over, sideways, or out of its
-// plane, against the mathematics of continuous rods.
+// rod_buckling_test.c - weights at which the reference rod buckles, sideways or out of its plane,
+// compared with the theory of continuous rods.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #define PI 3.141592653589793
 
-// The weight at which `stability` is 0, between a, where it is positive, and b.
+// Return the weight at which `stability` is 0, between a, where it is positive, and b.
 static double critical(double (*stability)(double gamma, uint32_t segments, const void* user), double a,
                        double b, const void* user)
 {
@@ -27,11 +27,12 @@ static double critical(double (*stability)(double gamma, uint32_t segments, cons
     return hair_test_extrapolate(found[0], found[1]);
 }
 
-// Of n segments, by the sines that a chain of springs has: 4 n^2 sin^2(pi / 4n).
+// Compare a rod of n segments with the lowest eigenvalue of a chain of springs, 4 n^2 sin^2(pi /
+// 4n).
 static void an_unloaded_rod_is_as_stable_as_a_chain_of_springs(void** state)
 {
     (void)state;
-    static const double stiffness[][3] = {{1, 0, 0}, {1, 3, 5}, {5, 3, 1}, {5, 1, 3}}; // B1, C, B2
+    static const double stiffness[][3] = {{1, 0, 0}, {1, 3, 5}, {5, 3, 1}, {5, 1, 3}}; // B1, C, B2.
     for (int k = 0; k < 4; ++k)
         for (uint32_t segments = 1; segments < 100; segments *= 3) {
             struct hair_test_plane p;
@@ -65,7 +66,7 @@ static void an_upright_rod_buckles_at_greenhills_weight(void** state)
 }
 
 struct blade {
-    double weak, twist; // over the stiffness upright
+    double weak, twist; // Relative to the stiffness upright.
 };
 
 static double sideways(double weight, uint32_t segments, const void* user)
@@ -92,14 +93,15 @@ static void a_deep_cantilever_buckles_sideways(void** state)
         hair_test_near("weight", i, critical(sideways, 11, 16, &blades[i]), expected[i], 1.5e-4);
 }
 
-// From `from`, where it is stable, in steps.
+// Return the stability of a curved rod. The weight starts at turn_and_start[1], a stable value, and
+// changes in steps.
 static double hang_curved(double gamma, uint32_t segments, const void* user)
 {
     const double* turn_and_start = user;
     struct hair_test_plane p;
     hair_test_plane_make(&p, segments + 1, 0, turn_and_start[1]);
     hair_test_plane_curl(&p, turn_and_start[0]);
-    if (turn_and_start[1] > 0) p.desc.positions = NULL; // Straight, as the root frame points.
+    if (turn_and_start[1] > 0) p.desc.positions = NULL; // The rod is straight along the root frame.
     struct hair_reference_rod* rod = hair_test_rod(&p.desc);
     for (int i = 0; i <= 20; ++i) {
         double gravity[3] = {0, -(turn_and_start[1] + (gamma - turn_and_start[1]) * i / 20), 0};
@@ -112,7 +114,7 @@ static double hang_curved(double gamma, uint32_t segments, const void* user)
     return stability;
 }
 
-// A curl hangs in its plane when gravity is weak, or strong; between, it is a helix.
+// Check a curl. It hangs in its plane under weak or strong gravity, and is a helix between.
 static void a_curl_leaves_its_plane_between_two_weights(void** state)
 {
     (void)state;
@@ -138,7 +140,8 @@ static double held(double gamma, uint32_t segments, const void* user)
     return stability;
 }
 
-// Straight as it grows, at rest by its rest strain: that is stable only up to a weight.
+// Check a strand that is groomed straight and is at rest by its rest strain. It is stable up to a
+// certain weight.
 static void a_held_strand_falls_over_beyond_its_weight(void** state)
 {
     (void)state;

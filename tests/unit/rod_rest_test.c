@@ -1,4 +1,4 @@
-// rod_rest_test.c - where the reference rod hangs, against the mathematics of continuous rods.
+// rod_rest_test.c - equilibria of the reference rod, compared with the theory of continuous rods.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -54,7 +54,7 @@ static void a_load_at_the_tip_bends_a_rod_as_the_elastica(void** state)
     for (uint32_t fine = 0; fine < 2; ++fine) {
         struct hair_test_plane p;
         hair_test_plane_make(&p, (64u << fine) + 1, PI / 2, 1e9);
-        p.desc.line_density = 1e-15; // Weightless, but for
+        p.desc.line_density = 1e-15; // The rod weighs nothing except for its tip.
         p.desc.tip_mass = 5e-9;
         struct hair_reference_rod* rod = hair_test_rod(&p.desc);
         hair_test_rod_rest(rod);
@@ -65,11 +65,12 @@ static void a_load_at_the_tip_bends_a_rod_as_the_elastica(void** state)
     hair_test_near("down", 0, -hair_test_extrapolate(tip[0][1], tip[1][1]), e.down, 2e-6);
 }
 
-// With k = 2 the clamp of a long soft strand is far too soft.
+// Check the clamp factor. With k = 2, the clamp of a long soft strand is far too soft.
 static void the_clamp_factor_holds_coarse_and_soft_strands(void** state)
 {
     (void)state;
-    // Error of drop over reach in percent, with k = 2 and as the weight asks. Straight rods are second.
+    // Error of drop over reach in percent, with k = 2 and with k by the weight. The second row is
+    // for straight rods.
     static const struct {
         double weight, error[2][2];
     } expected[] = {{1, {{0.104, 0.053}, {0.106, 0.054}}},
@@ -87,7 +88,8 @@ static void the_clamp_factor_holds_coarse_and_soft_strands(void** state)
     }
 }
 
-// Return how far the tip of a strand that is clamped `up` above the horizontal rests from the elastica.
+// Return the distance of the tip from the elastica. The strand is clamped at `up` above the
+// horizontal.
 static double distance_from_elastica(uint32_t segments, double gamma, double up, int plain)
 {
     struct hair_reference_elastica e = hair_reference_elastica(gamma, 0, -up);
@@ -102,15 +104,16 @@ static double distance_from_elastica(uint32_t segments, double gamma, double up,
     return hypot(tip[0] - e.across, tip[1] + e.down);
 }
 
-// Return by how much a chain that turns by `up` and a right angle at its clamp hangs too low: see
+// Return how far too low a chain hangs if it turns by `up` and a right angle at its clamp. See
 // lib/sim/rod_shape.c.
 static double polygon_error(uint32_t segments, double gamma, double up)
 {
     return sqrt(gamma) * (1 - cos((PI / 2 + up) / 2)) / (6.0 * segments * segments);
 }
 
-// Measured: 1.31 times the error of the polygon at most. Without the second term of the clamp's energy it is
-// 2.8 times with 31 segments, a weight of 3000 and 1.3 rad.
+// Check the error of the clamp. It is at most 1.31 times the error of the polygon. Without the
+// second term of the clamp's energy it is 2.8 times, with 31 segments, a weight of 3000 and 1.3
+// rad.
 static void the_clamp_adds_little_to_the_error_of_the_polygon(void** state)
 {
     (void)state;
@@ -136,8 +139,8 @@ static void the_clamp_factor_is_that_of_a_chain_under_tension(void** state)
     hair_test_near("k", 2, hair_reference_rod_clamp_factor(0.1, 1, 0), 0, 0);
 }
 
-// Straight rods have the energy of the chord between tangents, others that of the angle, nearly. The
-// difference goes with the square of the angles.
+// Compare both kinds of strain. Straight rods have the energy of the chord between tangents, and
+// others nearly that of the angle. The difference is proportional to the square of the angles.
 static void both_kinds_of_strain_hang_alike_with_short_segments(void** state)
 {
     (void)state;
@@ -151,7 +154,7 @@ static void both_kinds_of_strain_hang_alike_with_short_segments(void** state)
     }
 }
 
-// A flat corkscrew of uneven segments, heavy at the tip.
+// Check a flat corkscrew of uneven segments with a heavy tip.
 static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
 {
     (void)state;
@@ -188,17 +191,19 @@ static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
     hair_reference_rod_positions(rod, y);
     for (int i = 0; i < 3 * N; ++i) hair_test_near("still", (size_t)i, y[i], x[i], 1e-11);
     hair_reference_rod_destroy(rod);
-    // Without being held it hangs elsewhere.
+    // Without gravity preload its equilibrium is elsewhere.
     hair_reference_rod_strain(N, x, desc.root_frame, strain);
     rod = hair_test_rod(&desc);
     struct hair_reference_rod_rested rested = hair_reference_rod_rest(rod);
-    assert_true(rested.converged && rested.iterations < 12); // Newton needs all second derivatives for that.
+    // Newton's method needs all second derivatives to converge so fast.
+    assert_true(rested.converged && rested.iterations < 12);
     hair_reference_rod_positions(rod, y);
     assert_true(fabs(y[3 * N - 2] - x[3 * N - 2]) > 0.005);
     hair_reference_rod_destroy(rod);
 }
 
-// Bent in a plane by `bend` from the root frame, y, to x.
+// Return the energy of a hinge that is bent in a plane by `bend`, from the root frame's y axis
+// towards x.
 static double energy_of_hinge(double rest, double bend)
 {
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
@@ -225,8 +230,8 @@ static void a_bent_hinge_has_the_energy_of_the_angle_from_its_rest(void** state)
                            8 * pow(sin((bend - rest) / 4), 2), 1e-14);
 }
 
-// Joints of this curl are bent by up to 2.2 rad at rest. With all second derivatives each step doubles the
-// digits.
+// Check a curl whose joints are bent by up to 2.2 rad at rest. With all second derivatives, each
+// step doubles the number of exact digits.
 static void a_coarse_curl_comes_to_rest_in_few_steps(void** state)
 {
     (void)state;
@@ -270,7 +275,8 @@ static void what_no_strain_can_hold_is_said(void** state)
     assert_false(hair_reference_rod_hold(&p.desc, p.strain, p.real));
 }
 
-// The tip tied by a spring that the chain's pull stretches as far as puts the tip where it is to be.
+// Check a chain whose tip is pinned by a spring. The chain's tension stretches the spring to the
+// length that puts the tip at its position.
 static void a_chain_pinned_at_its_tip_is_a_catenary(void** state)
 {
     (void)state;
@@ -280,7 +286,7 @@ static void a_chain_pinned_at_its_tip_is_a_catenary(void** state)
         double pull[HAIR_TEST_MOST] = {0}, x[3 * HAIR_TEST_MOST], sag = 0;
         double stiffness = 30;
         hair_test_plane_make(&p, links + 1, PI / 2, 1);
-        for (uint32_t i = 0; i < links; ++i) { // Before, an arc.
+        for (uint32_t i = 0; i < links; ++i) { // The initial shape is an arc.
             double angle = 1.2 * (1 - (2 * i + 1.0) / links);
             p.positions[3 * i + 3] = p.positions[3 * i] + p.lengths[0] * cos(angle);
             p.positions[3 * i + 4] = p.positions[3 * i + 1] - p.lengths[0] * sin(angle);

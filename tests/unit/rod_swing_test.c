@@ -1,4 +1,5 @@
-// rod_swing_test.c - how the reference rod swings, against linkages, chains and beams, and with a head.
+// rod_swing_test.c - motion of the reference rod, compared with linkages, chains and beams, and
+// with a moving head.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -9,7 +10,7 @@
 
 #define PI 3.141592653589793
 
-// Links without stiffness in a plane, all with a mass of 1, released from `angle` from straight down.
+// Release links without stiffness in a plane, from `angle` from straight down. Every mass is 1.
 static struct hair_reference_rod* release(struct hair_test_plane* p, uint32_t links, double length,
                                           double angle)
 {
@@ -24,8 +25,8 @@ static struct hair_reference_rod* release(struct hair_test_plane* p, uint32_t li
     return hair_test_rod(&p->desc);
 }
 
-// When a pendulum released from `angle` first passes through its lowest point, by the cubic of Hermite between
-// two substeps.
+// Return when a pendulum released from `angle` first passes through its lowest point, by Hermite's
+// cubic between two substeps.
 static double quarter_period(double angle, double dt)
 {
     struct hair_test_plane p;
@@ -63,7 +64,8 @@ static void a_pendulum_takes_its_time(void** state)
     }
 }
 
-// Converged to less than what the linkage, integrated in its angles, is compared by.
+// Compare chains with a linkage integrated in its angles. The error of convergence is less than the
+// tolerance.
 static void chains_released_from_the_horizontal_fall_as_linkages(void** state)
 {
     (void)state;
@@ -94,8 +96,8 @@ static void chains_released_from_the_horizontal_fall_as_linkages(void** state)
     }
 }
 
-// A flat corkscrew: its swings bend and twist it at once. So much damping leaves only the slowest, whose time
-// is then taken without.
+// Check a flat corkscrew, whose swings bend and twist it together. Strong damping leaves only the
+// slowest mode, whose period is then measured without damping.
 static void a_flat_corkscrew_swings_as_its_slowest_mode(void** state)
 {
     (void)state;
@@ -146,7 +148,7 @@ static void a_clamped_beam_swings_as_mathematics_says(void** state)
     for (uint32_t k = 0; k < 2; ++k) {
         struct hair_test_plane p;
         hair_test_plane_make(&p, (24u << k) + 1, 1, 0);
-        p.desc.bend[0] = 1e4; // The other way it is stiff.
+        p.desc.bend[0] = 1e4; // The other direction is stiff.
         struct hair_reference_rod* rod = hair_test_rod(&p.desc);
         assert_int_equal(hair_reference_rod_modes(rod, 3, found[k]), 3);
         hair_reference_rod_destroy(rod);
@@ -172,14 +174,15 @@ static void a_hanging_chain_swings_as_the_linkage_that_it_is(void** state)
     hair_reference_rod_masses(rod, mass);
     hair_test_near("tip", 0, mass[LINKS], 0.5 / LINKS + 0.3, 1e-15);
     assert_int_equal(hair_reference_rod_modes(rod, 6, found), 6);
-    for (uint32_t n = 0; n < 6; ++n) // In two planes alike.
+    for (uint32_t n = 0; n < 6; ++n) // The modes in both planes are equal.
         hair_test_near("mode", n, found[n],
                        hair_reference_linkage_frequency(n / 2 + 1, LINKS, p.lengths, mass + 1, 9.81), 1e-9);
     hair_reference_rod_destroy(rod);
 }
 
-// 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t), leaving it 30 degrees below the horizontal.
-// The places of the tip are another program's (explicit bending, k = 2, converged to 5e-8 of the length).
+// Check 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t). The hair leaves the head at
+// 30 degrees below the horizontal. Positions of the tip are from another program (explicit bending,
+// k = 2, converged to 5e-8 of the length).
 static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
 {
     (void)state;
@@ -220,14 +223,15 @@ static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-// The head turns evenly: half of the way in half of the time. A quaternion and its opposite are one rotation.
+// Check that the head rotates evenly: by half of the angle in half of the time. A quaternion and
+// its negative are the same rotation.
 static void the_head_goes_evenly_and_the_shortest_way(void** state)
 {
     (void)state;
     struct hair_test_plane p;
     hair_test_plane_make(&p, 8, 1, 9.81);
     p.desc.bend[1] = 1e-3;
-    p.positions[2] = 0.1; // Off the head's origin.
+    p.positions[2] = 0.1; // Moves the root off the head's origin.
     p.desc.lengths = NULL;
     struct hair_reference_rod_pose half = {{0.1, 0, 0.2}, {sin(0.35), 0, 0, cos(0.35)}};
     struct hair_reference_rod_pose whole = {{0.2, 0, 0.4}, {-sin(0.7), 0, 0, -cos(0.7)}};
@@ -240,7 +244,7 @@ static void the_head_goes_evenly_and_the_shortest_way(void** state)
     hair_reference_rod_positions(once, a);
     hair_reference_rod_positions(twice, b);
     for (int i = 0; i < 24; ++i) hair_test_near("place", (size_t)i, a[i], b[i], 1e-11);
-    // The root, at (0, 0, 0.1) in the head's frame, about x.
+    // The root, at (0, 0, 0.1) in the head's frame, rotates about x.
     hair_test_near("root", 1, a[1], -0.1 * sin(1.4), 1e-15);
     hair_test_near("root", 2, a[2], 0.4 + 0.1 * cos(1.4), 1e-15);
     hair_reference_rod_velocities(once, a);

@@ -1,4 +1,5 @@
-// rod_test.c - the reference rod's energy, and what its motion must keep: momentum, energy, the second order.
+// rod_test.c - energy of the reference rod, and invariants of its motion: momentum, energy, and
+// second-order convergence.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -7,9 +8,9 @@
 #include "lib/reference/rod.h"
 
 #define PI 3.141592653589793
-#define CURL 12 // vertices of the rod that has everything
+#define CURL 12 // Number of vertices of the rod that has every feature.
 
-// A corkscrew with uneven segments, of a flat section, tapered, whose rest shape is another one.
+// A tapered corkscrew of flat section with uneven segments. Its rest shape differs.
 struct curl {
     struct hair_reference_rod_desc desc;
     double positions[3 * CURL], rest[3 * CURL], scale[CURL];
@@ -35,7 +36,8 @@ static void make_curl(struct curl* c)
     c->desc.bend[1] = 2.5e-3;
     c->desc.twist = 0.8e-3;
     c->desc.gravity[1] = -9.81;
-    c->desc.root_frame[0] = sqrt(0.5); // A right angle about x: y to z, the corkscrew's way, nearly.
+    // A right angle about x, y to z, which is nearly the corkscrew's direction.
+    c->desc.root_frame[0] = sqrt(0.5);
     c->desc.root_frame[3] = sqrt(0.5);
     hair_reference_rod_strain(CURL, c->positions, c->desc.root_frame, c->rest);
     for (int i = 0; i < 3 * (CURL - 1); ++i) c->rest[i] += 0.2 * sin(1.3 * i * i);
@@ -54,7 +56,7 @@ static double elastic_at(struct hair_reference_rod* rod, const double* positions
     return hair_reference_rod_energy(rod).elastic;
 }
 
-// Central differences of fourth order.
+// Compute the gradient by central differences of fourth order.
 static void differ(struct hair_reference_rod* rod, const double* at, double* gradient)
 {
     static const double weight[] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
@@ -96,10 +98,11 @@ static void forces_are_the_slope_of_the_energy(void** state)
         }
 }
 
-// Angle at each vertex but the last, from the direction before to that after.
+// Find the angle at each vertex except the last, from the direction before it to the direction
+// after it.
 static void find_angles(const struct curl* c, double* angles)
 {
-    double before[3] = {0, 0, 1}; // The clamp's: see make_curl().
+    double before[3] = {0, 0, 1}; // The clamp's direction, see make_curl().
     for (int i = 0; i + 1 < CURL; ++i) {
         double after[3], length = 0, square = 0;
         for (int k = 0; k < 3; ++k) {
@@ -113,8 +116,8 @@ static void find_angles(const struct curl* c, double* angles)
     }
 }
 
-// The strain of a straight rod is 2 sin(half the angle). Other rods without rest strain, round and untwisted,
-// have the energy of the strain 4 sin(a quarter of the angle).
+// Check the energy of a round rod without rest strain and twist. The strain of a straight rod is 2
+// sin(half the angle). Other rods have the energy of the strain 4 sin(a quarter of the angle).
 static void a_round_rod_without_twist_has_the_energy_of_its_angles(void** state)
 {
     (void)state;
@@ -153,6 +156,7 @@ static void rotate(const double q[4], const double v[3], double out[3])
     for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
 }
 
+// Check that the forces depend only on the positions in the head's frame.
 static void turning_head_and_hair_alike_turns_the_forces(void** state)
 {
     (void)state;
@@ -176,7 +180,7 @@ static void turning_head_and_hair_alike_turns_the_forces(void** state)
     hair_reference_rod_destroy(there);
 }
 
-// What an observer sees who moves along: nothing but the head's frame.
+// Compute the momentum and the angular momentum about the origin.
 static void momenta(const struct hair_reference_rod* rod, double sum[6])
 {
     double x[3 * CURL], v[3 * CURL], m[CURL];
@@ -210,7 +214,7 @@ static void a_free_rod_keeps_its_momentum_and_angular_momentum(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-// Constant acceleration is exact in this scheme, however long the substep.
+// Check free fall. The scheme is exact for constant acceleration, with any substep.
 static void a_free_rod_falls_as_a_stone(void** state)
 {
     (void)state;
@@ -228,7 +232,8 @@ static void a_free_rod_falls_as_a_stone(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-// All of it alike: v = wind + (v0 - wind) exp(-c t).
+// Check damping of all vertices alike: v = wind + (v0 - wind) exp(-c t), with the velocity v, its
+// initial value v0, and damping c.
 static void damping_is_exact_and_against_the_wind(void** state)
 {
     (void)state;
@@ -257,7 +262,7 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
         pull[i] = 8;
         for (int k = 0; k < 3; ++k) target[3 * i + k] = c.positions[3 * i + k] - (k == 2 ? 0.01 : 0);
     }
-    // The head, off the origin and turned about z, carries the target.
+    // The head, off the origin and rotated about z, carries the target.
     c.desc.head.position[0] = 0.3;
     c.desc.head.position[2] = -0.2;
     c.desc.head.rotation[2] = sin(0.4);
@@ -276,7 +281,8 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-// Energy swings about what it was, by the square of the substep, but does not go away.
+// Check that energy oscillates about its initial value, in proportion to the square of the substep,
+// and does not decay.
 static void energy_stays_within_the_square_of_the_substep(void** state)
 {
     (void)state;
@@ -295,10 +301,11 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
         hair_reference_rod_destroy(rod);
     }
     hair_test_near("ratio", 0, most[0] / most[1], 4, 0.4);
-    assert_true(most[1] < 1e-5 && most[1] > 1e-8); // Of 0.05 J that go back and forth.
+    assert_true(most[1] < 1e-5 && most[1] > 1e-8); // The exchanged energy is 0.05 J.
 }
 
-// With everything at once: a head that travels and turns, wind, damping, pull, a flat and curly strand.
+// Check convergence with everything at once: a head that moves and rotates, wind, damping, pull,
+// and a flat and curly strand.
 static void motion_converges_with_the_second_order(void** state)
 {
     (void)state;

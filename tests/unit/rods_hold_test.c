@@ -1,4 +1,4 @@
-// rods_hold_test.c - how guides hold their groom as rods against gravity, and how firmly.
+// rods_hold_test.c - gravity preload of guides as rods: equilibrium and stability.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -19,14 +19,15 @@ static struct hair_rod_shape shape_of(const struct hair_test_rod* f)
     return shape;
 }
 
-// The groom under gravity times `load`, its stiffness times that of each vertex, with the rest strain that bears it.
+// A groom under gravity times `load`. Its stiffness is multiplied at each vertex, and its rest
+// strain balances gravity.
 struct held {
     struct hair_rod_shape shape;
     struct hair_rod_pose pose;
     double stiffness[MOST];
     hair_rod_rest rest[MOST];
     hair_dvec3 gravity;
-    double slowest; // squared angular frequency that is not stable enough
+    double slowest; // Squared angular frequency below which a mode is not stable enough.
 };
 
 static void hold(const struct hair_test_rod* f, const double* stiffen, double load, struct held* h)
@@ -52,7 +53,7 @@ static hair_dquat turned(hair_dquat q, const double* by)
     return hair_dmultiply((hair_dquat){s * by[0], s * by[1], s * by[2], cos(a / 2)}, q);
 }
 
-// With segment j turned by the world's vector turns[3 j ..].
+// Return the energy with segment j rotated by the vector turns[3 j ..] in the world.
 static double energy_of(const struct held* h, const double* turns)
 {
     const struct hair_rod_shape* s = &h->shape;
@@ -75,15 +76,16 @@ static double energy_of(const struct held* h, const double* turns)
     return energy;
 }
 
-// Grooms of many kinds that are so soft that they buckle, and hold when they are up to three times as stiff.
+// Names of grooms that are soft enough to buckle, and hold with up to three times their stiffness.
 #define GROOMS 6
 static const char* const groom_names[GROOMS] = {"level",     "upright",      "curl",
                                                 "flat curl", "tapered curl", "curl with a tip"};
 
 static void make_groom(struct hair_test_rod* f, int kind)
 {
+    // Length of the strand, or of a segment.
     static const double sizes[GROOMS] = {0.145,  0.13,   0.013,
-                                         0.0095, 0.0135, 0.0125}; // of all, or of a segment
+                                         0.0095, 0.0135, 0.0125};
     f->physics = hair_physics_default();
     if (kind < 2)
         hair_test_rod_straight(f, 12, sizes[kind], kind == 0 ? PI / 2 : PI);
@@ -99,7 +101,7 @@ static void multiply(double* out, double by)
     for (int i = 0; i < MOST; ++i) out[i] = by;
 }
 
-// The slope is nothing beside that of gravity alone.
+// Check that the slope of the energy is negligible relative to that of gravity alone.
 static void a_held_groom_is_in_equilibrium(void** state)
 {
     (void)state;
@@ -126,14 +128,14 @@ static void a_held_groom_is_in_equilibrium(void** state)
             most = fmax(most, fabs(alone));
         }
         if (kind != 1) printf("%s: %.1e of gravity's torque is left\n", groom_names[kind], worst / most);
-        assert_true(kind == 1 || most > 1e-3); // Upright, gravity turns nothing.
+        assert_true(kind == 1 || most > 1e-3); // On an upright strand gravity has no torque.
         assert_true(worst < 1e-10 * fmax(most, 1e-3));
     }
     free(h);
     free(f);
 }
 
-// Whether the matrix of second derivatives is positive: Cholesky.
+// Return whether the matrix of second derivatives is positive definite, by Cholesky factorisation.
 static int is_stable(const struct held* h)
 {
     double turns[3 * MOST] = {0}, a[33][33], step = 2e-3;
@@ -160,7 +162,8 @@ static int is_stable(const struct held* h)
     return 1;
 }
 
-// Energy in the pose with its segments turned by `share` of the turns, as their frames see them.
+// Return the energy with segments rotated by `share` times the vectors `turns`, in their own
+// frames.
 static double energy_along(const struct held* h, const hair_dvec3* turns, double share)
 {
     struct held* at = malloc(sizeof *at);
@@ -177,8 +180,9 @@ static double energy_along(const struct held* h, const hair_dvec3* turns, double
     return energy;
 }
 
-// In a pose far from the groom, where 2 w is not as at rest. For any slope s Newton's step z obeys
-// z . H z + shift z . z = -s . z.
+// Check Newton's step in a pose far from the groom, where 2 w differs from its value at rest. For
+// any slope s, Newton's step z satisfies z . H z + shift z . z = -s . z. H is the matrix of second
+// derivatives.
 static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
 {
     (void)state;
@@ -219,7 +223,7 @@ static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
     free(f);
 }
 
-// At 1 + share (s - 1) times the stiffness, s those of the guide.
+// Return stability at 1 + share (s - 1) times the stiffness, with the guide's multiples s.
 static int is_stable_with(const struct hair_test_rod* f, double share)
 {
     struct held* h = calloc(1, sizeof *h);
@@ -261,8 +265,8 @@ static void a_guide_is_made_just_so_stiff_that_its_groom_is_stable(void** state)
     free(f);
 }
 
-// rho A g L^3 / E I at which a straight strand, clamped so far from down, buckles though its rest strain bears all of
-// its weight. Upright it is Greenhill's.
+// Check rho A g L^3 / E I at which a straight strand buckles although its rest strain balances its
+// weight. The angle is that of the clamp from straight down. The upright value is Greenhill's.
 static void straight_grooms_buckle_at_the_lengths_of_the_continuous_rod(void** state)
 {
     (void)state;
@@ -284,7 +288,8 @@ static void straight_grooms_buckle_at_the_lengths_of_the_continuous_rod(void** s
     free(f);
 }
 
-// Farthest that a vertex's rest strain is from the strain of a straight groom, which is 0.
+// Return the maximum distance of a vertex's rest strain from the strain of a straight groom, which
+// is 0.
 static double most_strain(const struct hair_test_rod* f)
 {
     double most = 0;
@@ -299,7 +304,8 @@ static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    // Of three segments: it would be stable as it is, but turned too far at each vertex.
+    // Three segments. The strand would be stable as it is, but its rest strain is too far at each
+    // vertex.
     hair_test_rod_straight(f, 4, 0.15, PI / 4);
     struct held* h = calloc(1, sizeof *h);
     double stiffen[MOST];
@@ -312,14 +318,14 @@ static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
     assert_true(f->report.stiffest > 1 && f->report.stiffest <= 3 && !f->report.sagging);
     hair_test_near("of few segments", 0, most_strain(f), 0.985, 0.015);
     free(h);
-    // Thread, for which no multiple is enough.
+    // A thread, for which no multiple is sufficient.
     f->physics.youngs_modulus = 1;
     hair_test_rod_straight(f, 32, 0.3, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 1);
     assert_true(f->report.stiffest == 3 && f->report.sagging == 1 && f->report.farthest_sag > 0.1f);
     assert_true(most_strain(f) < 1 + 1e-6);
-    // What does not resist at all is not asked to hold, nor made to.
+    // Hair without stiffness is neither expected to hold nor stiffened.
     for (int k = 0; k < 2; ++k) {
         f->physics.youngs_modulus = k == 0 ? 0 : 4e9f;
         f->physics.stiffness_root = k == 0 ? 1 : 0;

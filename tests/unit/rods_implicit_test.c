@@ -1,4 +1,4 @@
-// rods_implicit_test.c - the implicit systems of rods, and the substeps that do without.
+// rods_implicit_test.c - the implicit systems of rods, and the substeps that need none.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -10,9 +10,10 @@
 
 #define PI 3.141592653589793
 #define MOST HAIR_MAX_GUIDE_VERTICES
-#define STEP (1.0 / 240) // s
+#define STEP (1.0 / 240) // Seconds.
 
-// diag(m A) + b^2 K of what was written, K the second derivatives of the energy k/2 |row x|^2 of every vertex.
+// Build diag(m A) + b^2 K of the written rods. K is the second derivatives of the energy k/2 |row
+// x|^2 of every vertex.
 static void build(const struct hair_test_rod* f, double b, double a[][MOST])
 {
     uint32_t n = f->guide.count;
@@ -70,7 +71,7 @@ static void the_factors_are_of_the_implicit_systems(void** state)
             compare(f, a, 0);
             build(f, h, a);
             compare(f, a, 1);
-            hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h); // So long that bending is implicit.
+            hair_test_rod_write(f, HAIR_SOLVER_ACCURATE, h); // A substep with implicit bending.
             if (f->rod[0].segment.w == 1) {
                 build(f, 2 * h / 3, a);
                 compare(f, a, 0);
@@ -85,7 +86,7 @@ static void the_factors_are_of_the_implicit_systems(void** state)
     free(f);
 }
 
-// x of A x = r by the factors.
+// Solve A x = r by the factors.
 static void substitute(const struct hair_test_rod* f, double* x)
 {
     uint32_t n = f->guide.count;
@@ -100,7 +101,7 @@ static void substitute(const struct hair_test_rod* f, double* x)
     }
 }
 
-// The same by so many rounds of the reduction, as a work group does it.
+// Solve by this number of rounds of cyclic reduction, as a work group does.
 static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
 {
     double before[MOST + 2] = {0};
@@ -121,7 +122,8 @@ static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
     }
 }
 
-// Of a strand that is free nothing may be left out: what flies as one would be slowed down.
+// Check how much the reduction leaves out. For a free strand it may leave out nothing, because this
+// would slow down rigid motion.
 static void leave_out(hair_root root)
 {
     static const uint32_t lengths[] = {2, 3, 20, 32, 65, 256};
@@ -142,7 +144,9 @@ static void leave_out(hair_root root)
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, steps[s]);
             rounds[s] = hair_rods_reduce(&f->guide, 1, f->rod, n, steps[s], out, last);
             for (uint32_t i = 0; i < n;
-                 ++i) // Momenta: what displacements come of differs less from vertex to vertex.
+                 // The right side is momenta. The impulses of displacements vary less from vertex
+                 // to vertex.
+                 ++i)
                 x[i] = y[i] =
                     (double)f->rod[i].segment.y > 0 ? sin(0.3 * i) / (double)f->rod[i].segment.y : 0;
             substitute(f, x);
@@ -154,7 +158,8 @@ static void leave_out(hair_root root)
             printf("%u vertices, 1/%.0f s: %u of %u rounds, off by %.1e, heard from %.1e on\n", n,
                    1 / steps[s], rounds[s], all, off / most, heard);
             assert_true(rounds[s] <= all);
-            assert_true(off <= (4 * heard + 2e-6) * most); // Of two blocks of two, on both sides.
+            // The factor is for two blocks of two, on both sides.
+            assert_true(off <= (4 * heard + 2e-6) * most);
         }
         assert_true(n < 20 || (rounds[3] < all) == (root != HAIR_ROOT_FREE));
     }
@@ -168,7 +173,7 @@ static void what_the_reduction_leaves_out_is_not_heard(void** state)
     leave_out(HAIR_ROOT_FREE);
 }
 
-// Of m^-1 K, by the power method.
+// Return the highest frequency of m^-1 K, by the power method.
 static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
 {
     double x[MOST], y[MOST], highest = 0;
@@ -187,7 +192,7 @@ static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
     return highest;
 }
 
-// Leapfrog is stable where the substep times the highest frequency is below 2.
+// Check the substep. Leapfrog is stable if the substep times the highest frequency is below 2.
 static void the_substep_of_the_accurate_solver_is_stable(void** state)
 {
     (void)state;
@@ -216,7 +221,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
             hair_test_near("a frame", count, 1 / (60 * h), 18, 1e-9);
         }
     }
-    // What is stiffened to hold needs shorter ones still.
+    // A strand stiffened by gravity preload needs an even shorter substep.
     hair_test_rod_straight(f, 40, 0.3, PI / 2);
     double before = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
     f->physics.gravity_preload = 1;
@@ -228,7 +233,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     free(f);
 }
 
-// A x = b in single precision, as the shader does it, one way along the strand and one back.
+// Solve A x = b in single precision as the shader does, forward along the strand and back.
 static void solve(const struct hair_test_rod* f, float* x)
 {
     uint32_t n = f->guide.count;
@@ -247,7 +252,7 @@ static void solve(const struct hair_test_rod* f, float* x)
     }
 }
 
-// Straight, as stiff as can be asked for, and free of all else.
+// Make a straight strand of the maximum stiffness, without other forces.
 static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, double length)
 {
     f->physics.damping = f->physics.shape_frequency_root = f->physics.shape_frequency_tip =
@@ -258,7 +263,7 @@ static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, 
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
 }
 
-// A push that turns the whole strand about its root does so, however stiff it is.
+// Check a push that rotates the whole strand about its root, at any stiffness.
 static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
 {
     (void)state;
@@ -277,8 +282,8 @@ static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
     free(f);
 }
 
-// Vertices half a radian from rest: forces that sum to nothing but for what rounding leaves, and move the middle of
-// a strand that nothing holds by little of a segment.
+// Check vertices half a radian from rest. The forces sum to 0 except for rounding, and move the
+// centre of a free strand by a small fraction of a segment.
 static void stiffness_is_limited_to_what_single_precision_bears(void** state)
 {
     (void)state;
@@ -291,7 +296,8 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
             make_stiff(f, HAIR_ROOT_FREE, count, pow(10, -e));
             build(f, STEP, a);
             for (uint32_t i = 0; i < count; ++i) assert_true(a[i][i] * (double)f->rod[i].segment.y < 1.6e4);
-            if (e > 2) assert_true(a[1][1] * (double)f->rod[1].segment.y > 1e3); // No lower than it need be.
+            // The limit is no lower than necessary.
+            if (e > 2) assert_true(a[1][1] * (double)f->rod[1].segment.y > 1e3);
             for (uint32_t i = 1; i + 1 < count; ++i)
                 lever[i] = f->rod[i].strain.w * 0.5f * (float)sin(9.0 * i * i);
             double moved = 0, mass = 0;
@@ -307,7 +313,7 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
             }
             worst = fmax(worst, fabs(moved / mass) / (double)f->rod[0].segment.x);
         }
-    // A short segment at a free root has half of itself for a mass.
+    // The mass of a short segment at a free root is half of its own.
     float bent[] = {0, 0, 0, 1e-4f, 0, 0, 2e-3f, 0, 0, 4e-3f, 0, 0};
     hair_test_rod_place(f, 4, bent);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
@@ -319,8 +325,9 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
     free(f);
 }
 
-// The highest frequency of swinging crosswise under the tip's weight is at most 2.7 over b, and inertia for that is
-// only added where it takes it, and little beside the tip's.
+// Check the inertia added under a heavy tip. The highest frequency of transverse oscillation under
+// the tip's weight is at most 2.7 / b. Inertia is added only if this needs it, and is small
+// relative to the tip's.
 static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
 {
     (void)state;

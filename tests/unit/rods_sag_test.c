@@ -1,4 +1,5 @@
-// rods_sag_test.c - where guides come to rest under gravity: in their groom, or as far from it as is reported.
+// rods_sag_test.c - equilibria of guides under gravity: in their groom, or as far from it as
+// reported.
 #include "tests/support/support.h"
 
 #include <hair/hair_asset.h>
@@ -16,13 +17,13 @@
 #define MOST HAIR_MAX_GUIDE_VERTICES
 
 struct rested {
-    double left; // torque, relative
-    double away; // from the groom, m
-    int stable; // with gravity as it is
+    double left; // Remaining torque, relative.
+    double away; // Distance from the groom, in metres.
+    int stable; // Stability under the actual gravity.
     double length;
 };
 
-// Let a guide go from its groom, with the rest strain and the stiffness that the solvers have.
+// Release a guide from its groom, with the rest strain and stiffness of the solvers.
 static struct rested rest_of(const struct hair_guide* guide, const struct hair_rest* rest,
                              const hair_physics* physics, const struct hair_rod_borne* borne,
                              const struct hair_rod* rod)
@@ -121,7 +122,7 @@ static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
         }
 }
 
-// Upright, nothing tells where to.
+// Check an upright strand, which has no preferred direction.
 static void an_upright_strand_that_is_too_long_leans(void** state)
 {
     (void)state;

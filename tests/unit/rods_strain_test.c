@@ -1,4 +1,5 @@
-// rods_strain_test.c - the rest shape of guides as rods: the groom's, or what bears gravity in the groom.
+// rods_strain_test.c - the rest strain of guides as rods: that of the groom, or one that balances
+// gravity in the groom.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -29,7 +30,7 @@ static void what_bears_no_gravity_rests_in_the_grooms_own_strain(void** state)
     free(f);
 }
 
-// q and -q are the same frame.
+// Check that q and -q give the same strain.
 static void the_sign_of_a_frame_does_not_matter(void** state)
 {
     (void)state;
@@ -48,8 +49,8 @@ static void the_sign_of_a_frame_does_not_matter(void** state)
     free(f);
 }
 
-// The reference finds the same by its own way. It has a clamp factor for each stiffness; the section here is round,
-// and the twist at the root is left out.
+// Compare with the reference, which uses another method. It has a clamp factor for each stiffness.
+// The section here is round, and the twist at the root is left out.
 static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
 {
     (void)state;
@@ -77,7 +78,7 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
     hair_reference_rod_strain(20, p, desc.root_frame, strain);
     for (int i = 0; i < 57; ++i)
         most = fmax(most, fabs((double)(&f->rod[i / 3].strain.x)[i % 3] - strain[i]));
-    assert_true(most > 0.005); // Gravity does show in it.
+    assert_true(most > 0.005); // Gravity is visible in the strain.
     free(f);
 }
 

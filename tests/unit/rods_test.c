@@ -1,4 +1,5 @@
-// rods_test.c - guides as rods: masses, stiffness, sections; that all of it is finite, and made when it must be.
+// rods_test.c - guides as rods: masses, stiffness and sections are finite, and made again when
+// necessary.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 #define PI 3.141592653589793
 #define MOST HAIR_MAX_GUIDE_VERTICES
-#define STEP (1.0 / 240) // s
+#define STEP (1.0 / 240) // Seconds.
 
 static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void** state)
 {
@@ -55,8 +56,9 @@ static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
     free(f);
 }
 
-// An ellipse of half axes a >= b about its centre: second moments pi a b^3 / 4 and pi a^3 b / 4, torsion constant
-// pi a^3 b^3 / (a^2 + b^2), shear modulus E / (2 (1 + nu)).
+// Check an elliptic section with half axes a >= b about its centre. The second moments are pi a b^3
+// / 4 and pi a^3 b / 4. The torsion constant is pi a^3 b^3 / (a^2 + b^2). The shear modulus is E /
+// (2 (1 + nu)).
 static void ratios_are_those_of_an_elliptic_section(void** state)
 {
     (void)state;
@@ -136,11 +138,13 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
         uint32_t count = 2 + (uint32_t)(hair_random(&random) * 40);
         for (uint32_t i = 0; i < 3 * count; ++i) {
             float far = run % 4 ? size : within(&random, 1e-9, 1e4);
-            float forward = (float)(i % 3 == 0) * (run % 2 ? 1 : 0); // Else to and fro, with folds.
+            // Otherwise to and fro, with folds.
+            float forward = (float)(i % 3 == 0) * (run % 2 ? 1 : 0);
             at[i] = (i < 3 ? 0 : at[i - 3]) + far * (forward + (run % 5 ? hair_random(&random) - 0.5f : 0));
         }
         hair_test_rod_place(f, count, at);
-        if (run % 7 == 0) f->rest[count / 2].position = f->rest[0].position; // A segment without direction.
+        // A segment without a direction.
+        if (run % 7 == 0) f->rest[count / 2].position = f->rest[0].position;
         hair_solver solver = (hair_solver)(run % 4);
         double h = hair_test_rod_substep(f, solver);
         if (hair_random(&random) < 0.5f) h = (double)within(&random, 1e-5, 0.1);
@@ -151,7 +155,8 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
             if (!isfinite(number[i]))
                 fail_msg("run %d: number %u of vertex %u is %g", run, i % 16, i / 16, (double)number[i]);
         for (uint32_t i = 0; i < count && solver != HAIR_SOLVER_FOLLOW;
-             ++i) { // Which has numbers of its own.
+             // This solver has numbers of its own.
+             ++i) {
             hair_vec4 u = f->rod[i].strain;
             assert_true(u.w >= 0 && u.x * u.x + u.y * u.y + u.z * u.z < 3.1f * 3.1f);
             assert_true(f->rod[i].factor_euler.x > 0);
@@ -189,7 +194,7 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
     assert_int_equal(report.sagging, 1);
     assert_true(report.stiffest == long_one->report.stiffest && report.stiffest > 2.9f);
     assert_true(report.farthest_sag == long_one->report.farthest_sag && report.farthest_sag > 0.01f);
-    // The stiff, short ones go implicit rather than have all wait for them.
+    // The stiff, short guides become implicit, so that the others need not use short substeps.
     double h = hair_rods_substep(guides, rest, borne, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0);
     assert_true(hair_test_rod_substep(long_one, HAIR_SOLVER_ACCURATE) == h);
     free(short_one);

@@ -1,4 +1,4 @@
-// source_test.c - shader text with its includes in place, and line numbers that lead back to the files.
+// source_test.c - shader text with its includes inserted, and line numbers that refer to the files.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -136,14 +136,14 @@ static void refused_memory_leaks_nothing(void** state)
     hair_free(&test.host, source.text);
 }
 
-// The passes ---------------------------------------------------------------------------------------------
+// The passes --------------------------------------------------------------------------------------
 
 static const char* const stages[] = {
 #define PASS(name, label, features, stages) stages,
 #include "lib/gl/passes.inl"
 };
 
-// Line `number` (from 1) of glsl/`name`.
+// Read line `number` (from 1) of glsl/`name`.
 static void read_line(const char* name, int number, char* out, int size)
 {
     char path[128];
@@ -157,7 +157,7 @@ static void read_line(const char* name, int number, char* out, int size)
     fclose(file);
 }
 
-// Every line is the one that the #line directives say it is.
+// Check every line against the file and number of the #line directives.
 static void check_lines(const struct hair_gl_source* source)
 {
     int line = 1;
@@ -177,7 +177,7 @@ static void check_lines(const struct hair_gl_source* source)
     }
 }
 
-// Every file that some pass is made of, once.
+// Check every file that a pass consists of, once.
 static void for_every_shader(void (*check)(const char* name))
 {
     static char seen[128][48];
@@ -186,8 +186,8 @@ static void for_every_shader(void (*check)(const char* name))
         char list[256];
         snprintf(list, sizeof list, "%s", stages[i]);
         for (char* name = strtok(list, " "); name; name = strtok(NULL, " ")) {
-            if (strchr(name, '=')) continue; // a definition
-            if (strchr(name, '?')) name = strchr(name, '?') + 1; // what it is there with
+            if (strchr(name, '=')) continue; // A definition.
+            if (strchr(name, '?')) name = strchr(name, '?') + 1; // Skips the condition of the file.
             size_t k = 0;
             while (k < count && strcmp(seen[k], name)) ++k;
             if (k < count) continue;
@@ -213,7 +213,7 @@ static void every_line_of_every_shader_leads_back_to_its_file(void** state)
     for_every_shader(check_lines_of);
 }
 
-// What a shader includes, and whether that is within an #if.
+// Files that a shader includes, and whether the inclusion is within an #if.
 struct included {
     char file[64][48];
     int on_condition[64];
@@ -227,7 +227,8 @@ static int is_guard(const char* line)
            (strncmp(line + length - 5, "_GLSL", 5) == 0 || strncmp(line + length - 2, "_H", 2) == 0);
 }
 
-// The reader puts a file where it is included first: where that is not compiled, there is nothing of it.
+// Collect included files. The reader inserts a file only at its first inclusion. If that is not
+// compiled, the file is missing everywhere.
 static void walk(const char* name, int on_condition, struct included* all)
 {
     char path[128], line[512], file[48];

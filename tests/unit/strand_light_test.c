@@ -1,4 +1,5 @@
-// strand_light_test.c - light past strands, where it is known: a grating of strands lets through what it leaves open.
+// strand_light_test.c - light past strands of a grating, which transmits the fraction that it
+// leaves open.
 #include "tests/support/support.h"
 
 #include <math.h>
@@ -8,7 +9,8 @@
 #define BARS 400
 #define EACH 11
 
-// Bars along x, 1 mm apart and 20 cm long, 5 cm above a strand across them. Light from above.
+// Fill in bars along x, 1 mm apart and 20 cm long, 5 cm above a strand across them. The light is
+// from above.
 static void fill(float* positions)
 {
     for (int n = 0; n <= BARS; ++n)
@@ -48,7 +50,7 @@ static void rays_meet_the_share_that_a_grating_covers(void** state)
     }
 }
 
-// They know no places within a texel, so that strands are met by chance.
+// Check layers. They have no positions within a texel, so strands are independent of each other.
 static void layers_meet_as_many_strands_by_chance(void** state)
 {
     (void)state;

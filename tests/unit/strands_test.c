@@ -1,4 +1,4 @@
-// strands_test.c - foreign strands become fit to simulate, whatever they were.
+// strands_test.c - imported strands become fit for simulation.
 #include "lib/asset/strands.h"
 #include "lib/base/math.h"
 #include "tests/support/host.h"
@@ -31,7 +31,7 @@ static int finish(void** state)
     return test.blocks ? -1 : 0;
 }
 
-// Straight strands along x, 1 cm a segment, strand i at z = i.
+// Make straight strands along x with segments of 1 cm. Strand i is at z = i.
 static struct hair_strands make(uint32_t count, uint32_t each)
 {
     struct hair_strands strands = {.strand_count = count, .vertex_count = count * each};
@@ -58,7 +58,7 @@ static void drop(struct hair_strands* strands)
     hair_strands_free(&test.host, strands);
 }
 
-// What strands.h promises of every strand.
+// Check the guarantees of strands.h for every strand.
 static void assert_fit(const struct hair_strands* strands)
 {
     size_t first = 0;
@@ -113,7 +113,7 @@ static void the_up_axis_turns_to_y_without_mirroring(void** state)
         hair_import import = defaults();
         import.up = ups[i];
         struct hair_strands strands = make(1, 4);
-        // A corner of the axes, whose handedness shows mirroring.
+        // A corner of the axes. Its handedness reveals mirroring.
         float corner[12] = {1, 2, 3, 2, 2, 3, 2, 3, 3, 2, 3, 4};
         memcpy(strands.positions, corner, sizeof corner);
         clean(&import, &strands);
@@ -123,7 +123,7 @@ static void the_up_axis_turns_to_y_without_mirroring(void** state)
         hair_vec3 b = hair_sub(hair_load3(strands.positions + 6), hair_load3(strands.positions + 3));
         hair_vec3 c = hair_sub(hair_load3(strands.positions + 9), hair_load3(strands.positions + 6));
         assert_float_equal(hair_dot(hair_cross(a, b), c), 1, 1e-6);
-        assert_float_equal(i ? a.y : c.y, 1, 1e-6); // The up axis itself.
+        assert_float_equal(i ? a.y : c.y, 1, 1e-6); // The up axis.
         drop(&strands);
     }
 }
@@ -156,7 +156,8 @@ static void a_share_keeps_so_many_strands_evenly(void** state)
             double wanted = (double)shares[s] * counts[c];
             assert_true(strands.strand_count >= fmax(1, floor(wanted)));
             assert_true(strands.strand_count <= fmax(1, ceil(wanted)));
-            // z tells which strand it was: in order, none twice, no gap wider than two runs; radii go along.
+            // z identifies the strand. Strands are in order and unique, without a gap wider than
+            // two runs, and keep their radii.
             float last = -1;
             for (uint32_t i = 0; i < strands.strand_count; ++i) {
                 float z = strands.positions[9 * i + 2];
@@ -194,7 +195,7 @@ static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
     strands.positions[3 + 1] = INFINITY;
     strands.positions[9 + 2] = -1e38f;
     strands.positions[12] = 1.1e6f;
-    strands.positions[15 + 2] = 1e-45f; // Denormal: as good as any.
+    strands.positions[15 + 2] = 1e-45f; // Denormal numbers are accepted.
     clean(&import, &strands);
     assert_int_equal(repairs.removed_nonfinite, 4);
     assert_int_equal(strands.vertices[0], 4);
@@ -221,7 +222,8 @@ static void repeated_vertices_are_merged_and_counted(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    struct hair_strands strands = make(1, 10); // 9 cm: nearer than 0.9 micrometres is repeated.
+    // The strand is 9 cm long. Vertices closer than 0.9 micrometres count as repeated.
+    struct hair_strands strands = make(1, 10);
     strands.positions[3 * 1] = strands.positions[0];
     strands.positions[3 * 2] = strands.positions[0] + 0.8e-6f;
     strands.positions[3 * 5] = strands.positions[3 * 4] + 1e-6f;
@@ -235,7 +237,7 @@ static void repeated_vertices_are_merged_and_counted(void** state)
 static void creeping_strands_keep_their_shape(void** state)
 {
     (void)state;
-    // Each step is below the limit; together they are most of the strand.
+    // Each step is below the limit, but their sum is most of the strand.
     hair_import import = defaults();
     struct hair_strands strands = make(1, 200001);
     for (uint32_t i = 0; i < 200001; ++i) strands.positions[3 * i] = 1e-6f * (float)i;
@@ -251,7 +253,7 @@ static void strands_of_one_vertex_are_dropped_and_counted(void** state)
     (void)state;
     hair_import import = defaults();
     struct hair_strands strands = make(4, 3);
-    strands.vertices[0] = 1; // 1 + 5 + 0 + 6 vertices
+    strands.vertices[0] = 1; // The strands have 1, 5, 0 and 6 vertices.
     strands.vertices[1] = 5;
     strands.vertices[2] = 0;
     strands.vertices[3] = 6;
@@ -271,7 +273,7 @@ static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** s
     hair_import import = defaults();
     struct hair_strands strands = make(3, 2);
     strands.positions[3] = 0.9e-5f;
-    strands.positions[9] = 0; // No length at all.
+    strands.positions[9] = 0; // The strand has no length.
     strands.positions[15] = 1.1e-5f;
     clean(&import, &strands);
     assert_int_equal(repairs.dropped_short, 2);
@@ -334,7 +336,8 @@ static void strands_of_256_vertices_stay_and_of_257_do_not(void** state)
 static void resampling_puts_vertices_at_equal_distances(void** state)
 {
     (void)state;
-    // Three sides of a rectangle, 1 + 2 + 1 long; nine samples lie half a unit apart along it.
+    // Three sides of a rectangle, of lengths 1, 2 and 1. Nine samples are half a unit apart along
+    // it.
     const float corners[12] = {0, 0, 0, 0, 1, 0, 2, 1, 0, 2, 0, 0};
     const float want[27] = {0, 0,    0, 0, 0.5f, 0, 0, 1, 0,    0.5f, 1, 0, 1, 1,
                             0, 1.5f, 1, 0, 2,    1, 0, 2, 0.5f, 0,    2, 0, 0};
@@ -368,7 +371,8 @@ static void resampling_reaches_every_count(void** state)
 static void strands_that_fold_back_keep_distinct_vertices(void** state)
 {
     (void)state;
-    // There and back: where the count is even, two samples lie at the same place on both sides of the fold.
+    // A strand that goes there and back. With an even count, two samples coincide on both sides of
+    // the fold.
     for (uint32_t count = 3; count <= 256; ++count) {
         hair_import import = defaults();
         import.strand_vertices = count;
@@ -396,7 +400,7 @@ static void strands_that_cannot_be_resampled_are_dropped(void** state)
     assert_float_equal(strands.radii[0], 1, 0);
     drop(&strands);
 
-    // At 1e6 m floats are 6 cm apart: no room for 256 vertices on 25 cm.
+    // Floats at 1e6 m are spaced by 6 cm, which is too coarse for 256 vertices on 25 cm.
     strands = make(1, 2);
     import.strand_vertices = 256;
     strands.positions[0] = 9e5f;
@@ -408,7 +412,7 @@ static void strands_that_cannot_be_resampled_are_dropped(void** state)
 
 static float random_float(uint32_t* random)
 {
-    // All bit patterns, then ordinary numbers, then few enough to repeat.
+    // All bit patterns, then ordinary numbers, and then few values, so that they repeat.
     *random = hair_hash(*random);
     uint32_t kind = *random % 4, bits = hair_hash(*random + 1);
     float value;
@@ -454,7 +458,7 @@ static void four_million_strands_take_no_longer_than_their_number(void** state)
     (void)state;
     hair_import import = defaults();
     import.keep_fraction = 0.5f;
-    import.scale = 0.1f; // So that none lies beyond 1e6 m.
+    import.scale = 0.1f; // With this scale, no strand is beyond 1e6 m.
     struct hair_strands strands = make(4194304, 2);
     size_t before = test.live;
     clean(&import, &strands);

@@ -1,4 +1,5 @@
-// style_test.c - the built-in haircuts: an even scalp, guides that grow from it, and the look of each style.
+// style_test.c - the built-in haircuts: an evenly distributed scalp, guides that grow from it, and
+// the look of each style.
 #include "lib/groom/style_body.h"
 #include "lib/groom/style_grow.h"
 #include "tests/support/host.h"
@@ -31,7 +32,7 @@ static int finish(void** state)
 struct cut {
     hair_asset* asset;
     hair_asset_info info;
-    uint32_t each; // vertices of a guide
+    uint32_t each; // Vertices of a guide.
 };
 
 static struct cut cut_with(hair_style style, uint32_t guides, float length, uint32_t seed)
@@ -77,7 +78,7 @@ static float guide_length(const struct cut* cut, uint32_t guide)
     return length;
 }
 
-// Guides ---------------------------------------------------------------------------------------------------
+// Guides ------------------------------------------------------------------------------------------
 
 static void guides_are_finite_and_of_equal_segments(void** state)
 {
@@ -91,7 +92,8 @@ static void guides_are_finite_and_of_equal_segments(void** state)
             float mean = guide_length(&cut, guide) / (float)(cut.each - 1);
             assert_true(mean > 5e-4f && mean < 0.1f);
             for (uint32_t i = 1; i < cut.each; ++i) {
-                // A chord is shorter than its arc: most where curls are tightest, 5 segments a turn.
+                // A chord is shorter than its arc, especially in the tightest curls, which have 5
+                // segments per turn.
                 float segment = hair_distance(vertex(&cut, guide, i), vertex(&cut, guide, i - 1));
                 assert_true(segment > 0.7f * mean && segment < 1.3f * mean);
             }
@@ -158,7 +160,7 @@ static void guides_leave_the_face_free(void** state)
     }
 }
 
-// A tail stands off; and so does an afro, as far as it is long.
+// Check styles that lie close. A tail stands off, and an afro stands off by its length.
 static void guides_hang_close_to_the_bust(void** state)
 {
     (void)state;
@@ -172,7 +174,8 @@ static void guides_hang_close_to_the_bust(void** state)
     }
 }
 
-// Neighbours are guides of one triangle. They may part on the shoulders and round the crown only: one in ten.
+// Check neighbours, which are guides of one triangle. They may part only on the shoulders and
+// around the crown, one in ten.
 static void neighbouring_guides_go_similar_ways(void** state)
 {
     (void)state;
@@ -196,7 +199,8 @@ static void length_scales_the_guides(void** state)
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
         struct cut one = cut_style((hair_style)style), two = cut_with((hair_style)style, 166, 1.5f, 1);
         float ratio = two.info.length[1] / one.info.length[1];
-        // A ponytail is combed to its tie first, whatever its length; curls reach their full width only once.
+        // A ponytail is first combed to its tie, at any length. Curls have their full radius only
+        // once.
         if (style == HAIR_STYLE_PONYTAIL)
             assert_true(ratio > 1.2f && ratio < 1.5f);
         else
@@ -237,7 +241,7 @@ static void the_seed_alone_makes_the_difference(void** state)
     hair_asset_destroy(a.asset);
 }
 
-// Looks ----------------------------------------------------------------------------------------------------
+// Looks -------------------------------------------------------------------------------------------
 
 static void long_hair_reaches_below_the_shoulders(void** state)
 {
@@ -274,7 +278,8 @@ static void short_hair_lies_close_to_the_skull(void** state)
     hair_asset_destroy(cut.asset);
 }
 
-// The tie is where the guides are nearest to one another: a ring of 11 mm behind the crown.
+// Check the tie, where the guides are closest to each other. It is a ring of 11 mm behind the
+// crown.
 static void a_ponytail_is_gathered_at_the_back(void** state)
 {
     (void)state;
@@ -321,7 +326,7 @@ static void an_afro_is_round(void** state)
     hair_asset_destroy(cut.asset);
 }
 
-// Scalp ----------------------------------------------------------------------------------------------------
+// Scalp -------------------------------------------------------------------------------------------
 
 static float corner_angle(hair_vec3 at, hair_vec3 a, hair_vec3 b)
 {
@@ -341,8 +346,8 @@ static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
     }
 }
 
-// Euler and Poincare: vertices - edges + triangles is 1 for a sheet without holes. An edge has at most one
-// triangle on either side.
+// Check Euler and Poincare: vertices - edges + triangles is 1 for a sheet without holes. An edge
+// has at most one triangle on either side.
 static void assert_is_one_sheet(const struct cut* cut)
 {
     uint32_t count = cut->info.scalp_vertex_count, edges = 0, vertices = 0;
@@ -369,7 +374,8 @@ static void the_scalp_is_one_sheet_of_fat_triangles(void** state)
     for (uint32_t i = 0; i < 8; ++i)
         for (uint32_t seed = 0; seed < 3; ++seed)
             for (uint32_t style = 0; style <= HAIR_STYLE_CURLY;
-                 ++style) { // An afro has the ponytail's scalp.
+                 // An afro has the ponytail's scalp.
+                 ++style) {
                 struct cut cut = cut_with((hair_style)style, counts[i], 0.1f, seed);
                 assert_int_equal(cut.info.scalp_vertex_count, counts[i]);
                 assert_is_one_sheet(&cut);
@@ -378,14 +384,15 @@ static void the_scalp_is_one_sheet_of_fat_triangles(void** state)
             }
 }
 
-// By the numbers of hair_asset.h, about. m.
+// Return the height in metres, approximately, by the numbers of hair_asset.h.
 static float height_above_skull(hair_vec3 p)
 {
     float x = p.x / 0.077f, y = (p.y - 1.63f) / 0.098f, z = p.z / 0.096f;
     return 0.088f * (sqrtf(x * x + y * y + z * z) - 1);
 }
 
-// Followers grow all over triangles, whose middles lie lower than their corners.
+// Check roots on the skull. Followers grow all over triangles, whose middles lie lower than their
+// corners.
 static void roots_lie_on_the_promised_skull(void** state)
 {
     (void)state;
@@ -405,14 +412,14 @@ static void roots_lie_on_the_promised_skull(void** state)
     for (uint32_t i = 0; i < cut.info.scalp_vertex_count; ++i) {
         hair_vec3 p = scalp_vertex(&cut, i);
         assert_true(height_above_skull(p) > 0 && height_above_skull(p) < 1e-3f);
-        // Bare: the face, and what is below the nape.
+        // The face and the area below the nape are bare.
         assert_false(p.z > 0.06f && p.y < 1.66f);
         assert_true(p.y > 1.55f);
     }
     hair_asset_destroy(cut.asset);
 }
 
-// Without a parting, whose sides are a comb's line apart.
+// Check a style without a parting. The sides of a parting are a comb's line apart.
 static void roots_are_spread_evenly(void** state)
 {
     (void)state;
@@ -450,7 +457,7 @@ static void no_triangle_lies_across_the_parting(void** state)
     hair_asset_destroy(cut.asset);
 }
 
-// Limits ---------------------------------------------------------------------------------------------------
+// Limits ------------------------------------------------------------------------------------------
 
 static void the_most_guides_take_seconds_at_most(void** state)
 {
@@ -459,7 +466,8 @@ static void the_most_guides_take_seconds_at_most(void** state)
     timespec_get(&from, TIME_UTC);
     struct cut cut = cut_with(HAIR_STYLE_LONG, 4096, 1, 1);
     timespec_get(&to, TIME_UTC);
-    assert_true(difftime(to.tv_sec, from.tv_sec) < 20); // Sanitizers and a shared machine included.
+    // The limit includes sanitizers and a shared machine.
+    assert_true(difftime(to.tv_sec, from.tv_sec) < 20);
     assert_int_equal(cut.info.strand_count, 4096);
     hair_asset_destroy(cut.asset);
 }
