@@ -14,6 +14,7 @@
 hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
                                    struct hair_fluid_buffer* out)
 {
+    HAIR_ASSERT(count > 0 && !out->buffer && !out->texture);
     hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
     return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
 }
@@ -30,6 +31,8 @@ static uint32_t find_levels(struct hair_fluid* fluid)
 {
     struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
     for (fluid->levels = 0;; at.cells /= 2) {
+        HAIR_ASSERT(fluid->levels < HAIR_FLUID_LEVELS);
+        HAIR_ASSERT(at.cells % 2 == 0 || at.cells <= HAIR_FLUID_BOTTOM);
         fluid->level[fluid->levels++] = at;
         at.slot += (at.cells + 1) * (at.cells + 1) * (at.cells + 1);
         at.cell += at.cells * at.cells * at.cells;
@@ -96,6 +99,7 @@ static hair_result make_all(struct hair_fluid* fluid)
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc)
 {
+    HAIR_ASSERT(desc->side > 0 && 16 <= desc->cells && desc->cells <= 128 && desc->cells % 16 == 0);
     *fluid = (struct hair_fluid){.gl = gl, .desc = *desc};
     hair_result result = make_all(fluid);
     if (result)
@@ -134,6 +138,7 @@ void hair_fluid_forget(struct hair_fluid* fluid)
 static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
 {
     struct hair_gl* gl = fluid->gl;
+    HAIR_ASSERT(fluid->now < 3 && fluid->pressed < 2);
     // Advection writes the next velocity buffer, and correction the one after it.
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
     carried = &fluid->velocity[(fluid->now + 1) % 3];
@@ -170,6 +175,7 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
 {
     const GLintptr first = (GLintptr)(2 * level + color) * ALIGNMENT;
     const GLsizeiptr size = sizeof(struct hair_fluid_level);
+    HAIR_ASSERT(level < fluid->levels && color < 2 && threads > 0);
     bind(fluid, pass);
     fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
@@ -200,6 +206,7 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
 {
     const hair_collider *to = &now->colliders->now.collider[i],
                         *from = hair_colliders_before(now->colliders, i);
+    HAIR_ASSERT(now->colliders_dt > 0);
     float rate = (float)(1 / now->colliders_dt);
     hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
     hair_vec3 speed = limited(hair_scale(moved, rate));
@@ -239,6 +246,7 @@ static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* 
     int moved = fluid->moving;
     fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
+    HAIR_ASSERT(count <= fluid->room);
     for (uint32_t i = 0; i < fluid->room; ++i) {
         fluid->motion_of[i] = i < count ? motion_of(now, i) : still;
         fluid->moving |= memcmp(&fluid->motion_of[i], &still, sizeof still) != 0;
@@ -283,6 +291,7 @@ static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_n
 
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
+    HAIR_ASSERT(fluid->gl && now->dt > 0);
     float shift[3], cell = hair_fluid_cell(fluid);
     int moved = fluid->moving; // Walls keep these velocities until they are written again.
     write_motion(fluid, now);
