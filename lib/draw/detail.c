@@ -10,6 +10,7 @@
 // normal. The plane is in the space that `clip` transforms from.
 static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
+    HAIR_ASSERT(0 <= row && row < 3);
     float p[4];
     hair_vec4 plane = {0, 0, 0, EVERYWHERE};
     for (int i = 0; i < 4; ++i) p[i] = edge * clip[4 * i + 3] + sign * clip[4 * i + row];

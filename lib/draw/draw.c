@@ -16,6 +16,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->seats = hair_seats_hold(groom->seats);
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
+    HAIR_ASSERT(0 < draw->most_isolines && draw->most_isolines <= HAIR_MAX_ISOLINES);
     hair_draw_find_extent(draw, groom);
     hair_draw_find_fastest(draw);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
@@ -94,6 +95,7 @@ void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
     uint32_t count = hair_view_maps(view, maps);
+    HAIR_ASSERT(count <= HAIR_SHADOW_MAPS);
     for (GLuint i = 0; i < count; ++i) {
         bind_map(draw->gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
         bind_map(draw->gl, HAIR_UNIT_BODY + i, maps[i].body);
@@ -116,6 +118,7 @@ void hair_draw_patches(struct hair_draw* draw)
     uint32_t batch = batch_size(draw);
     uint32_t parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
     parts *= (draw->most_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
+    HAIR_ASSERT(batch > 0 && parts > 0);
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
     for (uint32_t first = 0; first < draw->patches; first += batch) {
         uint32_t count = draw->patches - first < batch ? draw->patches - first : batch;
@@ -198,6 +201,7 @@ static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struc
 static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
                                 const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
+    HAIR_ASSERT((size_t)view->render_path < sizeof row_of_path / sizeof *row_of_path);
     hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->render_path];
     if (hair_draw_is_paired(view)) row = HAIR_GL_PAIRED;
     *shade = 0;
@@ -271,6 +275,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     int listed = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
+    HAIR_ASSERT(with->program && (with->shade != 0) == (with->shade_pass != 0));
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
     if (hair_draw_stages(view))
@@ -339,6 +344,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
     int guides = view->pass == HAIR_PASS_GUIDES;
+    HAIR_ASSERT(guides || view->render_path != HAIR_RENDER_PATH_AUTO);
     struct drawn with = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =

@@ -66,6 +66,7 @@ int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth
 
 uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
 {
+    HAIR_ASSERT(share >= 0);
     double each = draw->look.segments + 1.0;
     double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
     double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);
@@ -88,6 +89,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     hair_gl_write_uniform(gl, draw->params, sizeof params, drawn);
     hair_draw_bind(draw, smooth);
     hair_draw_keep_shown(draw);
+    HAIR_ASSERT(expanded->vertices == hair_draw_count_vertices(draw) && drawn->chunks > 0);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
@@ -105,6 +107,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
 
 void hair_draw_bind_expanded(struct hair_draw* draw)
 {
+    HAIR_ASSERT(draw->expanded.position_texture && draw->expanded.tangent_texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
 }

@@ -63,6 +63,7 @@ static void write_sky(const float* sky, int channel, float ambient, hair_mat4* o
 
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS])
 {
+    HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
     uint32_t maps = 0;
     for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
         const hair_light* light = &view->lights[i];
@@ -90,6 +91,7 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
     for (uint32_t i = 0; i < view->light_count; ++i)
         write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
     for (uint32_t i = 0; i < count; ++i) {
+        HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(draw, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
         light[HAIR_LIGHT_MORE].z = draw->look.absorption;
