@@ -4,6 +4,7 @@
 hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
                                uint64_t count, uint32_t size)
 {
+    HAIR_ASSERT(size > 0);
     if (offset <= source->size && count <= (source->size - offset) / size) return HAIR_OK;
     return hair_fail(source->host, HAIR_ERROR_FILE,
                      "the file ends at byte %zu, within the %s at byte %llu, which need %llu times %u bytes",
@@ -13,6 +14,8 @@ hair_result hair_check_section(const struct hair_source* source, const char* wha
 hair_result hair_strands_allocate(const hair_host* host, struct hair_strands* strands, uint32_t strand_count,
                                   uint32_t vertex_count)
 {
+    HAIR_ASSERT(!strands->positions && !strands->vertices);
+    HAIR_ASSERT(strand_count > 0 && vertex_count > 0);
     strands->positions = hair_alloc(host, vertex_count, 3 * sizeof *strands->positions);
     strands->vertices = hair_alloc(host, strand_count, sizeof *strands->vertices);
     strands->strand_count = strand_count;
@@ -36,6 +39,8 @@ static bool read_colors_of(const unsigned char* at, size_t size, uint32_t vertic
 hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t size,
                              struct hair_strands* strands)
 {
+    HAIR_ASSERT(size >= 12 && !strands->colors);
+    HAIR_ASSERT(at + size * strands->vertex_count <= source->size);
     uint32_t most = 0;
     size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i)
@@ -45,6 +50,7 @@ hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t
     hair_result result =
         own && strands->colors ? HAIR_OK : hair_fail_memory(source->host, "the colours of a file");
     for (uint32_t i = 0; i < strands->strand_count && !result; ++i) {
+        HAIR_ASSERT(first + strands->vertices[i] <= strands->vertex_count);
         if (!read_colors_of(source->bytes + at + size * first, size, strands->vertices[i], own)) {
             hair_log(source->host, HAIR_LOG_WARNING,
                      "a colour of the strand at byte %zu is not in [0, 1]: no colour is used",
@@ -63,10 +69,12 @@ hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t
 
 unsigned char* hair_write_colors(const struct hair_strands* strands, int channels, unsigned char* at)
 {
+    HAIR_ASSERT(strands->colors && (channels == 3 || channels == 4));
     const float* p = strands->positions;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         uint32_t vertices = strands->vertices[i];
         double length = hair_strand_length(p, vertices), passed = 0;
+        HAIR_ASSERT(length > 0);
         for (uint32_t k = 0; k < vertices; ++k, p += 3) {
             float color[3];
             if (k) passed += hair_strand_length(p - 3, 2);

@@ -15,6 +15,7 @@ void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
 
 void hair_draw_bind_expanded(struct hair_draw* draw)
 {
+    HAIR_ASSERT(draw->expanded.position_texture && draw->expanded.tangent_texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
 }
@@ -22,11 +23,13 @@ void hair_draw_bind_expanded(struct hair_draw* draw)
 void hair_draw_bind_motion(struct hair_draw* draw)
 {
     GLuint texture = draw->motion.still ? draw->expanded.position_texture : draw->motion.texture;
+    HAIR_ASSERT(texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
 }
 
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS])
 {
+    HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
     uint32_t maps = 0;
     for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
         const hair_light* light = &view->lights[i];
@@ -47,6 +50,7 @@ void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
     uint32_t count = hair_view_maps(view, maps);
+    HAIR_ASSERT(count <= HAIR_SHADOW_MAPS);
     for (GLuint i = 0; i < count; ++i) {
         bind_map(draw->gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
         bind_map(draw->gl, HAIR_UNIT_BODY + i, maps[i].body);

@@ -12,6 +12,7 @@
 // normal. The plane is in the space that `clip` transforms from.
 static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
+    HAIR_ASSERT(0 <= row && row < 3);
     float p[4];
     hair_vec4 plane = {0, 0, 0, EVERYWHERE};
     for (int i = 0; i < 4; ++i) p[i] = edge * clip[4 * i + 3] + sign * clip[4 * i + row];
@@ -92,6 +93,7 @@ static double find_share(const struct hair_draw* draw, const hair_lod* lod)
 
 uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
 {
+    HAIR_ASSERT(share >= 0);
     double each = draw->look.segments + 1.0;
     double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
     double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);

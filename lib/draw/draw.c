@@ -16,6 +16,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->seats = hair_seats_hold(groom->seats);
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
+    HAIR_ASSERT(0 < draw->most_isolines && draw->most_isolines <= HAIR_MAX_ISOLINES);
     hair_draw_find_extent(draw, groom);
     hair_draw_find_fastest(draw);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
@@ -151,6 +152,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     int listed = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
+    HAIR_ASSERT(with->program && (with->shade != 0) == (with->shade_pass != 0));
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
     if (hair_draw_stages(view))
@@ -219,6 +221,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
     int guides = view->pass == HAIR_PASS_GUIDES;
+    HAIR_ASSERT(guides || view->render_path != HAIR_RENDER_PATH_AUTO);
     struct drawn with = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =

@@ -72,6 +72,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     hair_gl_write_uniform(gl, draw->params, sizeof params, drawn);
     hair_draw_bind(draw, smooth);
     hair_draw_keep_shown(draw);
+    HAIR_ASSERT(expanded->vertices == hair_draw_count_vertices(draw) && drawn->chunks > 0);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);

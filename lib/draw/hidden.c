@@ -81,6 +81,7 @@ static bool find_texels(const struct hair_draw* draw, const struct hair_pose* he
         end[k] = (uint32_t)(to * texels) + 1;
         if (end[k] > most) end[k] = most;
         if (first[k] >= end[k]) first[k] = end[k] - 1;
+        HAIR_ASSERT(first[k] < end[k] && end[k] <= most);
     }
     out->first_x = first[0], out->first_y = first[1];
     out->columns = end[0] - first[0], out->rows = end[1] - first[1];
@@ -119,6 +120,7 @@ hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide
     draw->used[HAIR_DRAW_HIDDEN] = draw->frame;
     struct hair_gl* gl = draw->gl;
     struct hair_hidden* hidden = &draw->hidden;
+    HAIR_ASSERT(params->columns > 0 && params->rows > 0);
     size_t texels = hair_pyramid_texels(params->columns, params->rows);
     size_t boxes = (size_t)draw->guides * HAIR_HIDE_PARTS * 2;
     hair_result result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
@@ -145,6 +147,7 @@ void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_h
 {
     struct hair_gl* gl = draw->gl;
     struct hair_hidden* hidden = &draw->hidden;
+    HAIR_ASSERT(hidden->room >= hair_pyramid_texels(params->columns, params->rows));
     GLuint buffers[] = {hidden->depth, hidden->box, draw->patch};
     uint32_t parts = draw->guides * HAIR_HIDE_PARTS;
     hair_gl_pass patches = HAIR_GL_HIDE_PATCHES;

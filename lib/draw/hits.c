@@ -65,6 +65,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     struct hair_hits* hits = &draw->hits;
     struct hair_draw_params params;
     hair_draw_write_params(draw, NULL, NULL, &params);
+    HAIR_ASSERT(hits->turn < 2 && hits->hit && hits->list);
     hits->turn = 1 - hits->turn;
     params.turn = hits->turn;
     params.collision_margin = margin + OUTSIDE;

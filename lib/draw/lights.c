@@ -70,6 +70,7 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
     for (uint32_t i = 0; i < view->light_count; ++i)
         write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
     for (uint32_t i = 0; i < count; ++i) {
+        HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(draw, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
         light[HAIR_LIGHT_MORE].z = draw->look.absorption;

@@ -67,6 +67,7 @@ static hair_vec4 weigh_sets(float set, uint32_t sets)
     float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
     float at = set < last ? set : last;
     int first = (int)at;
+    HAIR_ASSERT(0 <= first && first < HAIR_MAP_SETS);
     weight[first] = 1 - (at - (float)first);
     if (first + 1 < HAIR_MAP_SETS) weight[first + 1] = at - (float)first;
     return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
@@ -86,6 +87,7 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
                             struct hair_draw_params* out)
 {
     const hair_look* look = &draw->look;
+    HAIR_ASSERT(look->segments > 0 && (!view || head));
     memset(out, 0, sizeof *out);
     if (view) write_view(draw, head, view, out);
     out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};

@@ -8,6 +8,7 @@ bool hair_draw_has_uvs(const struct hair_draw* draw)
 
 hair_result hair_draw_need_uvs(struct hair_draw* draw)
 {
+    HAIR_ASSERT(hair_draw_has_uvs(draw));
     draw->used[HAIR_DRAW_UVS] = draw->frame;
     struct hair_gl* gl = draw->gl;
     hair_result result = HAIR_OK;

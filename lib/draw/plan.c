@@ -72,6 +72,7 @@ size_t hair_draw_count_vertices(const struct hair_draw* draw)
 static hair_render_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
+    HAIR_ASSERT(0 <= column && column < 5 && draw->driver < sizeof fastest / sizeof *fastest);
     hair_render_path path = fastest[draw->driver].path[column];
     size_t vertices = hair_draw_count_vertices(draw);
     if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MOST_EXPANDED)

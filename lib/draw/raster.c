@@ -159,6 +159,7 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
     struct hair_gl* gl = draw->gl;
     struct hair_raster* raster = &draw->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
+    HAIR_ASSERT(raster->room >= count_numbers(params, with) && raster->tile_room >= params->tiles);
     uint64_t segments = (uint64_t)draw->followers * draw->look.segments;
     uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
     uint64_t fours = (count_numbers(params, with) + 3) / 4;
@@ -180,6 +181,7 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)
 {
     struct hair_gl* gl = draw->gl;
+    HAIR_ASSERT(params->tiles > 0);
     GLint mode[2] = {GL_FILL, GL_FILL};
     gl->GetIntegerv(GL_POLYGON_MODE, mode);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -22,6 +22,7 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
+    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && draw->expanded.vertices > 0);
     size_t numbers = draw->expanded.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &own->texture);

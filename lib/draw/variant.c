@@ -76,6 +76,7 @@ hair_result hair_draw_need_program(struct hair_draw* draw, hair_gl_pass pass, st
 hair_gl_pass hair_draw_find_passes(const struct hair_draw* draw, const hair_view* view,
                                    const struct hair_gl_shader* shader, hair_gl_pass* shade)
 {
+    HAIR_ASSERT((size_t)view->render_path < sizeof row_of_path / sizeof *row_of_path);
     hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->render_path];
     if (hair_draw_is_paired(view)) row = HAIR_GL_PAIRED;
     *shade = 0;

@@ -48,6 +48,7 @@ static bool is_known(struct hair_gl* gl, GLenum format)
 
 static bool is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key key)
 {
+    HAIR_ASSERT(size > HEADER + TRAILER);
     return memcmp(bytes, MAGIC, 8) == 0 && hair_read_u64(bytes + 8) == key.check &&
            hair_read_u64(bytes + size - TRAILER) == hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER);
 }

@@ -15,6 +15,7 @@ static const struct {
 
 const char* hair_gl_work_label(hair_gl_work work)
 {
+    HAIR_ASSERT((unsigned)work < HAIR_GL_WORKS);
     return works[work].label;
 }
 
@@ -49,6 +50,7 @@ void hair_gl_ledger_begin(struct hair_gl* gl, hair_gl_pass pass)
     if (!gl->ledger) return;
     struct hair_gl_frame* frame = hair_gl_ledger_frame(gl->ledger, gl->ledger->number);
     hair_gl_work work = work_of(pass);
+    HAIR_ASSERT(frame->number == gl->ledger->number && frame->spans <= HAIR_GL_SPANS);
     ++frame->runs[work];
     frame->pass[work] = pass;
     int same = frame->spans > 0 && frame->work[frame->spans - 1] == work;
@@ -71,6 +73,7 @@ static bool read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, in
 {
     for (uint32_t i = frame->spans; i-- > 0;) { // The last span finishes last.
         GLuint64 there = 0, start = 0, end = 0;
+        HAIR_ASSERT(frame->query[i][1] && frame->work[i] < HAIR_GL_WORKS);
         if (!waits) gl->GetQueryObjectui64v(frame->query[i][1], GL_QUERY_RESULT_AVAILABLE, &there);
         if (!waits && !there) return false;
         gl->GetQueryObjectui64v(frame->query[i][1], GL_QUERY_RESULT, &end);

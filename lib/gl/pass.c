@@ -21,6 +21,7 @@ static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
         gl->program = more;
         gl->room = room;
     }
+    HAIR_ASSERT(gl->programs < gl->room);
     struct hair_gl_program* own = hair_alloc(&gl->host, 1, sizeof *own);
     if (!own) return NULL;
     own->pass = pass;
@@ -51,6 +52,7 @@ void hair_gl_free_programs(struct hair_gl* gl)
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_find(gl, pass);
+    HAIR_ASSERT(own);
     struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Use timestamps, because the application may have an elapsed-time query active.
@@ -65,6 +67,7 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
+    HAIR_ASSERT(hair_gl_find(gl, pass));
     struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
     hair_gl_ledger_end(gl, pass);
     if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
@@ -88,6 +91,7 @@ static void dispatch(struct hair_gl* gl, uint32_t groups)
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
     if (groups == 0) return;
+    HAIR_ASSERT(hair_gl_find(gl, pass) && hair_gl_find(gl, pass)->program);
     hair_gl_begin(gl, pass);
     dispatch(gl, groups);
     hair_gl_end(gl, pass);
@@ -96,6 +100,7 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups)
 {
     if (groups == 0) return;
+    HAIR_ASSERT(program);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
     dispatch(gl, groups);
@@ -104,6 +109,7 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
 
 void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at)
 {
+    HAIR_ASSERT(program && buffer && at % 4 == 0);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
     gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
@@ -115,6 +121,7 @@ void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
 static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 {
     if (timer->begun - timer->read > HAIR_GL_TIMER_DEPTH) timer->read = timer->begun - HAIR_GL_TIMER_DEPTH;
+    HAIR_ASSERT(timer->read <= timer->begun);
     for (; timer->read < timer->begun; ++timer->read) {
         const GLuint* query = timer->query[timer->read % HAIR_GL_TIMER_DEPTH];
         GLuint64 there = 0, start = 0, end = 0;

@@ -23,6 +23,7 @@ _Static_assert(HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURES <= 64, "every feature is 
 
 static uint32_t row_of(hair_gl_pass pass)
 {
+    HAIR_ASSERT((pass & ((1u << HAIR_GL_ROW_BITS) - 1)) < HAIR_GL_ROWS);
     return (uint32_t)pass & ((1u << HAIR_GL_ROW_BITS) - 1);
 }
 
@@ -43,12 +44,15 @@ hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass wanted)
 
 hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices)
 {
+    HAIR_ASSERT(0 < vertices && vertices <= HAIR_MAX_GUIDE_VERTICES);
     int size = (vertices > 32) + (vertices > 64) + (vertices > 128);
     return (pass & ~HAIR_GL_SIZES) | HAIR_GL_SIZE(size);
 }
 
 void hair_gl_write_label(hair_gl_pass pass, char* out, size_t size)
 {
+    // A feature that the row lacks would compile the same program twice.
+    HAIR_ASSERT((pass & ~rows[row_of(pass)].features) == row_of(pass));
     size_t used = (size_t)snprintf(out, size, "%s", hair_gl_row_label(pass));
     for (uint32_t i = 0; i < HAIR_GL_FEATURES && used < size; ++i) {
         if (!(pass & HAIR_GL_BIT(i))) continue;

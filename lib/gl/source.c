@@ -33,6 +33,7 @@ static void append(struct text* text, const char* bytes, size_t size)
         text->bytes = grown;
         text->capacity = capacity;
     }
+    HAIR_ASSERT(text->size + size < text->capacity);
     memcpy(text->bytes + text->size, bytes, size);
     text->size += size;
     text->bytes[text->size] = 0;
@@ -92,6 +93,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
 // file 0. If the application has a text, that text is file 0.
 static uint32_t called(const struct reader* reader, uint32_t number)
 {
+    HAIR_ASSERT(number < reader->out->files);
     if (!reader->own) return number;
     if (number == 0) return HAIR_GL_MAX_SOURCES;
     return strcmp(reader->out->file[number], HAIR_GL_OWN) == 0 ? 0 : number;

@@ -31,6 +31,7 @@ static hair_vec4 vec4_of(hair_dvec3 v, double w)
 // Find the first moment about vertex i of the masses beyond. Return their moment of inertia.
 static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec3* first)
 {
+    HAIR_ASSERT(i + 1 < s->count);
     double inertia = 0;
     *first = (hair_dvec3){0, 0, 0};
     for (uint32_t k = i + 1; k < s->count; ++k) {
@@ -85,6 +86,7 @@ static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
 // experiment. Where e is 0, 4 q lets a swing at w grow by sqrt(1 + 1/16) at most.
 static double find_damping(double elastic, double lever)
 {
+    HAIR_ASSERT(0 <= elastic && elastic <= 1 && lever >= 0);
     double passed = fmin(elastic + lever, 1);
     return fmax(4 * lever, DAMPED * sqrt(2 - 2 * sqrt(1 - passed * passed)));
 }
@@ -93,6 +95,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
 {
     hair_dvec3 moment, r = hair_drotate(s->frame[i], (hair_dvec3){0, 1, 0});
     double inertia = find_moments(s, i, &moment), stiffness = hair_rod_stiffness(s, i) / softness;
+    HAIR_ASSERT(inertia > 0 && softness > 0);
     double c = hair_ddot(moment, r), arm = hair_dlength(moment);
     hair_dvec3 across = hair_dadd(moment, hair_dscale(r, -c));
     hair_dvec3 aim = hair_dscale(r, stiffness);
@@ -107,6 +110,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
 
 void hair_follow_write(const struct hair_rod_shape* s, struct hair_rod* out)
 {
+    HAIR_ASSERT(2 <= s->count && s->count <= HAIR_MAX_GUIDE_VERTICES);
     double softness[HAIR_MAX_GUIDE_VERTICES];
     find_softness(s, softness);
     for (uint32_t i = 0; i < s->count; ++i) {

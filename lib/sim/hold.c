@@ -56,11 +56,13 @@ static void find_levers(const struct hair_rod_shape* s, double* lever)
         beyond += s->mass[i + 1];
         lever[i] = lever[i + 1] + beyond * s->length[i];
     }
+    HAIR_ASSERT(lever[0] > 0);
     for (uint32_t i = s->count; i-- > 0;) lever[i] /= lever[0];
 }
 
 static void stiffen(struct search* a, double c)
 {
+    HAIR_ASSERT(c >= 0);
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i)
         s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MOST_STIFFEN, 1 + c * a->lever[i]);
@@ -70,6 +72,7 @@ static void stiffen(struct search* a, double c)
 static hair_dvec3 strain_off(const struct search* a, uint32_t i)
 {
     hair_rod_rest own = a->own[i], rest = a->rest[i];
+    HAIR_ASSERT(i + 1 < a->shape->count);
     return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
 }
 
@@ -94,6 +97,7 @@ static bool holds(struct search* a, double margin)
 // Return the smallest c with which the groom holds. The groom holds with c = `does`.
 static double least_stiffening(struct search* a, double does)
 {
+    HAIR_ASSERT(does >= 0);
     double fails = 1; // 1 + c
     for (does += 1; does > FINENESS * fails;) {
         double middle = sqrt(fails * does);
@@ -221,6 +225,7 @@ struct hair_rod_held hair_rod_hold(struct hair_rod_shape* s)
         if (!held.sags) c = least_stiffening(&a, most);
         stiffen(&a, c);
         held.stiffest = s->bend[0] / a.bend[0];
+        HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MOST_STIFFEN);
         if (held.sags)
             held.sag = sag(&a);
         else

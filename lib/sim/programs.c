@@ -29,6 +29,7 @@ bool hair_sim_is_by_thread(const struct hair_sim* sim)
 static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
+    HAIR_ASSERT(rounds > 0);
     uint32_t most = MOST_ROUNDS / rounds;
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
@@ -83,6 +84,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
         [HAIR_SOLVER_FOLLOW] = HAIR_GL_FOLLOW,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
+    HAIR_ASSERT((size_t)sim->solver < sizeof row / sizeof *row);
     hair_gl_pass features = 0;
     if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
     if (any) features |= HAIR_GL_WITH(ANY);
@@ -151,6 +153,7 @@ uint32_t hair_sim_next_list(struct hair_sim* sim)
 // Run the second program over its list, in as many dispatches as its loop iterations need.
 static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
+    HAIR_ASSERT(0 < params->substeps && params->substeps <= HAIR_STEP_SUBSTEPS && params->list < 2);
     uint32_t count = params->substeps;
     int by_thread = hair_sim_is_by_thread(sim);
     uint32_t rounds = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
@@ -174,11 +177,13 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
     uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
     if (goes_in_two_by_shake(sim)) {
+        HAIR_ASSERT(sim->in_two);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), groups);
         run_listed(sim, pass, params);
         return;
     }
     if (goes_in_two(sim, pass)) {
+        HAIR_ASSERT(sim->gl->units > 0);
         uint32_t units = (uint32_t)sim->gl->units, listed = GROUPS_OF_LIST * units;
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), units);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(LISTED), sim->guides < listed ? sim->guides : listed);

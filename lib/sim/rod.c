@@ -54,6 +54,7 @@ static double implicit_ratio(const struct hair_rod_shape* s)
 // Return the row of vertex i, for the vertices before, at and after it.
 static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 {
+    HAIR_ASSERT(i + 1 < s->count && s->length[i] > 0);
     double before = i > 0 ? 1 / s->length[i - 1] : 0, after = 1 / s->length[i];
     return (hair_dvec3){before, -before - after, after};
 }
@@ -62,6 +63,7 @@ static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 // length h.
 static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
+    HAIR_ASSERT(h > 0);
     hair_dvec3 row = row_of(s, i);
     double after = row.z * row.z / s->mass[i + 1], most = after;
     if (i > 0) most = fmax(most, row.y * row.y / s->mass[i]);
@@ -141,6 +143,7 @@ static hair_vec4 eliminate(struct rows* above, double diagonal, struct band besi
 {
     struct band one = above->one, two = above->two, row = {diagonal, b2 * beside.y, b2 * beside.z};
     row.x += b2 * beside.x - one.x * one.y * one.y - two.x * two.z * two.z;
+    HAIR_ASSERT(row.x > 0);
     row.y = (row.y - one.x * one.y * one.z) / row.x;
     row.z = row.z / row.x;
     *above = (struct rows){row, one};
@@ -268,11 +271,13 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
                                           const hair_physics* physics, hair_solver solver, int mixed,
                                           double substep, struct hair_rod* out)
 {
+    HAIR_ASSERT(count > 0 && substep > 0);
     struct hair_rods_softened softened = {.factor = 1};
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         find_borne(guides + i, rest, borne, physics, &shape);
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
+        HAIR_ASSERT(0 <= own && own <= 1);
         softened.guides += own < 1;
         if (own >= (double)softened.factor) continue;
         softened.worst = i;
@@ -290,6 +295,7 @@ void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest
         const struct hair_guide* guide = guides + knot[i].guide;
         struct hair_rod_shape shape;
         find_borne(guide, rest, borne, physics, &shape);
+        HAIR_ASSERT(knot[i].vertex < shape.count);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.pinned[knot[i].vertex] = i + 1;
         write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
@@ -321,6 +327,7 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
                             : least_explicit(&shape);
         if (own <= MOST_A_FRAME) most = fmax(most, own);
     }
+    HAIR_ASSERT(most >= FEWEST_A_FRAME_DIRECT);
     return FRAME / most;
 }
 

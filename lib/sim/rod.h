@@ -15,6 +15,7 @@
 #include <hair/hair.h>
 
 #include "glsl/shared.h"
+#include "lib/base/assert.h"
 
 #include <stdbool.h>
 

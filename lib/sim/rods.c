@@ -43,6 +43,7 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
     if (!result) {
         *rounds = hair_rods_reduce(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
+        HAIR_ASSERT(*rounds < most);
         count = (size_t)(*rounds + 1) * vertices;
         memset(out + count, 0, sizeof *out);
         result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
@@ -60,6 +61,7 @@ static uint32_t times_longer(const struct hair_sim* sim)
     uint32_t longer = 1;
     float rate = sim->physics.substep_rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
+    HAIR_ASSERT(rate > 0);
     while (2 * (float)longer * rate <= 1) longer *= 2;
     if (sim->longer && longer < sim->longer) return sim->longer / 2;
     if (sim->longer && longer > sim->longer) return sim->longer * 2;
@@ -110,6 +112,7 @@ static hair_result make(struct hair_sim* sim, int struck)
     }
     uint32_t longer = times_longer(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
+    HAIR_ASSERT(substep > 0);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
     hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.knot, sim->pins.count, &sim->physics,
@@ -160,6 +163,7 @@ static hair_result make_buffers(struct hair_sim* sim)
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom)
 {
     const hair_host* host = &sim->gl->host;
+    HAIR_ASSERT(!sim->rods);
     sim->rods = hair_alloc(host, 1, sizeof *sim->rods);
     if (!sim->rods) return hair_fail_memory(host, "the guides as rods");
     struct hair_rods* rods = sim->rods;
@@ -220,6 +224,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const hair_physics* physics = &sim->physics;
+    HAIR_ASSERT(sim->substep > 0 && sim->last_substep > 0);
     double h = sim->substep, c = (double)physics->damping;
     double ratio[3];
     hair_rods_ratios(physics, ratio);

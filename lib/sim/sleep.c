@@ -173,6 +173,7 @@ static void look(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
+    HAIR_ASSERT(!sleep->fence && !sleep->waits && sleep->turn < 2);
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     struct hair_stir_params params = {.vertices = sim->guide_vertices,
                                       .turn = sleep->turn,
@@ -210,6 +211,7 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;
     if (sleep->known) return;
+    HAIR_ASSERT(sleep->waits && sleep->fence && sleep->mapped);
     GLenum status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     if (status == GL_TIMEOUT_EXPIRED && wait > 0)
         status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
@@ -233,6 +235,7 @@ static bool has_come_to_rest(const struct hair_sim* sim)
 static void use_answer(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
+    HAIR_ASSERT(sleep->waits && sleep->known);
     sleep->waits = sleep->known = 0;
     sleep->now.far = fmaxf(sleep->now.far, sleep->answer.far);
     sleep->now.speed = fmaxf(sleep->now.speed, sleep->answer.speed);

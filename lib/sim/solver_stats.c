@@ -77,6 +77,7 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     struct hair_diagnosis* d = &sim->diagnosis;
     struct hair_gl* gl = sim->gl;
     if (!d->watches || substeps == 0) return;
+    HAIR_ASSERT(d->energy && d->energy_params && sim->rods);
     int begins = !d->goes_on || d->substep != sim->substep;
     d->time = (begins ? 0 : d->time) + substeps * sim->substep;
     int ends = d->time >= WINDOW;
@@ -110,6 +111,7 @@ static struct hair_motion_params motion_params(const struct hair_sim* sim)
     hair_quat turn =
         hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    HAIR_ASSERT(sim->last_substep > 0);
     double rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
     double wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
     return (struct hair_motion_params){.turn = {turn.x, turn.y, turn.z, turn.w},

@@ -44,6 +44,7 @@ static hair_dvec3 axis_of(hair_dquat q)
 
 void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
 {
+    HAIR_ASSERT(s->count >= 2 && out->frame != frames);
     // Frame of the segment before, which is that of the scalp at first.
     hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0]));
     out->place[0] = (hair_dvec3){0, 0, 0};
@@ -60,6 +61,7 @@ void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, 
 void hair_rod_load(const struct hair_rod_shape* s, double gravity, struct hair_rod_pose* pose)
 {
     hair_dvec3 load = {0, 0, 0};
+    HAIR_ASSERT(gravity >= 0);
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
         hair_dvec3 own = hair_dadd(hair_dscale(s->load, gravity), hair_dscale(back, s->pull[i + 1]));
@@ -189,6 +191,7 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest
         stiffness = fmax(stiffness, hair_rod_stiffness(s, i));
     }
     double torque = s->weight * length;
+    HAIR_ASSERT(torque > 0 && stiffness > 0);
     for (uint32_t k = 0;; ++k) {
         hair_rod_load(s, gravity, pose);
         hair_rod_strain(s, rest, pose);

@@ -80,6 +80,7 @@ static bool factor(struct block* a)
 static void solve_lower(const struct block* l, double* x, int stride)
 {
     for (int r = 0; r < 3; ++r) {
+        HAIR_ASSERT(l->m[r][r] > 0);
         for (int n = 0; n < r; ++n) x[stride * r] -= l->m[r][n] * x[stride * n];
         x[stride * r] /= l->m[r][r];
     }
@@ -101,6 +102,7 @@ struct hinge {
 
 static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
+    HAIR_ASSERT(i + 1 < s->count);
     const hair_dquat t = pose->turn[i];
     const hair_dvec3 q = pose->stress[i];
     const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];

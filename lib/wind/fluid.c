@@ -15,6 +15,8 @@ static uint32_t find_levels(struct hair_fluid* fluid)
 {
     struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
     for (fluid->levels = 0;; at.cells /= 2) {
+        HAIR_ASSERT(fluid->levels < HAIR_FLUID_LEVELS);
+        HAIR_ASSERT(at.cells % 2 == 0 || at.cells <= HAIR_FLUID_BOTTOM);
         fluid->level[fluid->levels++] = at;
         at.slot += (at.cells + 1) * (at.cells + 1) * (at.cells + 1);
         at.cell += at.cells * at.cells * at.cells;
@@ -81,6 +83,7 @@ static hair_result make_all(struct hair_fluid* fluid)
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc)
 {
+    HAIR_ASSERT(desc->side > 0 && 16 <= desc->cells && desc->cells <= 128 && desc->cells % 16 == 0);
     *fluid = (struct hair_fluid){.gl = gl, .desc = *desc};
     hair_result result = make_all(fluid);
     if (result)
@@ -138,6 +141,7 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
 {
     const hair_collider *to = &now->colliders->now.collider[i],
                         *from = hair_colliders_before(now->colliders, i);
+    HAIR_ASSERT(now->colliders_dt > 0);
     float rate = (float)(1 / now->colliders_dt);
     hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
     hair_vec3 speed = limited(hair_scale(moved, rate));
@@ -177,6 +181,7 @@ static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* 
     int moved = fluid->moving;
     fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
+    HAIR_ASSERT(count <= fluid->room);
     for (uint32_t i = 0; i < fluid->room; ++i) {
         fluid->motion_of[i] = i < count ? motion_of(now, i) : still;
         fluid->moving |= memcmp(&fluid->motion_of[i], &still, sizeof still) != 0;
@@ -221,6 +226,7 @@ static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_n
 
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
+    HAIR_ASSERT(fluid->gl && now->dt > 0);
     float shift[3], cell = hair_fluid_cell(fluid);
     int moved = fluid->moving; // Walls keep these velocities until they are written again.
     write_motion(fluid, now);

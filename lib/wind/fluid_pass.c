@@ -4,6 +4,7 @@
 hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
                                    struct hair_fluid_buffer* out)
 {
+    HAIR_ASSERT(count > 0 && !out->buffer && !out->texture);
     hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
     return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
 }
@@ -17,6 +18,7 @@ void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* 
 static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
 {
     struct hair_gl* gl = fluid->gl;
+    HAIR_ASSERT(fluid->now < 3 && fluid->pressed < 2);
     // Advection writes the next velocity buffer, and correction the one after it.
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
     carried = &fluid->velocity[(fluid->now + 1) % 3];
@@ -53,6 +55,7 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
 {
     const GLintptr first = (GLintptr)(2 * level + color) * HAIR_FLUID_ALIGNMENT;
     const GLsizeiptr size = sizeof(struct hair_fluid_level);
+    HAIR_ASSERT(level < fluid->levels && color < 2 && threads > 0);
     bind(fluid, pass);
     fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);

@@ -27,6 +27,7 @@ static uint32_t cubed(uint32_t n)
 
 static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 {
+    HAIR_ASSERT(level < fluid->levels && first < 2);
     uint32_t cells = cubed(fluid->level[level].cells) / 2;
     hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, first, cells);
     hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, 1 - first, cells);
@@ -39,6 +40,7 @@ static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 static void cycle(struct hair_fluid* fluid)
 {
     uint32_t last = fluid->levels - 1;
+    HAIR_ASSERT(fluid->level[last].cells <= HAIR_FLUID_BOTTOM);
     for (uint32_t i = 0; i < last; ++i) {
         sweep(fluid, i, 0);
         hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));
