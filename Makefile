@@ -218,13 +218,16 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_OWN_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms symbols ## Check the order of the folders of lib/ and the exported names
+check: rooms circles symbols formatted ## Check the order of folders, circles of files, exported names and formatting
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
 	  match($$0, /#include "lib\/[a-z]+\//) { split(FILENAME, f, "/"); split($$0, q, "/"); \
 	    if (!rank[q[2]] || rank[q[2]] > rank[f[2]]) { print FILENAME ":" FNR ": " f[2] " must not see " q[2]; bad = 1 } } \
 	  END { exit bad }' $(wildcard $(ROOMS:%=lib/%/*.[ch]))
+# The files of one folder call each other in one direction only.
+circles: $(LIB)
+	@nm -A $(filter $(B)/lib/%,$(LIB)) | awk -f tools/circles.awk
 symbols: $(LIBRARIES)
 	@nm -D --defined-only $(filter %.so,$(LIBRARIES)) | awk 'NF == 3 {print $$3}' | LC_ALL=C sort >$(B)/symbols.txt
 	@$(if $(filter 0,$(BULLET)),grep -v hair_bullet_,cat) tests/symbols.txt | diff - $(B)/symbols.txt
@@ -246,8 +249,12 @@ install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFI
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
+SOURCES = $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
+# A machine without clang-format-14 skips this check.
+formatted:
+	@! command -v clang-format-14 >/dev/null || clang-format-14 --dry-run -Werror $(SOURCES)
 format: ## clang-format everything
-	clang-format-14 -i $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
+	clang-format-14 -i $(SOURCES)
 help: ## This list
 	@awk -F':.*## ' '/^# make/{print substr($$0, 3)} /^[a-z-]+:.*## /{printf "  %-10s %s\n", $$1, $$2}' Makefile
 clean: ## Remove build/
@@ -256,4 +263,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report libraries tools examples demo gallery test setup run-tests glsl check rooms symbols consumer install install-tree format help clean
+.PHONY: all bench report libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols formatted consumer install install-tree format help clean

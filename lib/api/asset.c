@@ -92,6 +92,7 @@ static void measure(const struct hair_strands* strands, hair_asset_info* info)
         info->min_vertices = s && info->min_vertices < count ? info->min_vertices : count;
         info->max_vertices = info->max_vertices > count ? info->max_vertices : count;
     }
+    HAIR_ASSERT(at == strands->positions + 3 * (size_t)strands->vertex_count);
     if (strands->strand_count) info->length[1] = (float)(sum / strands->strand_count);
 }
 

@@ -12,6 +12,7 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
     const float m[9] = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
     const float low[] = {box->lower.x, box->lower.y, box->lower.z};
     for (int row = 0; row < 3; ++row) {
+        HAIR_ASSERT(box->voxel > 0 && box->bricks[row] > 0);
         double scale = 1 / ((double)box->voxel * HAIR_BRICK * box->bricks[row]), at = (double)low[row];
         for (int k = 0; k < 3; ++k) {
             out[4 * k + row] = (float)(scale * (double)m[3 * k + row]);

@@ -31,6 +31,7 @@
 
 hair_result hair_fields_give(const hair_host* host, const char* name, const void* own, size_t size, void* out)
 {
+    HAIR_ASSERT(own && size >= sizeof(hair_struct_header));
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
     hair_struct_header header;
     memcpy(&header, out, sizeof header);

@@ -85,6 +85,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (result) return result;
 
     hair->longest = hair_find_reach(groom, hair->reach);
+    HAIR_ASSERT(hair->longest > 0);
     hair_vec3 middle = hair_lerp(hair->reach[0], hair->reach[1], 0.5f);
     hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->reach[1])};
     hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
@@ -200,8 +201,10 @@ hair_result hair_step(hair_instance* hair, float dt)
         time = hair->max_dt;
     }
     double unseen = hair->sim.unseen;
+    HAIR_ASSERT(time > 0);
     hair->sim.unseen = fmin(unseen + time, 1);
-    if (hair_sleep_through(&hair->sim, time)) {
+    if (hair_sleep_through(&hair->sim)) {
+        hair_sim_pass_time(&hair->sim, time);
         hair_begin_frame(hair);
         hair_asked_now(hair)->asleep = 1;
         return HAIR_OK;
@@ -228,6 +231,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     hair_gl_leave(&context->gl);
     if (result) { // The frame is undone.
+        HAIR_ASSERT(hair->ledger.number == was.number + 1);
         *hair_asked_now(hair) = asked;
         for (int i = 0; i < HAIR_GL_FRAMES; ++i)
             memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);

@@ -152,6 +152,7 @@ static hair_vec3 vertex_of(const struct example* e, uint32_t i)
 static void look_at(const struct example* e, float share, uint32_t* i, float* before, float out[2])
 {
     float at = share * e->length, link = hair_distance(vertex_of(e, *i), vertex_of(e, *i + 1));
+    HAIR_ASSERT(*i + 1 < e->vertices);
     while (*i + 2 < e->vertices && *before + link < at) {
         *before += link;
         ++*i;
@@ -205,6 +206,7 @@ hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t
     float axis = hair_length(chord), turn[2][HAIR_TURN_PLACES];
     if (!(axis >= 0.001f && axis <= 10)) return HAIR_ERROR_ARGUMENT;
     chord = hair_scale(chord, 1 / axis);
+    HAIR_ASSERT(hair_is_unit(chord));
     e.x = hair_perpendicular(chord);
     e.z = hair_cross(e.x, chord);
     for (uint32_t i = 0; i + 1 < vertex_count; ++i)

@@ -60,6 +60,7 @@ hair_result hair_get_bounds(const hair_instance* hair, float lower[3], float upp
         }
         far = fmaxf(far, hair_length(corner));
     }
+    for (int k = 0; k < 3; ++k) HAIR_ASSERT(lower[k] <= upper[k]);
     // Between both ends a corner bulges out of its chord by r (1 - cos(half the angle)).
     float bulge = far * (1 - fminf(fabsf(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w), 1));
     hair_vec3 whole[2] = {hair_sub(hair_load3(lower), hair_v3(bulge, bulge, bulge)),

@@ -20,6 +20,7 @@ const char* hair_skip_reason_string(hair_skip_reason why)
 
 void hair_enter(hair_instance* hair)
 {
+    HAIR_ASSERT(!hair->context->gl.ledger);
     hair_gl_enter(&hair->context->gl);
     hair->context->gl.ledger = &hair->ledger;
 }
@@ -164,6 +165,7 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
         [HAIR_GL_WORK_HIT] = {draw->hits.image},
         [HAIR_GL_WORK_COLOR] = {draw->fibres.texture},
     };
+    HAIR_ASSERT((unsigned)work < HAIR_GL_WORKS);
     uint64_t bytes = 0;
     for (int i = 0; i < MOST_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
     for (int i = 0; i < MOST_TEXTURES; ++i) bytes += hair_gl_texture_bytes(gl, textures[work][i]);
@@ -190,6 +192,8 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
                            .runs = frame->runs[work],
                            .ms = ms,
                            .bytes = bytes_of(hair, work)};
+    HAIR_ASSERT(frame->number <= hair->ledger.number);
+    HAIR_ASSERT(!row.runs || hair_gl_find(&hair->context->gl, frame->pass[work]));
     if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;
     row.skip_reason = row.runs ? HAIR_SKIP_REASON_NONE : why_not(hair, asked, work);
     return row;

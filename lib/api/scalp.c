@@ -24,6 +24,7 @@ static float* take(const hair_instance* hair, const float* positions, uint32_t c
                    hair_result* result)
 {
     const hair_host* host = &hair->context->host;
+    HAIR_ASSERT(stride >= 12 && stride % sizeof *positions == 0);
     float* packed = hair_alloc(host, count, 3 * sizeof *packed);
     *result = packed ? HAIR_OK : hair_fail_memory(host, "the scalp");
     for (uint32_t i = 0; i < count && !*result; ++i) {
@@ -92,6 +93,7 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     *from = offset - offset % (size_t)align;
     *size = (size_t)need + (offset - *from);
+    HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
     if (*size > (size_t)most)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "%s: the scalp takes %zu bytes, more than the driver's %d", hair->label, *size,

@@ -54,6 +54,7 @@ static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_
     hair_light usual = hair_light_default();
     const char* at = (const char*)view->lights;
     size_t stride = at ? view->lights->header.size : 0;
+    HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
     uint32_t shadows = 0;
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < view->light_count && !result; ++i) {
@@ -183,6 +184,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     struct hair_asked* asked = hair_asked_now(hair);
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
     int kind = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
+    HAIR_ASSERT(0 <= kind && kind < 3);
     int unseen = is_out_of_view(hair, view);
     ++asked->views[kind];
     asked->unseen[kind] += (uint32_t)unseen;
@@ -266,6 +268,7 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t
 static void copy_to_world(const float* from, size_t stride, uint32_t count, const struct hair_pose* head,
                           float* out)
 {
+    HAIR_ASSERT(stride >= 3);
     for (uint32_t i = 0; i < count; ++i, from += stride, out += 3)
         for (int k = 0; k < 3; ++k) out[k] = (float)(head->position[k] + (double)from[k]);
 }
@@ -332,6 +335,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
                          (unsigned long long)all);
     *count = (uint32_t)all;
     uint32_t number = *count < capacity ? *count : capacity;
+    HAIR_ASSERT(number <= *count);
     if (number == 0) return HAIR_OK;
     hair->sim.unseen = 0;
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);

@@ -47,6 +47,7 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     if (!result && own.source_count && !own.sources)
         result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
                            hair->label, own.source_count);
+    HAIR_ASSERT(result || own.source_count <= HAIR_WIND_SOURCES);
     for (uint32_t i = 0; !result && i < own.source_count; ++i) {
         sources[i] = own.sources[i];
         result = check_source(hair, i, &sources[i]);

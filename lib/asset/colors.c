@@ -14,6 +14,7 @@ static double segment(const float* p)
 
 void hair_strand_colors(const float* positions, uint32_t vertices, const float* colors, float* out)
 {
+    HAIR_ASSERT(vertices > 0);
     double length = 0, passed = 0;
     for (uint32_t i = 1; i < vertices; ++i) length += segment(positions + 3 * (size_t)(i - 1));
     uint32_t at = 0; // segment that contains the point
@@ -24,6 +25,7 @@ void hair_strand_colors(const float* positions, uint32_t vertices, const float* 
             passed += each;
             each = segment(positions + 3 * (size_t)++at);
         }
+        HAIR_ASSERT(at + 1 < vertices || vertices == 1);
         float t = each > 0 ? (float)fmin(fmax((place - passed) / each, 0), 1) : 0;
         const float *a = colors + 3 * (size_t)at, *b = vertices > 1 ? a + 3 : a;
         for (int c = 0; c < 3; ++c) out[3 * k + c] = a[c] + t * (b[c] - a[c]);
@@ -35,6 +37,7 @@ void hair_strand_even_colors(const float* colors, uint32_t count, float* out)
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k) {
         float at = (float)(count - 1) * (float)k / (HAIR_STRAND_COLORS - 1);
         uint32_t i = (uint32_t)at, j = i + 1 < count ? i + 1 : i;
+        HAIR_ASSERT(i < count && j < count);
         for (int c = 0; c < 3; ++c)
             out[3 * k + c] = colors[3 * i + (uint32_t)c] +
                              (at - (float)i) * (colors[3 * j + (uint32_t)c] - colors[3 * i + (uint32_t)c]);
@@ -45,6 +48,7 @@ void hair_strand_color_at(const float* colors, float t, float out[3])
 {
     float at = fminf(fmaxf(t, 0), 1) * (HAIR_STRAND_COLORS - 1);
     int i = at < HAIR_STRAND_COLORS - 2 ? (int)at : HAIR_STRAND_COLORS - 2;
+    HAIR_ASSERT(i >= 0 && i + 1 < HAIR_STRAND_COLORS);
     for (int c = 0; c < 3; ++c)
         out[c] = colors[3 * i + c] + (at - (float)i) * (colors[3 * i + 3 + c] - colors[3 * i + c]);
 }

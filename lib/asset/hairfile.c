@@ -74,6 +74,7 @@ static hair_result find_arrays(const struct hair_source* source, struct header* 
 
 static uint32_t count_vertices(const struct hair_source* source, const struct header* header, uint32_t strand)
 {
+    HAIR_ASSERT(strand < header->strands);
     if (header->arrays & SEGMENTS)
         return hair_read_u16(source->bytes + header->segments_at + 2 * (size_t)strand) + 1;
     return header->segments + 1;
@@ -124,6 +125,7 @@ static hair_result read_radii(const struct hair_source* source, const struct hea
     size_t first = 0;
     for (uint32_t i = 0; i < header->strands; ++i) {
         size_t root = source->import->tip_first ? first + strands->vertices[i] - 1 : first;
+        HAIR_ASSERT(root < header->vertices);
         size_t at = (size_t)header->thickness_at + 4 * root;
         float radius = 0.5f * hair_read_float(source->bytes + at);
         if (!(radius >= 0 && radius * source->import->scale <= 1e6f)) {
@@ -147,6 +149,7 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
     if (!result) result = hair_strands_allocate(source->host, strands, header.strands, header.vertices);
     if (result) return result;
 
+    HAIR_ASSERT(header.points_at >= HEADER);
     asset->format = HAIR_FORMAT_HAIR;
     asset->strand_set = HAIR_STRAND_SET_FULL;
     for (uint32_t i = 0; i < header.strands; ++i) strands->vertices[i] = count_vertices(source, &header, i);

@@ -39,6 +39,7 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices)
         for (size_t i = 1; i < vertices; ++i)
             if (distance(positions + 3 * ((size_t)kept - 1), positions + 3 * i) >= least)
                 copy_vertex(positions + 3 * (size_t)kept++, positions + 3 * i);
+        HAIR_ASSERT(kept <= vertices);
         if (kept == vertices) return kept;
         vertices = kept;
     }
@@ -46,6 +47,7 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices)
 
 void hair_strand_resample(const float* positions, uint32_t vertices, float* out, uint32_t count)
 {
+    HAIR_ASSERT(vertices >= 2 && count >= 2 && positions != out);
     double step = hair_strand_length(positions, vertices) / (count - 1);
     double start = 0; // Distance from the root at which `segment` starts.
     uint32_t segment = 0;
@@ -57,6 +59,7 @@ void hair_strand_resample(const float* positions, uint32_t vertices, float* out,
             ++segment;
             length = distance(positions + 3 * (size_t)segment, positions + 3 * ((size_t)segment + 1));
         }
+        HAIR_ASSERT(segment + 1 < vertices);
         double t = length > 0 ? fmin((at - start) / length, 1) : 0;
         mix(positions + 3 * (size_t)segment, positions + 3 * ((size_t)segment + 1), t, out + 3 * (size_t)i);
     }
@@ -79,8 +82,10 @@ static uint32_t find_longest(const float* positions, uint32_t vertices)
 
 void hair_strand_split(float* positions, uint32_t vertices, uint32_t count)
 {
+    HAIR_ASSERT(vertices >= 2 && vertices <= count);
     for (; vertices < count; ++vertices) {
         size_t longest = find_longest(positions, vertices);
+        HAIR_ASSERT(longest + 1 < vertices);
         float* tail = positions + 3 * (longest + 1);
         memmove(tail + 3, tail, 3 * (vertices - longest - 1) * sizeof *tail);
         mix(tail - 3, tail + 3, 0.5, tail);

@@ -70,6 +70,7 @@ static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t stra
 static void keep(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
                  uint32_t vertices)
 {
+    HAIR_ASSERT(kept->strands <= strand && kept->vertices <= first);
     float* from = strands->positions + 3 * first;
     memmove(strands->positions + 3 * (size_t)kept->vertices, from, 3 * (size_t)vertices * sizeof *from);
     strands->vertices[kept->strands] = vertices;
@@ -80,6 +81,7 @@ static void keep(struct hair_strands* strands, struct kept* kept, uint32_t stran
 
 static void cut(struct hair_strands* strands, struct kept kept)
 {
+    HAIR_ASSERT(kept.strands <= strands->strand_count);
     strands->strand_count = kept.strands;
     strands->vertex_count = kept.vertices;
 }
@@ -88,8 +90,10 @@ static void cut(struct hair_strands* strands, struct kept kept)
 // along the file, whatever its order, and has no rhythm that could coincide with one of the file.
 static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
 {
+    HAIR_ASSERT(run < wanted && wanted <= count);
     uint32_t begin = (uint32_t)((uint64_t)run * count / wanted);
     uint32_t end = (uint32_t)(((uint64_t)run + 1) * count / wanted);
+    HAIR_ASSERT(begin < end && end <= count);
     return begin + (uint32_t)((double)hair_random(random) * (end - begin));
 }
 
@@ -147,6 +151,7 @@ static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t c
 
 static uint32_t bring_down(float* p, uint32_t vertices, hair_import_stats* repairs)
 {
+    HAIR_ASSERT(vertices > HAIR_STRAND_MAX_VERTICES);
     float sampled[3 * HAIR_STRAND_MAX_VERTICES];
     ++repairs->resampled;
     uint32_t left = sample(p, vertices, sampled, HAIR_STRAND_MAX_VERTICES, repairs);
@@ -160,6 +165,7 @@ static uint32_t repair_strand(float* p, uint32_t vertices, hair_import_stats* re
     uint32_t finite = remove_nonfinite(p, vertices);
     repairs->removed_nonfinite += vertices - finite;
     uint32_t left = hair_strand_merge(p, finite);
+    HAIR_ASSERT(left <= finite && finite <= vertices);
     repairs->removed_repeated += finite - left;
     if (left < 2) {
         ++repairs->dropped_single;
@@ -191,6 +197,7 @@ static void repair_all(const hair_import* import, struct hair_strands* strands, 
 static hair_result resample_all(const hair_host* host, uint32_t count, struct hair_strands* strands,
                                 hair_import_stats* repairs)
 {
+    HAIR_ASSERT(count >= 2 && count <= HAIR_STRAND_MAX_VERTICES);
     float* sampled = hair_alloc(host, strands->strand_count, 3 * (size_t)count * sizeof *sampled);
     if (!sampled) return hair_fail_memory(host, "resampled strands");
 
@@ -200,6 +207,7 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
         uint32_t vertices = strands->vertices[i];
         float* out = sampled + 3 * (size_t)kept.vertices;
         if (sample(strands->positions + 3 * first, vertices, out, count, repairs)) {
+            HAIR_ASSERT(kept.strands <= i);
             strands->vertices[kept.strands] = count;
             keep_rest(strands, kept.strands, i);
             ++kept.strands;

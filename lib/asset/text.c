@@ -1,5 +1,6 @@
 // text.c - lines, tokens and numbers of a text file, read equally in every locale.
 #include "lib/asset/text.h"
+#include "lib/base/assert.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -35,6 +36,7 @@ bool hair_text_next(struct hair_text* text, struct hair_line* out)
         text->at = end < text->size ? end + 1 : end;
         while (start < end && separates(text->bytes[start])) ++start;
         if (start == end || begins_comment(text->bytes, start, end)) continue;
+        HAIR_ASSERT(start < end && end <= text->at && text->at <= text->size);
         *out = (struct hair_line){text->bytes, start, start, end};
         return true;
     }
@@ -43,6 +45,7 @@ bool hair_text_next(struct hair_text* text, struct hair_line* out)
 
 bool hair_line_next(struct hair_line* line, struct hair_token* out)
 {
+    HAIR_ASSERT(line->start <= line->at && line->at <= line->end);
     while (line->at < line->end && separates(line->bytes[line->at])) ++line->at;
     if (line->at == line->end || begins_comment(line->bytes, line->at, line->end)) return false;
     size_t start = line->at;

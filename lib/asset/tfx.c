@@ -114,6 +114,7 @@ static hair_result decode(const struct hair_source* source, const struct layout*
     if (!result) result = hair_strands_allocate(source->host, strands, count, count * each);
     if (result) return result;
 
+    HAIR_ASSERT((uint64_t)count * each == strands->vertex_count);
     asset->format = layout->format;
     asset->strand_set = HAIR_STRAND_SET_GUIDES;
     for (uint32_t i = 0; i < count; ++i) strands->vertices[i] = each;
@@ -162,6 +163,7 @@ void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes)
     const struct hair_strands* strands = &asset->strands;
     uint32_t each = strands->vertices[0];
 
+    HAIR_ASSERT((uint64_t)strands->strand_count * each == strands->vertex_count);
     memset(bytes, 0, version4.header);
     unsigned char* at = hair_write_float(bytes, 4);
     at = hair_write_u32(at, strands->strand_count);

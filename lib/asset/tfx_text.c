@@ -144,6 +144,7 @@ static hair_result read_vertex(struct reader* reader, size_t strand_at)
     hair_result result = read_numbers(reader, &line, position, 3);
     if (result) return result;
     if (reader->fill) {
+        HAIR_ASSERT(reader->vertices < reader->fill->vertex_count);
         place(reader, position);
         memcpy(reader->fill->positions + 3 * (size_t)reader->vertices, position, sizeof position);
     }
@@ -159,6 +160,7 @@ static hair_result read_strand(struct reader* reader, struct hair_line* line)
         result = complain(reader, line->start, "the strand makes too many vertices");
     for (uint32_t i = 0; i < count && !result; ++i) result = read_vertex(reader, line->start);
     if (result) return result;
+    HAIR_ASSERT(!reader->fill || reader->strands < reader->fill->strand_count);
     if (reader->fill) reader->fill->vertices[reader->strands] = count;
     ++reader->strands;
     return HAIR_OK;

@@ -5,6 +5,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "lib/base/assert.h"
+
 // Initial value of the FNV-1a hash.
 #define HAIR_HASH_BEGIN 0xcbf29ce484222325u
 // Continue the FNV-1a hash `hash` with `bytes`. Return the new hash.
@@ -48,6 +50,7 @@ static inline double hair_read_double(const unsigned char* at)
 // The hair_write functions write a number at `at` and return the address after it.
 static inline unsigned char* hair_write_u16(unsigned char* at, uint32_t value)
 {
+    HAIR_ASSERT(value <= 0xffff);
     for (int i = 0; i < 2; ++i) at[i] = (unsigned char)(value >> 8 * i);
     return at + 2;
 }

@@ -6,6 +6,7 @@
 static double read_field(const void* desc, const struct hair_field* field)
 {
     const unsigned char* at = (const unsigned char*)desc + field->offset;
+    HAIR_ASSERT(field->offset % 4 == 0 && field->offset >= sizeof(hair_struct_header));
     if (field->type == HAIR_FIELD_UINT) {
         uint32_t value;
         memcpy(&value, at, sizeof value);
@@ -30,6 +31,7 @@ static void write_default(void* desc, const struct hair_field* field)
 
 static void write_defaults(void* desc, uint32_t size, hair_struct_header header, struct hair_fields fields)
 {
+    HAIR_ASSERT(size >= sizeof header && fields.field);
     memset(desc, 0, size);
     memcpy(desc, &header, sizeof header);
     for (uint32_t i = 0; i < fields.count; ++i)
@@ -67,6 +69,8 @@ hair_result hair_fields_take(const hair_host* host, const char* name, const void
     memcpy(own, desc, header.size < fields.size ? header.size : fields.size);
     for (uint32_t i = 0; i < fields.count; ++i) {
         const struct hair_field* field = &fields.field[i];
+        HAIR_ASSERT(field->offset + 4 <= fields.size);
+        HAIR_ASSERT(field->min <= field->value && field->value <= field->max);
         double value = read_field(own, field);
         double least = field->type == HAIR_FIELD_FLOAT ? (float)field->min : field->min;
         double most = field->type == HAIR_FIELD_FLOAT ? (float)field->max : field->max;

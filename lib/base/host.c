@@ -12,6 +12,7 @@
 static void* default_alloc(size_t size, size_t align, void* user)
 {
     (void)user;
+    HAIR_ASSERT(align && (align & (align - 1)) == 0);
     return aligned_alloc(align, (size + align - 1) / align * align);
 }
 
@@ -35,6 +36,7 @@ hair_host hair_host_take(const hair_host* host)
 
 void* hair_alloc(const hair_host* host, size_t count, size_t size)
 {
+    HAIR_ASSERT(host && host->alloc && host->free);
     if (size && count > (PTRDIFF_MAX - HEADER) / size) return NULL;
     size_t total = count * size + HEADER;
     unsigned char* block = host->alloc(total, HEADER, host->user);
@@ -50,11 +52,13 @@ void hair_free(const hair_host* host, void* memory)
     unsigned char* block = (unsigned char*)memory - HEADER;
     size_t total;
     memcpy(&total, block, sizeof total);
+    HAIR_ASSERT(total >= HEADER);
     host->free(block, total, host->user);
 }
 
 static void log_sentence(const hair_host* host, hair_log_level level, const char* format, va_list arguments)
 {
+    HAIR_ASSERT(format);
     if (!host->log) return;
     char sentence[512];
     vsnprintf(sentence, sizeof sentence, format, arguments);
@@ -71,6 +75,7 @@ void hair_log(const hair_host* host, hair_log_level level, const char* format, .
 
 hair_result hair_fail(const hair_host* host, hair_result result, const char* format, ...)
 {
+    HAIR_ASSERT(result != HAIR_OK);
     va_list arguments;
     va_start(arguments, format);
     log_sentence(host, HAIR_LOG_ERROR, format, arguments);

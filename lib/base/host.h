@@ -3,6 +3,7 @@
 #define HAIR_BASE_HOST_H
 
 #include <hair/hair.h>
+#include "lib/base/assert.h"
 
 #if defined(__GNUC__)
 #define HAIR_PRINTF(string, first) __attribute__((format(printf, string, first)))
@@ -13,6 +14,13 @@
 // Return a complete host to keep, with the C library's allocator if `host` has none. NULL selects
 // all defaults.
 hair_host hair_host_take(const hair_host* host);
+
+// Return the result of a call from the enclosing function unless the result is HAIR_OK.
+#define HAIR_TRY(call)                                                                                       \
+    do {                                                                                                     \
+        hair_result hair_tried = (call);                                                                     \
+        if (hair_tried) return hair_tried;                                                                   \
+    } while (0)
 
 // Allocate `count` elements of `size` bytes, aligned to 16 and zeroed. Return NULL if the product
 // overflows or the application refuses. A count of 0 returns memory too. The block stores its size,

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "lib/base/assert.h"
+
 typedef struct hair_vec3 {
     float x, y, z;
 } hair_vec3;
@@ -60,6 +62,23 @@ static inline hair_vec3 hair_cross(hair_vec3 a, hair_vec3 b)
     return (hair_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+static inline int hair_is_finite(hair_vec3 a)
+{
+    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+// Return whether a has the length 1, within 1e-3.
+static inline int hair_is_unit(hair_vec3 a)
+{
+    return fabsf(hair_dot(a, a) - 1) < 2e-3f;
+}
+
+// Return whether q is a rotation, within 1e-3.
+static inline int hair_quat_is_unit(hair_quat q)
+{
+    return fabsf(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 2e-3f;
+}
+
 // Return the unit vector of a, or `fallback` if a has no direction.
 static inline hair_vec3 hair_normalize(hair_vec3 a, hair_vec3 fallback)
 {
@@ -71,6 +90,7 @@ static inline hair_vec3 hair_normalize(hair_vec3 a, hair_vec3 fallback)
 // Orthonormal Basis, Revisited").
 static inline hair_vec3 hair_perpendicular(hair_vec3 a)
 {
+    HAIR_ASSERT(hair_is_unit(a));
     float sign = a.z >= 0 ? 1.0f : -1.0f;
     float b = -1 / (sign + a.z);
     return (hair_vec3){1 + sign * a.x * a.x * b, sign * a.x * a.y * b, -sign * a.x};
@@ -151,6 +171,7 @@ static inline hair_quat hair_quat_from_axes(hair_vec3 x, hair_vec3 y, hair_vec3 
 // Compute c = a b. c must not overlap a or b.
 static inline void hair_mat4_multiply(const float a[16], const float b[16], float c[16])
 {
+    HAIR_ASSERT(c != a && c != b);
     for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i)
             c[4 * j + i] = a[i] * b[4 * j] + a[4 + i] * b[4 * j + 1] + a[8 + i] * b[4 * j + 2] +

@@ -23,6 +23,7 @@ int hair_pose_from_matrix(const float m[16], struct hair_pose* out)
         out->position[i] = (double)m[12 + i];
     }
     out->rotation = hair_quat_from_axes(x, y, z);
+    HAIR_ASSERT(hair_quat_is_unit(out->rotation));
     return 1;
 }
 

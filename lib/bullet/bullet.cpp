@@ -39,6 +39,7 @@ void hair_bullet_destroy(hair_bullet* bullet)
 hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* capacity, uint32_t count,
                                 size_t size)
 {
+    HAIR_ASSERT(size > 0 && (*array || !*capacity));
     if (count <= *capacity) return HAIR_OK;
     const uint32_t most = count < 32 ? 32 : count + count / 2;
     void* grown = hair_alloc(host, most, size);
@@ -87,6 +88,7 @@ static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, cons
     const uint32_t before = bullet->count;
     bullet->visits = 0;
     hair_result result = hair_bullet_add(bullet, shape, taking);
+    HAIR_ASSERT(before <= bullet->count && bullet->count <= bullet->capacity);
     if (result && !taking.is_quiet) bullet->count = before;
     return result;
 }
@@ -156,6 +158,7 @@ struct hits : btBroadphaseAabbCallback {
         result = hair_bullet_reserve(&bullet->host, &memory, &bullet->hit_capacity, bullet->hit_count + 1,
                                      sizeof *bullet->hits);
         bullet->hits = static_cast<const void**>(memory);
+        HAIR_ASSERT(result || bullet->hit_count < bullet->hit_capacity);
         if (!result) bullet->hits[bullet->hit_count++] = proxy;
         return !result;
     }
@@ -188,6 +191,7 @@ hair_result hair_bullet_add_world(hair_bullet* bullet, const btCollisionWorld* w
     // Bullet's broadphase is not const, but a test changes nothing in it.
     const_cast<btCollisionWorld*>(world)->getBroadphase()->aabbTest(found.lower, found.upper, found);
     if (found.result) return found.result;
+    HAIR_ASSERT(bullet->hit_count <= bullet->hit_capacity);
     if (bullet->hit_count) std::qsort(bullet->hits, bullet->hit_count, sizeof *bullet->hits, compare);
     for (uint32_t i = 0; i < bullet->hit_count; ++i) {
         const btBroadphaseProxy* proxy = static_cast<const btBroadphaseProxy*>(bullet->hits[i]);

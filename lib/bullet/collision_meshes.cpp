@@ -15,6 +15,8 @@ static uint32_t place_of(const hair_bullet* bullet, const btCollisionShape* shap
 {
     uint64_t hash = hair_bullet_print(0xcbf29ce484222325u, &shape, sizeof shape);
     uint32_t mask = bullet->met_capacity - 1, place = static_cast<uint32_t>(hash ^ hash >> 32) & mask;
+    // An empty slot ends the search.
+    HAIR_ASSERT((bullet->met_capacity & mask) == 0 && bullet->met_count < bullet->met_capacity);
     while (bullet->met[place].shape && bullet->met[place].shape != shape) place = (place + 1) & mask;
     return place;
 }
@@ -33,6 +35,7 @@ hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, u
 static hair_result rebuild(hair_bullet* bullet, uint32_t capacity, uint32_t rounds,
                            const btCollisionShape* shape)
 {
+    HAIR_ASSERT(capacity > bullet->met_count);
     hair_met* old = bullet->met;
     uint32_t before = bullet->met_capacity;
     void* memory = hair_alloc(&bullet->host, capacity, sizeof *old);
@@ -66,6 +69,7 @@ hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape,
         hair_collision_mesh_destroy(met->form); // The shape was another one then.
     else
         ++bullet->met_count;
+    HAIR_ASSERT(2 * bullet->met_count <= bullet->met_capacity);
     *met = {shape, print, form, bullet->round};
     return HAIR_OK;
 }

@@ -22,6 +22,7 @@ struct cloud {
 // Return the i-th of DIRECTIONS directions along Fibonacci's spiral.
 btVector3 direction(int i)
 {
+    HAIR_ASSERT(0 <= i && i < DIRECTIONS);
     const double z = 1 - (2 * i + 1.0) / DIRECTIONS, around = std::sqrt(1 - z * z),
                  turn = 2.399963229728653 * i;
     return btVector3(btScalar(around * std::cos(turn)), btScalar(around * std::sin(turn)), btScalar(z));
@@ -105,6 +106,7 @@ static void gather(const btConvexShape* shape, cloud* out)
 
 static btVector3 vertex(const hair_mesh& mesh, uint32_t i)
 {
+    HAIR_ASSERT(i < mesh.vertex_count);
     const float* at = mesh.positions + 3 * i;
     return btVector3(at[0], at[1], at[2]);
 }

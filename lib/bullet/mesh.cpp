@@ -21,6 +21,7 @@ void hair_mesh::add_vertex(const btVector3& at)
         result = hair_bullet_reserve(host, &array, &position_room, vertex_count + 1, 3 * sizeof(float));
     positions = static_cast<float*>(array);
     if (result) return;
+    HAIR_ASSERT(vertex_count < position_room);
     for (int k = 0; k < 3; ++k)
         positions[3 * vertex_count + static_cast<uint32_t>(k)] = static_cast<float>(at[k]);
     ++vertex_count;
@@ -33,6 +34,8 @@ void hair_mesh::add_triangle(uint32_t a, uint32_t b, uint32_t c)
         result = hair_bullet_reserve(host, &array, &triangle_room, triangle_count + 1, 3 * sizeof(uint32_t));
     triangles = static_cast<uint32_t*>(array);
     if (result) return;
+    HAIR_ASSERT(a < vertex_count && b < vertex_count && c < vertex_count);
+    HAIR_ASSERT(triangle_count < triangle_room);
     triangles[3 * triangle_count] = a;
     triangles[3 * triangle_count + 1] = b;
     triangles[3 * triangle_count + 2] = c;

@@ -68,6 +68,7 @@ hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape
     hair_result result =
         hair_bullet_reserve(&bullet->host, &colliders, &bullet->capacity, bullet->count + 1, sizeof collider);
     bullet->colliders = static_cast<hair_collider*>(colliders);
+    HAIR_ASSERT(result || bullet->count < bullet->capacity);
     if (!result) bullet->colliders[bullet->count++] = collider;
     return result;
 }
@@ -175,6 +176,7 @@ static hair_result add_compound(hair_bullet* bullet, const btCompoundShape* comp
 
 hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
 {
+    HAIR_ASSERT(taking.depth <= DEEPEST);
     switch (shape->getShapeType()) {
     case SPHERE_SHAPE_PROXYTYPE: return add_sphere(bullet, static_cast<const btSphereShape*>(shape), taking);
     case BOX_SHAPE_PROXYTYPE: return add_box(bullet, static_cast<const btBoxShape*>(shape), taking);

@@ -125,6 +125,8 @@ hair_result hair_cells_gather(const hair_host* host, struct hair_cells* cells,
             far |= !(bounds.lower[k] <= desc->reach && bounds.upper[k] >= -desc->reach);
         if (far) continue;
         contact.ball = ball_of(&contact.around, desc);
+        HAIR_ASSERT(cells->contacts < cells->room && cells->contacts <= HAIR_MEMBER_NUMBER);
+        for (int k = 0; k < 3; ++k) HAIR_ASSERT(bounds.lower[k] <= bounds.upper[k]);
         cells->contact[cells->contacts] = contact;
         cells->bounds[cells->contacts] = bounds;
         cells->collider[cells->contacts] = i;

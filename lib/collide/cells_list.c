@@ -31,6 +31,7 @@ static void lay_grid(struct hair_cells* cells, const struct hair_cells_desc* des
         longest = fmaxf(longest, upper[k] - lower[k]);
     }
     cells->size = scale * fmaxf(longest / MOST_CELLS, desc->give);
+    HAIR_ASSERT(cells->size > 0);
     cells->lower = hair_load3(lower);
     for (int k = 0; k < 3; ++k)
         cells->cells[k] =
@@ -49,6 +50,7 @@ static struct range range_of(const struct hair_cells* cells, const struct hair_c
         float most = (float)(cells->cells[k] - 1);
         range.first[k] = (uint32_t)fminf(fmaxf((bounds->lower[k] - lower[k]) / cells->size, 0), most);
         range.last[k] = (uint32_t)fminf(fmaxf((bounds->upper[k] - lower[k]) / cells->size, 0), most);
+        HAIR_ASSERT(range.first[k] <= range.last[k] && range.last[k] < cells->cells[k]);
     }
     return range;
 }
@@ -181,6 +183,7 @@ static int by_distance(const void* a, const void* b)
 // Move the `kept` nearest candidates to the front, in any order (Hoare 1961).
 static void select_nearest(struct candidate* candidate, uint32_t count, uint32_t kept)
 {
+    HAIR_ASSERT(kept < count);
     uint32_t first = 0, last = count;
     while (last - first > 1 && first < kept) {
         struct candidate middle = candidate[first + (last - 1 - first) / 2];
@@ -217,6 +220,7 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
                        struct candidate* sorted)
 {
     uint32_t x = cell % cells->cells[0], yz = cell / cells->cells[0], rounds = 0, kept = 0;
+    HAIR_ASSERT(yz < cells->cells[1] * cells->cells[2]);
     hair_vec3 middle = middle_of(cells, x, yz % cells->cells[1], yz / cells->cells[1]);
     for (uint32_t i = 0; i < count; ++i) {
         const hair_vec4* ends = cells->contact[contact[i]].around.end;
@@ -229,6 +233,7 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
         for (uint32_t i = 1; i < HAIR_CELL_COLLIDERS; ++i)
             if (by_distance(&sorted[i], &farthest) > 0) farthest = sorted[i];
         count = keep_to(candidate, count, farthest);
+        HAIR_ASSERT(count == HAIR_CELL_COLLIDERS);
     }
     for (uint32_t i = 0; i < count; ++i) rounds += hair_member_rounds(cells->member[candidate[i].contact]);
     if (rounds <= most_rounds) return count;
@@ -243,6 +248,7 @@ static uint32_t choose(const struct hair_cells* cells, uint32_t most_rounds, uin
 
 static void end_list(struct hair_cells* cells, uint32_t cell, uint32_t first)
 {
+    HAIR_ASSERT(first <= cells->entries && cells->entries <= cells->entry_room);
     uint32_t rounds = 0, count = cells->entries - first;
     for (uint32_t i = first; i < cells->entries; ++i) rounds += hair_member_rounds(cells->entry[i]);
     if (rounds > cells->rounds) cells->rounds = rounds;
@@ -265,6 +271,7 @@ static void write_lists(struct hair_cells* cells, const struct hair_cells_desc* 
         if (count > HAIR_CELL_COLLIDERS || rounds > desc->most_rounds) {
             uint32_t kept =
                 choose(cells, desc->most_rounds, cell, sorted + begin, count, candidate, candidate + longest);
+            HAIR_ASSERT(kept <= HAIR_CELL_COLLIDERS && kept <= count);
             for (uint32_t i = 0; i < kept; ++i)
                 cells->entry[cells->entries++] = cells->member[candidate[i].contact];
             cells->left_out = count - kept > cells->left_out ? count - kept : cells->left_out;
@@ -285,12 +292,14 @@ static hair_result sort(const hair_host* host, struct hair_cells* cells, const s
     uint32_t *end = numbers, *sorted = end + all + 1;
     struct pairs pairs = {sorted + most, sorted + 2 * (size_t)most, 0};
     find_pairs(cells, desc, end, &pairs);
+    HAIR_ASSERT(pairs.count <= most);
     for (uint32_t i = 0; i < all; ++i) {
         longest = end[i + 1] > longest ? end[i + 1] : longest;
         end[i + 1] += end[i];
     }
     // Scatter the contacts. The start of each cell becomes its end, contact by contact.
     for (uint32_t i = 0; i < pairs.count; ++i) sorted[end[pairs.cell[i]]++] = pairs.contact[i];
+    HAIR_ASSERT(end[all - 1] == pairs.count && longest <= pairs.count);
 
     struct candidate* candidate = hair_alloc(host, 2 * (size_t)longest, sizeof *candidate);
     uint32_t room = all + 1 + pairs.count;
@@ -338,6 +347,7 @@ static hair_result keep(const hair_host* host, struct hair_cells* cells, const s
         cells->last_room = cells->last ? cells->room : 0;
         if (!cells->last) return hair_fail_memory(host, "what guides collide with");
     }
+    HAIR_ASSERT(cells->contacts <= cells->last_room);
     if (cells->contacts) memcpy(cells->last, cells->contact, cells->contacts * sizeof *cells->last);
     cells->last_contacts = cells->contacts;
     cells->made_for = *desc;

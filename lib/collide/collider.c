@@ -79,6 +79,7 @@ static hair_collider collider_at(const hair_collider* from, uint32_t i, size_t s
 
 static hair_result reserve(const hair_host* host, struct hair_collider_list* list, uint32_t count)
 {
+    HAIR_ASSERT(list->count <= list->capacity);
     if (count <= list->capacity) return HAIR_OK;
     uint32_t capacity = count < 8 ? 8 : count + count / 2;
     hair_collider* grown = hair_alloc(host, capacity, sizeof *grown);
@@ -109,6 +110,7 @@ static hair_result reserve_all(const hair_host* host, struct hair_colliders* col
 // they may be equal.
 static void put(struct hair_collider_list* list, const hair_collider* from, uint32_t count, size_t stride)
 {
+    HAIR_ASSERT(count <= list->capacity);
     for (uint32_t i = 0; i < count; ++i) hair_collision_mesh_hold(collider_at(from, i, stride).mesh);
     for (uint32_t i = 0; i < list->count; ++i) hair_collision_mesh_release(list->collider[i].mesh);
     for (uint32_t i = 0; i < count; ++i) list->collider[i] = collider_at(from, i, stride);
@@ -125,6 +127,7 @@ static void count_contacts(struct hair_colliders* colliders)
         forms += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
     }
     colliders->contacts = bodies + forms;
+    HAIR_ASSERT(capsules <= bodies && colliders->contacts <= colliders->now.count);
     colliders->forms = forms;
     colliders->capsules = capsules < HAIR_STEP_COLLIDERS ? capsules : HAIR_STEP_COLLIDERS;
     colliders->bodies = bodies < HAIR_STEP_COLLIDERS ? bodies : HAIR_STEP_COLLIDERS;
@@ -211,6 +214,7 @@ void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders
 
 const hair_collider* hair_colliders_before(const struct hair_colliders* colliders, uint32_t i)
 {
+    HAIR_ASSERT(i < colliders->now.count);
     const hair_collider* now = &colliders->now.collider[i];
     uint32_t k = colliders->pair[i];
     if (k >= colliders->before.count) return now;
@@ -222,6 +226,7 @@ void hair_colliders_settle(struct hair_colliders* colliders)
 {
     if (!colliders->changed) return;
     colliders->changed = 0;
+    HAIR_ASSERT(colliders->now.count <= colliders->capacity);
     put(&colliders->before, colliders->now.collider, colliders->now.count, sizeof *colliders->now.collider);
     for (uint32_t i = 0; i < colliders->now.count; ++i) colliders->pair[i] = i;
 }

@@ -59,6 +59,7 @@ static void choose_voxel(const hair_collision_mesh_desc* desc, const struct hair
     }
     info->voxel_size = fmaxf(info->voxel_size, (side + thickness + 2 * desc->padding) / MOST_VOXELS);
     info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel_size);
+    HAIR_ASSERT(info->voxel_size > 0 && info->thickness >= 0);
 }
 
 static hair_result lay_grid(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
@@ -84,6 +85,7 @@ static hair_result lay_grid(const hair_collision_mesh_desc* desc, const struct h
     const float center[3] = {t->center.x, t->center.y, t->center.z};
     for (int k = 0; k < 3; ++k) {
         form->size[k] = (uint32_t)ceilf((upper[k] - lower[k] + 2 * room) / form->voxel) + 1;
+        HAIR_ASSERT(form->size[k] > 2 * HAIR_COLLISION_MESH_PADDING);
         form->info.size[k] = form->size[k];
         form->info.lower[k] = center[k] + lower[k] - form->info.thickness / 2;
         form->info.upper[k] = center[k] + upper[k] + form->info.thickness / 2;
@@ -106,6 +108,7 @@ static hair_vec3 place_of(const hair_collision_mesh* form, const struct hair_tri
 
 static size_t node_of(const hair_collision_mesh* form, const uint32_t at[3])
 {
+    HAIR_ASSERT(at[0] < form->size[0] && at[1] < form->size[1] && at[2] < form->size[2]);
     return at[0] + form->size[0] * (at[1] + (size_t)form->size[1] * at[2]);
 }
 
@@ -150,6 +153,7 @@ static void take(hair_collision_mesh* form, const struct hair_triangles* t, uint
                  size_t from, hair_vec3 place)
 {
     if (nearest[from] == nearest[node] || form->distance[from] - form->voxel >= form->distance[node]) return;
+    HAIR_ASSERT(nearest[from] < t->count);
     float distance = hair_triangles_distance(t, nearest[from], place);
     if (distance >= form->distance[node]) return;
     form->distance[node] = distance;
@@ -199,6 +203,7 @@ struct sides {
 
 static void tell(struct sides* sides, size_t node, unsigned char side)
 {
+    HAIR_ASSERT(sides->side[node] == UNKNOWN && side != UNKNOWN);
     sides->side[node] = side;
     // Each node is pushed once, since it was unknown.
     sides->stack[sides->depth++] = (uint32_t)node;
@@ -211,6 +216,7 @@ static void spread(struct sides* sides)
     const size_t step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     while (sides->depth > 0) {
         size_t node = sides->stack[--sides->depth];
+        HAIR_ASSERT(sides->side[node] != UNKNOWN);
         const size_t at[3] = {node % step[1], node / step[1] % form->size[1], node / step[2]};
         for (int k = 0; k < 6; ++k) {
             int axis = k / 2;
@@ -251,6 +257,7 @@ static hair_result find_sides(hair_collision_mesh* form, struct hair_triangles* 
 static void thicken(hair_collision_mesh* form)
 {
     size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
+    HAIR_ASSERT(form->info.thickness > 0);
     for (size_t i = 0; i < nodes; ++i) form->distance[i] -= form->info.thickness / 2;
 }
 
@@ -324,11 +331,13 @@ static hair_collision_mesh* own(const hair_collision_mesh* form)
 
 void hair_collision_mesh_hold(const hair_collision_mesh* form)
 {
+    HAIR_ASSERT(!form || atomic_load(&own(form)->holders) > 0);
     if (form) atomic_fetch_add_explicit(&own(form)->holders, 1, memory_order_relaxed);
 }
 
 void hair_collision_mesh_release(const hair_collision_mesh* form)
 {
+    HAIR_ASSERT(!form || atomic_load(&own(form)->holders) > 0);
     if (!form || atomic_fetch_sub_explicit(&own(form)->holders, 1, memory_order_acq_rel) != 1) return;
     hair_host host = form->host;
     hair_free(&host, form->distance);

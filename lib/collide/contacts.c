@@ -32,6 +32,7 @@ void hair_collider_extent(const hair_collider* collider, hair_vec3* middle, hair
     case HAIR_SHAPE_MESH: break;
     default: *half = hair_v3(size[0], size[0], size[0]); return;
     }
+    HAIR_ASSERT(collider->mesh);
     hair_vec3 lower = hair_load3(collider->mesh->info.lower), upper = hair_load3(collider->mesh->info.upper);
     *middle = hair_scale(hair_lerp(lower, upper, 0.5f), collider->scale);
     *half = hair_scale(hair_sub(upper, lower), 0.5f * collider->scale);
@@ -129,6 +130,7 @@ static uint32_t choose(const struct hair_colliders* colliders, const struct hair
                 chosen[k] = chosen[k + 1], distance[k] = distance[k + 1];
             --count;
         }
+        HAIR_ASSERT(count < HAIR_STEP_COLLIDERS);
         chosen[count] = i, distance[count++] = far;
         farthest = 0;
         for (uint32_t k = 1; k < count && count == HAIR_STEP_COLLIDERS; ++k)
@@ -182,6 +184,7 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
                                            const struct hair_pose* head_before,
                                            const struct hair_pose* head_now)
 {
+    HAIR_ASSERT(i < colliders->now.count);
     const hair_collider* now = &colliders->now.collider[i];
     hair_collider before = *hair_colliders_before(colliders, i);
     before.mesh = now->mesh, before.scale = now->scale; // The collision mesh may have been another.
@@ -189,6 +192,7 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
                                    .body = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_MESH) return contact;
     const hair_collision_mesh* form = now->mesh;
+    HAIR_ASSERT(form && form->distance);
     contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_MESH};
     contact.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
     contact.nodes_x = form->size[0];

@@ -65,6 +65,7 @@ static void edge(const double p[2], const double a[2], const double b[2], struct
 static double revolve(struct profile nearest, int inside, const double flank[2], const double p[3],
                       double gradient[3])
 {
+    HAIR_ASSERT(nearest.distance < INFINITY);
     double around = sqrt(p[0] * p[0] + p[2] * p[2]), sign = inside ? -1 : 1;
     double n[2] = {flank[0], flank[1]};
     if (nearest.distance > 1e-15) {
@@ -122,6 +123,7 @@ static double interpolate(const hair_collision_mesh* form, const double at[3], d
     size_t node = 0, step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
     double t[3];
     for (int k = 0; k < 3; ++k) {
+        HAIR_ASSERT(form->size[k] >= 2);
         double x = (at[k] - (double)form->origin[k]) / (double)form->voxel;
         double i = clamp(floor(x), 0, form->size[k] - 2);
         t[k] = clamp(x - i, 0, 1);
@@ -143,6 +145,7 @@ static double interpolate(const hair_collision_mesh* form, const double at[3], d
 
 double hair_distance_to_mesh(const hair_collision_mesh* form, const double point[3], double gradient[3])
 {
+    HAIR_ASSERT(form && form->distance && form->voxel > 0);
     double own[3], inside[3], slope[3], beyond = 0;
     double* out = gradient ? gradient : own;
     for (int k = 0; k < 3; ++k) {
@@ -165,6 +168,7 @@ static void rotate(const float q[4], double sign, const double v[3], double out[
 {
     double norm = 0, u[3];
     for (int k = 0; k < 4; ++k) norm += (double)q[k] * (double)q[k];
+    HAIR_ASSERT(norm > 0);
     for (int k = 0; k < 3; ++k) u[k] = sign * (double)q[k] / sqrt(norm);
     double w = (double)q[3] / sqrt(norm);
     double t[3] = {2 * (u[1] * v[2] - u[2] * v[1]), 2 * (u[2] * v[0] - u[0] * v[2]),

@@ -99,12 +99,14 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
 // Leaves of the lower level come first.
 static uint32_t leaf_of(const struct hair_triangles* t, uint32_t node)
 {
+    HAIR_ASSERT(node >= t->leaves - 1 && node < 2 * t->leaves - 1);
     return node + 1 >= t->lowest ? node + 1 - t->lowest : node + 1 + t->leaves - t->lowest;
 }
 
 static void make_leaf(struct hair_triangles* t, uint32_t node)
 {
     uint32_t first = leaf_of(t, node) * HAIR_TRIANGLES_PER_LEAF;
+    HAIR_ASSERT(first < t->count);
     struct hair_box box = {corner(t, first, 0), corner(t, first, 0)};
     hair_vec3 area = {0, 0, 0}, center = {0, 0, 0};
     float weight = 0;
@@ -126,6 +128,7 @@ static void make_leaf(struct hair_triangles* t, uint32_t node)
 
 static void join(struct hair_triangles* t, uint32_t node)
 {
+    HAIR_ASSERT(2 * node + 2 < 2 * t->leaves - 1);
     const struct hair_box *a = &t->box[2 * node + 1], *b = &t->box[2 * node + 2];
     const struct hair_dipole *x = &t->dipole[2 * node + 1], *y = &t->dipole[2 * node + 2];
     float weight = x->radius + y->radius;
@@ -152,6 +155,7 @@ static void make_nodes(struct hair_triangles* t)
 
 static void find_bounds(struct hair_triangles* t)
 {
+    HAIR_ASSERT(t->count > 0);
     struct hair_box bounds = {corner(t, 0, 0), corner(t, 0, 0)};
     for (uint32_t i = 0; i < t->count; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -179,6 +183,7 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
         find_bounds(&t);
         t.leaves = (t.count + HAIR_TRIANGLES_PER_LEAF - 1) / HAIR_TRIANGLES_PER_LEAF;
         for (t.lowest = 1; 2 * t.lowest <= 2 * t.leaves - 1;) t.lowest *= 2;
+        HAIR_ASSERT((t.lowest & (t.lowest - 1)) == 0 && t.lowest <= 2 * t.leaves - 1);
         t.box = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
         t.dipole = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.dipole);
         result = t.box && t.dipole ? put_in_order(host, &t)
@@ -237,11 +242,13 @@ static float squared_to_box(const struct hair_box* box, hair_vec3 p)
 
 float hair_triangles_distance(const struct hair_triangles* t, uint32_t place, hair_vec3 point)
 {
+    HAIR_ASSERT(place < t->count);
     return sqrtf(squared_to_triangle(t, place, point));
 }
 
 void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* distance, uint32_t* nearest)
 {
+    HAIR_ASSERT(t->count > 0 && t->box && t->dipole);
     struct {
         uint32_t node;
         float squared;
@@ -253,6 +260,7 @@ void hair_triangles_find(struct hair_triangles* t, hair_vec3 point, float* dista
         if (stack[depth].squared >= squared) continue;
         ++t->work;
         if (node < t->leaves - 1) {
+            HAIR_ASSERT(depth + 2 <= sizeof stack / sizeof *stack);
             uint32_t a = 2 * node + 1, b = a + 1;
             float to_a = squared_to_box(&t->box[a], point), to_b = squared_to_box(&t->box[b], point);
             int b_first = to_b < to_a; // The nearer child goes on top.
@@ -303,6 +311,7 @@ float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
         if (far > FROM_AFAR * dipole->radius) {
             sum += hair_dot(dipole->area, to) / (far * far * far);
         } else if (node < t->leaves - 1) {
+            HAIR_ASSERT(depth + 2 <= sizeof stack / sizeof *stack);
             stack[depth++] = 2 * node + 1;
             stack[depth++] = 2 * node + 2;
         } else {

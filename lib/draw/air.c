@@ -32,6 +32,7 @@ static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* 
     const hair_slice slice = view->slice ? view->slice : HAIR_SLICE_Z;
     uint32_t longest = 0, along[2];
     for (int k = 0; k < 3; ++k) longest = box->bricks[k] > longest ? box->bricks[k] : longest;
+    HAIR_ASSERT(longest > 0 && slice != HAIR_SLICE_NONE);
     hair_draw_write_slice(box, slice, view->slice_at, params);
     for (uint32_t i = 0; i < 2; ++i) {
         widen(params, (int)i);

@@ -19,6 +19,7 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
     const float brick = HAIR_BRICK * box->voxel, lower[] = {box->lower.x, box->lower.y, box->lower.z};
     if (!slice) return;
     int axis = (int)slice - HAIR_SLICE_X, a = (axis + 1) % 3, b = (axis + 2) % 3;
+    HAIR_ASSERT(0 <= axis && axis < 3);
     float length[3] = {brick * (float)box->bricks[0], brick * (float)box->bricks[1],
                        brick * (float)box->bricks[2]};
     float at[3] = {lower[0], lower[1], lower[2]}, normal[3] = {0}, sides[2][3] = {{0}};
@@ -63,6 +64,7 @@ static void draw_shapes(struct hair_draw* draw, const struct hair_collider_field
     hair_gl_begin(gl, HAIR_GL_COLLIDERS);
     for (uint32_t first = 0; first < count; first += HAIR_SHOWN_COLLIDERS) {
         uint32_t some = count - first < HAIR_SHOWN_COLLIDERS ? count - first : HAIR_SHOWN_COLLIDERS;
+        HAIR_ASSERT(0 < some && first + some <= count);
         for (uint32_t i = 0; i < some; ++i)
             params->shown[i] = show(field, &colliders[first + i], first + i, head);
         hair_gl_write_uniform(gl, buffer, sizeof *params, params);

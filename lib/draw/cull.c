@@ -52,6 +52,7 @@ static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
 static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)
 {
     float r = (float)reach;
+    HAIR_ASSERT(reach >= 0);
     return hair_v3(i & 1 ? e->upper.x + r : e->lower.x - r, i & 2 ? e->upper.y + r : e->lower.y - r,
                    i & 4 ? e->upper.z + r : e->lower.z - r);
 }
@@ -81,8 +82,8 @@ static unsigned find_outside(const double clip[4], const double edge[2])
            (unsigned)(w < 0) << BEHIND | (unsigned)(z > w) << FAR | (unsigned)(z < -w) << NEAR;
 }
 
-int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
-                             const hair_view* view)
+bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view)
 {
     const struct hair_gl* gl = draw->gl;
     GLfloat viewport[4] = {0};

@@ -4,12 +4,15 @@
 
 #include <string.h>
 
+// Maximum iterations of a thread's loop. Mesa's software rasteriser leaves loops after 65,535.
+#define MOST_ROUNDS 4096
 #define EVERYWHERE 1e30f // Distance in metres of a plane that cuts nothing off.
 
 // Return the half space { p : edge w(p) + sign row(p) >= 0 } of clip space as a plane with a unit
 // normal. The plane is in the space that `clip` transforms from.
 static hair_vec4 find_side(const float clip[16], int row, float sign, float edge)
 {
+    HAIR_ASSERT(0 <= row && row < 3);
     float p[4];
     hair_vec4 plane = {0, 0, 0, EVERYWHERE};
     for (int i = 0; i < 4; ++i) p[i] = edge * clip[4 * i + 3] + sign * clip[4 * i + row];
@@ -86,6 +89,15 @@ static double find_share(const struct hair_draw* draw, const hair_lod* lod)
     return (double)(lod->strand_fraction *
                     (draw->pixels > 0 ? fminf(fmaxf(width / lod->strand_pixels, lod->min_strand_fraction), 1)
                                       : 1));
+}
+
+uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
+{
+    HAIR_ASSERT(share >= 0);
+    double each = draw->look.segments + 1.0;
+    double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
+    double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);
+    return 1 + (uint32_t)fmax(mean, most);
 }
 
 void hair_draw_write_detail(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,

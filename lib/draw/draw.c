@@ -16,6 +16,7 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->seats = hair_seats_hold(groom->seats);
     for (uint32_t i = 0; i < draw->patches; ++i)
         if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
+    HAIR_ASSERT(0 < draw->most_isolines && draw->most_isolines <= HAIR_MAX_ISOLINES);
     hair_draw_find_extent(draw, groom);
     hair_draw_find_fastest(draw);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
@@ -62,17 +63,6 @@ void hair_draw_destroy(struct hair_draw* draw)
     hair_gl_free_buffer(draw->gl, &draw->params);
 }
 
-void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
-{
-    struct hair_gl* gl = draw->gl;
-    GLuint textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
-                         draw->follower_texture, draw->patch_texture,      0,
-                         draw->hits.hit_texture, draw->hits.repair_texture};
-    for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
-        if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
-}
-
 // Bind the textures that only the colour pass reads.
 static void bind_light(struct hair_draw* draw, const hair_view* view)
 {
@@ -81,46 +71,6 @@ static void bind_light(struct hair_draw* draw, const hair_view* view)
     gl->BindSampler(HAIR_UNIT_FIBRE, 0);
     if (hair_draw_lit(draw, view)) gl->BindTextureUnit(HAIR_UNIT_LIGHT, draw->self_shadow.texture);
     hair_draw_bind_shadows(draw, view);
-}
-
-static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture)
-{
-    if (!texture) return;
-    gl->BindTextureUnit(unit, texture);
-    gl->BindSampler(unit, gl->shadow_sampler);
-}
-
-void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view)
-{
-    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t count = hair_view_maps(view, maps);
-    for (GLuint i = 0; i < count; ++i) {
-        bind_map(draw->gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
-        bind_map(draw->gl, HAIR_UNIT_BODY + i, maps[i].body);
-    }
-}
-
-// Return how many patches one draw may hold so that it generates no more vertices than the driver
-// handles. Count every patch with the maximum number of isolines.
-static uint32_t batch_size(const struct hair_draw* draw)
-{
-    uint32_t segments = draw->look.segments;
-    if (segments > HAIR_MAX_ISOLINE_SEGMENTS) segments = HAIR_MAX_ISOLINE_SEGMENTS;
-    uint32_t patches = draw->gl->max_draw_vertices / (HAIR_MAX_ISOLINES * (segments + 1));
-    return patches < 1 ? 1 : patches;
-}
-
-void hair_draw_patches(struct hair_draw* draw)
-{
-    struct hair_gl* gl = draw->gl;
-    uint32_t batch = batch_size(draw);
-    uint32_t parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
-    parts *= (draw->most_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
-    gl->PatchParameteri(GL_PATCH_VERTICES, 1);
-    for (uint32_t first = 0; first < draw->patches; first += batch) {
-        uint32_t count = draw->patches - first < batch ? draw->patches - first : batch;
-        gl->DrawArraysInstanced(GL_PATCHES, (GLint)first, (GLsizei)count, (GLsizei)parts);
-    }
 }
 
 // Programs of one draw: the main pass, and an optional pass that shades or writes vertices before
@@ -136,90 +86,19 @@ struct drawn {
     int nowhere;
 };
 
-static const hair_gl_pass row_of_path[] = {[HAIR_RENDER_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
-                                           [HAIR_RENDER_PATH_INSTANCED] = HAIR_GL_INSTANCED,
-                                           [HAIR_RENDER_PATH_CACHED] = HAIR_GL_EXPANDED,
-                                           [HAIR_RENDER_PATH_COMPUTE] = HAIR_GL_COMPOSE};
-
-static int is_textured(const struct hair_draw* draw, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && view->color_texture && hair_draw_has_uvs(draw);
-}
-
-static int is_painted(const struct hair_draw* draw, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && draw->paint && draw->look.groom_colors > 0;
-}
-
-// Return nonzero if the draw needs root uvs and the groom has them.
-static int wants_uvs(const struct hair_draw* draw, const hair_view* view, const struct hair_gl_shader* shader)
-{
-    return is_textured(draw, view) || (shader && hair_draw_has_uvs(draw));
-}
-
-static hair_gl_pass features_of(const struct hair_draw* draw, const hair_view* view,
-                                const struct hair_gl_shader* shader)
-{
-    hair_gl_pass features = 0;
-    if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
-    if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
-    if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
-    if (view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
-        features |= HAIR_GL_WITH(FIBRES);
-    if (hair_draw_covers(view))
-        features |= HAIR_GL_WITH(SHARES);
-    else if (view->primitive == HAIR_PRIMITIVE_LINES)
-        features |= HAIR_GL_WITH(LINES);
-    if (view->lod) features |= HAIR_GL_WITH(WIDENED);
-    if (hair_draw_is_blocked(view)) features |= HAIR_GL_WITH(BLOCKED);
-    if (wants_uvs(draw, view, shader)) features |= HAIR_GL_WITH(TINTED);
-    if (is_painted(draw, view)) features |= HAIR_GL_WITH(PAINTED);
-    return features;
-}
-
-// Features of shading, for views that shade vertices in a separate pass.
-#define SHADE_FEATURES                                                                                       \
-    (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(TINTED) | HAIR_GL_WITH(PAINTED) | HAIR_GL_WITH(BLOCKED))
-
 // Features of compute rasterisation.
 #define RASTER_FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
-
-static hair_result need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
-                                GLuint* out)
-{
-    if (shader) return hair_gl_need_own(draw->gl, shader, pass, out);
-    hair_result result = hair_gl_need(draw->gl, pass);
-    if (!result) *out = hair_gl_find(draw->gl, pass)->program;
-    return result;
-}
-
-// Return the pass that draws. Set *shade to the pass that shades or writes vertices before it, or
-// to 0 if there is none.
-static hair_gl_pass find_passes(const struct hair_draw* draw, const hair_view* view,
-                                const struct hair_gl_shader* shader, hair_gl_pass* shade)
-{
-    hair_gl_pass features = features_of(draw, view, shader), row = row_of_path[view->render_path];
-    if (hair_draw_is_paired(view)) row = HAIR_GL_PAIRED;
-    *shade = 0;
-    if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_with(HAIR_GL_SHADE, features);
-    if (hair_draw_stages(view)) {
-        int sides = hair_draw_stages_sides(view);
-        *shade = hair_gl_with(sides ? HAIR_GL_STAGE_SIDES : HAIR_GL_STAGE, features);
-        return hair_gl_with(sides ? HAIR_GL_STAGED : row, features);
-    }
-    if (row == HAIR_GL_COMPOSE) return hair_gl_with(row, features);
-    return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
-}
 
 static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
                                 struct drawn* out)
 {
     hair_result result = HAIR_OK;
-    out->pass = hair_draw_choose(draw, find_passes(draw, view, shader, &out->shade_pass));
+    out->pass = hair_draw_choose(draw, hair_draw_find_passes(draw, view, shader, &out->shade_pass));
     if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
     if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
-    if (out->shade_pass) result = need_program(draw, out->shade_pass, shader, &out->shade);
-    return result ? result : need_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
+    if (out->shade_pass) result = hair_draw_need_program(draw, out->shade_pass, shader, &out->shade);
+    return result ? result
+                  : hair_draw_need_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
 }
 
 hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
@@ -230,7 +109,7 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     int lit = hair_draw_lit(draw, view) > 0;
     hair_gl_pass hides = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
     hair_gl_pass expand = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
-    hair_gl_pass strands = hair_draw_styled(draw, find_passes(draw, view, shader, &shade));
+    hair_gl_pass strands = hair_draw_styled(draw, hair_draw_find_passes(draw, view, shader, &shade));
     hair_result result = HAIR_OK;
     GLuint program;
     if (view->render_path != HAIR_RENDER_PATH_TESSELLATION)
@@ -244,9 +123,11 @@ hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* vie
     for (int i = 0; i <= meets && !result; ++i) {
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS) : 0;
         if (shade)
-            result = need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader, &program);
+            result = hair_draw_need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader,
+                                            &program);
         if (!result)
-            result = need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader, &program);
+            result = hair_draw_need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader,
+                                            &program);
         if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
         if (!result && (lit || hair_draw_expands(view)))
             result = hair_gl_need(gl, hair_gl_with(expand, with));
@@ -271,6 +152,7 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
     int listed = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
+    HAIR_ASSERT(with->program && (with->shade != 0) == (with->shade_pass != 0));
     if (listed) hair_draw_list(draw, smooth, params, with->hides);
     if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
     if (hair_draw_stages(view))
@@ -328,7 +210,7 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
         result = hair_draw_need_staged(draw, view);
     else if (!result && out->shade_pass)
         result = hair_draw_need_shaded(draw);
-    if (!result && wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
+    if (!result && hair_draw_wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
     if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
     if (!result && motion) result = hair_draw_need_motion(draw);
     if (!result && motion) hair_draw_begin_motion(draw, head, view->frame_index);
@@ -339,6 +221,7 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
                           const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
 {
     int guides = view->pass == HAIR_PASS_GUIDES;
+    HAIR_ASSERT(guides || view->render_path != HAIR_RENDER_PATH_AUTO);
     struct drawn with = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
     hair_result result =
@@ -350,14 +233,14 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     hair_draw_write_params(draw, head, view, &params);
     if (!guides && view->render_path == HAIR_RENDER_PATH_TESSELLATION)
         hair_draw_cull_patches(draw, view, &params);
-    params.textured = (uint32_t)is_textured(draw, view);
+    params.textured = (uint32_t)hair_draw_is_textured(draw, view);
     params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     if (with.hides) hair_draw_hide(draw, view, &with.hide);
     if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
-    if (wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
-    if (is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);
+    if (hair_draw_wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
+    if (hair_draw_is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);
     if (params.textured) {
         draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
         // Use the sampler state of the application's texture.

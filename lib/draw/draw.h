@@ -13,6 +13,8 @@
 #include "lib/draw/sorted.h"
 #include "lib/draw/staged.h"
 
+#include <stdbool.h>
+
 // Texture of the table in fibre.h, created on demand for the fibre parameters requested last.
 struct hair_fibres {
     GLuint texture;
@@ -104,31 +106,21 @@ hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_s
                                      const struct hair_collider_field* field, float margin);
 // Compile the programs of follower collision.
 hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
-// Return nonzero if follower collision is up to date with the guides and colliders.
-int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
+// Return whether follower collision is up to date with the guides and colliders.
+bool hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_free_hits(struct hair_draw* draw);
 // Create the image and the framebuffer of the prepass. Defined in prepass.c.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
 // Write the first vertex of each follower inside a collider to hits.image. The inputs of followers
 // must be bound.
 void hair_draw_run_prepass(struct hair_draw* draw);
-// Draw all patches with the current program.
-void hair_draw_patches(struct hair_draw* draw);
-// Return `pass` with the styling features that the look needs.
-hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
-// Return `pass` with the features that the look and, near colliders, follower collision need.
-hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
-// Apply hair_draw_choose() to *pass and compile its program.
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
-// Bind the buffers, textures and parameters that the vertices of followers are computed from.
-void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 
 // Begin or continue frame number `frame`. Free the parts that recent frames did not use. Defined in
 // tidy.c.
 void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
 
-// Return nonzero if the groom has root uvs. Defined in places.c.
-int hair_draw_has_uvs(const struct hair_draw* draw);
+// Return whether the groom has root uvs. Defined in places.c.
+bool hair_draw_has_uvs(const struct hair_draw* draw);
 // Create the buffer and the texture of root uvs.
 hair_result hair_draw_need_uvs(struct hair_draw* draw);
 void hair_draw_free_uvs(struct hair_draw* draw);
@@ -141,10 +133,6 @@ void hair_draw_free_fibres(struct hair_draw* draw);
 // Defined in self_shadow.c.
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
                                  const struct hair_pose* head, const hair_view* view);
-// Return the number of light values per vertex, or 0 without self-shadowing.
-uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
-// Bind the application's shadow maps to their texture units. Defined in draw.c.
-void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
 void hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // Create the buffers of the strand list and compile its programs. Nonzero `hides` includes
@@ -163,38 +151,87 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
 // vertices per strand point. Otherwise draw lines.
 void hair_draw_listed(struct hair_draw* draw, int paired);
 
-// Find the row of paths.inl for the driver. Defined in path.c.
+// Functions of plan.c, for what a view needs.
+
+// Find the row of paths.inl for the driver.
 void hair_draw_find_fastest(struct hair_draw* draw);
 // Return the render path of `view`. Call this once per view, because it may query the viewport. All
 // other code reads the path from view->path.
 hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
-// Return nonzero if the path reads the vertex cache of all followers.
-int hair_draw_expands(const hair_view* view);
-// Return nonzero if the path reads per-view vertices.
-int hair_draw_stages(const hair_view* view);
-// Return nonzero if per-view vertices are in clip space, ready to draw.
-int hair_draw_stages_sides(const hair_view* view);
-// Return nonzero if strands are blended by their coverage of pixels.
-int hair_draw_is_shared(const hair_view* view);
-// Return nonzero if the pass draws coverage, either blended colour or the opacity seen from a
+// Return whether the path reads the vertex cache of all followers.
+bool hair_draw_expands(const hair_view* view);
+// Return whether the path reads per-view vertices.
+bool hair_draw_stages(const hair_view* view);
+// Return whether per-view vertices are in clip space, ready to draw.
+bool hair_draw_stages_sides(const hair_view* view);
+// Return whether strands are blended by their coverage of pixels.
+bool hair_draw_is_shared(const hair_view* view);
+// Return whether the pass draws coverage, either blended colour or the opacity seen from a
 // light.
-int hair_draw_covers(const hair_view* view);
-// Return nonzero if ribbons are drawn without a geometry shader, from two vertices per strand
+bool hair_draw_covers(const hair_view* view);
+// Return whether ribbons are drawn without a geometry shader, from two vertices per strand
 // point.
-int hair_draw_is_paired(const hair_view* view);
-// Return nonzero if a light of the colour pass has an opaque shadow map. Defined in lights.c.
-int hair_draw_is_blocked(const hair_view* view);
+bool hair_draw_is_paired(const hair_view* view);
+// Return whether a light of the colour pass has an opaque shadow map.
+bool hair_draw_is_blocked(const hair_view* view);
+// Return whether vertices of `view` are shaded in a pass before drawing.
+bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
+// Return whether `view` has an occluder depth texture.
+bool hair_draw_hides(const hair_view* view);
+// Return the number of light values per vertex, or 0 without self-shadowing.
+uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
+// Return the number of vertices of all followers, look.segments + 1 each.
+size_t hair_draw_count_vertices(const struct hair_draw* draw);
+
+// Functions of variant.c, which chooses the variants of programs.
+
+// Return `pass` with the styling features that the look needs.
+hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
+// Return `pass` with the features that the look and, near colliders, follower collision need.
+hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
+// Apply hair_draw_choose() to *pass and compile its program.
+hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+// Return whether the application's texture colours the strands of `view`.
+bool hair_draw_is_textured(const struct hair_draw* draw, const hair_view* view);
+// Return whether the groom's colours colour the strands of `view`.
+bool hair_draw_is_painted(const struct hair_draw* draw, const hair_view* view);
+// Return whether the draw needs root uvs and the groom has them.
+bool hair_draw_wants_uvs(const struct hair_draw* draw, const hair_view* view,
+                         const struct hair_gl_shader* shader);
+// Return the pass that draws. Set *shade to the pass that shades or writes vertices before it, or
+// to 0 if there is none.
+hair_gl_pass hair_draw_find_passes(const struct hair_draw* draw, const hair_view* view,
+                                   const struct hair_gl_shader* shader, hair_gl_pass* shade);
+// Compile the program of a pass, with the application's shading unless `shader` is NULL.
+hair_result hair_draw_need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
+                                   GLuint* out);
+
+// Functions of bindings.c, for bindings that several passes read.
+
+// Bind the buffers, textures and parameters that the vertices of followers are computed from.
+void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
+// Bind the vertex cache.
+void hair_draw_bind_expanded(struct hair_draw* draw);
+// Bind the previous frame's vertices.
+void hair_draw_bind_motion(struct hair_draw* draw);
+// Bind the application's shadow maps to their texture units.
+void hair_draw_bind_shadows(struct hair_draw* draw, const hair_view* view);
+
+// Draw all patches with the current program. Defined in tessellated.c.
+void hair_draw_patches(struct hair_draw* draw);
 
 // Select the level of detail for `view`, which is drawn or lit next. NULL selects all followers in
 // full detail. Followers show their whole collision displacement where it covers two pixels. They
 // show none where it covers one pixel, and then need no collision. Defined in detail.c.
 void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view);
+// Return the number of work groups per patch of a pass over the fraction `share` of all vertices.
+uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
 
 // Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
-// Return nonzero if hair with attached roots cannot be inside `view`, which must be validated.
-int hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
-                             const hair_view* view);
+// Return whether hair with attached roots cannot be inside `view`, which must be validated.
+bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view);
 
 // Compile all programs that drawing `view` needs. Nonzero `may_meet` includes those for followers
 // that have met colliders.
@@ -218,22 +255,15 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, co
                           const struct hair_fluid* fluid, const struct hair_field_box* box,
                           const struct hair_pose* head, const hair_view* view);
 
-// Return the number of vertices of all followers, look.segments + 1 each. Defined in expanded.c.
-size_t hair_draw_count_vertices(const struct hair_draw* draw);
 // Write the vertex cache unless it is up to date. With parameters of a view in `drawn`, write only
-// the vertices that the view draws, on every call.
+// the vertices that the view draws, on every call. Defined in expanded.c.
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
                                     const struct hair_draw_params* drawn);
-// Return nonzero if the cache holds up-to-date vertices of all followers.
-int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
-// Return the number of work groups per patch of a pass over the fraction `share` of all vertices.
-uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
+// Return whether the cache holds up-to-date vertices of all followers.
+bool hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
 void hair_draw_free_expanded(struct hair_draw* draw);
-void hair_draw_bind_expanded(struct hair_draw* draw);
 
-// Return nonzero if vertices of `view` are shaded in a pass before drawing. Defined in shaded.c.
-int hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
-// Create the buffer of shaded vertices.
+// Create the buffer of shaded vertices. Defined in shaded.c.
 hair_result hair_draw_need_shaded(struct hair_draw* draw);
 void hair_draw_free_shaded(struct hair_draw* draw);
 // Shade the vertices with `program`. The inputs of drawing must be bound.
@@ -248,8 +278,6 @@ void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head
 void hair_draw_keep_shown(struct hair_draw* draw);
 // Move the previous frame's positions with a head that is teleported.
 void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
-// Bind the previous frame's vertices.
-void hair_draw_bind_motion(struct hair_draw* draw);
 
 // Create the buffers of sorted segments and compile their programs. Defined in sorted.c.
 hair_result hair_draw_need_sorted(struct hair_draw* draw);
@@ -265,10 +293,10 @@ void hair_draw_free_staged(struct hair_draw* draw);
 // Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
 void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 
-// Find the pixels of the window that hair may cover, and their sample positions. Return 0 if there
-// are none. Defined in raster.c.
-int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_raster_params* out);
+// Find the pixels of the window that hair may cover, and their sample positions. Return false if
+// there are none. Defined in raster.c.
+bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_raster_params* out);
 // Create the buffers of compute rasterisation. HAIR_GL_WITH(DEPTH) in `with` selects depth without
 // colour. HAIR_GL_WITH(WIDENED) selects per-view vertices.
 hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
@@ -279,11 +307,10 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
 void hair_draw_free_raster(struct hair_draw* draw);
 
-// Return nonzero if `view` has an occluder depth texture. Defined in hidden.c.
-int hair_draw_hides(const hair_view* view);
-// Compute the parameters of occlusion culling. Return 0 if no patch can be tested.
-int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_hide_params* out);
+// Compute the parameters of occlusion culling. Return false if no patch can be tested. Defined in
+// hidden.c.
+bool hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_hide_params* out);
 // Create the buffers and compile the programs of occlusion culling.
 hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
 // Find the occluded patches. The inputs of followers must be bound.

@@ -5,14 +5,6 @@
 
 #include <math.h>
 
-// Maximum iterations of a thread's loop. Mesa's software rasteriser leaves loops after 65,535.
-#define MOST_ROUNDS 4096
-
-size_t hair_draw_count_vertices(const struct hair_draw* draw)
-{
-    return (size_t)draw->followers * (draw->look.segments + 1);
-}
-
 static hair_result make(struct hair_draw* draw)
 {
     struct hair_gl* gl = draw->gl;
@@ -50,26 +42,18 @@ void hair_draw_free_expanded(struct hair_draw* draw)
     hair_draw_free_motion(draw);
 }
 
-// Return nonzero if the cache is up to date. Whatever moves or changes followers also invalidates
+// Return whether the cache is up to date. Whatever moves or changes followers also invalidates
 // follower collision.
-static int is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
+static bool is_fresh(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     const struct hair_expanded* expanded = &draw->expanded;
     return expanded->there && hair_draw_has_met_colliders(draw, smooth) && expanded->met == draw->hits.met &&
            expanded->made == draw->gl->made;
 }
 
-int hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
+bool hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->expanded.vertices == hair_draw_count_vertices(draw) && is_fresh(draw, smooth);
-}
-
-uint32_t hair_draw_chunks(const struct hair_draw* draw, double share)
-{
-    double each = draw->look.segments + 1.0;
-    double mean = share * draw->followers * each / (HAIR_GROUP_SIZE * fmax(draw->patches, 1));
-    double most = draw->most_isolines * each / ((double)HAIR_GROUP_SIZE * MOST_ROUNDS);
-    return 1 + (uint32_t)fmax(mean, most);
 }
 
 hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
@@ -88,6 +72,7 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     hair_gl_write_uniform(gl, draw->params, sizeof params, drawn);
     hair_draw_bind(draw, smooth);
     hair_draw_keep_shown(draw);
+    HAIR_ASSERT(expanded->vertices == hair_draw_count_vertices(draw) && drawn->chunks > 0);
     GLuint buffers[] = {expanded->position, expanded->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
@@ -101,12 +86,6 @@ hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_sm
     expanded->met = draw->hits.met;
     expanded->made = gl->made;
     return HAIR_OK;
-}
-
-void hair_draw_bind_expanded(struct hair_draw* draw)
-{
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
 }
 
 hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth, hair_vec4** out)

@@ -1,5 +1,6 @@
 // fibre.c - lobes of a dielectric cylinder, summed over the points of its width where a ray enters.
 #include "lib/draw/fibre.h"
+#include "lib/base/assert.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,6 +59,7 @@ static struct ray trace(double in, double cos_d, double index)
     struct ray ray;
     double sin_d = sqrt(1 - cos_d * cos_d), cos_t = sqrt(1 - sin_d * sin_d / (index * index));
     double bravais = index * cos_t / cos_d; // Index of refraction as seen across the fibre.
+    HAIR_ASSERT(bravais >= 1);
     double inside = asin(sin(in) / bravais), f = reflect(cos_d * cos(in), index);
     double leg = 2 * cos(inside) / cos_t;
     double through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
@@ -131,6 +133,7 @@ static hair_vec4 send(const hair_fibre_table table, int row, double mu, const fl
             back_variance += weight * (1 - share) * lobe[p] * v;
         }
     }
+    HAIR_ASSERT(on > 0 && back > 0);
     return (hair_vec4){(float)on, (float)back, (float)(on_variance / on), (float)(back_variance / back)};
 }
 
@@ -191,6 +194,7 @@ static void balance(hair_fibre_table table, const float variance[3])
         double sum[ANGLES] = {0};
         for (int i = 0; i < ANGLES; ++i)
             for (int k = 0; k < ANGLES; ++k) sum[k] += pair[i][k] * factor[i] * factor[k];
+        for (int k = 0; k < ANGLES; ++k) HAIR_ASSERT(sum[k] > 0);
         for (int k = 0; k < ANGLES; ++k) factor[k] /= sqrt(sum[k]);
     }
     for (int row = 0; row < HAIR_FIBRE_ROWS; ++row) {

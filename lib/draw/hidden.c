@@ -8,11 +8,6 @@
 // 2^-22, the rounding error of depth arithmetic. A depth texture may be coarser.
 #define ROUNDED 2.3841858e-7f
 
-int hair_draw_hides(const hair_view* view)
-{
-    return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
-}
-
 void hair_draw_free_hidden(struct hair_draw* draw)
 {
     struct hair_hidden* hidden = &draw->hidden;
@@ -34,11 +29,11 @@ static void write_texture(struct hair_gl* gl, float to_texture[16], float range[
     to_texture[14] = far * to_texture[14] + range[0];
 }
 
-static int is_given(const float matrix[16])
+static bool is_given(const float matrix[16])
 {
     for (int i = 0; i < 16; ++i)
-        if (matrix[i] != 0) return 1;
-    return 0;
+        if (matrix[i] != 0) return true;
+    return false;
 }
 
 // Compute the matrix from the head's origin to the clip space that the texture was drawn with.
@@ -68,9 +63,9 @@ static void find_size(struct hair_gl* gl, GLuint texture, struct hair_hide_param
 }
 
 // Find the texels of the first Hi-Z level that hair can cover. Take all texels if the extent is
-// unknown. Return 0 if there are none.
-static int find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                       struct hair_hide_params* out)
+// unknown. Return false if there are none.
+static bool find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                        struct hair_hide_params* out)
 {
     float window[4] = {0, 0, 1, 1};
     const float beside[2] = {out->beside_x, out->beside_y};
@@ -81,27 +76,28 @@ static int find_texels(const struct hair_draw* draw, const struct hair_pose* hea
         float texels = (float)size[k] / HAIR_HIDE_FIRST;
         uint32_t most = (size[k] + HAIR_HIDE_FIRST - 1) / HAIR_HIDE_FIRST;
         float from = fmaxf(window[k] - beside[k], 0), to = fminf(window[2 + k] + beside[k], 1);
-        if (!(from < to)) return 0;
+        if (!(from < to)) return false;
         first[k] = (uint32_t)(from * texels);
         end[k] = (uint32_t)(to * texels) + 1;
         if (end[k] > most) end[k] = most;
         if (first[k] >= end[k]) first[k] = end[k] - 1;
+        HAIR_ASSERT(first[k] < end[k] && end[k] <= most);
     }
     out->first_x = first[0], out->first_y = first[1];
     out->columns = end[0] - first[0], out->rows = end[1] - first[1];
     out->levels = hair_pyramid_levels(out->columns, out->rows);
-    return 1;
+    return true;
 }
 
-int hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_hide_params* out)
+bool hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_hide_params* out)
 {
     struct hair_gl* gl = draw->gl;
     hair_mat4 own = hair_mat4_from_head(view->view, head);
     float clip[16], to_texture[16], matrix[16], range[2];
     GLfloat viewport[4] = {0};
     memset(out, 0, sizeof *out);
-    if (!hair_draw_hides(view)) return 0;
+    if (!hair_draw_hides(view)) return false;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     find_size(gl, view->occluder_depth, out);
     find_clip(draw, head, view, &own, clip);
@@ -124,6 +120,7 @@ hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide
     draw->used[HAIR_DRAW_HIDDEN] = draw->frame;
     struct hair_gl* gl = draw->gl;
     struct hair_hidden* hidden = &draw->hidden;
+    HAIR_ASSERT(params->columns > 0 && params->rows > 0);
     size_t texels = hair_pyramid_texels(params->columns, params->rows);
     size_t boxes = (size_t)draw->guides * HAIR_HIDE_PARTS * 2;
     hair_result result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES,
@@ -150,6 +147,7 @@ void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_h
 {
     struct hair_gl* gl = draw->gl;
     struct hair_hidden* hidden = &draw->hidden;
+    HAIR_ASSERT(hidden->room >= hair_pyramid_texels(params->columns, params->rows));
     GLuint buffers[] = {hidden->depth, hidden->box, draw->patch};
     uint32_t parts = draw->guides * HAIR_HIDE_PARTS;
     hair_gl_pass patches = HAIR_GL_HIDE_PATCHES;

@@ -65,6 +65,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
     struct hair_hits* hits = &draw->hits;
     struct hair_draw_params params;
     hair_draw_write_params(draw, NULL, NULL, &params);
+    HAIR_ASSERT(hits->turn < 2 && hits->hit && hits->list);
     hits->turn = 1 - hits->turn;
     params.turn = hits->turn;
     params.collision_margin = margin + OUTSIDE;
@@ -87,7 +88,7 @@ static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
                     (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }
 
-int hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth)
+bool hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     return draw->hits.fresh && draw->hits.smoothed == smooth->runs;
 }
@@ -107,21 +108,4 @@ hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_s
     hits->fresh = 1;
     hits->smoothed = smooth->runs;
     return HAIR_OK;
-}
-
-hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass)
-{
-    return hair_look_is_styled(&draw->look) ? hair_gl_with(pass, HAIR_GL_WITH(STYLED)) : pass;
-}
-
-hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass)
-{
-    if (draw->hits.active && draw->led > 0) pass = hair_gl_with(pass, HAIR_GL_WITH(HITS));
-    return hair_draw_styled(draw, pass);
-}
-
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass)
-{
-    *pass = hair_draw_choose(draw, *pass);
-    return hair_gl_need(draw->gl, *pass);
 }

@@ -61,26 +61,6 @@ static void write_sky(const float* sky, int channel, float ambient, hair_mat4* o
     out->column[3].w += ambient;
 }
 
-uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS])
-{
-    uint32_t maps = 0;
-    for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
-        const hair_light* light = &view->lights[i];
-        if (light->hair_shadow_map || light->opaque_shadow_map)
-            out[maps++] = (struct hair_light_maps){i, light->hair_shadow_map, light->opaque_shadow_map};
-    }
-    return maps;
-}
-
-int hair_draw_is_blocked(const hair_view* view)
-{
-    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t count = hair_view_maps(view, maps);
-    for (uint32_t i = 0; i < count; ++i)
-        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
-    return 0;
-}
-
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out)
 {
@@ -90,6 +70,7 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
     for (uint32_t i = 0; i < view->light_count; ++i)
         write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
     for (uint32_t i = 0; i < count; ++i) {
+        HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(draw, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
         light[HAIR_LIGHT_MORE].z = draw->look.absorption;

@@ -46,12 +46,15 @@ static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int 
             for (uint32_t i = 0; i < each; ++i)
                 for (uint32_t k = 0; k < corner_count; ++k)
                     indices[at++] = (uint16_t)((strand * (segments + 1) + i) * each_end + corners[paired][k]);
+    HAIR_ASSERT(!indices || at == *count);
+    HAIR_ASSERT(HAIR_INSTANCE_STRANDS * (segments + 1) * each_end <= 65536);
     return indices;
 }
 
 hair_result hair_draw_make_indices(struct hair_draw* draw, int paired)
 {
     struct hair_gl* gl = draw->gl;
+    HAIR_ASSERT(paired == 0 || paired == 1);
     struct hair_listed_indices* own = &draw->listed.indices[paired];
     uint32_t segments = draw->look.segments;
     if (own->segments == segments) return HAIR_OK;
@@ -124,6 +127,7 @@ void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
     struct hair_gl* gl = draw->gl;
     struct hair_listed* listed = &draw->listed;
     GLuint buffers[] = {listed->start, listed->strand, listed->command};
+    HAIR_ASSERT(listed->of && listed->command);
     struct hair_listing of = describe(gl, smooth, params);
     hair_gl_pass with = hides ? HAIR_GL_WITH(HIDDEN) : 0;
     if (!hides && memcmp(&of, listed->of, sizeof of) == 0) return;
@@ -139,6 +143,7 @@ void hair_draw_listed(struct hair_draw* draw, int paired)
     struct hair_gl* gl = draw->gl;
     const char* first =
         (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
+    HAIR_ASSERT(draw->listed.indices[paired].segments == draw->look.segments);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindVertexArray(draw->listed.indices[paired].vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->listed.command);

@@ -11,6 +11,7 @@ hair_result hair_draw_need_motion(struct hair_draw* draw)
     struct hair_gl* gl = draw->gl;
     struct hair_motion* motion = &draw->motion;
     hair_result result = HAIR_OK;
+    HAIR_ASSERT(draw->expanded.vertices > 0);
     size_t size = draw->expanded.vertices * sizeof(hair_vec4);
     if (!motion->buffer) result = hair_gl_storage(gl, "hair expanded before", size, NULL, &motion->buffer);
     if (!result && !motion->texture)
@@ -38,6 +39,7 @@ void hair_draw_keep_shown(struct hair_draw* draw)
     struct hair_motion* motion = &draw->motion;
     struct hair_expanded* expanded = &draw->expanded;
     if (!motion->buffer || !motion->shown || motion->shown != expanded->writes) return;
+    HAIR_ASSERT(motion->buffer != expanded->position && motion->texture != expanded->position_texture);
     swap(&motion->buffer, &expanded->position);
     swap(&motion->texture, &expanded->position_texture);
 }
@@ -69,10 +71,4 @@ void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, 
     was->position[1] = to->position[1] + (double)away.y;
     was->position[2] = to->position[2] + (double)away.z;
     was->turn = hair_quat_multiply(turn, was->turn);
-}
-
-void hair_draw_bind_motion(struct hair_draw* draw)
-{
-    GLuint texture = draw->motion.still ? draw->expanded.position_texture : draw->motion.texture;
-    draw->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
 }

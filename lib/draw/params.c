@@ -4,49 +4,6 @@
 
 #include <string.h>
 
-// Sum in double, because far from the world's origin both terms are large and nearly cancel.
-hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
-{
-    hair_mat4 out;
-    float copy[16];
-    memcpy(copy, m, sizeof copy);
-    for (int i = 0; i < 4; ++i) {
-        double sum = (double)m[12 + i];
-        for (int k = 0; k < 3; ++k) sum += (double)m[4 * k + i] * head->position[k];
-        copy[12 + i] = (float)sum;
-    }
-    memcpy(&out, copy, sizeof out);
-    return out;
-}
-
-// Return the position that the view matrix maps to the origin, -R^-1 t. An orthographic projection,
-// whose last row is (0, 0, 0, 1), has parallel rays. Return the direction to the eye for it, with w
-// = 0.
-static hair_vec4 find_eye(const hair_mat4* view, const float projection[16])
-{
-    const hair_vec4* c = view->column;
-    hair_vec3 x = {c[0].x, c[0].y, c[0].z}, y = {c[1].x, c[1].y, c[1].z}, z = {c[2].x, c[2].y, c[2].z};
-    hair_vec3 t = {c[3].x, c[3].y, c[3].z};
-    if (projection[3] == 0 && projection[7] == 0 && projection[11] == 0) {
-        hair_vec3 back = hair_normalize(hair_v3(x.z, y.z, z.z), hair_v3(0, 0, 1));
-        return (hair_vec4){back.x, back.y, back.z, 0};
-    }
-    return (hair_vec4){-hair_dot(x, t), -hair_dot(y, t), -hair_dot(z, t), 1};
-}
-
-// Add the jitter to the projection. Jitter shifts the picture by so many pixels.
-void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16])
-{
-    GLfloat viewport[4] = {0};
-    const float* by = view->jitter;
-    memcpy(projection, view->projection, sizeof view->projection);
-    if (by[0] == 0 && by[1] == 0) return;
-    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
-    for (int column = 0; column < 4; ++column)
-        for (int i = 0; i < 2; ++i)
-            projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
-}
-
 // Half of a pixel's diagonal. A ribbon reaches pixels whose centres are at most this far beside it.
 #define DIAGONAL 0.70711f
 
@@ -94,7 +51,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
                        struct hair_draw_params* out)
 {
     out->view = hair_mat4_from_head(view->view, head);
-    out->eye = find_eye(&out->view, view->projection);
+    out->eye = hair_draw_find_eye(&out->view, view->projection);
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
                               hair_draw_cell(draw, view)};
     out->head = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
@@ -110,6 +67,7 @@ static hair_vec4 weigh_sets(float set, uint32_t sets)
     float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
     float at = set < last ? set : last;
     int first = (int)at;
+    HAIR_ASSERT(0 <= first && first < HAIR_MAP_SETS);
     weight[first] = 1 - (at - (float)first);
     if (first + 1 < HAIR_MAP_SETS) weight[first + 1] = at - (float)first;
     return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
@@ -129,6 +87,7 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
                             struct hair_draw_params* out)
 {
     const hair_look* look = &draw->look;
+    HAIR_ASSERT(look->segments > 0 && (!view || head));
     memset(out, 0, sizeof *out);
     if (view) write_view(draw, head, view, out);
     out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};

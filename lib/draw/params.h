@@ -5,13 +5,11 @@
 
 #include "lib/draw/draw.h"
 
+#include <stdbool.h>
+
 // Write all parameters of a draw. NULL `view` writes only those that place followers.
 void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
-
-// Return the world matrix `m` for positions from the head's origin. Its last column gains m times
-// that origin.
-hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
 
 // Shadow maps of one light of a view. `light` is the index of the light. `shadow` is the hair
 // shadow map, and `body` the opaque shadow map. 0 means no map.
@@ -20,10 +18,18 @@ struct hair_light_maps {
     GLuint shadow, body;
 };
 
+// Functions of camera.c.
+
+// Return the world matrix `m` for positions from the head's origin. Its last column gains m times
+// that origin.
+hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
+// Return the position that the view matrix maps to the origin, -R^-1 t. An orthographic projection,
+// whose last row is (0, 0, 0, 1), has parallel rays. Return the direction to the eye for it, with w
+// = 0.
+hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16]);
 // Compute the projection of a view with its jitter, for the current viewport.
 void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16]);
-
-// Write the matrix from clip space to the viewport, with xy and z in [0, 1]. Defined in window.c.
+// Write the matrix from clip space to the viewport, with xy and z in [0, 1].
 void hair_draw_find_unit(struct hair_gl* gl, float to_unit[16]);
 // Return 1 if the application's depth test treats larger depth as farther, -1 if smaller. Return 0
 // if it does not order depths.
@@ -32,7 +38,8 @@ float hair_draw_find_sign(struct hair_gl* gl);
 // Write the parameters of lights. Defined in lights.c.
 void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                             struct hair_draw_params* out);
-// Write the lights of `view` that have shadow maps, in order. Return their number.
+// Write the lights of `view` that have shadow maps, in order. Return their number. Defined in
+// bindings.c.
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
 
 // Return the cell size of the self-shadow grid for a view, in metres. Defined in detail.c.
@@ -69,8 +76,8 @@ float hair_look_most_aside(const hair_look* look);
 float hair_curve_most(const hair_curve* curve);
 // Write the colours of strands. Defined in tint.c.
 void hair_draw_write_tint(const hair_look* look, struct hair_tint* out);
-// Return nonzero if the look frizzes, curls or cuts strands, which needs program variants. Defined
+// Return whether the look frizzes, curls or cuts strands, which needs program variants. Defined
 // in strand.c.
-int hair_look_is_styled(const hair_look* look);
+bool hair_look_is_styled(const hair_look* look);
 
 #endif

@@ -1,13 +1,14 @@
 // places.c - scalp uvs of roots, for textures and shaders.
 #include "lib/draw/draw.h"
 
-int hair_draw_has_uvs(const struct hair_draw* draw)
+bool hair_draw_has_uvs(const struct hair_draw* draw)
 {
     return draw->seats && draw->seats->uv;
 }
 
 hair_result hair_draw_need_uvs(struct hair_draw* draw)
 {
+    HAIR_ASSERT(hair_draw_has_uvs(draw));
     draw->used[HAIR_DRAW_UVS] = draw->frame;
     struct hair_gl* gl = draw->gl;
     hair_result result = HAIR_OK;

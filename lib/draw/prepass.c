@@ -94,6 +94,7 @@ void hair_draw_run_prepass(struct hair_draw* draw)
     struct hair_gl* gl = draw->gl;
     struct saved saved;
     uint32_t rows = (draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
+    HAIR_ASSERT(draw->hits.image && draw->hits.frame);
     enter(gl, &saved);
     gl->ClearTexImage(draw->hits.image, 0, GL_RED, GL_FLOAT, &none);
     gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->hits.frame);

@@ -11,6 +11,7 @@ static uint32_t next(uint32_t texels)
 // axis, so a level of that size needs none above it.
 uint32_t hair_pyramid_levels(uint32_t columns, uint32_t rows)
 {
+    HAIR_ASSERT(columns > 0 && rows > 0);
     uint32_t levels = 1;
     for (; columns > HAIR_HIDE_TEXELS || rows > HAIR_HIDE_TEXELS; ++levels) {
         columns = next(columns);
@@ -33,6 +34,7 @@ size_t hair_pyramid_texels(uint32_t columns, uint32_t rows)
 void hair_pyramid_run(struct hair_gl* gl, GLuint uniform, struct hair_hide_params* params)
 {
     uint32_t columns = params->columns, rows = params->rows;
+    HAIR_ASSERT(params->levels == hair_pyramid_levels(columns, rows));
     for (params->level = 0; params->level < params->levels; ++params->level) {
         uint32_t groups = (uint32_t)(((size_t)columns * rows + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
         hair_gl_write_uniform(gl, uniform, sizeof *params, params);

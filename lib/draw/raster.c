@@ -66,8 +66,8 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
     memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
-int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                          struct hair_raster_params* out)
+bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                           struct hair_raster_params* out)
 {
     struct hair_gl* gl = draw->gl;
     GLfloat viewport[4] = {0}, range[2] = {0, 1};
@@ -79,7 +79,7 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
     find_place(draw, head, view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
     out->rows = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
-    if (!out->columns || !out->rows) return 0;
+    if (!out->columns || !out->rows) return false;
     write_pixels(viewport, unit, matrix, out);
     out->depth_from = range[0];
     out->depth_by = range[1] - range[0];
@@ -88,7 +88,7 @@ int hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* 
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     find_samples(gl, out);
-    return 1;
+    return true;
 }
 
 // Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
@@ -159,6 +159,7 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
     struct hair_gl* gl = draw->gl;
     struct hair_raster* raster = &draw->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
+    HAIR_ASSERT(raster->room >= count_numbers(params, with) && raster->tile_room >= params->tiles);
     uint64_t segments = (uint64_t)draw->followers * draw->look.segments;
     uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
     uint64_t fours = (count_numbers(params, with) + 3) / 4;
@@ -180,6 +181,7 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
 void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)
 {
     struct hair_gl* gl = draw->gl;
+    HAIR_ASSERT(params->tiles > 0);
     GLint mode[2] = {GL_FILL, GL_FILL};
     gl->GetIntegerv(GL_POLYGON_MODE, mode);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);

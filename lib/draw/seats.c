@@ -19,6 +19,7 @@ void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, st
 {
     struct hair_gl* gl = draw->gl;
     if (!hair_skin_is_on(sim) || draw->seated == smooth->runs || sim->physics.root == HAIR_ROOT_FREE) return;
+    HAIR_ASSERT(sim->skin.seats->count == draw->guides + draw->followers);
     hair_sim_bind(sim);
     hair_skin_bind_all(sim, draw->followers);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOLLOWER, 1, &draw->follower);

@@ -7,16 +7,6 @@
 
 #define NODE_GROUPS 1024 // Number of work groups. Their threads loop over all nodes of the grid.
 
-static int is_wanted(const struct hair_draw* draw, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
-}
-
-uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
-{
-    return is_wanted(draw, view) ? 1 + view->light_count : 0;
-}
-
 void hair_draw_free_self_shadow(struct hair_draw* draw)
 {
     struct hair_self_shadow_state* own = &draw->self_shadow;
@@ -32,6 +22,7 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
+    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && draw->expanded.vertices > 0);
     size_t numbers = draw->expanded.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &own->texture);
@@ -80,9 +71,9 @@ static void fill(struct hair_draw* draw, uint32_t groups)
     own->frame = 0;
 }
 
-// Return nonzero if the light values are valid. Views of one frame with the same lights share them.
+// Return whether the light values are valid. Views of one frame with the same lights share them.
 // The contents of shadow maps belong to the application, and may change between frames.
-static int is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
+static bool is_found(struct hair_draw* draw, const hair_view* view, const struct hair_draw_params* params)
 {
     struct hair_self_shadow_state* own = &draw->self_shadow;
     int same = view->frame_index && view->frame_index == own->frame && own->count == params->lights &&
@@ -95,10 +86,11 @@ static int is_found(struct hair_draw* draw, const hair_view* view, const struct 
     return same;
 }
 
-// Return nonzero if only the vertices that the view draws need light. Strands that a level of
+// Return whether only the vertices that the view draws need light. Strands that a level of
 // detail leaves out need no light. The drawn strands make up for them in the grid. A full vertex
 // cache that views share has all vertices.
-static int is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view)
+static bool is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth,
+                         const hair_view* view)
 {
     return view->lod && !draw->motion.buffer && !hair_draw_is_expanded(draw, smooth);
 }
@@ -109,7 +101,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
     if (own->density && draw->look.self_shadow != HAIR_SELF_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
-    if (!is_wanted(draw, view)) return HAIR_OK;
+    if (!hair_draw_lit(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
     struct hair_draw_params params;
     int part = is_of_a_part(draw, smooth, view);

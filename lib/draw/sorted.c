@@ -48,6 +48,7 @@ void hair_draw_sort(struct hair_draw* draw)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_sorted* sorted = &draw->sorted;
+    HAIR_ASSERT(sorted->segments == (size_t)draw->followers * draw->look.segments);
     GLuint sorts[] = {sorted->bucket, sorted->index};
     GLuint strands[] = {draw->listed.strand, draw->listed.command};
     uint32_t groups = (uint32_t)((sorted->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);

@@ -30,6 +30,7 @@ static hair_result need_part(struct hair_draw* draw, int part, size_t size)
 {
     struct hair_staged* staged = &draw->staged;
     if (staged->size[part] >= size) return HAIR_OK;
+    HAIR_ASSERT(0 <= part && part < HAIR_STAGED_PARTS);
     free_part(draw, part);
     hair_result result = hair_gl_storage(draw->gl, parts[part].label, size, NULL, &staged->buffer[part]);
     if (!result)
@@ -63,6 +64,7 @@ void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_staged* staged = &draw->staged;
+    HAIR_ASSERT(staged->buffer[HAIR_STAGED_POSITION]);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LISTED, 1, &draw->listed.command);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_EXPANDED, HAIR_STAGED_PARTS, staged->buffer);

@@ -9,8 +9,7 @@ enum { HAIR_STAGED_POSITION, HAIR_STAGED_TANGENT, HAIR_STAGED_SHADED, HAIR_STAGE
 
 struct hair_staged {
     // Buffers, as at HAIR_BIND_EXPANDED and the two bindings after it in shared.h. 0 until needed.
-    GLuint buffer
-        [HAIR_STAGED_PARTS];
+    GLuint buffer[HAIR_STAGED_PARTS];
     GLuint texture[HAIR_STAGED_PARTS]; // Buffer textures of `buffer`.
     size_t size[HAIR_STAGED_PARTS]; // Size of each buffer in bytes.
     size_t vertices; // Capacity in vertices.

@@ -30,6 +30,7 @@ static void write_curve(hair_curve curve, struct hair_strand_look* out, int numb
 {
     float slope[HAIR_CURVE_INTERVALS + 1], rise[HAIR_CURVE_INTERVALS];
     int last = HAIR_CURVE_INTERVALS;
+    HAIR_ASSERT((size_t)((number + 1) * last) <= sizeof out->curve / sizeof *out->curve);
     for (int i = 0; i < last; ++i) rise[i] = curve.at[i + 1] - curve.at[i];
     for (int i = 1; i < last; ++i) slope[i] = inner_slope(rise[i - 1], rise[i]);
     slope[0] = end_slope(rise[0], slope[1]);
@@ -109,6 +110,7 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
     write_turns(look, out);
     out->tip_stray_fraction = look->tip_stray_fraction;
     out->stray_fraction = look->stray_fraction;
+    HAIR_ASSERT(look->frizz_wavelength > 0 && look->curl_wavelength > 0);
     out->kinks = 1 / look->frizz_wavelength;
     out->drawn = look->length;
     out->length_variation = look->length_variation;
@@ -124,7 +126,7 @@ void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
     out->most_width = fmaxf(hair_curve_most(&look->clump_width), 1);
 }
 
-int hair_look_is_styled(const hair_look* look)
+bool hair_look_is_styled(const hair_look* look)
 {
     return look->length < 1 || look->length_variation > 0 || hair_curve_most(&look->frizz) > 0 ||
            look->curl_radius * hair_curve_most(&look->curl_profile) > 0;

@@ -15,5 +15,7 @@ void hair_draw_tidy(struct hair_draw* draw, uint32_t frame)
     };
     draw->frame = frame;
     for (int part = 0; part < HAIR_DRAW_PARTS; ++part)
+        HAIR_ASSERT(release[part] && draw->used[part] <= frame);
+    for (int part = 0; part < HAIR_DRAW_PARTS; ++part)
         if (frame - draw->used[part] > LONG) release[part](draw);
 }

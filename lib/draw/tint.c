@@ -19,6 +19,7 @@ void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
     out->roughness = look->roughness_spread;
     out->tilt = look->cuticle_tilt_spread;
     out->root_darkening = look->root_darkening;
+    HAIR_ASSERT(look->root_darkening_length > 0);
     out->root_recovery = 1 / look->root_darkening_length;
     out->streak_clumping = look->streak_clumping;
     out->sparkle = look->sparkle;

@@ -59,6 +59,7 @@ static bool lists(const char* list, const char* word)
 
 static const char* extensions_of(const struct search* search, EGLint device)
 {
+    HAIR_ASSERT(0 <= device && device < search->count);
     const char* list =
         search->device_string ? search->device_string(search->devices[device], EGL_EXTENSIONS) : NULL;
     return list ? list : "";
@@ -114,6 +115,7 @@ static const char* make_context(hair_egl* egl)
     // The core profile is the default.
     static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
 
+    HAIR_ASSERT(egl->display != EGL_NO_DISPLAY && egl->context == EGL_NO_CONTEXT);
     const char* offered = eglQueryString(egl->display, EGL_EXTENSIONS);
     if (!lists(offered, "EGL_KHR_create_context")) return "no EGL_KHR_create_context";
     if (!lists(offered, "EGL_KHR_surfaceless_context")) return "no EGL_KHR_surfaceless_context";
@@ -139,6 +141,7 @@ static const char* make_context(hair_egl* egl)
 static const char* open_display(const struct search* search, EGLint device)
 {
     hair_egl* egl = search->egl;
+    HAIR_ASSERT(search->platform_display);
     egl->display = device == SURFACELESS
                        ? search->platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL)
                        : search->platform_display(EGL_PLATFORM_DEVICE_EXT, search->devices[device], NULL);
@@ -173,6 +176,7 @@ static void try_device(struct search* search, EGLint device)
     }
     hair_log(&search->egl->host, HAIR_LOG_INFO, "EGL %s refused: %s", name, why);
     size_t used = strlen(search->refused);
+    HAIR_ASSERT(used < sizeof search->refused);
     snprintf(search->refused + used, sizeof search->refused - used, "%s%s: %s", used ? "; " : "", name, why);
 }
 

@@ -11,6 +11,7 @@
 
 static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
 {
+    HAIR_ASSERT(x < box->bricks[0] && y < box->bricks[1] && z < box->bricks[2]);
     return (z * box->bricks[1] + y) * box->bricks[0] + x;
 }
 
@@ -101,6 +102,7 @@ struct pair {
 static uint32_t take_bricks(const struct hair_collider_field* field, const struct hair_field_job* job,
                             uint32_t* bricks, size_t* pairs)
 {
+    HAIR_ASSERT(job->next <= job->end);
     uint32_t end = job->next;
     for (; end < job->end; ++end) {
         if (!field->dirty[end]) continue;
@@ -117,6 +119,7 @@ static uint32_t find_pairs(struct hair_collider_field* field, const struct hair_
 {
     const struct hair_field_box* box = &field->box;
     uint32_t layer = box->bricks[0] * box->bricks[1], count = 0;
+    HAIR_ASSERT(job->next < end && end <= job->end);
     struct range slab = all_of(box);
     slab.first[2] = job->next / layer;
     slab.end[2] = (end - 1) / layer + 1;
@@ -158,7 +161,9 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
         if (!field->dirty[b]) continue;
         uint32_t x = b % box->bricks[0], y = b / box->bricks[0] % box->bricks[1],
                  z = b / box->bricks[0] / box->bricks[1], members = field->members[b];
+        HAIR_ASSERT(x < 1024 && y < 1024 && z < 1024); // Ten bits each.
         uint32_t at = field->dirty[b] == HAS_FORM ? job->bricks - ++job->with_forms : plain++;
+        HAIR_ASSERT(at < job->bricks);
         job->brick[at] =
             (struct hair_field_brick){.at = x + (y << 10) + (z << 20), .first = first, .count = members};
         field->members[b] = first; // Place of the brick's next member.
@@ -169,6 +174,7 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
         const struct hair_placed* placed = &field->placed[pairs[i].collider];
         if (!(pairs[i].least <= field->best[pairs[i].brick])) continue;
         if (pairs[i].collider != last) {
+            HAIR_ASSERT(job->colliders < field->count);
             job->collider[job->colliders] = placed->collider;
             if (placed->form) job->collider[job->colliders].first = field->forms->pooled[placed->place].first;
             ++job->colliders;
@@ -176,6 +182,7 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
         last = pairs[i].collider;
         job->member[field->members[pairs[i].brick]++] = job->colliders - 1;
     }
+    HAIR_ASSERT(plain + job->with_forms == job->bricks && first <= count);
     job->members = first;
 }
 
@@ -190,6 +197,7 @@ hair_result hair_field_next(struct hair_collider_field* field, struct hair_field
     if (!bricks) return HAIR_OK;
     struct pair* pairs = hair_alloc(host, most, sizeof *pairs);
     uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
+    HAIR_ASSERT(count <= most);
     job->brick = hair_alloc(host, bricks, sizeof *job->brick);
     job->member = hair_alloc(host, count, sizeof *job->member);
     job->collider = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->collider);

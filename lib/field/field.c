@@ -41,6 +41,7 @@ void hair_field_destroy(struct hair_collider_field* field)
 
 static hair_result make(struct hair_collider_field* field)
 {
+    HAIR_ASSERT(!field->distance && !field->dirty);
     struct hair_gl* gl = field->gl;
     const struct hair_field_box* box = &field->box;
     uint32_t bricks = hair_field_bricks(box), size[3];
@@ -66,6 +67,7 @@ static hair_result make(struct hair_collider_field* field)
 
 static hair_result make_room(struct hair_collider_field* field, uint32_t count)
 {
+    HAIR_ASSERT(field->count <= field->room);
     if (count <= field->room) return HAIR_OK;
     const hair_host* host = &field->gl->host;
     uint32_t room = count < 16 ? 16 : count + count / 2;
@@ -102,6 +104,7 @@ static hair_result place_all(struct hair_collider_field* field, const hair_colli
 {
     hair_result result = HAIR_OK;
     uint32_t most = count > field->count ? count : field->count, near = 0;
+    HAIR_ASSERT(most <= field->room);
     memset(field->placed + field->count, 0, (most - field->count) * sizeof *field->placed);
     for (uint32_t i = 0; i < most && !result; ++i) {
         struct hair_placed* placed = &field->placed[i];
@@ -147,6 +150,7 @@ static size_t aligned(size_t size)
 static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t bricks, int part,
                 const GLintptr* at, const GLsizeiptr* length)
 {
+    HAIR_ASSERT(2 <= part && part < PARTS);
     const GLuint buffers[] = {field->work, field->work};
     const GLintptr begin[] = {at[part], at[1]};
     const GLsizeiptr size[] = {length[part], length[1]};
@@ -158,6 +162,7 @@ static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t b
 static hair_result dispatch(struct hair_collider_field* field, const struct hair_field_job* job)
 {
     struct hair_gl* gl = field->gl;
+    HAIR_ASSERT(job->with_forms <= job->bricks && field->work);
     uint32_t plain = job->bricks - job->with_forms;
     const size_t sizes[PARTS] = {job->colliders * sizeof *job->collider, job->members * sizeof *job->member,
                                  plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
@@ -169,6 +174,7 @@ static hair_result dispatch(struct hair_collider_field* field, const struct hair
         at[i] = (GLintptr)all;
         length[i] = (GLsizeiptr)(sizes[i] ? sizes[i] : 16);
         all += aligned((size_t)length[i]);
+        HAIR_ASSERT(at[i] % ALIGNMENT == 0 && all % ALIGNMENT == 0);
     }
     GLint most = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -264,6 +270,7 @@ int hair_field_is_near(const struct hair_collider_field* field)
 
 void hair_field_bind(const struct hair_collider_field* field)
 {
+    HAIR_ASSERT(hair_field_is_near(field));
     struct hair_gl* gl = field->gl;
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
     gl->BindTextureUnit(HAIR_UNIT_FIELD, field->distance);

@@ -14,6 +14,7 @@ static size_t count_nodes(const hair_collision_mesh* form)
 static void upload(struct hair_forms* forms, GLuint buffer, struct hair_pooled_form* pooled)
 {
     size_t count = count_nodes(pooled->form);
+    HAIR_ASSERT(forms->used + count <= forms->room);
     pooled->first = (uint32_t)forms->used;
     forms->gl->NamedBufferSubData(buffer, (GLintptr)(forms->used * sizeof(float)),
                                   (GLsizeiptr)(count * sizeof(float)), pooled->form->distance);
@@ -46,6 +47,7 @@ static hair_result make_room(struct hair_forms* forms, size_t more)
 // Find a free place, or append one.
 static hair_result find_place(struct hair_forms* forms, uint32_t* place)
 {
+    HAIR_ASSERT(forms->count <= forms->capacity);
     for (*place = 0; *place < forms->count; ++*place)
         if (!forms->pooled[*place].form) return HAIR_OK;
     if (forms->count == forms->capacity) {
@@ -74,6 +76,7 @@ static void free_if_empty(struct hair_forms* forms)
 
 hair_result hair_forms_take(struct hair_forms* forms, const hair_collision_mesh* form, uint32_t* place)
 {
+    HAIR_ASSERT(form && form->distance);
     for (uint32_t i = 0; i < forms->count; ++i)
         if (forms->pooled[i].form == form) {
             ++forms->pooled[i].users;
@@ -94,7 +97,9 @@ hair_result hair_forms_take(struct hair_forms* forms, const hair_collision_mesh*
 
 void hair_forms_drop(struct hair_forms* forms, uint32_t place)
 {
+    HAIR_ASSERT(place < forms->count);
     struct hair_pooled_form* pooled = &forms->pooled[place];
+    HAIR_ASSERT(pooled->form && pooled->users > 0);
     if (--pooled->users) return;
     hair_collision_mesh_release(pooled->form);
     pooled->form = NULL;

@@ -45,6 +45,7 @@ static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_v
 static uint32_t count_bricks(float length, float voxel)
 {
     uint32_t voxels = (uint32_t)fminf(fmaxf(ceilf(length / voxel - 1e-3f), 1), HAIR_FIELD_LONGEST);
+    HAIR_ASSERT(1 <= voxels && voxels <= HAIR_FIELD_LONGEST);
     return (voxels + HAIR_BRICK - 1) / HAIR_BRICK;
 }
 
@@ -61,6 +62,7 @@ struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float vo
     box.bricks[0] = count_bricks(size.x, box.voxel);
     box.bricks[1] = count_bricks(size.y, box.voxel);
     box.bricks[2] = count_bricks(size.z, box.voxel);
+    HAIR_ASSERT(box.voxel >= HAIR_FIELD_LEAST);
     float half = 0.5f * HAIR_BRICK * box.voxel;
     box.lower = hair_sub(middle, hair_v3(half * (float)box.bricks[0], half * (float)box.bricks[1],
                                          half * (float)box.bricks[2]));
@@ -113,6 +115,7 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
 {
     const struct hair_field_collider* collider = &placed->collider;
     hair_quat turn = quat_of(collider->rotation);
+    HAIR_ASSERT(hair_quat_is_unit(turn));
     hair_vec3 lower, upper;
     float around;
     find_extent(placed, &lower, &upper, &around);
@@ -133,6 +136,7 @@ static void find_bricks(const struct hair_field_box* box, struct hair_placed* pl
         float most = (float)box->bricks[i];
         placed->first[i] = (uint16_t)fminf(fmaxf(floorf(first), 0), most);
         placed->end[i] = (uint16_t)fminf(fmaxf(floorf(end) + 1, 0), most);
+        HAIR_ASSERT(placed->end[i] <= box->bricks[i]);
         outside |= placed->first[i] >= placed->end[i];
     }
     if (outside) memset(placed->first, 0, sizeof placed->first), memset(placed->end, 0, sizeof placed->end);
@@ -207,6 +211,7 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
 struct hair_field_span hair_field_span_of(const struct hair_field_box* box, const struct hair_placed* placed,
                                           uint32_t x, uint32_t y, uint32_t z)
 {
+    HAIR_ASSERT(x < box->bricks[0] && y < box->bricks[1] && z < box->bricks[2]);
     const struct hair_field_collider* collider = &placed->collider;
     float brick = HAIR_BRICK * box->voxel;
     float radius = 0.5f * (HAIR_BRICK - 1 + 0.1f) * 1.7320508f * box->voxel;

@@ -18,6 +18,7 @@ static hair_result ask(struct hair_gl* gl, const char* label, uint64_t size)
 
 static void count(struct hair_gl* gl, uint64_t size)
 {
+    HAIR_ASSERT(gl->memory.bytes + size >= size);
     gl->memory.bytes += size;
     if (gl->memory.bytes > gl->memory.most) gl->memory.most = gl->memory.bytes;
 }
@@ -57,6 +58,7 @@ uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
 
 hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
+    HAIR_ASSERT(label && !*out);
     GLuint buffer = 0;
     GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
     hair_result result = ask(gl, label, (uint64_t)want);
@@ -94,6 +96,7 @@ hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, 
 
 hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out)
 {
+    HAIR_ASSERT(size > 0 && !*out);
     GLuint buffer = 0;
     GLint64 got = 0;
     hair_result result = ask(gl, label, size);
@@ -115,12 +118,14 @@ hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, 
 
 void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data)
 {
+    HAIR_ASSERT(buffer && size > 0);
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
 }
 
 hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
                            GLuint buffer)
 {
+    HAIR_ASSERT(buffer && size > 0);
     uint64_t was = hair_gl_buffer_bytes(gl, buffer), got;
     hair_result result = size > was ? ask(gl, label, size - was) : HAIR_OK;
     if (result) return result;
@@ -135,6 +140,7 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
 hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
                            const void** mapped)
 {
+    HAIR_ASSERT(size > 0 && !*out && !*mapped);
     static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     GLuint buffer = 0;
     GLint64 got = 0;
@@ -163,6 +169,7 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out)
 {
+    HAIR_ASSERT(buffer && !*out);
     uint64_t texels = hair_gl_buffer_bytes(gl, buffer) / texel_bytes(format);
     GLint most = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -181,6 +188,7 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
 hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
                                GLenum filter, GLuint* out)
 {
+    HAIR_ASSERT(size[0] > 0 && size[1] > 0 && size[2] > 0 && !*out);
     GLuint texture = 0;
     GLint most = 0, got = 0;
     gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
@@ -215,6 +223,7 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
 hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
                                uint32_t height, GLuint* out)
 {
+    HAIR_ASSERT(width > 0 && height > 0 && !*out);
     GLuint texture = 0;
     uint64_t bytes = texel_bytes(format) * width * height;
     hair_result result = ask(gl, label, bytes);
@@ -253,6 +262,7 @@ void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;
     gl->memory.bytes -= hair_gl_buffer_bytes(gl, *buffer);
+    HAIR_ASSERT(gl->memory.bytes <= gl->memory.most);
     gl->DeleteBuffers(1, buffer);
     *buffer = 0;
 }
@@ -267,6 +277,7 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 {
     if (!*texture) return;
     gl->memory.bytes -= hair_gl_texture_bytes(gl, *texture);
+    HAIR_ASSERT(gl->memory.bytes <= gl->memory.most);
     gl->DeleteTextures(1, texture);
     *texture = 0;
 }

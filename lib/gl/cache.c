@@ -33,42 +33,43 @@ struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl)
     return key;
 }
 
-// Return nonzero if the driver knows the format. An unknown format would raise the application's
+// Return whether the driver knows the format. An unknown format would raise the application's
 // error flag.
-static int is_known(struct hair_gl* gl, GLenum format)
+static bool is_known(struct hair_gl* gl, GLenum format)
 {
     GLint formats[MOST_FORMATS], count = 0;
     gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
-    if (count <= 0 || count > MOST_FORMATS) return 0;
+    if (count <= 0 || count > MOST_FORMATS) return false;
     gl->GetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats);
     for (GLint i = 0; i < count; ++i)
-        if ((GLenum)formats[i] == format) return 1;
-    return 0;
+        if ((GLenum)formats[i] == format) return true;
+    return false;
 }
 
-static int is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key key)
+static bool is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key key)
 {
+    HAIR_ASSERT(size > HEADER + TRAILER);
     return memcmp(bytes, MAGIC, 8) == 0 && hair_read_u64(bytes + 8) == key.check &&
            hair_read_u64(bytes + size - TRAILER) == hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER);
 }
 
-static int load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
+static bool load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
 {
     GLint done = 0;
     GLenum format = hair_read_u32(bytes + 16);
-    if (!is_known(gl, format)) return 0;
+    if (!is_known(gl, format)) return false;
     gl->ProgramBinary(program, format, bytes + HEADER, (GLsizei)(size - HEADER - TRAILER));
     gl->GetProgramiv(program, GL_LINK_STATUS, &done);
     return done != 0;
 }
 
-int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
+bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 {
     const hair_cache* cache = &gl->cache;
     size_t size = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
-    if (size <= HEADER + TRAILER || size > MOST_BYTES) return 0;
+    if (size <= HEADER + TRAILER || size > MOST_BYTES) return false;
     unsigned char* bytes = hair_alloc(&gl->host, size, 1);
-    if (!bytes) return 0; // The program can be compiled without the cache.
+    if (!bytes) return false; // The program can be compiled without the cache.
     int there = cache->get(key.hash, bytes, size, cache->user) == size && is_whole(bytes, size, key) &&
                 load(gl, bytes, size, program);
     hair_free(&gl->host, bytes);

@@ -6,34 +6,34 @@
 
 // Load one function. ISO C has no cast from void* to a function pointer, but both have the same
 // bytes wherever there is OpenGL.
-static int find(const hair_context_desc* desc, const char* name, void* function)
+static bool find(const hair_context_desc* desc, const char* name, void* function)
 {
     void* address = desc->get_proc(name, desc->get_proc_user);
     memcpy(function, &address, sizeof address);
     return address != NULL;
 }
 
-static int has_extension(const struct hair_gl* gl, const char* name)
+static bool has_extension(const struct hair_gl* gl, const char* name)
 {
     GLint count = 0;
     gl->GetIntegerv(GL_NUM_EXTENSIONS, &count);
     for (GLint i = 0; i < count; ++i) {
         const char* other = (const char*)gl->GetStringi(GL_EXTENSIONS, (GLuint)i);
-        if (other && strcmp(other, name) == 0) return 1;
+        if (other && strcmp(other, name) == 0) return true;
     }
-    return 0;
+    return false;
 }
 
-// Return nonzero if a work group of 32 threads is one subgroup with the operations of
+// Return whether a work group of 32 threads is one subgroup with the operations of
 // glsl/sim/mapping.glsl. Mesa also reports 32, but may run the group as two or four.
-static int find_subgroup(const struct hair_gl* gl)
+static bool find_subgroup(const struct hair_gl* gl)
 {
     const char* vendor = (const char*)gl->GetString(GL_VENDOR);
     const GLint features = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_VOTE_BIT_KHR |
                            GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR | GL_SUBGROUP_FEATURE_BALLOT_BIT_KHR |
                            GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
     GLint size = 0, stages = 0, there = 0;
-    if (!vendor || !strstr(vendor, "NVIDIA") || !has_extension(gl, "GL_KHR_shader_subgroup")) return 0;
+    if (!vendor || !strstr(vendor, "NVIDIA") || !has_extension(gl, "GL_KHR_shader_subgroup")) return false;
     gl->GetIntegerv(GL_SUBGROUP_SIZE_KHR, &size);
     gl->GetIntegerv(GL_SUBGROUP_SUPPORTED_STAGES_KHR, &stages);
     gl->GetIntegerv(GL_SUBGROUP_SUPPORTED_FEATURES_KHR, &there);

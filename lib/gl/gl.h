@@ -120,6 +120,8 @@ struct hair_gl {
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
+
+#include <stdbool.h>
 #undef FUNCTION
 };
 
@@ -167,8 +169,8 @@ hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, 
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
 // Add a text to the key. NULL adds nothing.
 void hair_gl_key_add(struct hair_gl_key* key, const char* text);
-// Load a program from the cache. Return 1 on success. 0 means that the program must be compiled.
-int hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+// Load a program from the cache. Return false if the program must be compiled.
+bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 // Store a compiled program in the cache.
 void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 
@@ -255,14 +257,7 @@ void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
 // Free a 2D or 3D texture.
 void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 
-// pass.c ------------------------------------------------------------------------------------------
-
-// Return the entry of a pass. NULL means that the pass has not been needed.
-struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
-// Return the entry of a pass, and add one without a program if there is none. NULL means out of
-// memory, which is logged.
-struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
-void hair_gl_free_programs(struct hair_gl* gl);
+// pass_table.c ------------------------------------------------------------------------------------
 
 // Return the label of a pass's row, a static string. hair_gl_find() gives the full label.
 const char* hair_gl_row_label(hair_gl_pass pass);
@@ -271,6 +266,17 @@ const char* hair_gl_row_stages(hair_gl_pass pass);
 hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass features);
 // Return `pass` with the smallest work groups that hold guides of up to `vertices`.
 hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices);
+// Write the full label of a pass, such as "sim/direct_wind_curved_32".
+void hair_gl_write_label(hair_gl_pass pass, char* out, size_t size);
+
+// pass.c ------------------------------------------------------------------------------------------
+
+// Return the entry of a pass. NULL means that the pass has not been needed.
+struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
+// Return the entry of a pass, and add one without a program if there is none. NULL means out of
+// memory, which is logged.
+struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
+void hair_gl_free_programs(struct hair_gl* gl);
 
 // Begin the commands of a pass: bind its program, open its debug group and start its timer.
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass);

@@ -15,6 +15,7 @@ static const struct {
 
 const char* hair_gl_work_label(hair_gl_work work)
 {
+    HAIR_ASSERT((unsigned)work < HAIR_GL_WORKS);
     return works[work].label;
 }
 
@@ -49,6 +50,7 @@ void hair_gl_ledger_begin(struct hair_gl* gl, hair_gl_pass pass)
     if (!gl->ledger) return;
     struct hair_gl_frame* frame = hair_gl_ledger_frame(gl->ledger, gl->ledger->number);
     hair_gl_work work = work_of(pass);
+    HAIR_ASSERT(frame->number == gl->ledger->number && frame->spans <= HAIR_GL_SPANS);
     ++frame->runs[work];
     frame->pass[work] = pass;
     int same = frame->spans > 0 && frame->work[frame->spans - 1] == work;
@@ -66,26 +68,27 @@ void hair_gl_ledger_end(struct hair_gl* gl, hair_gl_pass pass)
         gl->QueryCounter(frame->query[frame->spans - 1][1], GL_TIMESTAMP);
 }
 
-static int read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
-                      float ms[HAIR_GL_WORKS])
+static bool read_spans(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
+                       float ms[HAIR_GL_WORKS])
 {
     for (uint32_t i = frame->spans; i-- > 0;) { // The last span finishes last.
         GLuint64 there = 0, start = 0, end = 0;
+        HAIR_ASSERT(frame->query[i][1] && frame->work[i] < HAIR_GL_WORKS);
         if (!waits) gl->GetQueryObjectui64v(frame->query[i][1], GL_QUERY_RESULT_AVAILABLE, &there);
-        if (!waits && !there) return 0;
+        if (!waits && !there) return false;
         gl->GetQueryObjectui64v(frame->query[i][1], GL_QUERY_RESULT, &end);
         gl->GetQueryObjectui64v(frame->query[i][0], GL_QUERY_RESULT, &start);
         ms[frame->work[i]] += (float)((double)(end - start) * 1e-6);
     }
-    return 1;
+    return true;
 }
 
-int hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
-                        float ms[HAIR_GL_WORKS])
+bool hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
+                         float ms[HAIR_GL_WORKS])
 {
     GLint buffer = 0; // An application's query buffer would receive the results, as in pass.c.
     memset(ms, 0, HAIR_GL_WORKS * sizeof *ms);
-    if (!frame->spans) return 1;
+    if (!frame->spans) return true;
     gl->GetIntegerv(GL_QUERY_BUFFER_BINDING, &buffer);
     if (buffer) gl->BindBuffer(GL_QUERY_BUFFER, 0);
     int done = read_spans(gl, frame, waits, ms);

@@ -7,6 +7,8 @@
 typedef enum hair_gl_work {
 #define WORK(name, label, begins) HAIR_GL_WORK_##name,
 #include "lib/gl/works.inl"
+
+#include <stdbool.h>
 #undef WORK
     HAIR_GL_WORKS
 } hair_gl_work;
@@ -44,9 +46,9 @@ void hair_gl_ledger_begin(struct hair_gl* gl, hair_gl_pass pass);
 // End a pass.
 void hair_gl_ledger_end(struct hair_gl* gl, hair_gl_pass pass);
 
-// Read the durations of a frame's work, in ms. Return 0 if the frame is unfinished, which cannot
-// happen if `waits` is nonzero.
-int hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
-                        float ms[HAIR_GL_WORKS]);
+// Read the durations of a frame's work, in ms. Return false if the frame is unfinished, which
+// cannot happen if `waits` is nonzero.
+bool hair_gl_ledger_read(struct hair_gl* gl, const struct hair_gl_frame* frame, int waits,
+                         float ms[HAIR_GL_WORKS]);
 
 #endif

@@ -1,67 +1,7 @@
-// pass.c - rows of passes.inl, their programs, and running a pass with its debug group, timer and
-// memory barrier.
+// pass.c - programs of passes, and running a pass with its debug group, timer and memory barrier.
 #include "lib/gl/ledger.h"
 
-#include <ctype.h>
-#include <stdio.h>
 #include <string.h>
-
-static const struct {
-    const char* label;
-    hair_gl_pass features;
-    const char* stages;
-} rows[] = {
-#define PASS(name, label, features, stages) {label, features, stages},
-#include "lib/gl/passes.inl"
-};
-
-static const char* const features[] = {
-#define FEATURE(name, define) #name,
-#include "lib/gl/passes.inl"
-};
-
-_Static_assert(HAIR_GL_ROWS <= 1 << HAIR_GL_ROW_BITS, "a row is a number of HAIR_GL_ROW_BITS");
-_Static_assert(HAIR_GL_ROW_BITS + 2 + HAIR_GL_FEATURES <= 64, "every feature is a bit of a pass");
-
-static uint32_t row_of(hair_gl_pass pass)
-{
-    return (uint32_t)pass & ((1u << HAIR_GL_ROW_BITS) - 1);
-}
-
-const char* hair_gl_row_label(hair_gl_pass pass)
-{
-    return rows[row_of(pass)].label;
-}
-
-const char* hair_gl_row_stages(hair_gl_pass pass)
-{
-    return rows[row_of(pass)].stages;
-}
-
-hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass wanted)
-{
-    return pass | (wanted & rows[row_of(pass)].features);
-}
-
-hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices)
-{
-    int size = (vertices > 32) + (vertices > 64) + (vertices > 128);
-    return (pass & ~HAIR_GL_SIZES) | HAIR_GL_SIZE(size);
-}
-
-// Write a label such as "sim/direct_wind_curved_32".
-static void write_label(hair_gl_pass pass, char* out, size_t size)
-{
-    size_t used = (size_t)snprintf(out, size, "%s", hair_gl_row_label(pass));
-    for (uint32_t i = 0; i < HAIR_GL_FEATURES && used < size; ++i) {
-        if (!(pass & HAIR_GL_BIT(i))) continue;
-        size_t start = used + 1;
-        used += (size_t)snprintf(out + used, size - used, "_%s", features[i]);
-        for (size_t k = start; k < used && k < size; ++k) out[k] = (char)tolower(out[k]);
-    }
-    if (rows[row_of(pass)].features & HAIR_GL_SIZES && used < size)
-        snprintf(out + used, size - used, "_%u", HAIR_GL_THREADS(pass));
-}
 
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass)
 {
@@ -81,10 +21,11 @@ static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
         gl->program = more;
         gl->room = room;
     }
+    HAIR_ASSERT(gl->programs < gl->room);
     struct hair_gl_program* own = hair_alloc(&gl->host, 1, sizeof *own);
     if (!own) return NULL;
     own->pass = pass;
-    write_label(pass, own->label, sizeof own->label);
+    hair_gl_write_label(pass, own->label, sizeof own->label);
     return gl->program[gl->programs++] = own;
 }
 
@@ -111,6 +52,7 @@ void hair_gl_free_programs(struct hair_gl* gl)
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_find(gl, pass);
+    HAIR_ASSERT(own);
     struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Use timestamps, because the application may have an elapsed-time query active.
@@ -125,6 +67,7 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 
 void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
+    HAIR_ASSERT(hair_gl_find(gl, pass));
     struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
     hair_gl_ledger_end(gl, pass);
     if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
@@ -148,6 +91,7 @@ static void dispatch(struct hair_gl* gl, uint32_t groups)
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
     if (groups == 0) return;
+    HAIR_ASSERT(hair_gl_find(gl, pass) && hair_gl_find(gl, pass)->program);
     hair_gl_begin(gl, pass);
     dispatch(gl, groups);
     hair_gl_end(gl, pass);
@@ -156,6 +100,7 @@ void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups)
 {
     if (groups == 0) return;
+    HAIR_ASSERT(program);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
     dispatch(gl, groups);
@@ -164,6 +109,7 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
 
 void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at)
 {
+    HAIR_ASSERT(program && buffer && at % 4 == 0);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
     gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
@@ -175,6 +121,7 @@ void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
 static void read_timer(struct hair_gl* gl, struct hair_gl_timer* timer)
 {
     if (timer->begun - timer->read > HAIR_GL_TIMER_DEPTH) timer->read = timer->begun - HAIR_GL_TIMER_DEPTH;
+    HAIR_ASSERT(timer->read <= timer->begun);
     for (; timer->read < timer->begun; ++timer->read) {
         const GLuint* query = timer->query[timer->read % HAIR_GL_TIMER_DEPTH];
         GLuint64 there = 0, start = 0, end = 0;

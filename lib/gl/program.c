@@ -79,6 +79,7 @@ struct recipe {
 static hair_result start_stage(const struct recipe* recipe, struct stage* stage, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
+    HAIR_ASSERT(stage_of(stage->name) && stage->source.text);
     stage->shader = gl->CreateShader(stage_of(stage->name));
     if (!stage->shader)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no shader for glsl/%s", stage->name);
@@ -103,6 +104,7 @@ static hair_result check_stage(const struct recipe* recipe, const struct stage* 
 
 static hair_result define(struct recipe* recipe, const char* name)
 {
+    HAIR_ASSERT(recipe->used < sizeof recipe->prefix);
     size_t left = sizeof recipe->prefix - recipe->used;
     int size = snprintf(recipe->prefix + recipe->used, left, "#define %s\n", name);
     if ((size_t)size >= left)
@@ -200,7 +202,7 @@ static hair_result start(struct recipe* recipe, GLuint program)
     return HAIR_OK;
 }
 
-static int is_linked(const struct hair_gl* gl, GLuint program)
+static bool is_linked(const struct hair_gl* gl, GLuint program)
 {
     GLint done = 0;
     gl->GetProgramiv(program, GL_LINK_STATUS, &done);
@@ -243,6 +245,7 @@ static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* ke
 static hair_result make(struct recipe* recipe, GLuint* out)
 {
     struct hair_gl* gl = recipe->gl;
+    HAIR_ASSERT(recipe->stages > 0);
     struct hair_gl_key key = {0, 0};
     GLuint program = 0;
     int kept = 0;
@@ -321,6 +324,7 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
 // reports the error.
 static void finish(struct hair_gl* gl, struct hair_gl_program* own)
 {
+    HAIR_ASSERT(own->begun && !own->program);
     if (is_linked(gl, own->begun)) {
         hair_gl_keep(gl, own->key, own->begun);
         own->program = own->begun;
@@ -334,6 +338,7 @@ static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
     int kept = 0;
+    HAIR_ASSERT(gl->ahead && !own->begun && !own->program);
     // The first missing program is compiled now.
     if (!gl->parallel && gl->unready++) return HAIR_OK;
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
@@ -349,6 +354,7 @@ static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
 
 static hair_result look_after(struct hair_gl* gl, struct hair_gl_program* own)
 {
+    HAIR_ASSERT(gl->ahead && own->begun);
     GLint there = 0;
     gl->GetProgramiv(own->begun, GL_COMPLETION_STATUS_KHR, &there);
     gl->unready += !there;
@@ -368,6 +374,7 @@ hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
 
 hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, hair_gl_pass wanted)
 {
+    HAIR_ASSERT(first <= last && last < HAIR_GL_ROWS);
     hair_result result = HAIR_OK;
     for (hair_gl_pass row = first; row <= last && !result; ++row)
         result = hair_gl_need(gl, hair_gl_with(row, wanted));
@@ -376,12 +383,14 @@ hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pa
 
 void hair_gl_begin_ahead(struct hair_gl* gl)
 {
+    HAIR_ASSERT(!gl->ahead);
     gl->ahead = 1;
     gl->unready = 0;
 }
 
 uint32_t hair_gl_end_ahead(struct hair_gl* gl)
 {
+    HAIR_ASSERT(gl->ahead);
     gl->ahead = 0;
     return gl->unready;
 }

@@ -7,6 +7,7 @@
 hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
                                 struct hair_gl_shader* out)
 {
+    HAIR_ASSERT(!out->label && !out->text && !out->own);
     size_t name = strlen(label) + 1, size = strlen(text) + 1;
     out->label = hair_alloc(&gl->host, name, 1);
     out->text = hair_alloc(&gl->host, size, 1);
@@ -60,6 +61,7 @@ hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, 
         }
     hair_result result = make_room(gl, shader);
     if (!result) result = hair_gl_link_pass(gl, shader, pass, out);
+    HAIR_ASSERT(result || shader->count < shader->room);
     if (!result) shader->own[shader->count++] = (struct hair_gl_own){pass, *out};
     return result;
 }

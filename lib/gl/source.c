@@ -6,8 +6,7 @@
 
 // Names and texts, each ended by a 0. An empty name ends the array. tools/embed.c generates the
 // array.
-extern const unsigned char
-    hair_sources[];
+extern const unsigned char hair_sources[];
 
 #define MAX_FILE (1u << 20)
 
@@ -33,6 +32,7 @@ static void append(struct text* text, const char* bytes, size_t size)
         text->bytes = grown;
         text->capacity = capacity;
     }
+    HAIR_ASSERT(text->size + size < text->capacity);
     memcpy(text->bytes + text->size, bytes, size);
     text->size += size;
     text->bytes[text->size] = 0;
@@ -92,6 +92,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
 // file 0. If the application has a text, that text is file 0.
 static uint32_t called(const struct reader* reader, uint32_t number)
 {
+    HAIR_ASSERT(number < reader->out->files);
     if (!reader->own) return number;
     if (number == 0) return HAIR_GL_MAX_SOURCES;
     return strcmp(reader->out->file[number], HAIR_GL_OWN) == 0 ? 0 : number;

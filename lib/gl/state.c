@@ -31,6 +31,7 @@ static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, co
 // Return the texture target that the library binds at a unit.
 static GLenum target_of(GLuint unit)
 {
+    HAIR_ASSERT(unit < HAIR_GL_UNITS);
     if (unit == HAIR_UNIT_PAINT || unit == HAIR_UNIT_LIGHT) return GL_TEXTURE_BUFFER;
     if (unit >= HAIR_UNIT_SHADOW) return GL_TEXTURE_2D;
     return unit >= HAIR_UNIT_FIELD ? GL_TEXTURE_3D : GL_TEXTURE_BUFFER;

@@ -32,6 +32,7 @@ static hair_result find_owners(struct hair_draft* draft, const float* marks)
     if (result) return result;
     for (uint32_t i = 0; i < draft->strands.strand_count; ++i) {
         // The guide of the strand's cell is near, so the search only has to find a nearer one.
+        HAIR_ASSERT(draft->owner[i] < draft->groom->info.guide_count);
         const float* own = draft->marks + AXES * (size_t)i;
         struct hair_near near = {draft->owner[i],
                                  distance_squared(own, marks + AXES * (size_t)draft->owner[i])};
@@ -49,6 +50,7 @@ static void sort_strands(struct hair_draft* draft)
     uint32_t strands = draft->strands.strand_count;
     for (uint32_t i = 0; i < strands; ++i) ++draft->plot_sprouts[draft->owner[i]];
     hair_number_sprouts(draft);
+    HAIR_ASSERT(draft->sprout_count == strands);
     for (uint32_t i = 0; i < strands; ++i) draft->strand_of[draft->plot_first[draft->owner[i]]++] = i;
     for (uint32_t i = 0; i < draft->plot_count; ++i) draft->plot_first[i] -= draft->plot_sprouts[i];
 }
@@ -95,6 +97,7 @@ static void invert(double m[3][3], double out[3][3])
             cofactor[i][j] = m[a][c] * m[b][d] - m[a][d] * m[b][c];
         }
     double determinant = m[0][0] * cofactor[0][0] + m[0][1] * cofactor[0][1] + m[0][2] * cofactor[0][2];
+    HAIR_ASSERT(determinant > 0);
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) out[i][j] = cofactor[i][j] / determinant;
 }
@@ -147,6 +150,7 @@ static struct hair_follower bind(const struct hair_draft* draft, const struct fi
     uint32_t random = hair_sprout_random(draft, strand);
     struct hair_follower follower = hair_own_follower(guide, &random);
     if (strand == draft->chosen[guide]) return follower;
+    HAIR_ASSERT(smoothed->length > 0 && draft->length[strand] > 0);
     follower.length_ratio = draft->length[strand] / smoothed->length;
     float points[3 * (SAMPLES + 1)];
     hair_strand_resample(draft->strands.positions + 3 * (size_t)draft->first[strand],
@@ -163,6 +167,7 @@ hair_result hair_strand_followers(struct hair_draft* draft)
         hair_smooth_guide(draft->groom, guide, &smoothed);
         for (uint32_t i = 0; i < draft->plot_sprouts[guide]; ++i) {
             uint32_t sprout = draft->plot_first[guide] + i;
+            HAIR_ASSERT(draft->place[sprout] < draft->groom->info.follower_count);
             draft->groom->followers[draft->place[sprout]] = bind(draft, &fit, sprout, guide, &smoothed);
         }
     }

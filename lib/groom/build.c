@@ -25,6 +25,7 @@ static hair_result count_sprouts(struct hair_draft* draft)
 static hair_result make_followers(struct hair_draft* draft)
 {
     struct hair_groom* groom = draft->groom;
+    HAIR_ASSERT(draft->sprout_count > 0 && draft->place);
     groom->info.follower_count = draft->sprout_count;
     groom->followers = hair_alloc(draft->host, draft->sprout_count, sizeof *groom->followers);
     if (!groom->followers) return hair_fail_memory(draft->host, "followers");
@@ -48,6 +49,7 @@ static void describe(struct hair_draft* draft)
         info->length[2] = fmaxf(info->length[2], draft->length[i]);
         sum += (double)draft->length[i];
     }
+    HAIR_ASSERT(0 < info->length[0] && info->length[0] <= info->length[2]);
     info->length[1] = (float)(sum / strands->strand_count);
     for (size_t a = 0; a < 3; ++a) {
         info->lower[a] = info->upper[a] = strands->positions[a];

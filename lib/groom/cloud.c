@@ -25,6 +25,7 @@ static void swap(uint32_t* order, uint32_t i, uint32_t j)
 
 uint32_t hair_cloud_widest(struct hair_cloud cloud, const uint32_t* order, uint32_t count)
 {
+    HAIR_ASSERT(0 < cloud.dimensions && cloud.dimensions <= HAIR_CLOUD_DIMENSIONS);
     float lower[HAIR_CLOUD_DIMENSIONS], upper[HAIR_CLOUD_DIMENSIONS];
     for (uint32_t axis = 0; axis < cloud.dimensions; ++axis) {
         lower[axis] = FLT_MAX;
@@ -52,6 +53,7 @@ struct thirds {
 static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t low, uint32_t high,
                             uint32_t axis, const uint32_t* weights)
 {
+    HAIR_ASSERT(low < high && axis < cloud.dimensions);
     // Use a random pivot, so that no order of the points is slow.
     uint32_t at = low + hair_hash(low ^ hair_hash(high)) % (high - low);
     float pivot = coordinate(cloud, order[at], axis);
@@ -69,12 +71,14 @@ static struct thirds divide(struct hair_cloud cloud, uint32_t* order, uint32_t l
             ++i;
         }
     }
+    HAIR_ASSERT(thirds.equal < thirds.after && thirds.after <= high);
     return thirds;
 }
 
 uint32_t hair_cloud_split(struct hair_cloud cloud, uint32_t* order, uint32_t count, uint32_t axis,
                           const uint32_t* weights, uint64_t target)
 {
+    HAIR_ASSERT(count >= 2 && axis < cloud.dimensions);
     // Hoare's selection divides only the part that contains the target.
     uint32_t low = 0, high = count;
     while (low < high) {
@@ -106,6 +110,7 @@ static void plant(struct hair_tree* tree, uint32_t low, uint32_t high)
 {
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
+        HAIR_ASSERT(low < middle && middle < high);
         uint32_t axis = hair_cloud_widest(tree->cloud, tree->order + low, high - low);
         hair_cloud_split(tree->cloud, tree->order + low, high - low, axis, NULL, middle - low);
         tree->plane[middle] = (struct hair_plane){coordinate(tree->cloud, tree->order[middle], axis), axis};
@@ -150,6 +155,7 @@ static float farthest(const struct search* search)
 
 static void consider(struct search* search, uint32_t index)
 {
+    HAIR_ASSERT(index < search->tree->count);
     const struct hair_cloud cloud = search->tree->cloud;
     float limit = farthest(search);
     float squared = 0;
@@ -164,6 +170,7 @@ static void consider(struct search* search, uint32_t index)
     uint32_t i = search->found - 1;
     for (; i > 0 && search->near[i - 1].squared > squared; --i) search->near[i] = search->near[i - 1];
     search->near[i] = (struct hair_near){index, squared};
+    HAIR_ASSERT(i + 1 == search->found || squared <= search->near[i + 1].squared);
 }
 
 static void descend(struct search* search, uint32_t low, uint32_t high)
@@ -186,6 +193,7 @@ static void descend(struct search* search, uint32_t low, uint32_t high)
 uint32_t hair_tree_nearest(const struct hair_tree* tree, const float* point, struct hair_near* near,
                            uint32_t found, uint32_t wanted)
 {
+    HAIR_ASSERT(found <= wanted && wanted > 0);
     struct search search = {tree, point, near, found, wanted};
     descend(&search, 0, tree->count);
     return search.found;

@@ -19,6 +19,7 @@ static hair_vec3 xyz(hair_vec4 v)
 static float reach_along(const struct hair_groom* groom, const struct hair_follower* follower, uint32_t guide,
                          hair_vec3 from)
 {
+    HAIR_ASSERT(guide < groom->info.guide_count);
     return hair_distance(hair_guide_root(groom, guide), from) +
            follower->length_ratio * groom->guides[guide].arc_length;
 }
@@ -43,6 +44,7 @@ void hair_measure_patches(struct hair_groom* groom)
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch* patch = &groom->patches[i];
         const struct hair_follower* follower = groom->followers + patch->first;
+        HAIR_ASSERT(patch->count > 0 && patch->first + patch->count <= groom->info.follower_count);
         patch->guide = follower->guide0;
         patch->importance = 1;
         hair_vec3 from = hair_guide_root(groom, patch->guide);
@@ -96,6 +98,7 @@ static bool fit(const struct hair_groom* groom, double center[3])
         for (int k = 0; k < 4; ++k)
             for (int j = 0; j < 5; ++j) m[k][j] += row[k] * row[j] / count;
     }
+    HAIR_ASSERT(count > 0);
     if (!solve(m, x)) return false;
     const float from[3] = {first.x, first.y, first.z};
     for (int k = 0; k < 3; ++k) center[k] = (double)from[k] + 0.5 * unit * x[k];

@@ -52,6 +52,7 @@ hair_result hair_guide_sprouts(struct hair_draft* draft)
     for (uint32_t i = 0; i < guides; ++i)
         draft->plot_sprouts[i] = (uint32_t)(wanted * (i + 1) / guides - wanted * i / guides);
     hair_number_sprouts(draft);
+    HAIR_ASSERT(draft->sprout_count == wanted);
     return HAIR_OK;
 }
 
@@ -60,6 +61,7 @@ hair_result hair_guide_sprouts(struct hair_draft* draft)
 // of the disc, which is at two standard deviations.
 static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
 {
+    HAIR_ASSERT(i < count);
     float edge = 1 - expf(-2);
     float r = 0.5f * radius * sqrtf(-2 * logf(1 - edge * (float)i / (float)count));
     // Floats lose the angle of larger indices.
@@ -76,6 +78,7 @@ hair_result hair_guide_followers(struct hair_draft* draft)
         float turn = 6.2831853f * hair_random(&turns);
         for (uint32_t i = 0; i < count; ++i) {
             uint32_t sprout = draft->plot_first[guide] + i;
+            HAIR_ASSERT(draft->place[sprout] < groom->info.follower_count);
             uint32_t random = hair_sprout_random(draft, sprout);
             hair_vec3 offset = spiral(i, count, draft->desc->clump_radius, turn);
             struct hair_follower* follower = &groom->followers[draft->place[sprout]];

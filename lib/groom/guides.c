@@ -36,6 +36,7 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
     for (uint32_t i = 0; i < count; ++i)
         for (int a = 0; a < AXES; ++a)
             cell.mean[a] += (double)choice->marks[AXES * (size_t)order[i] + (size_t)a];
+    HAIR_ASSERT(count > 0);
     for (int a = 0; a < AXES; ++a) cell.mean[a] /= count;
     for (uint32_t i = 0; i < count; ++i)
         for (int a = 0; a < AXES; ++a) {
@@ -110,20 +111,24 @@ static uint32_t share_out(const struct cell* front, const struct cell* back, uin
     uint32_t wanted = (uint32_t)(guides * (a / (a + b)) + 0.5);
     uint32_t least = guides > back->count ? guides - back->count : 1;
     uint32_t most = guides - 1 < front->count ? guides - 1 : front->count;
+    HAIR_ASSERT(least <= most);
     return wanted < least ? least : wanted > most ? most : wanted;
 }
 
 static void choose(struct choice* choice, const struct cell* cell, uint32_t guides, uint32_t depth)
 {
+    HAIR_ASSERT(1 <= guides && guides <= cell->count);
     if (guides == 1) {
         make_guide(choice, cell);
         return;
     }
     uint32_t at = cut(choice, cell);
     if (at == 0 || at == cell->count || depth > DEEPEST) at = cell->count / 2;
+    HAIR_ASSERT(0 < at && at < cell->count);
     struct cell front = measure(choice, cell->order, at);
     struct cell back = measure(choice, cell->order + at, cell->count - at);
     uint32_t share = share_out(&front, &back, guides);
+    HAIR_ASSERT(1 <= share && share < guides);
     choose(choice, &front, share, depth + 1);
     choose(choice, &back, guides - share, depth + 1);
 }
@@ -151,6 +156,7 @@ static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
     struct choice choice = {.marks = draft->marks, .chosen = draft->chosen, .owner = draft->owner};
     struct cell all = measure(&choice, order, count);
     choose(&choice, &all, guides, 0);
+    HAIR_ASSERT(choice.found == guides);
     hair_free(draft->host, order);
     return HAIR_OK;
 }
@@ -158,6 +164,7 @@ static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
 hair_result hair_draft_guides(struct hair_draft* draft)
 {
     uint32_t guides = count_guides(draft);
+    HAIR_ASSERT(0 < guides && guides <= HAIR_MAX_GUIDES);
     draft->groom->info.guide_count = guides;
     draft->chosen = hair_alloc(draft->host, guides, sizeof *draft->chosen);
     if (!draft->chosen) return hair_fail_memory(draft->host, "the choice of guides");

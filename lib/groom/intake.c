@@ -104,6 +104,7 @@ static void measure(struct hair_draft* draft)
         const float* p = strands->positions + 3 * (size_t)first;
         draft->first[i] = first;
         draft->length[i] = (float)hair_strand_length(p, strands->vertices[i]);
+        HAIR_ASSERT(strands->vertices[i] >= 2 && draft->length[i] > 0);
         hair_strand_resample(p, strands->vertices[i], draft->marks + 3 * HAIR_MARKS * (size_t)i, HAIR_MARKS);
         first += strands->vertices[i];
     }

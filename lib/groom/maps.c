@@ -78,6 +78,7 @@ static void find_between(float uv, uint32_t size, uint32_t at[2], float* share)
     // Values are at the texel centres.
     float place = fminf(fmaxf(uv * (float)size - 0.5f, 0), (float)(size - 1));
     at[0] = (uint32_t)place;
+    HAIR_ASSERT(at[0] < size);
     at[1] = at[0] + 1 < size ? at[0] + 1 : at[0];
     *share = place - (float)at[0];
 }
@@ -98,6 +99,7 @@ static float look_up(const hair_map* map, float u, float v)
 static float value_at(const struct hair_draft* draft, const hair_map* map, const struct hair_spot* spot)
 {
     const hair_groom_desc* desc = draft->desc;
+    HAIR_ASSERT(spot->triangle < desc->scalp_triangle_count);
     const uint32_t* corner = desc->scalp_triangles + 3 * (size_t)spot->triangle;
     if (map->source == HAIR_MAP_SOURCE_NONE) return 1;
     if (map->source == HAIR_MAP_SOURCE_TRIANGLES) return map->values[spot->triangle];
@@ -114,6 +116,7 @@ static float value_at(const struct hair_draft* draft, const hair_map* map, const
 // Read all maps at a candidate. The last set stands for all missing sets.
 static void read_maps(struct hair_draft* draft, uint32_t sets, uint32_t sprout)
 {
+    HAIR_ASSERT(0 < sets && sets <= HAIR_MAP_SETS && sprout < draft->sprout_count);
     const struct hair_spot* spot = &draft->spots[sprout];
     float density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], most = 0;
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
@@ -123,6 +126,7 @@ static void read_maps(struct hair_draft* draft, uint32_t sets, uint32_t sprout)
         most = fmaxf(most, thickness[i]);
     }
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) thickness[i] = most > 0 ? thickness[i] / most : 1;
+    for (int i = 0; i < HAIR_MAP_SETS; ++i) HAIR_ASSERT(thickness[i] >= 0 && thickness[i] <= 1);
     draft->map_density[sprout] = (hair_vec4){density[0], density[1], density[2], density[3]};
     draft->map_share[sprout] = (hair_vec4){thickness[0], thickness[1], thickness[2], thickness[3]};
     draft->map_thickness[sprout] = most;

@@ -21,6 +21,9 @@ static struct mix mix_of(const struct hair_draft* draft, uint32_t sprout,
         mix.strand[0] = draft->strand_of[sprout];
         return mix;
     }
+    HAIR_ASSERT(follower->guide0 < draft->groom->info.guide_count);
+    HAIR_ASSERT(follower->guide1 < draft->groom->info.guide_count);
+    HAIR_ASSERT(follower->guide2 < draft->groom->info.guide_count);
     mix.strand[0] = draft->chosen[follower->guide0];
     mix.strand[1] = draft->chosen[follower->guide1];
     mix.strand[2] = draft->chosen[follower->guide2];
@@ -70,6 +73,7 @@ hair_result hair_draft_paint(struct hair_draft* draft)
         if (!groom->paint) return hair_fail_memory(draft->host, "the colours of followers");
     }
     for (uint32_t i = 0; i < draft->sprout_count; ++i) {
+        HAIR_ASSERT(draft->place[i] < draft->sprout_count);
         struct hair_follower* follower = &groom->followers[draft->place[i]];
         struct mix mix = mix_of(draft, i, follower);
         if (strands->radii) widen(draft, &mix, mean, follower);

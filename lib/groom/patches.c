@@ -44,6 +44,7 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 {
     for (uint32_t i = count; i > 1; --i) {
         uint32_t j = (uint32_t)((double)hair_random(&random) * i);
+        HAIR_ASSERT(j < i);
         uint32_t was = queue[i - 1];
         queue[i - 1] = queue[j];
         queue[j] = was;
@@ -57,6 +58,7 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 // contributes its candidates at even distances, from a random start.
 static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
 {
+    HAIR_ASSERT(count <= HAIR_MAX_ISOLINES);
     float from[HAIR_MAX_ISOLINES];
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t plot = draft->spots[queue[i]].triangle, random = hair_sprout_random(draft, plot);
@@ -69,6 +71,7 @@ static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t coun
 // Make one patch, or the minimum number of patches of even size if one cannot hold all.
 static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
+    HAIR_ASSERT(total > 0 && first + total <= layout->queued);
     if (layout->draft->is_scattered && total <= HAIR_MAX_ISOLINES)
         merge(layout->draft, layout->queue + first, total);
     // One root bin keeps its order.
@@ -79,6 +82,7 @@ static void make_patches(struct layout* layout, uint32_t first, uint32_t total, 
         uint32_t begin = (uint32_t)((uint64_t)total * i / parts);
         uint32_t end = (uint32_t)((uint64_t)total * (i + 1) / parts);
         struct hair_patch patch = {.first = first + begin, .count = end - begin, .density = density};
+        HAIR_ASSERT(0 < patch.count && patch.count <= HAIR_MAX_ISOLINES);
         hair_map_patch(layout->draft, layout->queue + patch.first, &patch);
         layout->patches[layout->patch_count++] = patch;
     }
@@ -91,6 +95,7 @@ static void part(struct layout* layout, uint32_t first, uint32_t total, float de
     for (;;) {
         uint32_t front = hair_map_split(layout->draft, layout->queue + first, total);
         if (front == 0) break;
+        HAIR_ASSERT(front < total);
         part(layout, first, front, density);
         first += front;
         total -= front;
@@ -116,6 +121,7 @@ static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
 static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
 {
     for (;;) {
+        HAIR_ASSERT(count > 0);
         uint64_t total = count_sprouts(layout, order, count);
         if (count == 1 || (total <= HAIR_MAX_ISOLINES && are_alike(layout, order, count))) {
             fill(layout, order, count);
@@ -126,6 +132,7 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
         uint32_t axis = hair_cloud_widest(layout->centres, order, count);
         uint32_t front =
             hair_cloud_split(layout->centres, order, count, axis, layout->draft->plot_sprouts, target);
+        HAIR_ASSERT(0 < front && front < count);
         lay_out(layout, order, front);
         order += front;
         count -= front;
@@ -156,6 +163,7 @@ hair_result hair_draft_patches(struct hair_draft* draft)
     hair_result result = HAIR_OK;
     if (order && queue && draft->place && groom->patches) {
         lay_out(&layout, order, list_plots(draft, order));
+        HAIR_ASSERT(layout.queued == draft->sprout_count && layout.patch_count <= most);
         for (uint32_t i = 0; i < draft->sprout_count; ++i) draft->place[queue[i]] = i;
         groom->info.patch_count = layout.patch_count;
     } else {

@@ -38,6 +38,7 @@ hair_result hair_scalp_plots(struct hair_draft* draft)
 
 void hair_number_sprouts(struct hair_draft* draft)
 {
+    HAIR_ASSERT(draft->sprout_count == 0);
     for (uint32_t i = 0; i < draft->plot_count; ++i) {
         draft->plot_first[i] = draft->sprout_count;
         draft->sprout_count += draft->plot_sprouts[i];
@@ -46,12 +47,14 @@ void hair_number_sprouts(struct hair_draft* draft)
 
 hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide)
 {
+    HAIR_ASSERT(guide < groom->info.guide_count);
     hair_vec4 p = groom->rest[groom->guides[guide].first].position;
     return hair_v3(p.x, p.y, p.z);
 }
 
 hair_vec3 hair_scalp_corner(const struct hair_draft* draft, uint32_t triangle, uint32_t corner)
 {
+    HAIR_ASSERT(triangle < draft->desc->scalp_triangle_count && corner < 3);
     uint32_t vertex = draft->desc->scalp_triangles[3 * (size_t)triangle + corner];
     return hair_load3(draft->scalp + 3 * (size_t)vertex);
 }

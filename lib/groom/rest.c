@@ -49,6 +49,7 @@ static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
         else if (i + 1 == vertices && kept > 1)
             hair_store3(positions + 3 * (size_t)(kept - 1), at);
     }
+    HAIR_ASSERT(2 <= kept && kept <= vertices);
     return kept;
 }
 
@@ -117,16 +118,19 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
         }
         rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
         rest[i].direction = (hair_vec4){direction.x, direction.y, direction.z, over_two};
+        HAIR_ASSERT(hair_is_unit(direction) && hair_quat_is_unit(frame));
         rest[i].frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         total += (double)length;
     }
     guide->arc_length = (float)total;
+    HAIR_ASSERT(guide->arc_length > 0);
 }
 
 static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mean)
 {
     struct hair_guide* guide = &draft->groom->guides[number];
     uint32_t strand = draft->chosen[number];
+    HAIR_ASSERT(2 <= guide->count && guide->count <= HAIR_MAX_GUIDE_VERTICES);
     float p[3 * HAIR_MAX_GUIDE_VERTICES];
     sample(draft->strands.positions + 3 * (size_t)draft->first[strand], draft->strands.vertices[strand], p,
            guide->count);

@@ -63,10 +63,12 @@ hair_result hair_scalp_sprouts(struct hair_draft* draft)
     for (uint32_t i = 0; i < triangles; ++i) {
         sum += fertile_area(draft, i);
         double after = floor(sum / total * draft->desc->follower_count + jitter);
+        HAIR_ASSERT(after >= before);
         draft->plot_sprouts[i] = (uint32_t)(after - before);
         before = after;
     }
     hair_number_sprouts(draft);
+    HAIR_ASSERT(draft->sprout_count == draft->desc->follower_count);
     return scatter_sprouts(draft);
 }
 
@@ -101,6 +103,7 @@ static void normalize(float weight[3])
 {
     float sum = 0;
     for (int i = 0; i < 3; ++i) sum += weight[i] = fmaxf(weight[i], 0);
+    HAIR_ASSERT(sum > 0);
     for (int i = 0; i < 3; ++i) weight[i] /= sum;
 }
 
@@ -123,6 +126,7 @@ static bool find_barycentric(hair_vec3 a, hair_vec3 b, hair_vec3 c, hair_vec3 p,
 // guides surround the root.
 static struct trio weigh_by_distance(const struct hair_near* near, uint32_t found)
 {
+    HAIR_ASSERT(found > 0);
     struct trio trio;
     for (uint32_t i = 0; i < 3; ++i) {
         const struct hair_near* own = near + (i < found ? i : 0);
@@ -169,6 +173,7 @@ static void draw_first(struct trio* trio, uint32_t* random)
     trio->weight[first] = trio->weight[0];
     trio->guide[0] = guide;
     trio->weight[0] = weight;
+    HAIR_ASSERT(weight > 0);
 }
 
 static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
@@ -185,8 +190,8 @@ static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
     float mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
     if (hair_distance(a, b) > 0.6f * mean) return true;
     float product = hair_length(a) * hair_length(b);
-        // The tip of a curled guide tells little about its direction.
-        if (product < 0.01f * mean * mean) return false;
+    // The tip of a curled guide tells little about its direction.
+    if (product < 0.01f * mean * mean) return false;
     return hair_dot(a, b) < 0.342f * product; // More than 70 degrees.
 }
 
@@ -212,6 +217,7 @@ static struct hair_follower grow(const struct hair_groom* groom, const struct tr
 {
     uint32_t guide = trio->guide[0];
     hair_vec3 blended = {0};
+    HAIR_ASSERT(guide < groom->info.guide_count);
     for (int i = 0; i < 3; ++i)
         blended = hair_add(blended, hair_scale(hair_guide_root(groom, trio->guide[i]), trio->weight[i]));
     hair_vec3 own = in_root_frame(groom, guide, hair_sub(root, hair_guide_root(groom, guide)));
@@ -248,6 +254,7 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
             trio = find_trio(scalp, root);
         draw_first(&trio, &random);
         respect_partings(draft->groom, &trio);
+        HAIR_ASSERT(draft->place[sprout] < draft->groom->info.follower_count);
         draft->groom->followers[draft->place[sprout]] = grow(draft->groom, &trio, root, &random);
     }
 }

@@ -6,12 +6,14 @@
 
 struct hair_seats* hair_seats_hold(struct hair_seats* seats)
 {
+    HAIR_ASSERT(!seats || atomic_load(&seats->holders) > 0);
     if (seats) atomic_fetch_add_explicit(&seats->holders, 1, memory_order_relaxed);
     return seats;
 }
 
 void hair_seats_release(struct hair_seats* seats)
 {
+    HAIR_ASSERT(!seats || atomic_load(&seats->holders) > 0);
     if (!seats || atomic_fetch_sub_explicit(&seats->holders, 1, memory_order_acq_rel) != 1) return;
     hair_host host = seats->host;
     hair_free(&host, seats->positions);
@@ -50,6 +52,7 @@ static void seat_followers(const struct hair_draft* draft, struct hair_seat* sea
                                     hair_scale(hair_scalp_corner(draft, spot->triangle, k), spot->weight[k]));
             else
                 root = hair_sprout_root(draft, plot, sprout);
+            HAIR_ASSERT(draft->place[sprout] < draft->groom->info.follower_count);
             seat[draft->place[sprout]] = seat_of(draft, spot, root);
         }
 }
@@ -89,6 +92,7 @@ hair_result hair_draft_seats(struct hair_draft* draft)
     seats->vertex_count = draft->desc->scalp_vertex_count;
     seats->count = info->guide_count + info->follower_count;
     atomic_init(&seats->holders, 1);
+    HAIR_ASSERT(!draft->groom->seats);
     draft->groom->seats = seats;
     seats->positions = hair_alloc(draft->host, seats->vertex_count, 3 * sizeof *seats->positions);
     seats->seat = hair_alloc(draft->host, seats->count, sizeof *seats->seat);

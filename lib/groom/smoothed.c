@@ -19,6 +19,7 @@ static void unpack(const struct hair_groom* groom, uint32_t number, struct polyl
     const struct hair_guide* guide = &groom->guides[number];
     const struct hair_rest* rest = groom->rest + guide->first;
     hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
+    HAIR_ASSERT(2 <= guide->count && guide->count <= HAIR_MAX_GUIDE_VERTICES);
     line->count = guide->count;
     for (uint32_t i = 0; i < guide->count; ++i) {
         line->vertex[i] = hair_v3(rest[i].position.x, rest[i].position.y, rest[i].position.z);
@@ -48,6 +49,7 @@ static hair_vec3 slope(const struct polyline* line, uint32_t j)
 
 static void evaluate(const struct polyline* line, uint32_t j, float s, struct hair_smoothed* out, uint32_t k)
 {
+    HAIR_ASSERT(j + 1 < line->count && k < HAIR_MAX_SMOOTH_VERTICES);
     float l = fmaxf(line->from_root[j + 1] - line->from_root[j], 1e-12f);
     float w = fminf(fmaxf((s - line->from_root[j]) / l, 0), 1);
     hair_vec3 chord = hair_sub(line->vertex[j + 1], line->vertex[j]);
@@ -70,6 +72,7 @@ void hair_smooth_guide(const struct hair_groom* groom, uint32_t guide, struct ha
     struct polyline line;
     unpack(groom, guide, &line);
     out->count = 2 * (groom->most_vertices - 1) + 1;
+    HAIR_ASSERT(line.count <= groom->most_vertices && out->count <= HAIR_MAX_SMOOTH_VERTICES);
     out->length = line.from_root[line.count - 1];
     uint32_t j = 0;
     for (uint32_t k = 0; k < out->count; ++k) {
@@ -89,6 +92,7 @@ static hair_quat mix(hair_quat a, hair_quat b, float w)
 
 struct hair_smoothed_point hair_smoothed_at(const struct hair_smoothed* smoothed, float u)
 {
+    HAIR_ASSERT(smoothed->count >= 2 && u >= 0);
     float at = fminf(u, 1) * (float)(smoothed->count - 1);
     uint32_t k = (uint32_t)at < smoothed->count - 2 ? (uint32_t)at : smoothed->count - 2;
     float w = at - (float)k;

@@ -18,6 +18,7 @@
 
 static float value_of(const struct hair_draft* draft, uint32_t sprout, uint32_t which)
 {
+    HAIR_ASSERT(sprout < draft->sprout_count && which < VALUES);
     const hair_vec4* v = which < HAIR_MAP_SETS ? &draft->map_density[sprout] : &draft->map_share[sprout];
     switch (which % HAIR_MAP_SETS) {
     case 0: return v->x;
@@ -62,6 +63,7 @@ uint32_t hair_map_split(const struct hair_draft* draft, uint32_t* queue, uint32_
             queue[front++] = queue[i];
             queue[i] = was;
         }
+    HAIR_ASSERT(0 < front && front < count);
     return front;
 }
 
@@ -78,6 +80,7 @@ void hair_sort_queue(uint32_t* queue, float* from, uint32_t count)
 
 void hair_map_patch(const struct hair_draft* draft, uint32_t* queue, struct hair_patch* patch)
 {
+    HAIR_ASSERT(0 < patch->count && patch->count <= HAIR_MAX_ISOLINES);
     patch->map_density = patch->map_thickness = (hair_vec4){1, 1, 1, 1};
     if (!draft->map_density) return;
     float from[HAIR_MAX_ISOLINES];

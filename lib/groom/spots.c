@@ -60,10 +60,12 @@ void hair_surface_free(struct hair_surface* surface)
 
 struct hair_spot hair_surface_spot(struct hair_surface* surface, hair_vec3 root)
 {
+    HAIR_ASSERT(surface->triangles.count > 0);
     float distance = FLT_MAX;
     uint32_t nearest = 0;
     struct hair_spot spot = {0};
     hair_triangles_find(&surface->triangles, hair_sub(root, surface->triangles.center), &distance, &nearest);
+    HAIR_ASSERT(nearest < surface->triangles.count);
     spot.triangle = surface->triangles.indices[nearest][0] / 3;
     hair_vec3 corner[3];
     for (uint32_t k = 0; k < 3; ++k) corner[k] = hair_scalp_corner(surface->draft, spot.triangle, k);
@@ -75,6 +77,7 @@ hair_vec3 hair_sprout_root(const struct hair_draft* draft, uint32_t plot, uint32
 {
     // Followers around a guide count as rooted there.
     if (!draft->strand_of) return hair_guide_root(draft->groom, plot);
+    HAIR_ASSERT(draft->strand_of[sprout] < draft->strands.strand_count);
     return hair_load3(draft->strands.positions + 3 * (size_t)draft->first[draft->strand_of[sprout]]);
 }
 

@@ -16,6 +16,7 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
     for (uint32_t i = 0; i < count; ++i) {
         hair_style_grow(desc->style, hair_load3(asset->scalp_positions + 3 * i), desc->length, desc->seed,
                         course);
+        HAIR_ASSERT(2 <= course->count && course->count <= HAIR_COURSE_POINTS && each >= 2);
         hair_strand_resample(&course->point[0].x, course->count,
                              asset->strands.positions + 3 * (size_t)i * each, each);
         asset->strands.vertices[i] = each;

@@ -27,6 +27,7 @@ float hair_noise(hair_vec3 p, float scale, uint32_t seed)
 
 void hair_course_add(struct hair_course* course, hair_vec3 p)
 {
+    HAIR_ASSERT(course->count <= HAIR_COURSE_POINTS);
     if (course->count > 0) {
         float step = hair_distance(p, course->point[course->count - 1]);
         if (step < 1e-6f || course->count == HAIR_COURSE_POINTS) return;
@@ -47,6 +48,7 @@ void hair_course_trim(struct hair_course* course, float most)
 
 void hair_course_wind(struct hair_course* course, const struct hair_curl* curl)
 {
+    HAIR_ASSERT(course->count >= 2 && curl->pitch > 0);
     hair_vec3 tangent = hair_normalize(hair_sub(course->point[1], course->point[0]), hair_v3(0, -1, 0));
     hair_vec3 across = hair_normalize(hair_tangential(hair_skull_normal(course->point[0]), tangent),
                                       hair_perpendicular(tangent));

@@ -50,6 +50,7 @@ float hair_scalp_hairline(float azimuth)
     float degrees = fabsf(remainderf(azimuth, 2 * PI)) * (180 / PI);
     int i = 0;
     while (i < HAIRLINE_KNOTS - 2 && hairline[i + 1][0] < degrees) ++i;
+    HAIR_ASSERT(i + 1 < HAIRLINE_KNOTS);
     // Interpolate by the spline of Catmull and Rom (1974), with level ends.
     float p = hairline[i > 0 ? i - 1 : 1][1], q = hairline[i][1], r = hairline[i + 1][1];
     float s = hairline[i + 2 < HAIRLINE_KNOTS ? i + 2 : i][1];
@@ -82,8 +83,7 @@ static float parting_azimuth(const struct build* build, float side)
 {
     float x = build->parting.front + side * PARTING_HALF;
     float azimuth = 0;
-    for (int i = 0; i < 4;
-         ++i) { // The hairline is nearly level there, so this converges to a micrometre.
+    for (int i = 0; i < 4; ++i) { // The hairline is nearly level there, so this converges to a micrometre.
         float y = (hair_scalp_hairline(azimuth) - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y;
         azimuth = asinf(x / (HAIR_SKULL_X * sqrtf(1 - y * y)));
     }
@@ -111,6 +111,7 @@ static void add_hairline(struct build* build, float from, float to)
     for (uint32_t k = 0; k < count; ++k) {
         float target = along[FINE] * (float)k / (float)count;
         while (along[i + 1] < target) ++i;
+        HAIR_ASSERT(i < FINE);
         float t = ((float)i + (target - along[i]) / (along[i + 1] - along[i])) / FINE;
         add_vertex(build, hairline_point(from + (to - from) * t));
     }
@@ -200,6 +201,7 @@ static void fill_gaps(struct build* build, uint32_t vertex_count)
         widest = shrink_gaps(build, hair_lerp(vertex_at(build, i), vertex_at(build, j), 0.5f));
     }
     while (build->scalp.vertex_count < vertex_count) {
+        HAIR_ASSERT(widest < build->candidate_count);
         add_vertex(build, build->candidates[widest]);
         widest = shrink_gaps(build, build->candidates[widest]);
     }
@@ -237,6 +239,7 @@ static hair_result triangulate(struct build* build)
     uint32_t count = hair_triangulate(build->host, build->plane, build->scalp.vertex_count, triangles);
     if (!count) return hair_fail_memory(build->host, "the scalp's triangles");
 
+    HAIR_ASSERT(count <= 2 * build->scalp.vertex_count);
     build->scalp.triangle_count = 0;
     for (uint32_t i = 0; i < count; ++i) {
         const double* p = build->plane + 2 * (size_t)triangles[3 * i];
@@ -274,6 +277,7 @@ static void relax(struct build* build)
         float area = hair_length(hair_cross(hair_sub(b, a), hair_sub(c, a)));
         hair_vec3 middle = hair_scale(hair_add(a, hair_add(b, c)), area / 3);
         for (int k = 0; k < 3; ++k) {
+            HAIR_ASSERT(corner[k] < build->scalp.vertex_count);
             build->sum[corner[k]] = hair_add(build->sum[corner[k]], middle);
             build->area[corner[k]] += area;
         }
@@ -335,6 +339,7 @@ static void lift(struct build* build)
 hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struct hair_parting parting,
                              uint32_t seed, struct hair_scalp* out)
 {
+    HAIR_ASSERT(vertex_count >= 16);
     struct build build = {.host = host, .parting = parting, .seed = seed};
     size_t most = (size_t)vertex_count + 64; // The minimum outline may have more vertices.
     build.candidate_count = CANDIDATES * vertex_count + 2048;
@@ -352,6 +357,7 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
         result = hair_fail_memory(host, "the scalp");
     else
         result = fill(&build, vertex_count);
+    HAIR_ASSERT(build.scalp.vertex_count <= most);
     if (!result) lift(&build);
 
     hair_free(host, build.plane);

@@ -64,6 +64,7 @@ static void toggle_edge(struct work* work, uint32_t a, uint32_t b)
             work->edges[i] = work->edges[--work->edge_count];
             return;
         }
+    HAIR_ASSERT(work->edge_count < 3 * (2 * work->count + 8));
     work->edges[work->edge_count++] = (struct edge){a, b};
 }
 
@@ -71,6 +72,7 @@ static void keep(struct work* work, const struct face* face)
 {
     const uint32_t* corner = face->corner;
     if (corner[0] >= work->count || corner[1] >= work->count || corner[2] >= work->count) return;
+    HAIR_ASSERT(work->out_count < 2 * work->count);
     memcpy(work->out + 3 * work->out_count++, corner, 3 * sizeof *corner);
 }
 
@@ -95,6 +97,7 @@ static void insert(struct work* work, uint32_t point)
         }
         *face = work->faces[--work->face_count];
     }
+    HAIR_ASSERT(work->face_count + work->edge_count <= 2 * work->count + 8);
     for (uint32_t i = 0; i < work->edge_count; ++i)
         work->faces[work->face_count++] = make_face(work->points, work->edges[i].a, work->edges[i].b, point);
 }

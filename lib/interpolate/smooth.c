@@ -6,6 +6,7 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
     smooth->gl = gl;
     smooth->vertices = sim->guides * sim->smooth_vertices;
+    HAIR_ASSERT(smooth->vertices > 0 && sim->smooth_vertices <= HAIR_MAX_SMOOTH_VERTICES);
     smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->most_vertices);
     hair_result result = hair_gl_need(gl, smooth->pass);
     for (int i = 0; i < 3 && !result; ++i) {
@@ -28,6 +29,8 @@ void hair_smooth_destroy(struct hair_smooth* smooth)
 
 void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
 {
+    HAIR_ASSERT(smooth->vertices == sim->guides * sim->smooth_vertices);
+    HAIR_ASSERT(smooth->buffer[0] && smooth->buffer[1] && smooth->buffer[2]);
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
     hair_gl_pass pass = smooth->pass;

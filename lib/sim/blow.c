@@ -8,7 +8,7 @@
 // Default side of the fluid's box, as a multiple of the distance field's longest side.
 #define AROUND 1.5f
 
-int hair_blow_is_on(const struct hair_sim* sim)
+bool hair_blow_is_on(const struct hair_sim* sim)
 {
     return sim->rods && sim->wind.model == HAIR_WIND_FLUID && hair_wind_is_on(&sim->wind);
 }
@@ -45,7 +45,7 @@ static void free_hair(struct hair_blow* blow, struct hair_gl* gl)
     hair_gl_free_buffer(gl, &blow->params);
 }
 
-static int is_porous(const struct hair_sim* sim)
+static bool is_porous(const struct hair_sim* sim)
 {
     return sim->wind.drag_strand_count > 0 && sim->physics.drag > 0;
 }
@@ -102,6 +102,7 @@ void hair_blow_forget(struct hair_sim* sim)
 
 static uint32_t block_length(const struct hair_sim* sim)
 {
+    HAIR_ASSERT(sim->substep > 0);
     uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
     return substeps < 1 ? 1 : substeps;
 }
@@ -111,6 +112,7 @@ static void gather_hair(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     const struct hair_fluid* fluid = &sim->blow.fluid;
+    HAIR_ASSERT(fluid->hair.grid.buffer && sim->blow.share && sim->last_substep > 0);
     uint32_t nodes = hair_fluid_nodes(fluid), fours = nodes * nodes * nodes;
     float cell = fluid->desc.side / (float)nodes, half = 0.5f * cell;
     hair_vec3 lower = hair_add(fluid->lower, hair_v3(half, half, half));
@@ -134,6 +136,7 @@ static void gather_hair(struct hair_sim* sim)
 static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
 {
     const hair_wind* wind = &sim->wind;
+    HAIR_ASSERT(sim->guides > 0 && sim->blow.metres > 0);
     double viscosity = (double)wind->viscosity / (double)wind->density;
     return (struct hair_fluid_strands){
         .metres = sim->blow.metres * wind->drag_strand_count / sim->guides,
@@ -149,6 +152,7 @@ uint32_t hair_blow_left(struct hair_sim* sim, double dt)
     uint32_t length = block_length(sim);
     if (blow->beat >= length) blow->beat = 0; // Substeps have become longer.
     if (blow->beat != 0) return length - blow->beat;
+    HAIR_ASSERT(blow->fluid.gl && dt > 0);
     struct hair_fluid_now now = {.head = sim->last_after,
                                  .middle = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
                                  .wind = hair_load3(sim->wind.velocity),
@@ -169,6 +173,7 @@ uint32_t hair_blow_left(struct hair_sim* sim, double dt)
 
 void hair_blow_count(struct hair_sim* sim, uint32_t substeps)
 {
+    HAIR_ASSERT(sim->blow.beat + substeps <= block_length(sim));
     sim->blow.beat = (sim->blow.beat + substeps) % block_length(sim);
 }
 

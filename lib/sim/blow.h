@@ -8,6 +8,8 @@
 
 #include "lib/wind/fluid.h"
 
+#include <stdbool.h>
+
 struct hair_blow {
     // Distance field of the instance, updated before every step.
     const struct hair_collider_field* field;
@@ -20,7 +22,7 @@ struct hair_blow {
 
 struct hair_sim;
 
-int hair_blow_is_on(const struct hair_sim* sim);
+bool hair_blow_is_on(const struct hair_sim* sim);
 hair_result hair_blow_need_programs(struct hair_sim* sim);
 // Create what the wind needs. Free what the wind no longer needs.
 hair_result hair_blow_need(struct hair_sim* sim);

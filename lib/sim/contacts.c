@@ -31,7 +31,7 @@ static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, fl
     };
 }
 
-int hair_contacts_are_any(const struct hair_sim* sim)
+bool hair_contacts_are_any(const struct hair_sim* sim)
 {
     return sim->rods && (sim->colliders.forms || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
 }
@@ -54,6 +54,7 @@ static hair_result hold_forms(struct hair_sim* sim)
     if (!held) return hair_fail_memory(&sim->gl->host, "the collision meshes of colliders");
     for (uint32_t i = 0; i < cells->contacts && !result; ++i) {
         if (cells->contact[i].body.size.w != HAIR_SHAPE_MESH) continue;
+        HAIR_ASSERT(taken < count && cells->collider[i] < sim->colliders.now.count);
         result = hair_forms_take(contacts->forms, sim->colliders.now.collider[cells->collider[i]].mesh,
                                  &held[taken]);
         if (!result) ++taken;
@@ -63,6 +64,7 @@ static hair_result hold_forms(struct hair_sim* sim)
         hair_free(&sim->gl->host, held);
         return result;
     }
+    HAIR_ASSERT(taken == count);
     let_go(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
     contacts->held = held;
@@ -78,6 +80,7 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
                        GLuint* buffer, GLuint* texture)
 {
     size_t texel = format == GL_R32UI ? 4 : 16;
+    HAIR_ASSERT(size > 0 && size % texel == 0);
     hair_result result = HAIR_OK;
     GLint most = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -120,6 +123,7 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
+    HAIR_ASSERT(cells->size > 0 && cells->entries > 0);
     params->colliders = cells->contacts;
     params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
     params->cells_x = cells->cells[0];
@@ -131,6 +135,7 @@ void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* pa
 void hair_contacts_bind(const struct hair_sim* sim)
 {
     const struct hair_contacts* contacts = &sim->contacts;
+    HAIR_ASSERT(contacts->collider_texture && contacts->cell_texture);
     sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
     sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
     if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->forms->texture);

@@ -13,11 +13,6 @@
 // this.
 #define MOST_OF_STRAND 16
 
-int hair_crowd_is_on(const struct hair_sim* sim)
-{
-    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
-}
-
 // Place the grid around all that hair of its rest length can reach.
 static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
 {
@@ -34,6 +29,7 @@ static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, co
     }
     crowd->lower = hair_load3(lower);
     crowd->cell = fmaxf(LEAST_CELL, widest / (HAIR_CROWD_NODES - 1));
+    HAIR_ASSERT(crowd->cell >= LEAST_CELL);
     for (int k = 0; k < 3; ++k) {
         uint32_t nodes = (uint32_t)ceilf((upper[k] - lower[k]) / crowd->cell) + 1;
         crowd->nodes[k] = nodes < 2 ? 2 : nodes < HAIR_CROWD_NODES ? nodes : HAIR_CROWD_NODES;
@@ -66,12 +62,14 @@ static struct spot spot_of(const struct hair_crowd* crowd, const hair_vec4* posi
         uint32_t n = (uint32_t)g;
         spot.node[k] = n < crowd->nodes[k] - 2 ? n : crowd->nodes[k] - 2;
         spot.part[k] = g - (float)spot.node[k];
+        HAIR_ASSERT(0 <= spot.part[k] && spot.part[k] <= 1);
     }
     return spot;
 }
 
 static uint32_t node_at(const struct hair_crowd* crowd, uint32_t x, uint32_t y, uint32_t z)
 {
+    HAIR_ASSERT(x < crowd->nodes[0] && y < crowd->nodes[1] && z < crowd->nodes[2]);
     return x + crowd->nodes[0] * (y + crowd->nodes[1] * z);
 }
 
@@ -133,6 +131,7 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
             if (wx > 0 && wy > 0 && wz > 0) sum += stride * draft->mass[draft->vertex[k]] * wx * wy * wz;
         }
     }
+    HAIR_ASSERT(sum >= 0);
     return fmax(sum, fmax(cell, draft->mass[i]));
 }
 
@@ -161,6 +160,7 @@ static hair_result upload_shares(struct hair_sim* sim, const struct hair_guide* 
     double masses = 0, volumes = 0;
     if (!share) return hair_fail_memory(host, "the crowd's grid");
     for (uint32_t i = 0; i < vertices; ++i) masses += mass[i], volumes += volume ? volume[i] : 0;
+    HAIR_ASSERT(masses > 0);
     for (uint32_t i = 0; i < vertices; ++i) {
         share[i].mass = (uint32_t)(mass[i] * (HAIR_CROWD_UNITS / masses) + 0.5);
         share[i].volume = volume ? (uint32_t)(volume[i] * (HAIR_CROWD_UNITS / volumes) + 0.5) : 0;
@@ -184,6 +184,7 @@ static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides,
     double volume = 0;
     hair_result result = limit ? HAIR_OK : hair_fail_memory(host, "the crowd's grid");
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) volume += draft->volume[i];
+    HAIR_ASSERT(volume > 0);
     for (uint32_t n = 0; n < nodes && !result; ++n)
         limit[n] = (float)(fmax(draft->filled[n], 1) * (HAIR_CROWD_UNITS / volume));
     if (!result) result = upload_shares(sim, guides, draft->mass, draft->volume, &crowd->share);
@@ -212,6 +213,7 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
         sim->crowd.metres = 0;
         for (uint32_t i = 0; i < vertices; ++i) sim->crowd.metres += draft.mass[i];
         sort(sim, rest, &draft);
+        HAIR_ASSERT(draft.bin[nodes] == vertices);
         fill(sim, rest, &draft);
         result = upload(sim, guides, &draft);
     }
@@ -257,6 +259,11 @@ hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guide
     return result;
 }
 
+hair_result hair_sim_need_crowd(struct hair_sim* sim)
+{
+    return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
+}
+
 void hair_crowd_free(struct hair_sim* sim)
 {
     struct hair_crowd* crowd = &sim->crowd;
@@ -270,6 +277,7 @@ void hair_crowd_free(struct hair_sim* sim)
 
 static uint32_t block_length(const struct hair_sim* sim)
 {
+    HAIR_ASSERT(sim->substep > 0);
     uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
     return substeps < 1 ? 1 : substeps;
 }
@@ -305,6 +313,7 @@ static void find_push(struct hair_sim* sim)
     struct hair_crowd_params params;
     GLuint storage[] = {sim->state, crowd->grid, sim->history, crowd->share, crowd->limit, crowd->push};
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    HAIR_ASSERT(crowd->texture && sim->last_substep > 0);
     write_params(sim, &params);
     hair_gl_write_uniform(gl, crowd->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_CROWD_PARAMS, 1, &crowd->params);

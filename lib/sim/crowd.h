@@ -29,10 +29,11 @@ struct hair_crowd {
 
 struct hair_sim;
 
-int hair_crowd_is_on(const struct hair_sim* sim);
 // Make the grid if it is on and has not been made.
 hair_result hair_crowd_make(struct hair_sim* sim, const struct hair_guide* guides,
                             const struct hair_rest* rest);
+// Make the hair-hair grid if the physics have cohesion or volume.
+hair_result hair_sim_need_crowd(struct hair_sim* sim);
 void hair_crowd_free(struct hair_sim* sim);
 
 // Create the contributions of guide vertices to a grid of mass alone, a buffer of hair_share[]. Set

@@ -10,8 +10,10 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
     struct hair_feedback* feedback = &sim->feedback;
     uint32_t* owners = hair_alloc(&gl->host, sim->guide_vertices, sizeof *owners);
     if (!owners) return hair_fail_memory(&gl->host, "the guides of vertices");
-    for (uint32_t g = 0; g < sim->guides; ++g)
+    for (uint32_t g = 0; g < sim->guides; ++g) {
+        HAIR_ASSERT(guides[g].first + guides[g].count <= sim->guide_vertices);
         for (uint32_t i = 0; i < guides[g].count; ++i) owners[guides[g].first + i] = g;
+    }
     hair_result result =
         hair_gl_buffer(gl, "hair owners", sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
     hair_free(&gl->host, owners);
@@ -64,6 +66,7 @@ static void run_phase(struct hair_sim* sim, hair_gl_pass pass, int* at)
 {
     struct hair_gl* gl = sim->gl;
     int to = pass == HAIR_GL_FEEDBACK_END ? GUIDES : *at == 0;
+    HAIR_ASSERT(0 <= *at && *at < HAIR_FEEDBACK_STATES && to != *at);
     gl->BindTextureUnit(HAIR_UNIT_STATE, sim->feedback.texture[*at]);
     gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, sim->feedback.captured[to]);
     hair_gl_begin(gl, pass);
@@ -92,6 +95,7 @@ static void run_substep(struct hair_sim* sim, const struct hair_step_params* par
 void hair_feedback_run(struct hair_sim* sim, const struct hair_step_params* params)
 {
     struct hair_gl* gl = sim->gl;
+    HAIR_ASSERT(sim->feedback.wanted && params->substeps <= HAIR_STEP_SUBSTEPS);
     struct hair_step_params own = *params;
     struct hair_gl_capture was;
     hair_gl_begin_capture(gl, sim->feedback.framebuffer, &was);

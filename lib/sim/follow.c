@@ -33,6 +33,7 @@ static hair_vec4 vec4_of(hair_dvec3 v, double w)
 // Find the first moment about vertex i of the masses beyond. Return their moment of inertia.
 static double find_moments(const struct hair_rod_shape* s, uint32_t i, hair_dvec3* first)
 {
+    HAIR_ASSERT(i + 1 < s->count);
     double inertia = 0;
     *first = (hair_dvec3){0, 0, 0};
     for (uint32_t k = i + 1; k < s->count; ++k) {
@@ -73,21 +74,23 @@ static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
     return hair_drotate(s->frame[i], hair_dadd(hair_dscale(s->stress[i], turn.w), hair_dscale(part, -1)));
 }
 
-// Return the damping rate of a segment over its own frequency w. It keeps a chain of segments from
-// amplifying a swing. The part b of the rate draws the segment along with the turn of the segment before. If
-// the segment before swings by 1 at the frequency x w, the segment swings by
+// Return the damping rate of a segment, divided by its own frequency w. The damping keeps a chain of
+// segments from amplifying a swing. The part b of the rate damps the turn against that of the
+// segment before. If the segment before swings by 1 at the frequency x w, the segment swings by
 //
 //   H = (e + q x^2 + i b x) / (1 - x^2 + i d x)
 //
-// with d the result, e = K / (K + |C| g) the part of the stiffness in the restoring moment, and q = l |C| / I
-// from the acceleration of the segment's first vertex. |H| is at most 1 for all x up to 1 if
+// d is the result. e = K / (K + |C| g) is the part of the stiffness in the restoring moment. q = l
+// |C| / I comes from the acceleration of the segment's first vertex. |H| is at most 1 for all x up
+// to 1 if
 //
 //   d^2 >= b^2 + 2 - 2 sqrt(1 - (e + q)^2)
 //
-// The fraction DAMPED of all but b in this d suffices, because frequencies differ from segment to segment. It
-// is found by experiment. Where e is 0, 4 q lets a swing at w grow by sqrt(1 + 1/16) at most.
+// DAMPED of all but b in this d is enough, because frequencies differ from segment to segment. The
+// value was found by experiment. If e is 0, 4 q lets a swing at w grow by sqrt(1 + 1/16) at most.
 static double find_damping(double elastic, double lever, double relative)
 {
+    HAIR_ASSERT(0 <= elastic && elastic <= 1 && lever >= 0);
     double passed = fmin(elastic + lever, 1), grown = DAMPED * DAMPED * (2 - 2 * sqrt(1 - passed * passed));
     return fmax(4 * lever, sqrt(relative * relative + grown));
 }
@@ -96,6 +99,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
 {
     hair_dvec3 moment, r = hair_drotate(s->frame[i], (hair_dvec3){0, 1, 0});
     double inertia = find_moments(s, i, &moment), stiffness = hair_rod_stiffness(s, i) / softness;
+    HAIR_ASSERT(inertia > 0 && softness > 0);
     double c = hair_ddot(moment, r), arm = hair_dlength(moment);
     hair_dvec3 across = hair_dadd(moment, hair_dscale(r, -c));
     hair_dvec3 aim = hair_dscale(r, stiffness);
@@ -112,6 +116,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
 
 void hair_follow_write(const struct hair_rod_shape* s, struct hair_rod* out)
 {
+    HAIR_ASSERT(2 <= s->count && s->count <= HAIR_MAX_GUIDE_VERTICES);
     double softness[HAIR_MAX_GUIDE_VERTICES];
     find_softness(s, softness);
     for (uint32_t i = 0; i < s->count; ++i) {

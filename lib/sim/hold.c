@@ -56,11 +56,13 @@ static void find_levers(const struct hair_rod_shape* s, double* lever)
         beyond += s->mass[i + 1];
         lever[i] = lever[i + 1] + beyond * s->length[i];
     }
+    HAIR_ASSERT(lever[0] > 0);
     for (uint32_t i = s->count; i-- > 0;) lever[i] /= lever[0];
 }
 
 static void stiffen(struct search* a, double c)
 {
+    HAIR_ASSERT(c >= 0);
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i)
         s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MOST_STIFFEN, 1 + c * a->lever[i]);
@@ -70,11 +72,12 @@ static void stiffen(struct search* a, double c)
 static hair_dvec3 strain_off(const struct search* a, uint32_t i)
 {
     hair_rod_rest own = a->own[i], rest = a->rest[i];
+    HAIR_ASSERT(i + 1 < a->shape->count);
     return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
 }
 
 // Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
-static int holds(struct search* a, double margin)
+static bool holds(struct search* a, double margin)
 {
     const struct hair_rod_shape* s = a->shape;
     hair_rod_load(s, 1, &a->pose);
@@ -84,7 +87,7 @@ static int holds(struct search* a, double margin)
         hair_dquat t = a->pose.turn[i];
         a->rest[i] = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
                                      2 * t.z - g.z / s->ratio[2], 2 * t.w};
-        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return 0;
+        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MOST_STRAIN)) return false;
     }
     hair_rod_load(s, margin, &a->pose);
     hair_rod_balance(s, &a->pose);
@@ -94,6 +97,7 @@ static int holds(struct search* a, double margin)
 // Return the smallest c with which the groom holds. The groom holds with c = `does`.
 static double least_stiffening(struct search* a, double does)
 {
+    HAIR_ASSERT(does >= 0);
     double fails = 1; // 1 + c
     for (does += 1; does > FINENESS * fails;) {
         double middle = sqrt(fails * does);
@@ -107,7 +111,7 @@ static double least_stiffening(struct search* a, double does)
 }
 
 // Move the pose to y(t). Return whether the pose holds.
-static int holds_at(struct search* a, double t)
+static bool holds_at(struct search* a, double t)
 {
     hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
     return holds(a, MARGIN);
@@ -147,7 +151,7 @@ static double distance(const struct search* a, const hair_dvec3* place)
 }
 
 // Return whether the guide comes to rest in the pose when released from its groom.
-static int is_reached(const struct search* a)
+static bool is_reached(const struct search* a)
 {
     struct hair_rod_pose released;
     double length = 0;
@@ -174,11 +178,11 @@ static double sag(struct search* a)
     return distance(a, a->shape->place);
 }
 
-static int resists(const struct hair_rod_shape* s)
+static bool resists(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (!(hair_rod_stiffness(s, i) > 0)) return 0;
-    return 1;
+        if (!(hair_rod_stiffness(s, i) > 0)) return false;
+    return true;
 }
 
 static void start(struct search* a, struct hair_rod_shape* s)
@@ -221,6 +225,7 @@ struct hair_rod_held hair_rod_hold(struct hair_rod_shape* s)
         if (!held.sags) c = least_stiffening(&a, most);
         stiffen(&a, c);
         held.stiffest = s->bend[0] / a.bend[0];
+        HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MOST_STIFFEN);
         if (held.sags)
             held.sag = sag(&a);
         else

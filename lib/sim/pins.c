@@ -75,7 +75,7 @@ static uint32_t most_of_a_guide(const struct hair_knot* knot, uint32_t count)
     return most;
 }
 
-static int are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
+static bool are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
 {
     int alike = pins->count == count;
     for (uint32_t i = 0; i < count && alike; ++i) {
@@ -88,6 +88,8 @@ static int are_alike(const struct hair_pins* pins, const struct hair_knot* knot,
 
 void hair_pins_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count)
 {
+    HAIR_ASSERT(count <= HAIR_MOST_PINS && (knot || !count));
+    for (uint32_t i = 1; i < count; ++i) HAIR_ASSERT(compare(&knot[i - 1], &knot[i]) < 0);
     hair_free(&sim->gl->host, sim->pins.knot);
     sim->pins.knot = knot;
     sim->pins.count = count;
@@ -106,6 +108,7 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
     for (uint32_t i = 0; i < count; ++i) {
         hair_pin pin = pin_at(from, i, stride);
         uint32_t tip = guides[pin.guide].count - 1;
+        HAIR_ASSERT(tip >= 1);
         knot[i] = (struct hair_knot){.guide = pin.guide, .vertex = pin.vertex < tip ? pin.vertex : tip};
         knot[i].world = pin.to == HAIR_PIN_WORLD;
         knot[i].given = i;
@@ -159,6 +162,7 @@ static struct hair_held held_by(const struct hair_sim* sim, uint32_t i)
     int second = i > 0 && knot[-1].guide == knot->guide;
     int more = i + 1 < pins->count && knot[1].guide == knot->guide;
     uint32_t from = second ? knot[-1].vertex : 0;
+    HAIR_ASSERT(from < knot->vertex && knot->vertex < guides[knot->guide].count);
     double at[3], length = 0;
     if (second || sim->physics.root != HAIR_ROOT_FREE)
         for (uint32_t k = from; k < knot->vertex; ++k) length += (double)rest[first + k].position.w;

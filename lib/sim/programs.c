@@ -18,10 +18,10 @@
 #define PART_ROUNDS_OF_GROUP 9000
 
 // A work group solves a guide that would be too much for a thread.
-int hair_sim_is_by_thread(const struct hair_sim* sim)
+bool hair_sim_is_by_thread(const struct hair_sim* sim)
 {
     uint32_t most = hair_sim_is_mixed(sim) ? MOST_MIXED : MOST_IN_THREAD;
-    if (!sim->gl->software && sim->most_vertices > most) return 0;
+    if (!sim->gl->software && sim->most_vertices > most) return false;
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
 }
 
@@ -29,19 +29,20 @@ int hair_sim_is_by_thread(const struct hair_sim* sim)
 static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
+    HAIR_ASSERT(rounds > 0);
     uint32_t most = MOST_ROUNDS / rounds;
     return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
 }
 
 // Return whether guides go through two programs. The first only knows SHAKE, and the second solves
 // the guides that the first leaves.
-static int goes_in_two_by_shake(const struct hair_sim* sim)
+static bool goes_in_two_by_shake(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
 }
 
 // Return whether the second program may split substeps. See glsl/sim/parts.glsl.
-static int has_parts(const struct hair_sim* sim)
+static bool has_parts(const struct hair_sim* sim)
 {
     return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
 }
@@ -68,7 +69,7 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 // Return whether guides are so few that their work groups wait for the memory of colliders. Such
 // work groups cache colliders and read several at once, which is faster. For many guides this would
 // be slower, because the registers of the cache reduce the number of guides that run at once.
-static int has_few_guides(const struct hair_sim* sim, int by_thread)
+static bool has_few_guides(const struct hair_sim* sim, int by_thread)
 {
     return sim->guides <= MOST_FEW && !by_thread;
 }
@@ -83,6 +84,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
         [HAIR_SOLVER_FOLLOW] = HAIR_GL_FOLLOW,
         [HAIR_SOLVER_REDBLACK] = HAIR_GL_REDBLACK,
     };
+    HAIR_ASSERT((size_t)sim->solver < sizeof row / sizeof *row);
     hair_gl_pass features = 0;
     if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
     if (any) features |= HAIR_GL_WITH(ANY);
@@ -101,14 +103,14 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
 
 // The lists of two programs are allocated at creation, so this decision is made then. Direct takes
 // two programs only for more guides than twice what a GPU runs at once.
-int hair_sim_may_go_in_two(const struct hair_sim* sim)
+bool hair_sim_may_go_in_two(const struct hair_sim* sim)
 {
-    if (sim->solver == HAIR_SOLVER_ACCURATE) return 1;
+    if (sim->solver == HAIR_SOLVER_ACCURATE) return true;
     return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->most_vertices <= 32 &&
            sim->gl->units > 0 && sim->guides > 2 * HAIR_FIRST_GUIDES * (uint32_t)sim->gl->units;
 }
 
-static int has_bodies(const struct hair_sim* sim)
+static bool has_bodies(const struct hair_sim* sim)
 {
     return hair_sim_contacts(sim) > sim->colliders.capsules;
 }
@@ -123,9 +125,9 @@ static hair_gl_pass pass_now(const struct hair_sim* sim)
 // Return whether guides go through two programs now. Direct does so only for straight hair among
 // few capsules, where two programs are faster. Without capsules two programs are slower. With any
 // other feature, programs need more registers than that many guides leave them.
-static int goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
+static bool goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
 {
-    if (goes_in_two_by_shake(sim)) return 1;
+    if (goes_in_two_by_shake(sim)) return true;
     return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
 }
 
@@ -151,6 +153,7 @@ uint32_t hair_sim_next_list(struct hair_sim* sim)
 // Run the second program over its list, in as many dispatches as its loop iterations need.
 static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
+    HAIR_ASSERT(0 < params->substeps && params->substeps <= HAIR_STEP_SUBSTEPS && params->list < 2);
     uint32_t count = params->substeps;
     int by_thread = hair_sim_is_by_thread(sim);
     uint32_t rounds = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
@@ -174,32 +177,19 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
     uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
     if (goes_in_two_by_shake(sim)) {
+        HAIR_ASSERT(sim->in_two);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), groups);
         run_listed(sim, pass, params);
         return;
     }
     if (goes_in_two(sim, pass)) {
+        HAIR_ASSERT(sim->gl->units > 0);
         uint32_t units = (uint32_t)sim->gl->units, listed = GROUPS_OF_LIST * units;
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), units);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(LISTED), sim->guides < listed ? sim->guides : listed);
         return;
     }
     hair_gl_run(sim->gl, pass, groups);
-}
-
-hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
-{
-    hair_gl_pass pass = HAIR_GL_RESET;
-    if (sim->rods) pass |= HAIR_GL_WITH(ROD);
-    if (hair_sim_is_mixed(sim)) pass |= HAIR_GL_WITH(MIXED);
-    if (skinned) pass |= HAIR_GL_WITH(SKINNED);
-    return pass;
-}
-
-hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
-{
-    hair_gl_pass pass = sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
-    return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
 }
 
 hair_result hair_sim_need_programs(struct hair_sim* sim)

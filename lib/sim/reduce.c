@@ -56,6 +56,7 @@ static struct block minus_times_inverse(struct block a, struct block b)
 // the identity.
 static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint32_t j)
 {
+    HAIR_ASSERT(j <= i && i <= j + 2);
     if (i >= count) return i == j;
     double sum = 0;
     for (uint32_t k = i < 2 ? 0 : i - 2; k <= j; ++k) {
@@ -110,6 +111,7 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
 {
     static const struct block none = {{0, 0, 0, 0}};
     uint32_t count = (guide->count + 1) / 2, round = 0, heard = 0;
+    HAIR_ASSERT(0 < count && count <= MOST_BLOCKS);
     struct block_row row[2][MOST_BLOCKS];
     for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of(rod, guide->count, b);
     for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
@@ -133,6 +135,7 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
     }
     for (uint32_t b = 0; b < count; ++b)
         write_round(guide, b, inverse(row[round % 2][b].own), none, last + (size_t)round * vertices);
+    HAIR_ASSERT(heard <= round);
     // Other guides may need more rounds. Fill the rounds that this guide does not need with zeros,
     // and repeat its last.
     for (uint32_t n = heard; n < round; ++n) {
@@ -160,6 +163,7 @@ uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const
         const struct hair_rod* first = rod + guides[i].first;
         double least = least_heard(substep, first->segment.y > 0);
         uint32_t own = reduce_guide(&guides[i], first, vertices, least, out, last);
+        HAIR_ASSERT(own < hair_rods_rounds(guides[i].count));
         rounds = own > rounds ? own : rounds;
     }
     for (uint32_t i = 0; i < count; ++i) { // Guides may have fewer rounds of their own.

@@ -41,7 +41,7 @@ struct band {
     double x, y, z;
 };
 
-static int is_fixed(const struct hair_rod_shape* s, uint32_t i)
+static bool is_fixed(const struct hair_rod_shape* s, uint32_t i)
 {
     return (i == 0 && s->held) || s->pinned[i];
 }
@@ -54,6 +54,7 @@ static double implicit_ratio(const struct hair_rod_shape* s)
 // Return the row of vertex i, for the vertices before, at and after it.
 static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 {
+    HAIR_ASSERT(i + 1 < s->count && s->length[i] > 0);
     double before = i > 0 ? 1 / s->length[i - 1] : 0, after = 1 / s->length[i];
     return (hair_dvec3){before, -before - after, after};
 }
@@ -62,6 +63,7 @@ static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 // length h.
 static double most_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
+    HAIR_ASSERT(h > 0);
     hair_dvec3 row = row_of(s, i);
     double after = row.z * row.z / s->mass[i + 1], most = after;
     if (i > 0) most = fmax(most, row.y * row.y / s->mass[i]);
@@ -112,13 +114,13 @@ static double most_frequency_squared(const struct hair_rod_shape* s, const struc
 }
 
 // Return whether the shape at rest is straight. The groom must be straight, and free of stress.
-static int is_straight(const struct hair_rod_shape* s)
+static bool is_straight(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 turn = {s->turn[i].x, s->turn[i].y, s->turn[i].z};
-        if (hair_dlength(turn) > STRAIGHT || hair_dlength(s->stress[i]) > 0) return 0;
+        if (hair_dlength(turn) > STRAIGHT || hair_dlength(s->stress[i]) > 0) return false;
     }
-    return 1;
+    return true;
 }
 
 // Return the longest substep for which explicit bending is stable. Leapfrog is stable below 2 / w,
@@ -141,6 +143,7 @@ static hair_vec4 eliminate(struct rows* above, double diagonal, struct band besi
 {
     struct band one = above->one, two = above->two, row = {diagonal, b2 * beside.y, b2 * beside.z};
     row.x += b2 * beside.x - one.x * one.y * one.y - two.x * two.z * two.z;
+    HAIR_ASSERT(row.x > 0);
     row.y = (row.y - one.x * one.y * one.z) / row.x;
     row.z = row.z / row.x;
     *above = (struct rows){row, one};
@@ -268,11 +271,13 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
                                           const hair_physics* physics, hair_solver solver, int mixed,
                                           double substep, struct hair_rod* out)
 {
+    HAIR_ASSERT(count > 0 && substep > 0);
     struct hair_rods_softened softened = {.factor = 1};
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         find_borne(guides + i, rest, borne, physics, &shape);
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
+        HAIR_ASSERT(0 <= own && own <= 1);
         softened.guides += own < 1;
         if (own >= (double)softened.factor) continue;
         softened.worst = i;
@@ -290,6 +295,7 @@ void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest
         const struct hair_guide* guide = guides + knot[i].guide;
         struct hair_rod_shape shape;
         find_borne(guide, rest, borne, physics, &shape);
+        HAIR_ASSERT(knot[i].vertex < shape.count);
         for (uint32_t same = knot[i].guide; i < count && knot[i].guide == same; ++i)
             shape.pinned[knot[i].vertex] = i + 1;
         write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
@@ -321,6 +327,7 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
                             : least_explicit(&shape);
         if (own <= MOST_A_FRAME) most = fmax(most, own);
     }
+    HAIR_ASSERT(most >= FEWEST_A_FRAME_DIRECT);
     return FRAME / most;
 }
 
@@ -331,45 +338,45 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
 // a spinning head pulls it taut.
 #define MOST_STRAIGHT 32
 
-static int is_curved(const struct hair_rod_shape* s)
+static bool is_curved(const struct hair_rod_shape* s)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
         double stiffness = hair_rod_stiffness(s, i);
         if (stiffness > 0) strain = hair_dadd(strain, hair_dscale(hair_rod_excess(s, i, stiffness), -1));
-        if (hair_dlength(strain) > STRAIGHT_STRAIN) return 1;
+        if (hair_dlength(strain) > STRAIGHT_STRAIN) return true;
     }
-    return 0;
+    return false;
 }
 
 // Return whether some stiffness is too large to factor the matrix of straight rods in single
 // precision.
-static int is_fine(const struct hair_rod_shape* s, double h)
+static bool is_fine(const struct hair_rod_shape* s, double h)
 {
     for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (hair_rod_stiffness(s, i) > most_stiffness(s, i, h)) return 1;
-    return 0;
+        if (hair_rod_stiffness(s, i) > most_stiffness(s, i, h)) return true;
+    return false;
 }
 
-int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
-                        const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                        hair_solver solver, double substep)
+bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, double substep)
 {
     double h = substep > 0 ? substep : FRAME / FEWEST_A_FRAME_DIRECT;
-    if (physics->flatness < 1) return 1;
+    if (physics->flatness < 1) return true;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
-        if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MOST_STRAIGHT) return 1;
+        if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MOST_STRAIGHT) return true;
         find_borne(guides + i, rest, borne, physics, &shape);
-        if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return 1;
+        if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return true;
     }
-    return 0;
+    return false;
 }
 
-int hair_rods_differ(const hair_physics* a, const hair_physics* b)
+bool hair_rods_differ(const hair_physics* a, const hair_physics* b)
 {
     for (int k = 0; k < 3; ++k)
-        if (a->gravity[k] != b->gravity[k]) return 1;
+        if (a->gravity[k] != b->gravity[k]) return true;
     return a->damping != b->damping || a->shape_frequency_root != b->shape_frequency_root ||
            a->shape_frequency_tip != b->shape_frequency_tip || a->youngs_modulus != b->youngs_modulus ||
            a->poisson_ratio != b->poisson_ratio || a->fiber_radius != b->fiber_radius ||

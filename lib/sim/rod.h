@@ -15,6 +15,9 @@
 #include <hair/hair.h>
 
 #include "glsl/shared.h"
+#include "lib/base/assert.h"
+
+#include <stdbool.h>
 
 struct hair_knot;
 
@@ -80,9 +83,9 @@ void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest
 // scheme is needed when some guides are curved at rest. It is also needed when segments are too
 // short or a tip is too heavy for the scheme of straight rods. Under direct it is needed for more
 // than 32 vertices too. A substep of 0 stands for direct's own substep.
-int hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
-                        const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                        hair_solver solver, double substep);
+bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, double substep);
 
 // Return a solver's own substep length, s. Direct takes 1/240, and down to 1/960 for heavy tips.
 // Accurate takes 1/1080, or less where explicit bending is only stable with less, down to 1/6000.
@@ -103,6 +106,6 @@ uint32_t hair_rods_reduce(const struct hair_guide* guides, uint32_t count, const
                           uint32_t vertices, double substep, hair_vec4* out, hair_vec4* last);
 
 // Return whether physics `a` and `b` need different rods.
-int hair_rods_differ(const hair_physics* a, const hair_physics* b);
+bool hair_rods_differ(const hair_physics* a, const hair_physics* b);
 
 #endif

@@ -39,6 +39,7 @@ static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
 void hair_rods_ratios(const hair_physics* physics, double ratio[3])
 {
     double flat = (double)physics->flatness;
+    HAIR_ASSERT(flat > 0);
     ratio[0] = flat;
     ratio[1] = 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
     ratio[2] = 1 / flat;
@@ -61,6 +62,7 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
         s->mass[i] = (s->length[i] + (i > 0 ? s->length[i - 1] : 0)) / 2;
         total += s->length[i];
     }
+    HAIR_ASSERT(total > 0);
     s->mass[s->count - 1] += (double)physics->tip_mass * total;
     s->weight = 0;
     s->gravity = hair_dlength(gravity);
@@ -91,6 +93,7 @@ static void find_turns(struct hair_rod_shape* s, const struct hair_guide* guide,
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out)
 {
+    HAIR_ASSERT(2 <= guide->count && guide->count <= HAIR_MAX_GUIDE_VERTICES);
     hair_rods_ratios(physics, out->ratio);
     out->count = guide->count;
     out->clamped = physics->root == HAIR_ROOT_CLAMPED;
@@ -130,6 +133,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
 // the clamp nor another part of the second term of its energy comes much nearer.
 static double clamp_factor(double length, double weight, double bend)
 {
+    HAIR_ASSERT(length > 0 && weight >= 0 && bend > 0);
     double p = length * sqrt(weight / bend);
     return 1 + p / 2 + sqrt(1 + p * p / 4);
 }
@@ -144,6 +148,7 @@ double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i)
 
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness)
 {
+    HAIR_ASSERT(i + 1 < shape->count && stiffness > 0);
     const double* ratio = shape->ratio;
     hair_dvec3 g = hair_dscale(shape->stress[i], 1 / stiffness);
     return (hair_dvec3){g.x / ratio[0], g.y / ratio[1], g.z / ratio[2]};
@@ -152,6 +157,7 @@ hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, doubl
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne)
 {
     for (uint32_t i = 0; i < shape->count; ++i) {
+        HAIR_ASSERT(borne[i].stiffen > 0.999 && borne[i].stiffen < 1.001 * HAIR_ROD_MOST_STIFFEN);
         shape->stress[i] = (hair_dvec3){borne[i].stress[0], borne[i].stress[1], borne[i].stress[2]};
         shape->rest_real[i] = borne[i].rest_real;
         shape->bend[i] *= borne[i].stiffen;

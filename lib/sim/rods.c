@@ -4,21 +4,6 @@
 
 #include <string.h>
 
-struct hair_rods {
-    // Copies, because the groom may be destroyed before the physics change.
-    struct hair_guide* guides;
-    struct hair_rest* rest;
-    struct hair_rod_borne* borne;
-    hair_physics made_for, borne_for;
-    struct hair_rods_report report;
-    int held; // 1 if `borne` is up to date for `borne_for`.
-    int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
-    int stiff; // 1 if some guides are too stiff for SHAKE.
-    int struck; // Value of sim->struck that the rods were made for.
-    uint32_t pinned; // Value of sim->pins.which that the rods were made for.
-    uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
-};
-
 // Maximum length of a substep that is longer than the solver's own, s. Substeps twice as long lose
 // lengths.
 #define LONGEST (1.0 / 60)
@@ -32,12 +17,12 @@ struct hair_rods {
 // falls back to another method when the head shakes over colliders.
 #define CONTACT_MARGIN 1.6
 
-static int is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
+static bool is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {
-    if (sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    if (sim->solver != HAIR_SOLVER_ACCURATE) return false;
     for (uint32_t i = 0; i < sim->guides; ++i)
-        if (rod[sim->rods->guides[i].first].segment.w != 0) return 1;
-    return 0;
+        if (rod[sim->rods->guides[i].first].segment.w != 0) return true;
+    return false;
 }
 
 // Create the reduction buffer. The buffer is empty unless work groups run a method with implicit
@@ -58,6 +43,7 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
     if (!result) {
         *rounds = hair_rods_reduce(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
+        HAIR_ASSERT(*rounds < most);
         count = (size_t)(*rounds + 1) * vertices;
         memset(out + count, 0, sizeof *out);
         result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
@@ -75,6 +61,7 @@ static uint32_t times_longer(const struct hair_sim* sim)
     uint32_t longer = 1;
     float rate = sim->physics.substep_rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
+    HAIR_ASSERT(rate > 0);
     while (2 * (float)longer * rate <= 1) longer *= 2;
     if (sim->longer && longer < sim->longer) return sim->longer / 2;
     if (sim->longer && longer > sim->longer) return sim->longer * 2;
@@ -82,10 +69,10 @@ static uint32_t times_longer(const struct hair_sim* sim)
 }
 
 // Return whether the mixed scheme solves the guides.
-static int are_mixed(const struct hair_sim* sim)
+static bool are_mixed(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return 0;
+    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return false;
     return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver,
                                sim->asked_substep);
 }
@@ -125,6 +112,7 @@ static hair_result make(struct hair_sim* sim, int struck)
     }
     uint32_t longer = times_longer(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
+    HAIR_ASSERT(substep > 0);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
     hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.knot, sim->pins.count, &sim->physics,
@@ -175,6 +163,7 @@ static hair_result make_buffers(struct hair_sim* sim)
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom)
 {
     const hair_host* host = &sim->gl->host;
+    HAIR_ASSERT(!sim->rods);
     sim->rods = hair_alloc(host, 1, sizeof *sim->rods);
     if (!sim->rods) return hair_fail_memory(host, "the guides as rods");
     struct hair_rods* rods = sim->rods;
@@ -189,27 +178,16 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     return result ? result : hair_sim_need_crowd(sim);
 }
 
-const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
-{
-    if (rest) *rest = sim->rods ? sim->rods->rest : NULL;
-    return sim->rods ? sim->rods->guides : NULL;
-}
-
-hair_result hair_sim_need_crowd(struct hair_sim* sim)
-{
-    return sim->rods ? hair_crowd_make(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
-}
-
-// Return 1 if the presence of colliders has changed the accurate solver's own substep.
-static int is_struck_anew(const struct hair_sim* sim, int struck)
+// Return whether the presence of colliders has changed the accurate solver's own substep.
+static bool is_struck_anew(const struct hair_sim* sim, int struck)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;
 }
 
-int hair_sim_is_other_rate(const struct hair_sim* sim)
+bool hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (!rods || rods->longer == times_longer(sim)) return 0;
+    if (!rods || rods->longer == times_longer(sim)) return false;
     return sim->pins.which == rods->pinned &&
            !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);
@@ -243,16 +221,10 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_free(host, sim->rods);
 }
 
-void hair_sim_bind_rods(struct hair_sim* sim)
-{
-    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->solver_stats,
-                        sim->bend ? sim->bend : sim->reduction};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
-}
-
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const hair_physics* physics = &sim->physics;
+    HAIR_ASSERT(sim->substep > 0 && sim->last_substep > 0);
     double h = sim->substep, c = (double)physics->damping;
     double ratio[3];
     hair_rods_ratios(physics, ratio);
@@ -264,16 +236,6 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->vertices = sim->guide_vertices;
     params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
-}
-
-int hair_sim_is_mixed(const struct hair_sim* sim)
-{
-    return sim->rods && sim->rods->mixed;
-}
-
-int hair_sim_is_stiff(const struct hair_sim* sim)
-{
-    return sim->rods && sim->rods->stiff;
 }
 
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim)

@@ -122,6 +122,7 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
 static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_cells* cells = &sim->contacts.cells;
+    HAIR_ASSERT(sim->contacts.any);
     uint32_t made = 2 * (TRIED + 1) * cells->longest;
     if (by_thread) return made + LEAST_LOOKS * (cells->longest + cells->rounds + 4);
     return made + MOST_LOOKS * (TIMES * (cells->longest + 2 + CACHED) + TIMES_WALKED * cells->rounds);
@@ -141,6 +142,7 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 
 static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int first)
 {
+    HAIR_ASSERT(sim->rods);
     uint32_t around = sim->most_vertices + 1; // The last iteration finds the end.
     uint32_t each = rounds_of_contact(sim, by_thread);
     uint32_t at_root = sim->contacts.any ? sim->contacts.cells.longest : 2 * (hair_sim_contacts(sim) + 1);

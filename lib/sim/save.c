@@ -273,6 +273,7 @@ size_t hair_sim_save_size(struct hair_sim* sim)
     struct loaded none = {0}; // Nothing is read.
     hair_sleep_settle(sim);
     walk(&c, sim, &none);
+    HAIR_ASSERT(c.result == HAIR_OK);
     return c.at + TRAILER;
 }
 
@@ -282,6 +283,7 @@ void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
     struct loaded none = {0}; // Nothing is read.
     hair_sleep_settle(sim);
     walk(&c, sim, &none);
+    HAIR_ASSERT(c.result == HAIR_OK);
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, VERSION);
     hair_write_u64(bytes + 12, c.at + TRAILER);
@@ -332,6 +334,7 @@ static hair_result upload(const struct hair_walk* c)
     GLuint source = 0;
     hair_result result = hair_gl_buffer(c->gl, "hair loaded", c->end, c->own, &source);
     if (result) return result;
+    for (uint32_t i = 0; i < c->buffers; ++i) HAIR_ASSERT(c->buffer[i].at + c->buffer[i].size <= c->end);
     for (uint32_t i = 0; i < c->buffers; ++i)
         c->gl->CopyNamedBufferSubData(source, c->buffer[i].buffer, (GLintptr)c->buffer[i].at, 0,
                                       (GLsizeiptr)c->buffer[i].size);

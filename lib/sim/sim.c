@@ -24,6 +24,7 @@ static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
 {
+    HAIR_ASSERT(!sim->gl && 2 <= groom->most_vertices && groom->most_vertices <= HAIR_MAX_GUIDE_VERTICES);
     sim->gl = gl;
     sim->guides = groom->info.guide_count;
     sim->guide_vertices = groom->info.guide_vertex_count;
@@ -81,15 +82,6 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_diagnosis_free(sim);
 }
 
-void hair_sim_bind(struct hair_sim* sim)
-{
-    GLuint storage[] = {sim->guide, sim->rest, sim->state};
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
-    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
-    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
-    hair_skin_bind(sim);
-}
-
 static hair_vec4 vec4_of(hair_vec3 v, float w)
 {
     return (hair_vec4){v.x, v.y, v.z, w};
@@ -106,6 +98,7 @@ static float squared_frequency(float hertz)
 
 static void write_physics(const struct hair_sim* sim, struct hair_step_params* params)
 {
+    HAIR_ASSERT(sim->substep > 0);
     const hair_physics* physics = &sim->physics;
     params->gravity =
         (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
@@ -128,6 +121,7 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Too far to interpolate.
     double span = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
+    HAIR_ASSERT(span > 0 && sim->left >= 0);
     params->alpha = far ? 1 : (float)fmin(sim->left / span, 1);
     params->rotation_before = vec4_of_quat(sim->last_before.rotation);
     params->rotation_after = vec4_of_quat(sim->last_after.rotation);
@@ -161,6 +155,7 @@ static double share_at_end(const struct hair_sim* sim, uint32_t i, double from, 
 static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
                            double dt)
 {
+    HAIR_ASSERT(0 < count && count <= HAIR_STEP_SUBSTEPS);
     for (uint32_t i = 0; i < count; ++i) {
         double share = share_at_end(sim, i, from, dt);
         sim->last_before = sim->last_after;
@@ -170,11 +165,6 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
             vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
     }
     params->substeps = count;
-}
-
-uint32_t hair_sim_contacts(const struct hair_sim* sim)
-{
-    return sim->rods ? sim->colliders.contacts : sim->colliders.capsules;
 }
 
 static void write_colliders(const struct hair_sim* sim, struct hair_step_params* params)
@@ -190,6 +180,7 @@ static void write_colliders(const struct hair_sim* sim, struct hair_step_params*
     }
     params->colliders =
         hair_colliders_bodies(&sim->colliders, &sim->at_step, &sim->head, params->collider, params->body);
+    HAIR_ASSERT(params->colliders <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
     for (uint32_t i = 0; i < params->colliders; ++i)
         if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
 }
@@ -214,6 +205,7 @@ static hair_result need(struct hair_sim* sim, double from, double dt)
 // Write the wind for `count` substeps of the parameters.
 static void write_air(struct hair_sim* sim, const struct hair_step_params* params, uint32_t count)
 {
+    HAIR_ASSERT(params->substeps == count);
     const struct hair_air_now now = {.wind = &sim->wind,
                                      .physics = &sim->physics,
                                      .colliders = &sim->colliders,
@@ -249,6 +241,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
         if (block < count) count = block;
         if (blown) block = hair_blow_left(sim, dt);
         if (block < count) count = block;
+        HAIR_ASSERT(0 < count && count <= total - done);
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         sim->last_substep = sim->substep;
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
@@ -281,6 +274,7 @@ static void advance(struct hair_sim* sim, int again, uint32_t total, double from
 // substeps of 1/120 s.
 static uint32_t count_substeps(const struct hair_sim* sim, double time)
 {
+    HAIR_ASSERT(time > -sim->substep);
     return (uint32_t)(time / sim->substep + EARLY);
 }
 
@@ -295,6 +289,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     // If only the rate has changed, finish the current substep at its old length first. The drawn
     // hair then does not jump.
+    HAIR_ASSERT(dt > 0);
     int waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
     int again = 0;
     double from = -sim->left;
@@ -316,6 +311,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     }
     uint32_t total = count_substeps(sim, dt - from);
     sim->left = fmax(dt - from - total * sim->substep, 0);
+    HAIR_ASSERT(sim->left < (1 + EARLY) * sim->substep);
     advance(sim, again, total, from, dt);
     hair_diagnosis_watch(sim, total);
     sim->at_step = sim->head;

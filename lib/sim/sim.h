@@ -18,6 +18,8 @@
 #include "lib/sim/pins.h"
 #include "lib/wind/air.h"
 
+#include <stdbool.h>
+
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
 // All 0 until an instance first has them.
 struct hair_contacts {
@@ -28,6 +30,22 @@ struct hair_contacts {
     GLuint collider, collider_texture, cell, cell_texture;
     uint32_t* held; // Places in `forms` of the collision meshes in use.
     uint32_t holds; // Length of `held`.
+};
+
+// Rods of the guides, made by rods.c.
+struct hair_rods {
+    // Copies, because the groom may be destroyed before the physics change.
+    struct hair_guide* guides;
+    struct hair_rest* rest;
+    struct hair_rod_borne* borne;
+    hair_physics made_for, borne_for;
+    struct hair_rods_report report;
+    int held; // 1 if `borne` is up to date for `borne_for`.
+    int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
+    int stiff; // 1 if some guides are too stiff for SHAKE.
+    int struck; // Value of sim->struck that the rods were made for.
+    uint32_t pinned; // Value of sim->pins.which that the rods were made for.
+    uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
 };
 
 struct hair_sim {
@@ -71,8 +89,6 @@ struct hair_sim {
     struct hair_diagnosis diagnosis;
 };
 
-// Return the number of colliders that guides collide with.
-uint32_t hair_sim_contacts(const struct hair_sim* sim);
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom);
 void hair_sim_destroy(struct hair_sim* sim);
 
@@ -87,13 +103,37 @@ void hair_sim_reset(struct hair_sim* sim);
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
 // Write the step buffer for smooth.comp, with the head where the last step left it.
 void hair_sim_show(struct hair_sim* sim);
+
+// Functions of state.c, which every file of this folder may use.
+
 // Bind the buffers of passes that read guides.
 void hair_sim_bind(struct hair_sim* sim);
+// Bind the buffers of the solvers of rods.
+void hair_sim_bind_rods(struct hair_sim* sim);
+// Return the number of colliders that guides collide with.
+uint32_t hair_sim_contacts(const struct hair_sim* sim);
+// Return the guides. Set *rest to their vertices unless `rest` is NULL. Both are NULL under
+// redblack.
+const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
+// Return whether the mixed scheme solves the guides.
+bool hair_sim_is_mixed(const struct hair_sim* sim);
+// Return whether the accurate solver solves some guides by BDF2.
+bool hair_sim_is_stiff(const struct hair_sim* sim);
+// Return the pass that resets the guides. `skinned` is 1 if roots move with a skinned scalp.
+hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
+// Return the pass that turns the guides with a teleported head.
+hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
+// Return whether roots move with a skinned scalp.
+bool hair_skin_is_on(const struct hair_sim* sim);
+// Bind the scalp motion for the passes that read it.
+void hair_skin_bind(struct hair_sim* sim);
+// Return whether the physics have cohesion or volume, and the solver supports them.
+bool hair_crowd_is_on(const struct hair_sim* sim);
 
 // Functions of contacts.c, for collision meshes and for more than HAIR_FEW_COLLIDERS colliders.
 
 // Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
-int hair_contacts_are_any(const struct hair_sim* sim);
+bool hair_contacts_are_any(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
 // has been done, and may be negative.
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start);
@@ -106,40 +146,28 @@ void hair_contacts_free(struct hair_sim* sim);
 hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
 // Make the rods again if the physics, the pinned vertices or the substep length need other rods.
 hair_result hair_sim_renew_rods(struct hair_sim* sim);
-// Return the guides. Set *rest to their vertices unless `rest` is NULL. Both are NULL under
-// redblack.
-const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest);
-// Return 1 if the rods must be made again for a changed rate, and for nothing else.
-int hair_sim_is_other_rate(const struct hair_sim* sim);
-// Make the hair-hair grid if the physics have cohesion or volume.
-hair_result hair_sim_need_crowd(struct hair_sim* sim);
+// Return whether the rods must be made again for a changed rate, and for nothing else.
+bool hair_sim_is_other_rate(const struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);
-void hair_sim_bind_rods(struct hair_sim* sim);
 // Write the parameters of the solvers of rods.
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
-// Return whether the mixed scheme solves the guides.
-int hair_sim_is_mixed(const struct hair_sim* sim);
-// Return 1 if the accurate solver solves some guides by BDF2.
-int hair_sim_is_stiff(const struct hair_sim* sim);
 // Return the report on the gravity preload of the guides.
 struct hair_rods_report hair_sim_held(const struct hair_sim* sim);
 
 // Functions of programs.c, which selects the programs and the number of substeps of a dispatch.
 
 // Return whether guides may go through two programs. See main() of glsl/sim/rod.comp.
-int hair_sim_may_go_in_two(const struct hair_sim* sim);
+bool hair_sim_may_go_in_two(const struct hair_sim* sim);
 // Compile the solver for the current settings.
 hair_result hair_sim_need_solver(struct hair_sim* sim);
 // Return the guide list of the next dispatch, which empties the other list.
 uint32_t hair_sim_next_list(struct hair_sim* sim);
 // Run the solver with parameters that have been uploaded.
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params);
-hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
-hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
 // Compile all programs that a step with the current settings runs.
 hair_result hair_sim_need_programs(struct hair_sim* sim);
 // Return whether a thread solves a guide, and not a work group.
-int hair_sim_is_by_thread(const struct hair_sim* sim);
+bool hair_sim_is_by_thread(const struct hair_sim* sim);
 // Return the maximum number of substeps of a dispatch.
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim);
 // Return the maximum number of loop iterations for the parts of a substep.

@@ -4,11 +4,6 @@
 
 #include <string.h>
 
-int hair_skin_is_on(const struct hair_sim* sim)
-{
-    return sim->skin.ride != 0;
-}
-
 static void free_buffers(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
@@ -30,6 +25,7 @@ void hair_skin_free(struct hair_sim* sim)
 
 static size_t scalp_size(const struct hair_skin* skin)
 {
+    HAIR_ASSERT(skin->seats && skin->seats->vertex_count > 0);
     return 3 * (size_t)skin->seats->vertex_count * sizeof(float);
 }
 
@@ -112,6 +108,7 @@ void hair_skin_forget(struct hair_sim* sim, GLuint still)
 void hair_skin_give(struct hair_sim* sim, const float* positions, const struct hair_pose* space)
 {
     struct hair_skin* skin = &sim->skin;
+    HAIR_ASSERT(hair_skin_is_on(sim) && positions);
     hair_gl_write_uniform(sim->gl, skin->scalp[1], scalp_size(skin), positions);
     skin->space = *space;
     skin->fresh = 1;
@@ -121,6 +118,7 @@ static void bind(struct hair_sim* sim, GLuint scalp, struct hair_scalp_params pa
 {
     struct hair_gl* gl = sim->gl;
     struct hair_skin* skin = &sim->skin;
+    HAIR_ASSERT(hair_skin_is_on(sim) && scalp);
     GLuint storage[] = {skin->ride, scalp, skin->rest, skin->seat};
     params.rotation = skin->rotation;
     params.offset = skin->offset;
@@ -137,6 +135,8 @@ void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, s
 {
     struct hair_gl* gl = sim->gl;
     struct hair_skin* skin = &sim->skin;
+    HAIR_ASSERT(stride >= 3);
+    HAIR_ASSERT((first + (size_t)stride * (skin->seats->vertex_count - 1) + 3) * sizeof(float) <= size);
     GLintptr at = (GLintptr)offset;
     GLsizeiptr whole = (GLsizeiptr)size;
     hair_gl_write_uniform(gl, skin->scalp[1], scalp_size(skin), NULL);
@@ -159,6 +159,7 @@ void hair_skin_give_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, s
 static void take_fresh(struct hair_sim* sim)
 {
     struct hair_skin* skin = &sim->skin;
+    HAIR_ASSERT(skin->fresh && skin->scalp[0] != skin->scalp[1]);
     hair_quat s = skin->space.rotation;
     hair_quat q = hair_quat_normalize(hair_quat_multiply(hair_quat_conjugate(sim->head.rotation), s));
     hair_vec3 away = hair_rotate(hair_quat_conjugate(s), hair_pose_offset(&skin->space, &sim->head));
@@ -184,6 +185,7 @@ static void run(struct hair_sim* sim, struct hair_scalp_params params)
 
 void hair_skin_ride(struct hair_sim* sim, int again, uint32_t substeps, float before, float after)
 {
+    HAIR_ASSERT(0 <= before && before <= after && after <= 1);
     run(sim, (struct hair_scalp_params){.what = again ? HAIR_SCALP_AGAIN : 0,
                                         .substeps = substeps,
                                         .share_before = before,
@@ -193,11 +195,6 @@ void hair_skin_ride(struct hair_sim* sim, int again, uint32_t substeps, float be
 void hair_skin_reset(struct hair_sim* sim)
 {
     run(sim, (struct hair_scalp_params){.what = HAIR_SCALP_RESET});
-}
-
-void hair_skin_bind(struct hair_sim* sim)
-{
-    if (hair_skin_is_on(sim)) sim->gl->BindTextureUnit(HAIR_UNIT_RIDE, sim->skin.texture);
 }
 
 void hair_skin_bind_all(struct hair_sim* sim, uint32_t followers)

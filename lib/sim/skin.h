@@ -24,7 +24,6 @@ struct hair_skin {
 
 struct hair_sim;
 
-int hair_skin_is_on(const struct hair_sim* sim);
 void hair_skin_free(struct hair_sim* sim);
 
 // Create buffers and programs, once. The scalp counts as at rest so far. `seats` is not NULL.
@@ -50,8 +49,6 @@ hair_result hair_skin_make_still(struct hair_sim* sim, GLuint* out);
 // Replace the scalp motion by a result of hair_skin_make_still(), and put the scalp at rest.
 void hair_skin_forget(struct hair_sim* sim, GLuint still);
 
-// Bind the scalp motion for the passes that read it.
-void hair_skin_bind(struct hair_sim* sim);
 // Bind all buffers for the passes that write followers.
 void hair_skin_bind_all(struct hair_sim* sim, uint32_t followers);
 

@@ -76,12 +76,12 @@ static float distance_between(const struct hair_pose* a, const struct hair_pose*
 }
 
 // Return whether a collider comes near the hair on its way from `a` to `b`.
-static int comes_near(const struct hair_sim* sim, const hair_collider* a, const hair_collider* b)
+static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const hair_collider* b)
 {
     const hair_collider* ends[] = {a, b};
     struct hair_pose at[2];
     float radius = 0;
-    if (a->shape == HAIR_SHAPE_MESH && !(a->mesh && b->mesh)) return 1;
+    if (a->shape == HAIR_SHAPE_MESH && !(a->mesh && b->mesh)) return true;
     for (int i = 0; i < 2; ++i) {
         hair_vec3 middle, half;
         hair_collider_extent(ends[i], &middle, &half);
@@ -96,39 +96,39 @@ static int comes_near(const struct hair_sim* sim, const hair_collider* a, const 
     return !bound || !(hair_length(mid) > most);
 }
 
-static int are_alike(const hair_collider* a, const hair_collider* b)
+static bool are_alike(const hair_collider* a, const hair_collider* b)
 {
     return memcmp(a, b, sizeof *a) == 0;
 }
 
-static int has_collider_near(const struct hair_sim* sim)
+static bool has_collider_near(const struct hair_sim* sim)
 {
     const struct hair_colliders* colliders = &sim->colliders;
     const struct hair_collider_list *now = &colliders->now, *before = &colliders->before;
-    if (!colliders->changed) return 0;
+    if (!colliders->changed) return false;
     for (uint32_t i = 0; i < now->count; ++i) {
         const hair_collider* was = hair_colliders_before(colliders, i);
         int is = was != &now->collider[i] && are_alike(was, &now->collider[i]);
-        if (!is && comes_near(sim, was, &now->collider[i])) return 1;
+        if (!is && comes_near(sim, was, &now->collider[i])) return true;
     }
     for (uint32_t i = 0; i < before->count; ++i) {
         int is = i < now->count && are_alike(&before->collider[i], &now->collider[i]);
-        if (!is && comes_near(sim, &before->collider[i], &before->collider[i])) return 1;
+        if (!is && comes_near(sim, &before->collider[i], &before->collider[i])) return true;
     }
-    return 0;
+    return false;
 }
 
-int hair_sleep_is_stirred(const struct hair_sim* sim)
+bool hair_sleep_is_stirred(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return 1;
-    if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return 1;
-    if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return 1;
-    if (hair_wind_is_unsteady(&sim->wind)) return 1;
+    if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return true;
+    if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return true;
+    if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return true;
+    if (hair_wind_is_unsteady(&sim->wind)) return true;
     // Colliders deflect the wind at any distance.
     if (sim->colliders.changed && sim->air.params &&
         sim->colliders.now.count + sim->colliders.before.count > 0)
-        return 1;
+        return true;
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
     return !(far <= HEAD_SHARE * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
@@ -173,6 +173,7 @@ static void look(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
+    HAIR_ASSERT(!sleep->fence && !sleep->waits && sleep->turn < 2);
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     struct hair_stir_params params = {.vertices = sim->guide_vertices,
                                       .turn = sleep->turn,
@@ -210,6 +211,7 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 {
     struct hair_sleep* sleep = &sim->sleep;
     if (sleep->known) return;
+    HAIR_ASSERT(sleep->waits && sleep->fence && sleep->mapped);
     GLenum status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     if (status == GL_TIMEOUT_EXPIRED && wait > 0)
         status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
@@ -221,11 +223,11 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
     sleep->waits = sleep->known = 1;
 }
 
-static int has_come_to_rest(const struct hair_sim* sim)
+static bool has_come_to_rest(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
     float may = SHARE * sim->physics.sleep_threshold;
-    if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return 0;
+    if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return false;
     double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
     return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
 }
@@ -233,6 +235,7 @@ static int has_come_to_rest(const struct hair_sim* sim)
 static void use_answer(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
+    HAIR_ASSERT(sleep->waits && sleep->known);
     sleep->waits = sleep->known = 0;
     sleep->now.far = fmaxf(sleep->now.far, sleep->answer.far);
     sleep->now.speed = fmaxf(sleep->now.speed, sleep->answer.speed);
@@ -242,7 +245,7 @@ static void use_answer(struct hair_sim* sim)
     sleep->now = (struct hair_stirring){0, 0};
 }
 
-static int looks_after(const struct hair_sim* sim, double dt)
+static bool looks_after(const struct hair_sim* sim, double dt)
 {
     return sim->physics.sleep_threshold > 0 && sim->sleep.calm + dt >= sim->sleep.due;
 }
@@ -272,11 +275,9 @@ void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
     look(sim);
 }
 
-int hair_sleep_through(struct hair_sim* sim, double dt)
+bool hair_sleep_through(const struct hair_sim* sim)
 {
-    if (!sim->sleep.asleep || hair_sleep_is_stirred(sim)) return 0;
-    hair_sim_pass_time(sim, dt);
-    return 1;
+    return sim->sleep.asleep && !hair_sleep_is_stirred(sim);
 }
 
 // Saved states ------------------------------------------------------------------------------------

@@ -13,6 +13,8 @@
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 
+#include <stdbool.h>
+
 // Activity of the guides.
 struct hair_stirring {
     float far; // Maximum measured distance of a vertex from its anchor, m.
@@ -52,11 +54,12 @@ void hair_sleep_free(struct hair_sim* sim);
 // Wake the hair at the next step.
 void hair_sleep_stir(struct hair_sim* sim);
 
-// Sleep through a step of `dt` if the hair is asleep, and return whether it did. No OpenGL.
-int hair_sleep_through(struct hair_sim* sim, double dt);
+// Return whether the hair sleeps through the next step. The caller then passes the time by
+// hair_sim_pass_time(). No OpenGL.
+bool hair_sleep_through(const struct hair_sim* sim);
 
 // Return whether an event has disturbed the hair since the last step.
-int hair_sleep_is_stirred(const struct hair_sim* sim);
+bool hair_sleep_is_stirred(const struct hair_sim* sim);
 // Create what watching a step of `dt` needs.
 hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt);
 // Update the sleep state after a step of `dt`. Use a pending measurement and request the next when

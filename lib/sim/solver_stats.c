@@ -43,7 +43,7 @@ static hair_gl_pass energy_pass(const struct hair_sim* sim)
 
 // Return whether work can be done on a guide from outside. A skinned scalp and other hair may do
 // work.
-static int is_driven(const struct hair_sim* sim, int stirred)
+static bool is_driven(const struct hair_sim* sim, int stirred)
 {
     return stirred || memcmp(&sim->at_step, &sim->head, sizeof sim->head) != 0 ||
            hair_wind_is_on(&sim->wind) || hair_crowd_is_on(sim) || hair_skin_is_on(sim);
@@ -51,7 +51,7 @@ static int is_driven(const struct hair_sim* sim, int stirred)
 
 // Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules
 // that have none.
-static int has_energy(const struct hair_sim* sim)
+static bool has_energy(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_DIRECT || sim->solver == HAIR_SOLVER_ACCURATE;
 }
@@ -77,6 +77,7 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
     struct hair_diagnosis* d = &sim->diagnosis;
     struct hair_gl* gl = sim->gl;
     if (!d->watches || substeps == 0) return;
+    HAIR_ASSERT(d->energy && d->energy_params && sim->rods);
     int begins = !d->goes_on || d->substep != sim->substep;
     d->time = (begins ? 0 : d->time) + substeps * sim->substep;
     int ends = d->time >= WINDOW;
@@ -110,6 +111,7 @@ static struct hair_motion_params motion_params(const struct hair_sim* sim)
     hair_quat turn =
         hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    HAIR_ASSERT(sim->last_substep > 0);
     double rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
     double wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
     return (struct hair_motion_params){.turn = {turn.x, turn.y, turn.z, turn.w},

@@ -44,6 +44,7 @@ static hair_dvec3 axis_of(hair_dquat q)
 
 void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, struct hair_rod_pose* out)
 {
+    HAIR_ASSERT(s->count >= 2 && out->frame != frames);
     // Frame of the segment before, which is that of the scalp at first.
     hair_dquat before = hair_dmultiply(s->frame[0], hair_dconjugate(s->turn[0]));
     out->place[0] = (hair_dvec3){0, 0, 0};
@@ -60,6 +61,7 @@ void hair_rod_pose_at(const struct hair_rod_shape* s, const hair_dquat* frames, 
 void hair_rod_load(const struct hair_rod_shape* s, double gravity, struct hair_rod_pose* pose)
 {
     hair_dvec3 load = {0, 0, 0};
+    HAIR_ASSERT(gravity >= 0);
     for (uint32_t i = s->count - 1; i-- > 0;) {
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
         hair_dvec3 own = hair_dadd(hair_dscale(s->load, gravity), hair_dscale(back, s->pull[i + 1]));
@@ -161,9 +163,10 @@ static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, cons
     hair_rod_pose_at(s, to, pose);
 }
 
-// Take a step along the turns that does not raise the energy. Return 0 if there is no such step.
-static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
-                   const hair_dvec3* turns, struct hair_rod_pose* pose)
+// Take a step along the turns that does not raise the energy. Return false if there is no such
+// step.
+static bool descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
+                    const hair_dvec3* turns, struct hair_rod_pose* pose)
 {
     hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
     double before = energy_of(s, rest, gravity, pose), most = 0;
@@ -172,10 +175,10 @@ static int descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, do
     memcpy(from, pose->frame, s->count * sizeof *from);
     for (int k = 0; k < HALVINGS; ++k, share /= 2) {
         turn_by(s, from, turns, share, pose);
-        if (energy_of(s, rest, gravity, pose) <= before + ROUNDING * fabs(before)) return 1;
+        if (energy_of(s, rest, gravity, pose) <= before + ROUNDING * fabs(before)) return true;
     }
     turn_by(s, from, turns, 0, pose);
-    return 0;
+    return false;
 }
 
 double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
@@ -188,6 +191,7 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest
         stiffness = fmax(stiffness, hair_rod_stiffness(s, i));
     }
     double torque = s->weight * length;
+    HAIR_ASSERT(torque > 0 && stiffness > 0);
     for (uint32_t k = 0;; ++k) {
         hair_rod_load(s, gravity, pose);
         hair_rod_strain(s, rest, pose);

@@ -5,6 +5,8 @@
 
 #include "lib/sim/rod_shape.h"
 
+#include <stdbool.h>
+
 struct hair_rod_pose {
     hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // Frame of segment i.
     hair_dquat turn[HAIR_MAX_GUIDE_VERTICES]; // Rotation from frame i-1 to frame i, w >= 0.
@@ -35,14 +37,14 @@ void hair_rod_strain(const struct hair_rod_shape* shape, const hair_rod_rest* re
 // Return whether all small undamped motions about the pose are oscillations with more than the
 // given squared angular frequency. The pose is stable if this holds for 0. The forces and the
 // stress of the pose are set.
-int hair_rod_is_stable(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
-                       double squared_frequency);
+bool hair_rod_is_stable(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
+                        double squared_frequency);
 
 // Find the turns of the segments, in their own frames, that minimise the energy to second order
 // about the pose. `slope` is the derivative of the energy by the turns. `shift` is added to the
-// diagonal of the matrix of second derivatives. Return 0 if there is no minimum.
-int hair_rod_find_step(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose, double shift,
-                       const hair_dvec3* slope, hair_dvec3* out);
+// diagonal of the matrix of second derivatives. Return false if there is no minimum.
+bool hair_rod_find_step(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose, double shift,
+                        const hair_dvec3* slope, hair_dvec3* out);
 
 // Move a pose to a stable equilibrium under `gravity` times the load, by at most `steps` steps of
 // Newton's method. Return the maximum torque that is left on a segment. The torque is relative to

@@ -16,7 +16,7 @@
 // Maximum of w b. When the head shakes, lengths get lost with 5, and hardly ever with 3.3.
 #define MOST_PHASE 2.7
 
-static int is_heavy(const struct hair_rod_shape* s)
+static bool is_heavy(const struct hair_rod_shape* s)
 {
     double length = 0;
     for (uint32_t i = 0; i < s->count; ++i) length += s->length[i];
@@ -29,6 +29,7 @@ static void find_stiffness(const struct hair_rod_shape* s, double* out)
 {
     double weight = s->mass[s->count - 1] * s->gravity;
     for (uint32_t i = s->count - 1; i-- > 1;) {
+        HAIR_ASSERT(s->length[i] > 0 && s->length[i - 1] > 0);
         double below = weight / s->length[i];
         weight += s->mass[i] * s->gravity;
         out[i] = 2 * (below + weight / s->length[i - 1]);
@@ -51,6 +52,7 @@ double hair_rod_longest_taut(const struct hair_rod_shape* s)
 
 void hair_rod_add_inertia(struct hair_rod_shape* s, double b)
 {
+    HAIR_ASSERT(b > 0);
     double stiffness[HAIR_MAX_GUIDE_VERTICES];
     if (!is_heavy(s)) return;
     find_stiffness(s, stiffness);
@@ -61,5 +63,6 @@ void hair_rod_add_inertia(struct hair_rod_shape* s, double b)
 double hair_rod_weight_share(const struct hair_rod_shape* s, uint32_t i)
 {
     if (i == 0 || i + 1 >= s->count) return 1;
+    HAIR_ASSERT(s->mass[i] > 0);
     return fmin((s->length[i - 1] + s->length[i]) / 2 / s->mass[i], 1);
 }

@@ -58,14 +58,14 @@ static void add_transposed(struct block* out, double sign, const struct block* a
                 sign * (a->m[0][r] * b->m[0][c] + a->m[1][r] * b->m[1][c] + a->m[2][r] * b->m[2][c]);
 }
 
-// Factor a = L L^T. Read only the lower half of a, and write L there. Return 0 if a is not
+// Factor a = L L^T. Read only the lower half of a, and write L there. Return false if a is not
 // positive.
-static int factor(struct block* a)
+static bool factor(struct block* a)
 {
     for (int c = 0; c < 3; ++c) {
         double d = a->m[c][c];
         for (int n = 0; n < c; ++n) d -= a->m[c][n] * a->m[c][n];
-        if (!(d > 0)) return 0;
+        if (!(d > 0)) return false;
         a->m[c][c] = sqrt(d);
         for (int r = c + 1; r < 3; ++r) {
             double sum = a->m[r][c];
@@ -73,13 +73,14 @@ static int factor(struct block* a)
             a->m[r][c] = sum / a->m[c][c];
         }
     }
-    return 1;
+    return true;
 }
 
 // Compute x = L^-1 x.
 static void solve_lower(const struct block* l, double* x, int stride)
 {
     for (int r = 0; r < 3; ++r) {
+        HAIR_ASSERT(l->m[r][r] > 0);
         for (int n = 0; n < r; ++n) x[stride * r] -= l->m[r][n] * x[stride * n];
         x[stride * r] /= l->m[r][r];
     }
@@ -101,6 +102,7 @@ struct hinge {
 
 static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
+    HAIR_ASSERT(i + 1 < s->count);
     const hair_dquat t = pose->turn[i];
     const hair_dvec3 q = pose->stress[i];
     const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
@@ -176,10 +178,10 @@ struct matrix {
     double squared_frequency; // Slower oscillations count as unstable.
 };
 
-// Advance from V_(i+1) to V_i. Return 0 if there is no minimum. `slope` is the derivative of the
-// energy by the turn of segment i. NULL omits the linear terms.
-static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
-                     struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
+// Advance from V_(i+1) to V_i. Return false if there is no minimum. `slope` is the derivative of
+// the energy by the turn of segment i. NULL omits the linear terms.
+static bool eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
+                      struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
 {
     struct hinge h = hinge_of(s, pose, i);
     struct block swing = swing_of(s, pose, i);
@@ -191,7 +193,7 @@ static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose*
         for (int c = 0; c < 3; ++c) out->pivot.m[r][c] += h.after.m[r][c];
         out->pivot.m[r][r] += matrix.shift;
     }
-    if (!factor(&out->pivot)) return 0;
+    if (!factor(&out->pivot)) return false;
     for (int c = 0; c < 3; ++c) {
         solve_lower(&out->pivot, &out->by_x.m[0][c], 3);
         solve_lower(&out->pivot, &out->by_a.m[0][c], 3);
@@ -201,7 +203,7 @@ static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose*
     add_transposed(&v->xx, -1, &out->by_x, &out->by_x);
     add_transposed(&v->xa, -1, &out->by_x, &out->by_a);
     add_transposed(&v->aa, -1, &out->by_a, &out->by_a);
-    if (!slope) return 1;
+    if (!slope) return true;
     double own[3] = {slope->x, slope->y, slope->z};
     for (int r = 0; r < 3; ++r) {
         out->slope[r] = own[r] + v->along_a[r];
@@ -215,27 +217,27 @@ static int eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose*
             v->along_a[r] -= out->by_a.m[n][r] * out->slope[n];
         }
     }
-    return 1;
+    return true;
 }
 
-int hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_pose* pose,
-                       double squared_frequency)
+bool hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_pose* pose,
+                        double squared_frequency)
 {
     struct beyond v = {0};
     struct stage stage;
     for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage)) return 0;
-    return 1;
+        if (!eliminate(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage)) return false;
+    return true;
 }
 
-int hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, double shift,
-                       const hair_dvec3* slope, hair_dvec3* out)
+bool hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, double shift,
+                        const hair_dvec3* slope, hair_dvec3* out)
 {
     struct stage stage[HAIR_MAX_GUIDE_VERTICES];
     struct beyond v = {0};
     double x[3] = {0}, a[3] = {0};
     for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return 0;
+        if (!eliminate(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return false;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         const struct stage* at = stage + i;
         struct block swing = swing_of(s, pose, i);
@@ -250,5 +252,5 @@ int hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_pos
         memcpy(a, b, sizeof a);
         out[i] = (hair_dvec3){b[0], b[1], b[2]};
     }
-    return 1;
+    return true;
 }

@@ -7,14 +7,14 @@
 #include "lib/base/bytes.h"
 
 // Return whether the next `size` bytes can be read. Fail if the state ends before them.
-static int can_read(struct hair_walk* c, const char* name, size_t size)
+static bool can_read(struct hair_walk* c, const char* name, size_t size)
 {
-    if (!c->read || c->result) return 0;
-    if (size <= c->end - c->at) return 1;
+    if (!c->read || c->result) return false;
+    if (size <= c->end - c->at) return true;
     c->result = hair_fail(c->host, HAIR_ERROR_FILE,
                           "the fields of the saved state end at byte %zu, within the %s at byte %zu", c->end,
                           name, c->at);
-    return 0;
+    return false;
 }
 
 static void check(struct hair_walk* c, const char* name, double value, double least, double most)
@@ -27,6 +27,7 @@ static void check(struct hair_walk* c, const char* name, double value, double le
 
 void hair_walk_uint(struct hair_walk* c, const char* name, uint32_t* value, uint32_t most)
 {
+    HAIR_ASSERT(!c->write || !c->read);
     if (c->write) hair_write_u32(c->write + c->at, *value);
     if (can_read(c, name, 4)) {
         uint32_t read = hair_read_u32(c->read + c->at);
@@ -100,6 +101,7 @@ void hair_walk_vec4(struct hair_walk* c, const char* name, hair_vec4* v, double 
 
 void hair_walk_over(struct hair_walk* c, const char* name, size_t size)
 {
+    HAIR_ASSERT(size % 4 == 0);
     for (size_t i = 0; i < size && !c->result; i += 4) {
         float number = 0;
         hair_walk_float(c, name, &number, HAIR_MOST_STATE);
@@ -108,6 +110,7 @@ void hair_walk_over(struct hair_walk* c, const char* name, size_t size)
 
 void hair_walk_buffer(struct hair_walk* c, const char* name, GLuint buffer, size_t size)
 {
+    HAIR_ASSERT(size % 4 == 0 && c->buffers < HAIR_WALK_BUFFERS);
     size_t end = c->at + size;
     if (!buffer) return;
     if (c->write) {

@@ -13,19 +13,19 @@
 // came before.
 static const hair_quat lie = {0.2896f, 0.4133f, 0.1497f, 0.8501f};
 
-static int blows(const hair_wind* wind)
+static bool blows(const hair_wind* wind)
 {
     return wind->velocity[0] != 0 || wind->velocity[1] != 0 || wind->velocity[2] != 0;
 }
 
-int hair_wind_is_on(const hair_wind* wind)
+bool hair_wind_is_on(const hair_wind* wind)
 {
     int on = blows(wind) || wind->texture || wind->still_air;
     for (uint32_t i = 0; i < wind->source_count; ++i) on = on || wind->sources[i].speed != 0;
     return on;
 }
 
-int hair_wind_is_unsteady(const hair_wind* wind)
+bool hair_wind_is_unsteady(const hair_wind* wind)
 {
     int moves =
         wind->texture || (wind->turbulence_intensity > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
@@ -75,6 +75,7 @@ void hair_air_free(struct hair_air* air, struct hair_gl* gl)
 // in a larger one.
 static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius)
 {
+    HAIR_ASSERT(radius > 0 && params->balls <= HAIR_WIND_BALLS);
     uint32_t place = 0;
     for (; place < params->balls && params->ball[place].w >= radius; ++place) {
         const hair_vec4* larger = &params->ball[place];
@@ -83,6 +84,7 @@ static void add_ball(struct hair_wind_params* params, hair_vec3 at, float radius
     if (place == HAIR_WIND_BALLS) return;
     if (params->balls < HAIR_WIND_BALLS) ++params->balls;
     for (uint32_t i = params->balls - 1; i > place; --i) params->ball[i] = params->ball[i - 1];
+    HAIR_ASSERT(place < params->balls);
     params->ball[place] = (hair_vec4){at.x, at.y, at.z, radius};
 }
 
@@ -120,6 +122,7 @@ static void write_balls(const struct hair_air* air, const struct hair_air_now* n
 
 static void write_sources(const struct hair_air_now* now, struct hair_wind_params* params)
 {
+    HAIR_ASSERT(now->wind->source_count <= HAIR_WIND_SOURCES);
     for (uint32_t i = 0; i < now->wind->source_count; ++i) {
         const hair_wind_source* from = &now->wind->sources[i];
         hair_vec3 way = hair_load3(from->direction);
@@ -152,6 +155,7 @@ struct hair_air_gusts hair_air_gusts_from(const struct hair_air* air, const hair
     for (int k = 0; k < 3; ++k) {
         place[k] = (r[3 * k] * at[0] + r[3 * k + 1] * at[1] + r[3 * k + 2] * at[2]) / side;
         place[k] -= floor(place[k]);
+        HAIR_ASSERT(0 <= place[k] && place[k] <= 1);
     }
     hair_quat q = hair_quat_normalize(lie);
     return (struct hair_air_gusts){
@@ -172,7 +176,7 @@ static void write_gusts(struct hair_air* air, const struct hair_air_now* now, st
     params->velocity.w = gusts.speed;
 }
 
-static int has_volume(const struct hair_gl* gl, const hair_wind* wind)
+static bool has_volume(const struct hair_gl* gl, const hair_wind* wind)
 {
     GLint target = 0;
     if (wind->texture && gl->IsTexture(wind->texture))
@@ -199,6 +203,7 @@ static void write_volume(const struct hair_gl* gl, const struct hair_air_now* no
 
 static void write_starts(const struct hair_air_now* now, struct hair_wind_params* params)
 {
+    HAIR_ASSERT(0 < now->substeps && now->substeps <= HAIR_STEP_SUBSTEPS);
     hair_vec3 origin = {0, 0, 0};
     for (uint32_t i = now->substeps; i-- > 0;) {
         hair_vec4 moved = now->step->substep[i].displacement;
@@ -227,6 +232,7 @@ void hair_air_blow(struct hair_air* air, struct hair_gl* gl, const struct hair_a
     const hair_physics* physics = now->physics;
     double radius = (double)physics->fiber_radius;
     double mass = (double)physics->fiber_density * PI * radius * radius;
+    HAIR_ASSERT(air->params && mass > 0);
 
     struct hair_wind_params params = {
         .velocity = {wind->velocity[0], wind->velocity[1], wind->velocity[2], 0},

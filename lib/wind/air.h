@@ -5,6 +5,8 @@
 #include "lib/collide/collider.h"
 #include "lib/gl/gl.h"
 
+#include <stdbool.h>
+
 // State of the wind. Except `ball` and `moved`, all is 0 while there is no wind.
 struct hair_air {
     GLuint params; // Buffer, as in shared.h.
@@ -36,9 +38,9 @@ struct hair_air_gusts {
     float speed; // Standard deviation, in m/s.
 };
 
-int hair_wind_is_on(const hair_wind* wind);
-// Return nonzero if the air changes although no setting does.
-int hair_wind_is_unsteady(const hair_wind* wind);
+bool hair_wind_is_on(const hair_wind* wind);
+// Return whether the air changes although no setting does.
+bool hair_wind_is_unsteady(const hair_wind* wind);
 
 // Create the resources that `wind` needs. Free them if there is no wind.
 hair_result hair_air_need(struct hair_air* air, struct hair_gl* gl, const hair_wind* wind);

@@ -3,26 +3,11 @@
 
 #include <string.h>
 
-// Alignment of ranges in uniform buffers, the maximum that a driver may require.
-#define ALIGNMENT 256
 // Maximum number of colliders with a velocity. Colliders with higher numbers count as resting.
 #define MOST_MOVING 65536u
 #define FASTEST 1000.0f // Maximum speed of a collider, in m/s.
 
 // Making ------------------------------------------------------------------------------------------
-
-hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
-                                   struct hair_fluid_buffer* out)
-{
-    hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
-    return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
-}
-
-void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
-{
-    hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
-    hair_gl_free_buffer(fluid->gl, &buffer->buffer);
-}
 
 // Halve the grid until the coarsest level is small enough. Return the number of slots of all
 // levels.
@@ -30,6 +15,8 @@ static uint32_t find_levels(struct hair_fluid* fluid)
 {
     struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
     for (fluid->levels = 0;; at.cells /= 2) {
+        HAIR_ASSERT(fluid->levels < HAIR_FLUID_LEVELS);
+        HAIR_ASSERT(at.cells % 2 == 0 || at.cells <= HAIR_FLUID_BOTTOM);
         fluid->level[fluid->levels++] = at;
         at.slot += (at.cells + 1) * (at.cells + 1) * (at.cells + 1);
         at.cell += at.cells * at.cells * at.cells;
@@ -51,7 +38,7 @@ static float suitable(const struct hair_fluid_desc* desc)
 // Write the level parameters once, with a part for each level and color.
 static hair_result make_levels(struct hair_fluid* fluid)
 {
-    unsigned char bytes[2 * HAIR_FLUID_LEVELS * ALIGNMENT] = {0};
+    unsigned char bytes[2 * HAIR_FLUID_LEVELS * HAIR_FLUID_ALIGNMENT] = {0};
     for (uint32_t i = 0; i < 2 * fluid->levels; ++i) {
         const struct hair_fluid_level_at* at = &fluid->level[i / 2];
         struct hair_fluid_level level = {.cells = at->cells,
@@ -61,7 +48,7 @@ static hair_result make_levels(struct hair_fluid* fluid)
                                          .coarse_cell = at[1].cell,
                                          .color = i % 2,
                                          .relax = suitable(&fluid->desc)};
-        memcpy(bytes + (size_t)i * ALIGNMENT, &level, sizeof level);
+        memcpy(bytes + (size_t)i * HAIR_FLUID_ALIGNMENT, &level, sizeof level);
     }
     hair_result result = hair_gl_uniform(fluid->gl, "hair fluid levels", sizeof bytes, &fluid->level_params);
     if (!result) hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
@@ -96,6 +83,7 @@ static hair_result make_all(struct hair_fluid* fluid)
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
                               const struct hair_fluid_desc* desc)
 {
+    HAIR_ASSERT(desc->side > 0 && 16 <= desc->cells && desc->cells <= 128 && desc->cells % 16 == 0);
     *fluid = (struct hair_fluid){.gl = gl, .desc = *desc};
     hair_result result = make_all(fluid);
     if (result)
@@ -129,53 +117,6 @@ void hair_fluid_forget(struct hair_fluid* fluid)
     fluid->fresh = 1;
 }
 
-// Passes ------------------------------------------------------------------------------------------
-
-static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
-{
-    struct hair_gl* gl = fluid->gl;
-    // Advection writes the next velocity buffer, and correction the one after it.
-    const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
-    carried = &fluid->velocity[(fluid->now + 1) % 3];
-    next = &fluid->velocity[(fluid->now + 2) % 3];
-    // The first pass computes how open colliders leave faces. All later passes use the openness
-    // that hair leaves.
-    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
-    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
-    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
-    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
-    int jacobi = pass == HAIR_GL_FLUID_JACOBI;
-    GLuint write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
-                      wall->buffer,
-                      open->buffer,
-                      fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
-                      fluid->right.buffer,
-                      fluid->motion};
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
-    gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
-    gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
-    gl->BindTextureUnit(HAIR_UNIT_OPEN, open->texture);
-    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
-    gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
-    gl->BindTextureUnit(HAIR_UNIT_WALL, wall->texture);
-    if (!hairy) return;
-    gl->BindTextureUnit(HAIR_UNIT_BARE_OPEN, fluid->open.texture);
-    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL, fluid->wall.texture);
-    if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
-}
-
-void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
-                    uint32_t threads)
-{
-    const GLintptr first = (GLintptr)(2 * level + color) * ALIGNMENT;
-    const GLsizeiptr size = sizeof(struct hair_fluid_level);
-    bind(fluid, pass);
-    fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
-    hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
-}
-
 // A step ------------------------------------------------------------------------------------------
 
 static hair_vec3 limited(hair_vec3 v)
@@ -200,6 +141,7 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
 {
     const hair_collider *to = &now->colliders->now.collider[i],
                         *from = hair_colliders_before(now->colliders, i);
+    HAIR_ASSERT(now->colliders_dt > 0);
     float rate = (float)(1 / now->colliders_dt);
     hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
     hair_vec3 speed = limited(hair_scale(moved, rate));
@@ -239,6 +181,7 @@ static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* 
     int moved = fluid->moving;
     fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
+    HAIR_ASSERT(count <= fluid->room);
     for (uint32_t i = 0; i < fluid->room; ++i) {
         fluid->motion_of[i] = i < count ? motion_of(now, i) : still;
         fluid->moving |= memcmp(&fluid->motion_of[i], &still, sizeof still) != 0;
@@ -264,8 +207,8 @@ static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now
     }
 }
 
-static int is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
-                      const struct hair_collider_field* field)
+static bool is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_params* params,
+                       const struct hair_collider_field* field)
 {
     const struct hair_fluid_params* made = &fluid->made_for;
     return !memcmp(&made->lower, &params->lower, sizeof params->lower) &&
@@ -283,6 +226,7 @@ static float thickness(const struct hair_fluid* fluid, const struct hair_fluid_n
 
 void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
+    HAIR_ASSERT(fluid->gl && now->dt > 0);
     float shift[3], cell = hair_fluid_cell(fluid);
     int moved = fluid->moving; // Walls keep these velocities until they are written again.
     write_motion(fluid, now);
@@ -323,14 +267,6 @@ void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
     if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
     hair_fluid_run(fluid, HAIR_GL_FLUID_OPEN, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     if (!fluid->hair.grid.buffer) hair_fluid_coarsen(fluid);
-}
-
-void hair_fluid_coarsen(struct hair_fluid* fluid)
-{
-    if (fluid->desc.method != HAIR_FLUID_MULTIGRID) return;
-    for (uint32_t i = 0; i + 1 < fluid->levels; ++i)
-        hair_fluid_run(fluid, HAIR_GL_FLUID_COARSEN, i, 0,
-                       fluid->level[i + 2].slot - fluid->level[i + 1].slot);
 }
 
 void hair_fluid_carry(struct hair_fluid* fluid)

@@ -16,6 +16,8 @@
 #include "lib/wind/air.h"
 
 #define HAIR_FLUID_LEVELS 5 // From 128 cells along an axis to 8.
+// Alignment of ranges in uniform buffers, the maximum that a driver may require.
+#define HAIR_FLUID_ALIGNMENT 256
 // Maximum nodes along an axis of the grid of hair. A guide stands for a lock about as wide as the
 // finest spacing.
 #define HAIR_FLUID_NODES 32
@@ -154,6 +156,8 @@ void hair_fluid_let_through(struct hair_fluid* fluid);
 
 // Compute the pressures that cancel the divergence of cells. Defined in solve.c.
 void hair_fluid_solve(struct hair_fluid* fluid);
+
+// Functions of fluid_pass.c, on which all files above build.
 
 // Create a buffer of `count` numbers, and its buffer texture.
 hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,

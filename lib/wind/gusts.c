@@ -22,6 +22,7 @@ static int wave_number(int i)
 static void make_wave(struct wave* const* field, int at, const int n[3], uint32_t* random)
 {
     double size = sqrt((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]));
+    HAIR_ASSERT(0 <= at && at < COUNT && size > 0);
     double kl = 2 * PI * size / (HAIR_GUST_LENGTHS * SCALE);
     double amplitude = kl / pow(1 + kl * kl, 17.0 / 12); // This is sqrt(E) / k.
     hair_vec3 along = hair_scale(hair_v3((float)n[0], (float)n[1], (float)n[2]), (float)(1 / size));
@@ -107,6 +108,7 @@ float* hair_gusts_make(const hair_host* host, uint32_t seed)
         transform(field[c]);
         square += mean_square(field[c]);
     }
+    HAIR_ASSERT(square > 0);
     float one = (float)(1 / sqrt(square / 3));
     for (int i = 0; i < COUNT; ++i)
         for (int c = 0; c < 3; ++c) out[4 * i + c] = one * field[c][i].re;

@@ -3,6 +3,7 @@
 
 hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted)
 {
+    HAIR_ASSERT(fluid->gl && fluid->levels > 0);
     struct hair_fluid_hair* hair = &fluid->hair;
     size_t nodes = hair_fluid_nodes(fluid);
     if (!wanted == !hair->grid.buffer) return HAIR_OK;
@@ -32,6 +33,7 @@ void hair_fluid_free_hair(struct hair_fluid* fluid)
 
 void hair_fluid_let_through(struct hair_fluid* fluid)
 {
+    HAIR_ASSERT(fluid->hair.grid.buffer && fluid->hair.wall.buffer && fluid->hair.open.buffer);
     hair_fluid_run(fluid, HAIR_GL_FLUID_POROUS, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     hair_fluid_coarsen(fluid);
 }

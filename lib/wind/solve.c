@@ -1,12 +1,12 @@
 // solve.c - pressure solvers, by cycles of multigrid or by sweeps over a single grid.
 #include "lib/wind/fluid.h"
 
-static int takes(hair_fluid_method method, hair_gl_pass pass)
+static bool takes(hair_fluid_method method, hair_gl_pass pass)
 {
     int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
                  pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
     if (coarse) return method == HAIR_FLUID_MULTIGRID;
-    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return 0;
+    if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return false;
     if (pass == HAIR_GL_FLUID_SMOOTH) return method != HAIR_FLUID_JACOBI;
     return pass != HAIR_GL_FLUID_JACOBI || method == HAIR_FLUID_JACOBI;
 }
@@ -27,6 +27,7 @@ static uint32_t cubed(uint32_t n)
 
 static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 {
+    HAIR_ASSERT(level < fluid->levels && first < 2);
     uint32_t cells = cubed(fluid->level[level].cells) / 2;
     hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, first, cells);
     hair_fluid_run(fluid, HAIR_GL_FLUID_SMOOTH, level, 1 - first, cells);
@@ -39,6 +40,7 @@ static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 static void cycle(struct hair_fluid* fluid)
 {
     uint32_t last = fluid->levels - 1;
+    HAIR_ASSERT(fluid->level[last].cells <= HAIR_FLUID_BOTTOM);
     for (uint32_t i = 0; i < last; ++i) {
         sweep(fluid, i, 0);
         hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));

@@ -18,13 +18,7 @@
 
 // Kind of projection. REVERSED has an infinite far plane. RANGED reverses depth by glDepthRange,
 // and is upside down.
-enum kind {
-    PERSPECTIVE,
-    ORTHOGRAPHIC,
-    REVERSED,
-    RANGED,
-    KINDS
-};
+enum kind { PERSPECTIVE, ORTHOGRAPHIC, REVERSED, RANGED, KINDS };
 
 struct fixture {
     struct hair_test* test;

@@ -13,8 +13,7 @@
 
 #define SIDE 96
 #define SEGMENTS 16u
-#define ROUNDED                                                                                              \
-    1e-4 // Pixels. Two programs compute the previous and the present position.
+#define ROUNDED 1e-4 // Pixels. Two programs compute the previous and the present position.
 
 struct fixture {
     struct hair_test* test;

@@ -179,8 +179,7 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
             f->view.render_path = (hair_render_path)path;
             f->view.lod = k ? &part : NULL;
             // The pass draws ribbons with both settings.
-            f->view.primitive =
-                k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
+            f->view.primitive = k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
             draw(f, 1);
             struct found found = compare(f);
             double error = found.mean / found.expected - 1;
@@ -193,8 +192,7 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
     draw(f, 1);
     double weak = compare(f).mean;
     // A single strand has a quarter of the opacity. Two strands have a little less than twice that.
-    assert_true(weak > 0.25 * all &&
-                weak < 0.5 * all);
+    assert_true(weak > 0.25 * all && weak < 0.5 * all);
     finish(f);
 }
 

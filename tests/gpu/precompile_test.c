@@ -210,8 +210,7 @@ static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(vo
     assert_int_equal(hair_test_count_programs(&f.context->gl), before + 1);
     uint32_t calls = 1 + prepare(&f, &view);
     // The last call finds nothing left.
-    assert_int_equal(calls,
-                     hair_test_count_programs(&f.context->gl) - before + 1);
+    assert_int_equal(calls, hair_test_count_programs(&f.context->gl) - before + 1);
     live(&f, &view);
     finish(&f);
 }

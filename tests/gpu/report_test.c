@@ -159,8 +159,7 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
     check(&f, "list", HAIR_SKIP_REASON_UNCHANGED, 1);
     check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
     // Vertices that a pass of their own shades count as colour.
-    check(&f, "colliders", HAIR_SKIP_REASON_NOT_CALLED,
-          0);
+    check(&f, "colliders", HAIR_SKIP_REASON_NOT_CALLED, 0);
     f.view.view[12] = 20;
     run_frame(&f);
     check(&f, "color", HAIR_SKIP_REASON_OUT_OF_VIEW, 1);

@@ -234,8 +234,7 @@ static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
 
 struct motion {
     // Per mass of one metre. Angular momentum is about the centre. Energy excludes elastic energy.
-    double momentum[3], angular[3],
-        energy;
+    double momentum[3], angular[3], energy;
 };
 
 // Return the motion in the substep between the last two reads.

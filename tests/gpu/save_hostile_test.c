@@ -219,8 +219,7 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     others[1].groom.fewest = 15, others[1].groom.most = 17;
     others[2].desc.substep = 0.01f;
     // The guides have 16 vertices each. The total equals that of guides of 15 to 17.
-    hair_instance* six =
-        hair_test_subject_make(test, &subject);
+    hair_instance* six = hair_test_subject_make(test, &subject);
     for (int i = 0; i < 3; ++i) {
         hair_instance* other = hair_test_subject_make(test, &others[i]);
         struct hair_test_blob blob = hair_test_save(test, other);

@@ -60,8 +60,7 @@ static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_t
     hair_look look = hair_look_default();
     look.segments = SEGMENTS;
     // Rounding may decide whether a follower hits a collider.
-    look.follower_collision =
-        HAIR_FOLLOWER_COLLISION_NONE;
+    look.follower_collision = HAIR_FOLLOWER_COLLISION_NONE;
     desc.look = &look;
     desc.solver = solver;
     s.groom = make_groom(test, s.rest);

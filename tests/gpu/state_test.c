@@ -273,15 +273,11 @@ static void plant_an_error(struct fixture* f)
 // Return whether a context with HAIR_GL_STATE_CLOBBER may change the state, as listed in hair.h.
 static int may_change(const char* name)
 {
-    static const char* const listed[] = {"GL_CURRENT_PROGRAM",
-                                         "GL_VERTEX_ARRAY_BINDING",
-                                         // State of the vertex array.
-                                         "GL_ELEMENT_ARRAY_BUFFER_BINDING",
-                                         "GL_PATCH_VERTICES",
-                                         "GL_CULL_FACE",
-                                         "GL_PRIMITIVE_RESTART",
-                                         "GL_DRAW_INDIRECT_BUFFER_BINDING",
-                                         "GL_DISPATCH_INDIRECT_BUFFER_BINDING"};
+    static const char* const listed[] = {
+        "GL_CURRENT_PROGRAM", "GL_VERTEX_ARRAY_BINDING",
+        // State of the vertex array.
+        "GL_ELEMENT_ARRAY_BUFFER_BINDING", "GL_PATCH_VERTICES", "GL_CULL_FACE", "GL_PRIMITIVE_RESTART",
+        "GL_DRAW_INDIRECT_BUFFER_BINDING", "GL_DISPATCH_INDIRECT_BUFFER_BINDING"};
     for (size_t i = 0; i < sizeof listed / sizeof *listed; ++i)
         if (strcmp(name, listed[i]) == 0) return 1;
     const char* number = strrchr(name, ' ');

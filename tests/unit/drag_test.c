@@ -20,37 +20,36 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
     (void)state;
     const struct {
         double reynolds, published;
-    } rows[] = {
-        {0.1, slow_drag(0.1)},
-        {0.2, slow_drag(0.2)},
-        // Dennis and Chang 1970, steady flow.
-        {5, 4.116},
-        {7, 3.421},
-        {10, 2.846},
-        {20, 2.045},
-        {40, 1.522},
-        // Park, Kwon and Choi 1998, mean of the vortex-shedding flow.
-        {60, 1.39},
-        {80, 1.35},
-        {100, 1.33},
-        // Wieselsberger 1922, NACA TN 121, read off its curve. The lower end of the curve is Lamb's
-        // theory.
-        {0.116, 54.1},
-        {0.241, 30.5},
-        {0.728, 13.2},
-        {3.18, 4.87},
-        {8.01, 2.94},
-        {17.7, 2.12},
-        {31.7, 1.73},
-        {63.6, 1.48},
-        {196, 1.27},
-        {356, 1.15},
-        // Steady Navier-Stokes equations, solved for this test. The method is second differences of
-        // the stream function and the vorticity on two grids, out to 400 radii and more. At 0.1 the
-        // result is 1 % above Kaplun.
-        {0.5, 16.86},
-        {1, 10.50},
-        {2, 6.76}};
+    } rows[] = {{0.1, slow_drag(0.1)},
+                {0.2, slow_drag(0.2)},
+                // Dennis and Chang 1970, steady flow.
+                {5, 4.116},
+                {7, 3.421},
+                {10, 2.846},
+                {20, 2.045},
+                {40, 1.522},
+                // Park, Kwon and Choi 1998, mean of the vortex-shedding flow.
+                {60, 1.39},
+                {80, 1.35},
+                {100, 1.33},
+                // Wieselsberger 1922, NACA TN 121, read off its curve. The lower end of the curve is Lamb's
+                // theory.
+                {0.116, 54.1},
+                {0.241, 30.5},
+                {0.728, 13.2},
+                {3.18, 4.87},
+                {8.01, 2.94},
+                {17.7, 2.12},
+                {31.7, 1.73},
+                {63.6, 1.48},
+                {196, 1.27},
+                {356, 1.15},
+                // Steady Navier-Stokes equations, solved for this test. The method is second differences of
+                // the stream function and the vorticity on two grids, out to 400 radii and more. At 0.1 the
+                // result is 1 % above Kaplun.
+                {0.5, 16.86},
+                {1, 10.50},
+                {2, 6.76}};
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         double drag = hair_reference_drag_across(rows[i].reynolds);
         print_message("    Re %g: %.4g, published %.4g\n", rows[i].reynolds, drag, rows[i].published);

@@ -24,9 +24,8 @@ static struct hair_reference_guide whole(const struct fixture* f)
 
 static struct fixture straight_down(uint32_t count, float link)
 {
-    struct fixture f = {
-        // The root frame is half a turn about x, so y points down.
-        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
+    struct fixture f = {// The root frame is half a turn about x, so y points down.
+                        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
     for (uint32_t i = 0; i < count; ++i) {
         f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
         f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};

@@ -84,8 +84,7 @@ static const char* const groom_names[GROOMS] = {"level",     "upright",      "cu
 static void make_groom(struct hair_test_rod* f, int kind)
 {
     // Length of the strand, or of a segment.
-    static const double sizes[GROOMS] = {0.145,  0.13,   0.013,
-                                         0.0095, 0.0135, 0.0125};
+    static const double sizes[GROOMS] = {0.145, 0.13, 0.013, 0.0095, 0.0135, 0.0125};
     f->physics = hair_physics_default();
     if (kind < 2)
         hair_test_rod_straight(f, 12, sizes[kind], kind == 0 ? PI / 2 : PI);

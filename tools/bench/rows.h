@@ -43,7 +43,6 @@ struct bench_about {
 void bench_write_json(const struct bench_rows* rows, const struct bench_about* about, FILE* file);
 void bench_write_csv(const struct bench_rows* rows, FILE* file);
 // Write a table. Columns that are equal in all rows are written once above it.
-void bench_write_table(const struct bench_rows* rows,
-                       FILE* file);
+void bench_write_table(const struct bench_rows* rows, FILE* file);
 
 #endif

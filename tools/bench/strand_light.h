@@ -22,7 +22,6 @@ bool bench_strands_make(const float* positions, uint32_t count, uint32_t each, f
                         const float to_light[3], struct bench_strands* out);
 void bench_strands_free(struct bench_strands* strands);
 
-
 // Compute the fraction of light that reaches each vertex, by `rays` rays per vertex. Rays start on
 // the strand within half a segment of the vertex. `seed` selects the rays. `out` has one number per
 // vertex. Return false if memory runs out.

@@ -13,8 +13,7 @@ struct bench_truth {
 };
 
 // Make black pictures. Return false if memory runs out. Free the truth in either case.
-bool bench_truth_make(uint32_t size,
-                      struct bench_truth* out);
+bool bench_truth_make(uint32_t size, struct bench_truth* out);
 void bench_truth_free(struct bench_truth* truth);
 
 // Draw pictures with at least `samples` samples per pixel in total. The shadow map is shifted too,

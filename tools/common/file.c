@@ -148,8 +148,7 @@ bool hair_output_open(const char* tool, const char* path, struct hair_output* ou
     mode_t mask = umask(0);
     umask(mask);
     // A rename would ignore that the target is read-only.
-    if (exists && !in_place && access(output.path, W_OK))
-        in_place = true;
+    if (exists && !in_place && access(output.path, W_OK)) in_place = true;
     if (in_place ? open_in_place(&output)
                  : open_temporary(&output, exists ? status.st_mode & 0777 : 0666 & ~mask)) {
         *out = output;

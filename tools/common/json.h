@@ -33,8 +33,7 @@ struct hair_json_entry {
     // Table of a HAIR_JSON_OBJECT, with offsets from the same struct.
     const struct hair_json_entry* object;
     // Reader of a HAIR_JSON_OTHER.
-    bool (*read)(const struct hair_json* json, const char* key, const json_t* value,
-                 void* out);
+    bool (*read)(const struct hair_json* json, const char* key, const json_t* value, void* out);
 };
 
 // Rows of a table of entries, and its end.

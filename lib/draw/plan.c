@@ -1,6 +1,7 @@
-// path.c - choice of the render path of a view. It is the requested path, the fastest measured path
-// of this driver, or the only one that supports the view.
+// plan.c - decisions about a view, such as its render path. The render path is the requested path,
+// the fastest measured path of this driver, or the only one that supports the view.
 #include "lib/draw/draw.h"
+#include "lib/draw/params.h"
 
 #include <math.h>
 #include <string.h>
@@ -30,22 +31,22 @@ void hair_draw_find_fastest(struct hair_draw* draw)
         ++draw->driver;
 }
 
-int hair_draw_is_shared(const hair_view* view)
+bool hair_draw_is_shared(const hair_view* view)
 {
     return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA;
 }
 
-int hair_draw_covers(const hair_view* view)
+bool hair_draw_covers(const hair_view* view)
 {
     return view->pass == HAIR_PASS_OPACITY || hair_draw_is_shared(view);
 }
 
-static int is_of_lines(const hair_view* view)
+static bool is_of_lines(const hair_view* view)
 {
     return view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_covers(view);
 }
 
-static int has_few_samples(const struct hair_gl* gl)
+static bool has_few_samples(const struct hair_gl* gl)
 {
     GLfloat viewport[4] = {0};
     GLint samples = 0;
@@ -55,17 +56,23 @@ static int has_few_samples(const struct hair_gl* gl)
     return samples <= HAIR_RASTER_SAMPLES && most <= MOST_SAMPLES;
 }
 
-// Return nonzero if compute rasterisation supports the view. Its pixels are opaque, and hold only
+// Return whether compute rasterisation supports the view. Its pixels are opaque, and hold only
 // colour or depth.
-static int is_computable(const hair_view* view)
+static bool is_computable(const hair_view* view)
 {
     int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
     return shown && view->primitive == HAIR_PRIMITIVE_RIBBONS;
 }
 
+size_t hair_draw_count_vertices(const struct hair_draw* draw)
+{
+    return (size_t)draw->followers * (draw->look.segments + 1);
+}
+
 static hair_render_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
+    HAIR_ASSERT(0 <= column && column < 5 && draw->driver < sizeof fastest / sizeof *fastest);
     hair_render_path path = fastest[draw->driver].path[column];
     size_t vertices = hair_draw_count_vertices(draw);
     if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MOST_EXPANDED)
@@ -76,40 +83,40 @@ static hair_render_path find_fastest_for(const struct hair_draw* draw, const hai
     return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
 }
 
-// Return nonzero if the view needs the vertex cache. Motion vectors compare its vertices, and
+// Return whether the view needs the vertex cache. Motion vectors compare its vertices, and
 // sorted segments index them.
-static int keeps_vertices(const hair_view* view)
+static bool keeps_vertices(const hair_view* view)
 {
     return view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view);
 }
 
 // A level of detail leaves out most vertices of the cache and places others differently, so it uses
 // per-view vertices.
-int hair_draw_stages(const hair_view* view)
+bool hair_draw_stages(const hair_view* view)
 {
     return view->lod && !keeps_vertices(view) &&
            (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE);
 }
 
-int hair_draw_expands(const hair_view* view)
+bool hair_draw_expands(const hair_view* view)
 {
     return (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE) &&
            !hair_draw_stages(view);
 }
 
-int hair_draw_stages_sides(const hair_view* view)
+bool hair_draw_stages_sides(const hair_view* view)
 {
     return view->render_path == HAIR_RENDER_PATH_CACHED && hair_draw_stages(view);
 }
 
-int hair_draw_is_paired(const hair_view* view)
+bool hair_draw_is_paired(const hair_view* view)
 {
     return view->primitive == HAIR_PRIMITIVE_RIBBONS && !hair_draw_covers(view) &&
            view->render_path == HAIR_RENDER_PATH_CACHED;
 }
 
-// Return nonzero if per-view vertices suffice. They hold a position, a width and a colour.
-static int is_stageable(const hair_view* view)
+// Return whether per-view vertices suffice. They hold a position, a width and a colour.
+static bool is_stageable(const hair_view* view)
 {
     return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
 }
@@ -122,4 +129,30 @@ hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* v
     if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
     return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_stageable(view) ? HAIR_RENDER_PATH_INSTANCED
                                                                                : path;
+}
+
+bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
+{
+    return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
+           hair_draw_expands(view);
+}
+
+uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
+{
+    int wanted = view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
+    return wanted ? 1 + view->light_count : 0;
+}
+
+bool hair_draw_is_blocked(const hair_view* view)
+{
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t count = hair_view_maps(view, maps);
+    for (uint32_t i = 0; i < count; ++i)
+        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
+    return false;
+}
+
+bool hair_draw_hides(const hair_view* view)
+{
+    return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
 }

@@ -1,0 +1,70 @@
+// state.c - questions about the state of a simulation, and the bindings of its buffers. Every other
+// file of this folder may use these functions.
+#include "lib/sim/sim.h"
+
+void hair_skin_bind(struct hair_sim* sim)
+{
+    if (hair_skin_is_on(sim)) sim->gl->BindTextureUnit(HAIR_UNIT_RIDE, sim->skin.texture);
+}
+
+void hair_sim_bind(struct hair_sim* sim)
+{
+    GLuint storage[] = {sim->guide, sim->rest, sim->state};
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
+    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
+    hair_skin_bind(sim);
+}
+
+void hair_sim_bind_rods(struct hair_sim* sim)
+{
+    GLuint storage[] = {sim->rod, sim->history, sim->material, sim->solver_stats,
+                        sim->bend ? sim->bend : sim->reduction};
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_ROD, 5, storage);
+}
+
+uint32_t hair_sim_contacts(const struct hair_sim* sim)
+{
+    return sim->rods ? sim->colliders.contacts : sim->colliders.capsules;
+}
+
+const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
+{
+    if (rest) *rest = sim->rods ? sim->rods->rest : NULL;
+    return sim->rods ? sim->rods->guides : NULL;
+}
+
+bool hair_sim_is_mixed(const struct hair_sim* sim)
+{
+    return sim->rods && sim->rods->mixed;
+}
+
+bool hair_sim_is_stiff(const struct hair_sim* sim)
+{
+    return sim->rods && sim->rods->stiff;
+}
+
+hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
+{
+    hair_gl_pass pass = HAIR_GL_RESET;
+    if (sim->rods) pass |= HAIR_GL_WITH(ROD);
+    if (hair_sim_is_mixed(sim)) pass |= HAIR_GL_WITH(MIXED);
+    if (skinned) pass |= HAIR_GL_WITH(SKINNED);
+    return pass;
+}
+
+hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
+{
+    hair_gl_pass pass = sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
+    return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
+}
+
+bool hair_skin_is_on(const struct hair_sim* sim)
+{
+    return sim->skin.ride != 0;
+}
+
+bool hair_crowd_is_on(const struct hair_sim* sim)
+{
+    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
+}

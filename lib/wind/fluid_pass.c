@@ -1,0 +1,71 @@
+// fluid_pass.c - buffers of the fluid, and running one of its passes.
+#include "lib/wind/fluid.h"
+
+hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, size_t count, GLenum format,
+                                   struct hair_fluid_buffer* out)
+{
+    HAIR_ASSERT(count > 0 && !out->buffer && !out->texture);
+    hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
+    return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
+}
+
+void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
+{
+    hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
+    hair_gl_free_buffer(fluid->gl, &buffer->buffer);
+}
+
+static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
+{
+    struct hair_gl* gl = fluid->gl;
+    HAIR_ASSERT(fluid->now < 3 && fluid->pressed < 2);
+    // Advection writes the next velocity buffer, and correction the one after it.
+    const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
+    carried = &fluid->velocity[(fluid->now + 1) % 3];
+    next = &fluid->velocity[(fluid->now + 2) % 3];
+    // The first pass computes how open colliders leave faces. All later passes use the openness
+    // that hair leaves.
+    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
+    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
+    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
+    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
+    int jacobi = pass == HAIR_GL_FLUID_JACOBI;
+    GLuint write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
+                      wall->buffer,
+                      open->buffer,
+                      fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
+                      fluid->right.buffer,
+                      fluid->motion};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
+    gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
+    gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
+    gl->BindTextureUnit(HAIR_UNIT_OPEN, open->texture);
+    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
+    gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
+    gl->BindTextureUnit(HAIR_UNIT_WALL, wall->texture);
+    if (!hairy) return;
+    gl->BindTextureUnit(HAIR_UNIT_BARE_OPEN, fluid->open.texture);
+    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL, fluid->wall.texture);
+    if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
+}
+
+void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level, uint32_t color,
+                    uint32_t threads)
+{
+    const GLintptr first = (GLintptr)(2 * level + color) * HAIR_FLUID_ALIGNMENT;
+    const GLsizeiptr size = sizeof(struct hair_fluid_level);
+    HAIR_ASSERT(level < fluid->levels && color < 2 && threads > 0);
+    bind(fluid, pass);
+    fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
+    hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
+}
+
+void hair_fluid_coarsen(struct hair_fluid* fluid)
+{
+    if (fluid->desc.method != HAIR_FLUID_MULTIGRID) return;
+    for (uint32_t i = 0; i + 1 < fluid->levels; ++i)
+        hair_fluid_run(fluid, HAIR_GL_FLUID_COARSEN, i, 0,
+                       fluid->level[i + 2].slot - fluid->level[i + 1].slot);
+}
