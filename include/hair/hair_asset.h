@@ -5,7 +5,7 @@
 #ifndef HAIR_HAIR_ASSET_H
 #define HAIR_HAIR_ASSET_H
 
-#include <hair/hair.h>
+#include <hair/hair_groom.h>
 
 typedef struct hair_asset hair_asset;
 

@@ -12,7 +12,7 @@
 #ifndef HAIR_HAIR_BULLET_H
 #define HAIR_HAIR_BULLET_H
 
-#include <hair/hair.h>
+#include <hair/hair_physics.h>
 
 #ifdef __cplusplus
 class btCollisionShape;

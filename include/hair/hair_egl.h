@@ -2,7 +2,7 @@
 #ifndef HAIR_HAIR_EGL_H
 #define HAIR_HAIR_EGL_H
 
-#include <hair/hair.h>
+#include <hair/hair_base.h>
 
 typedef struct hair_egl hair_egl;
 

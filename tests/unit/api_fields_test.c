@@ -27,20 +27,24 @@ struct member {
     char comment[256];
 };
 
-static char headers[1 << 17]; // all of them
+static char headers[1 << 18]; // all of them
 static struct member members[512];
 static size_t member_count;
 
 static void read_headers(void)
 {
-    static const char* const names[] = {"include/hair/hair.h", "include/hair/hair_asset.h"};
+    static const char* const names[] = {"base",     "groom", "context",     "look", "physics",
+                                        "instance", "view",  "diagnostics", "asset"};
     size_t size = 0;
-    for (int i = 0; i < 2; ++i) {
-        FILE* file = fopen(names[i], "rb");
-        if (!file) fail_msg("%s is not there: run this where the Makefile is", names[i]);
+    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
+        char name[64];
+        snprintf(name, sizeof name, "include/hair/hair_%s.h", names[i]);
+        FILE* file = fopen(name, "rb");
+        if (!file) fail_msg("%s is not there: run this where the Makefile is", name);
         size += fread(headers + size, 1, sizeof headers - 1 - size, file);
         fclose(file);
     }
+    if (size == sizeof headers - 1) fail_msg("the headers are longer than %zu bytes", size);
 }
 
 // "    float     scale;   ///< Metres per unit. [1e-6, 1e6]. Default 1."
