@@ -1,47 +1,83 @@
-/// hair_context.h - the library in one OpenGL context.
+/// hair_context.h - contexts: the objects of the library in one OpenGL context.
+///
+/// A context and its instances belong to one thread at a time. Different contexts run in parallel.
 #ifndef HAIR_HAIR_CONTEXT_H
 #define HAIR_HAIR_CONTEXT_H
 
 #include <hair/hair_base.h>
 
+/// Treatment of the OpenGL state by calls that use OpenGL.
 typedef enum hair_gl_state {
-    HAIR_GL_STATE_RESTORE = 0, ///< A [GL] call leaves all OpenGL state as it found it.
-    HAIR_GL_STATE_CLOBBER ///< It may change: program, vertex array, patch vertices, culling, primitive restart,
-    ///< indirect draw and dispatch buffers, storage buffers 0-7, uniform buffers 0-2, buffer textures of units 0-7,
-    ///< buffer textures of units 17 and 18, 2D textures, samplers of units 12-16 and 19-23, 3D textures, samplers of units 8-11, image units 0-1.
+    /// Every call leaves all OpenGL state as it was.
+    HAIR_GL_STATE_RESTORE = 0,
+    /// Calls may change the following state, and no other:
+    /// - program, vertex array, patch vertices, face culling, primitive restart,
+    /// - indirect draw buffer and indirect dispatch buffer,
+    /// - storage buffers 0 to 7 and uniform buffers 0 to 2,
+    /// - buffer textures of units 0 to 7, 17 and 18,
+    /// - 3D textures and samplers of units 8 to 11,
+    /// - 2D textures and samplers of units 12 to 16 and 19 to 23,
+    /// - image units 0 and 1.
+    HAIR_GL_STATE_CLOBBER
 } hair_gl_state;
 
-/// Where a host keeps programs as its driver has compiled them, so that they need not be compiled in every run: bytes under
-/// keys, in files or wherever it likes. Of what it gives back, anything that is damaged, cut off or of another driver is
-/// noticed, and the program compiled and kept again. Strangers should not be able to write there: drivers believe what is
-/// whole. Called while the context is used, on that thread.
+/// A cache of compiled program binaries, provided by the application, for example in files. The
+/// library detects entries that are damaged, truncated or from another driver, and compiles and
+/// stores those programs again. Do not let untrusted code write to the cache, because drivers trust
+/// well-formed binaries. The callbacks run while the context is used, on its thread.
 typedef struct hair_cache {
-    /// Copy what was put under the key, if that is no more than `capacity` bytes. Returns how many it is; 0: nothing is there.
+    /// Function that copies the entry of `key` to `bytes` if the entry has at most `capacity`
+    /// bytes. It returns the size of the entry, or 0 if there is none.
     size_t (*get)(uint64_t key, void* bytes, size_t capacity, void* user);
-    /// Keep a copy, in place of what was there; or do not.
+    /// Function that stores a copy of the entry of `key`, replacing an older entry. It may also do
+    /// nothing.
     void (*put)(uint64_t key, const void* bytes, size_t size, void* user);
-    void* user; ///< Given back in every call.
+    /// Pointer passed to both callbacks.
+    void* user;
 } hair_cache;
 
+/// Input of hair_context_create().
 typedef struct hair_context_desc {
     hair_struct_header header;
-    const hair_host* host; ///< NULL: the C library's allocator, no log.
-    void* (*get_proc)(const char* name, void* user); ///< Finds OpenGL functions. Required.
-    void* get_proc_user; ///< Given back to get_proc.
+    /// Callbacks. NULL selects the allocator of the C library and disables the log.
+    const hair_host* host; ///< Default NULL.
+    /// Function that returns the address of an OpenGL function, or NULL. Required.
+    void* (*get_proc)(const char* name, void* user);
+    /// Pointer passed to get_proc.
+    void* get_proc_user; ///< Default NULL.
     hair_gl_state gl_state; ///< Default HAIR_GL_STATE_RESTORE.
-    uint32_t timings; ///< 1: time passes, for hair_get_timings. [0, 1]. Default 0.
-    const char* glsl_dir; ///< For development: glsl/ read from here. NULL: built in.
-    /// Copied; get and put are required. NULL: every program is compiled.
+    /// Measurement of the GPU time of passes, for hair_get_timings() and hair_report(). 1 enables
+    /// it.
+    uint32_t timings; ///< [0, 1]. Default 0.
+    /// Directory from which the shaders of glsl/ are read, for development. NULL selects the
+    /// built-in shaders.
+    const char* glsl_dir; ///< Default NULL.
+    /// Cache of program binaries. The struct is copied. `get` and `put` are required. NULL disables
+    /// the cache.
     const hair_cache* cache; ///< Default NULL.
 } hair_context_desc;
 HAIR_DESC(hair_context_desc)
 
-/// Compiles no program yet: each is compiled when something first needs it, and kept as long as the context.
-
+/// Create a context for the OpenGL context that is current. OpenGL 4.5 core is required.
+///
+/// The call compiles only a small test of the driver, and waits for its result. The library
+/// compiles every other program when a call first needs it, and keeps the program as long as the
+/// context. See hair_precompile().
+///
+/// @param desc Callbacks and settings. They are copied.
+/// @param out Receives the context.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Waits for the GPU.
 HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
+
+/// Destroy a context. Destroy its instances and shaders first. NULL does nothing.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API void hair_context_destroy(hair_context* context);
 
-/// Compile the shaders of glsl_dir that have been needed again. One that fails to compile keeps its last good program.
+/// Compile all programs in use again, from hair_context_desc.glsl_dir. A program that fails to
+/// compile keeps its last valid version.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL if a program does not compile.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_context_reload(hair_context* context);
 
 #endif

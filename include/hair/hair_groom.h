@@ -1,107 +1,171 @@
-/// hair_groom.h - grooms: import of strands, scalp maps, and the haircut itself. [any thread]
+/// hair_groom.h - grooms: import of strands, maps on the scalp, and the haircut itself.
+///
+/// A groom is immutable and lives on the CPU. No call in this header uses OpenGL.
 #ifndef HAIR_HAIR_GROOM_H
 #define HAIR_HAIR_GROOM_H
 
 #include <hair/hair_base.h>
 
+// Import ------------------------------------------------------------------------------------------
+
+/// Axis that points up.
 typedef enum hair_up { HAIR_UP_Y = 0, HAIR_UP_Z, HAIR_UP_X } hair_up;
 
-/// How foreign strands become the library's: in metres, +y up, root first, fit to simulate.
+/// Conversion of imported strands to the conventions of the library: metres, +y up, root first, and
+/// vertices that can be simulated.
 typedef struct hair_import {
     hair_struct_header header;
-    float scale; ///< Metres per unit of the positions. [1e-6, 1e6]. Default 1.
-    hair_up up; ///< The axis that points up in them; turned to +y. Default HAIR_UP_Y.
-    uint32_t tip_first; ///< 1: strands run from tip to root. [0, 1]. Default 0.
-    float keep_fraction; ///< Share of the strands to keep, by `seed`. [1e-6, 1]. Default 1.
-    uint32_t strand_vertices; ///< Vertices to resample every strand to. 0 (as they are) to 256. Default 0.
-    uint32_t seed; ///< Of every random choice. Default 1.
+    /// Length of one unit of the positions.
+    float scale; ///< m. [1e-6, 1e6]. Default 1.
+    /// Axis that points up in the positions. The import rotates this axis to +y.
+    hair_up up; ///< Default HAIR_UP_Y.
+    /// Order of the vertices of a strand. 0 is root to tip. 1 is tip to root.
+    uint32_t tip_first; ///< [0, 1]. Default 0.
+    /// Fraction of the strands that the import keeps, chosen at random from `seed`.
+    float keep_fraction; ///< [1e-6, 1]. Default 1.
+    /// Number of vertices to which every strand is resampled. 0 keeps the vertices of each strand.
+    uint32_t strand_vertices; ///< [0, 256]. Default 0.
+    /// Seed of all random choices.
+    uint32_t seed; ///< Default 1.
 } hair_import;
 HAIR_DESC(hair_import)
 
-/// What was wrong with foreign strands and what was done about it.
+/// Numbers of repairs that an import has made.
 typedef struct hair_import_stats {
-    uint32_t dropped_single; ///< Strands of fewer than two vertices, also after the repairs below.
+    uint32_t dropped_single; ///< Strands with fewer than two vertices after the repairs below.
     uint32_t dropped_short; ///< Strands shorter than 10 micrometres.
     uint32_t removed_nonfinite; ///< Vertices that were NaN, infinite or beyond 1e6 m.
-    uint32_t removed_repeated; ///< Vertices nearer to the one before than 1e-5 of the strand's length.
-    uint32_t resampled; ///< Strands of more than 256 vertices, brought down to 256.
+    uint32_t removed_repeated; ///< Vertices closer to the previous one than 1e-5 strand lengths.
+    uint32_t resampled; ///< Strands with more than 256 vertices, resampled to 256.
 } hair_import_stats;
 
-typedef enum hair_strand_set {
-    HAIR_STRAND_SET_FULL = 0, ///< Every hair: guides are chosen among them and the others follow those.
-    HAIR_STRAND_SET_GUIDES ///< Guides only: followers are grown on the scalp, or around guides without one.
-} hair_strand_set;
+// Maps on the scalp -------------------------------------------------------------------------------
 
 typedef enum hair_map_source {
-    HAIR_MAP_SOURCE_NONE = 0, ///< 1 everywhere.
-    HAIR_MAP_SOURCE_IMAGE, ///< Values of an image, by scalp_uvs, smoothly from one to the next.
-    HAIR_MAP_SOURCE_VERTICES, ///< A value per vertex of the scalp, linear between.
-    HAIR_MAP_SOURCE_TRIANGLES ///< A value per triangle of the scalp.
+    /// No values. The map is 1 everywhere.
+    HAIR_MAP_SOURCE_NONE = 0,
+    /// An image, sampled at hair_groom_desc.scalp_uvs with smooth interpolation.
+    HAIR_MAP_SOURCE_IMAGE,
+    /// One value per vertex of the scalp, interpolated linearly over triangles.
+    HAIR_MAP_SOURCE_VERTICES,
+    /// One value per triangle of the scalp.
+    HAIR_MAP_SOURCE_TRIANGLES
 } hair_map_source;
 
-/// Values all over a scalp.
+/// A scalar function on the scalp.
 typedef struct hair_map {
     hair_map_source source; ///< Default HAIR_MAP_SOURCE_NONE.
-    const float* values; ///< Of an image row after row, the first row at v = 0. Required but for none.
-    uint32_t width, height; ///< Of an image. [1, 16384] each.
+    /// Values of the source. Images are stored row by row, and the first row is at v = 0. Required
+    /// unless `source` is HAIR_MAP_SOURCE_NONE.
+    const float* values;
+    uint32_t width; ///< Width of the image, in texels. Ignored for other sources. [1, 16384].
+    uint32_t height; ///< Height of the image, in texels. Ignored for other sources. [1, 16384].
 } hair_map;
 
-/// Which share of followers grows where, and how thick. A groom has up to four sets; what is drawn may lie between.
+/// Scalp maps of follower density and strand thickness. A groom has up to four sets, and
+/// hair_look.map_set blends between two of them.
 typedef struct hair_map_set {
     hair_struct_header header;
-    hair_map density; ///< Share of the followers that are drawn. [0, 1].
-    hair_map thickness; ///< Of a strand, as a multiple of the look's radius. [0, 4].
+    hair_map density; ///< Fraction of the followers that are drawn. [0, 1].
+    hair_map thickness; ///< Radius of a strand as a multiple of hair_look.radius. [0, 4].
 } hair_map_set;
 HAIR_DESC(hair_map_set)
 
+// Grooms ------------------------------------------------------------------------------------------
+
+/// Meaning of the strands that a groom is made from.
+typedef enum hair_strand_set {
+    /// All strands of the haircut. The groom chooses guides among them. The others are followers.
+    HAIR_STRAND_SET_FULL = 0,
+    /// Guides only. The groom generates followers on the scalp, or around guides if there is no
+    /// scalp.
+    HAIR_STRAND_SET_GUIDES
+} hair_strand_set;
+
+/// Input of hair_groom_create(). All arrays are copied.
 typedef struct hair_groom_desc {
     hair_struct_header header;
-    const hair_host* host; ///< NULL: the C library's allocator, no log.
-    const float* positions; ///< xyz per vertex, strand after strand; `import` says the unit. Required.
-    const uint32_t* strand_vertices; ///< Vertices in each strand, any number. Required.
-    uint32_t strand_count; ///< [1, 4194304].
-    const hair_import* import; ///< NULL: the defaults: metres, +y up, root first.
+    /// Callbacks. NULL selects the allocator of the C library and disables the log.
+    const hair_host* host; ///< Default NULL.
+    /// Vertex positions, xyz each, strand after strand, in units of hair_import.scale. Required.
+    const float* positions;
+    /// Number of vertices of each strand, of any size. Required.
+    const uint32_t* strand_vertices;
+    uint32_t strand_count; ///< Number of strands. [1, 4194304].
+    /// Conversion of the positions. NULL selects the defaults: metres, +y up, root first.
+    const hair_import* import; ///< Default NULL.
     hair_strand_set strand_set; ///< Default HAIR_STRAND_SET_FULL.
-    uint32_t guide_count; ///< To choose of HAIR_STRAND_SET_FULL. 0 (one in ten, at least 64) to 262144.
-    uint32_t guide_vertices; ///< Most simulated per guide; the scalp holds two. [2, 256]. Default 32.
-    uint32_t follower_count; ///< To grow for HAIR_STRAND_SET_GUIDES. [0, 4194304]. Default 18000.
-    float clump_radius; ///< Of what grows around a guide, no scalp given. m. [0, 1]. Default 0.01.
-    const float* scalp_positions; ///< xyz per vertex, in the space of `positions`. NULL: no scalp.
-    const uint32_t* scalp_triangles; ///< Three indices each, counter-clockwise from outside.
-    const float* scalp_density; ///< Per scalp vertex, share of the full density. [0, 1]. NULL: 1.
-    uint32_t scalp_vertex_count; ///< [0, 4194304].
-    uint32_t scalp_triangle_count; ///< [0, 4194304].
-    uint32_t seed; ///< Of every random choice. Default 1.
-    const float* scalp_uvs; ///< uv per scalp vertex, for maps that are images. NULL: none.
-    const hair_map_set* map_sets[4]; ///< Maps on the scalp, up to the first NULL. NULL: none.
-    /// Per strand, in the unit of `positions`: of the mean of all that much thicker than hair_look.radius are it and what
-    /// grows of it, at most 4 times. [0, 1e6]. NULL: chance has it.
-    const float* strand_radii;
-    /// Of strands, linear rgb; followers between guides have what lies between. See hair_look.groom_colors. [0, 1]. NULL:
-    /// none. They are kept at 8 even places from root to tip.
-    const float* colors;
-    /// Of each strand, at even places from root to tip; 0: one per vertex.
+    /// Number of guides to choose from HAIR_STRAND_SET_FULL. HAIR_AUTO chooses one strand in ten,
+    /// and at least 64. Ignored for HAIR_STRAND_SET_GUIDES, whose strands are all guides.
+    uint32_t guide_count; ///< [0, 262144]. Default HAIR_AUTO.
+    /// Maximum number of simulated vertices per guide. The scalp holds the first two of them.
+    uint32_t guide_vertices; ///< [2, 256]. Default 32.
+    /// Number of followers to generate for HAIR_STRAND_SET_GUIDES.
+    uint32_t follower_count; ///< [0, 4194304]. Default 18000.
+    /// Radius around a guide in which its followers grow if there is no scalp.
+    float clump_radius; ///< m. [0, 1]. Default 0.01.
+    /// Positions of the scalp's vertices, xyz each, in the space of `positions`. NULL if there is
+    /// no scalp. The other scalp fields must then be NULL or 0.
+    const float* scalp_positions; ///< Default NULL.
+    /// Three vertex indices per triangle, counter-clockwise seen from outside. Required with a
+    /// scalp.
+    const uint32_t* scalp_triangles;
+    /// Fraction of the full follower density per scalp vertex. NULL selects 1 everywhere.
+    const float* scalp_density; ///< [0, 1]. Default NULL.
+    uint32_t scalp_vertex_count; ///< Number of scalp vertices. [0, 4194304].
+    uint32_t scalp_triangle_count; ///< Number of scalp triangles. [0, 4194304].
+    /// Seed of all random choices.
+    uint32_t seed; ///< Default 1.
+    /// Texture coordinates per scalp vertex, uv each, for map images and hair_view.color_texture.
+    /// NULL if there are none.
+    const float* scalp_uvs; ///< [-1e6, 1e6]. Default NULL.
+    /// Maps on the scalp. The first NULL ends the list. Maps require a scalp.
+    const hair_map_set* map_sets[4]; ///< Default NULL.
+    /// Radius of each strand, in the unit of `positions`. Only the ratio to the mean radius
+    /// matters. The ratio, clamped to 4, multiplies hair_look.radius, also for followers generated
+    /// from the strand. NULL selects random variation.
+    const float* strand_radii; ///< [0, 1e6]. Default NULL.
+    /// Linear rgb colours of the strands, color_count per strand. The groom resamples them to 8
+    /// even places from root to tip and interpolates them between guides. See
+    /// hair_look.groom_colors. NULL if there are none.
+    const float* colors; ///< [0, 1]. Default NULL.
+    /// Number of colours per strand, at even places from root to tip. 0 means one colour per
+    /// vertex.
     uint32_t color_count; ///< [0, 256]. Default 0.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 
-/// Repair strands, choose guides, find rest shapes, bind or grow followers.
+/// Create a groom: repair the strands, choose guides, compute rest shapes, and bind or generate
+/// followers.
+///
+/// @param desc Strands, scalp and maps. They are copied.
+/// @param out Receives the groom.
+/// Errors: HAIR_ERROR_ARGUMENT, also if no strand is usable, HAIR_ERROR_MEMORY, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out);
+
+/// Destroy a groom. Instances may still use the groom. NULL does nothing.
+/// OpenGL: not used. Any thread.
 HAIR_API void hair_groom_destroy(hair_groom* groom);
 
+/// Sizes of a groom.
 typedef struct hair_groom_info {
     hair_struct_header header;
-    uint32_t strand_count; ///< Left after the repairs.
-    uint32_t guide_count;
-    uint32_t guide_vertex_count; ///< In all guides together.
-    uint32_t follower_count; ///< Strands drawn at full density.
-    uint32_t patch_count;
-    float length[3]; ///< Of the strands: least, mean, greatest. m.
-    float lower[3], upper[3]; ///< Bounds of the strands at rest. m.
-    hair_import_stats import_stats;
+    uint32_t strand_count; ///< Number of strands after the repairs.
+    uint32_t guide_count; ///< Number of guides.
+    uint32_t guide_vertex_count; ///< Number of vertices in all guides.
+    uint32_t follower_count; ///< Number of strands drawn at full density.
+    uint32_t patch_count; ///< Number of patches, the groups of strands that are culled together.
+    float length[3]; ///< Minimum, mean and maximum length of the strands, m.
+    float lower[3]; ///< Lower corner of the bounds of the strands at rest, m.
+    float upper[3]; ///< Upper corner of the bounds of the strands at rest, m.
+    hair_import_stats import_stats; ///< Repairs of the import.
 } hair_groom_info;
 HAIR_DESC(hair_groom_info)
 
+/// Write the sizes of a groom to `out`, which comes from hair_groom_info_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out);
 
 #endif

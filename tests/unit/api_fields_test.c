@@ -2,7 +2,6 @@
 // holds.
 #include "tests/support/support.h"
 
-#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,9 +80,11 @@ static int read_members(void** state)
     return 0;
 }
 
-// The value of an enumerator, which is its place among those before it; -1: there is none of that name.
+// Return the value of an enumerator, which is its position in its enum, or of HAIR_AUTO. Return -1 if
+// there is no enumerator of this name.
 static double find_enumerator(const char* name, size_t length)
 {
+    if (length == strlen("HAIR_AUTO") && strncmp(name, "HAIR_AUTO", length) == 0) return HAIR_AUTO;
     for (const char* at = strstr(headers, "typedef enum"); at; at = strstr(at + 1, "typedef enum")) {
         const char* end = strchr(at, '}');
         double value = 0;
@@ -128,19 +129,12 @@ static double read_value(const char* at)
     return value;
 }
 
-// "[a, b]", or "a (in words) to b". 0: there is no range.
+// Read the range "[a, b]" of a comment. Return 0 if there is none.
 static int read_range(const char* comment, double* min, double* max)
 {
     for (const char* at = strchr(comment, '['); at; at = strchr(at + 1, '['))
         if (sscanf(at, "[%lf, %lf]", min, max) == 2) return 1;
-    const char* to = strstr(comment, ") to ");
-    if (!to || sscanf(to, ") to %lf", max) != 1) return 0;
-    const char* from = to;
-    while (from > comment && *from != '(') --from;
-    --from; // on the space before
-    while (from > comment && isdigit((unsigned char)from[-1])) --from;
-    *min = strtod(from, NULL);
-    return 1;
+    return 0;
 }
 
 // The i-th value of "Default x", "Default (x, y, z)" or "Default identity". 0: there is none.
