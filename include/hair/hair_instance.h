@@ -1,4 +1,4 @@
-/// hair_instance.h - one head of living hair.
+/// hair_instance.h - instances: the simulated hair of one head. Creation, and saved states.
 #ifndef HAIR_HAIR_INSTANCE_H
 #define HAIR_HAIR_INSTANCE_H
 
@@ -7,56 +7,106 @@
 #include <hair/hair_look.h>
 #include <hair/hair_physics.h>
 
+// Creation ----------------------------------------------------------------------------------------
+
+/// Mapping of guides to GPU threads.
 typedef enum hair_thread_mapping {
-    HAIR_THREAD_MAPPING_AUTO = 0, ///< By driver and number of guides, never by timing.
-    HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, ///< A work group per guide, a thread per vertex. redblack has no other by compute.
-    /// A thread per guide: fastest on software rasterisers, which may not let one thread do all for long guides among many
-    /// colliders. Then a work group does, as on hardware for guides of more than 128 vertices.
+    /// Mapping selected by driver and number of guides, never by timing.
+    HAIR_THREAD_MAPPING_AUTO = 0,
+    /// One work group per guide, and one thread per vertex. HAIR_SOLVER_REDBLACK has no other
+    /// mapping to compute shaders.
+    HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
+    /// One thread per guide. Fastest on software rasterizers. Work groups are used instead for long
+    /// guides among many colliders on software rasterizers, and for guides of more than 128
+    /// vertices on hardware.
     HAIR_THREAD_MAPPING_THREAD_PER_GUIDE,
-    /// Of redblack, on a rigid head, for comparison: without compute shaders, as Tariq 2010 under Direct3D 10: vertices are
-    /// captured by transform feedback, from one buffer into another, for every phase of every iteration. To be created and
-    /// stepped without transform feedback of the host under way. hair_solver_stats.reset counts nothing.
+    /// Transform feedback instead of compute shaders, for comparison, as Tariq 2010 under Direct3D
+    /// 10. Every phase of every iteration captures the vertices from one buffer into another.
+    /// HAIR_SOLVER_REDBLACK on a rigid head only. Create and step the instance while no transform
+    /// feedback of the application is active. hair_solver_stats.reset stays 0.
     HAIR_THREAD_MAPPING_FEEDBACK
 } hair_thread_mapping;
 
-/// How the first vertex of a follower that is inside a collider is found: the answer is the same.
+/// Method that finds the first vertex of a follower inside a collider. All methods give the same
+/// result.
 typedef enum hair_hit_method {
-    HAIR_HIT_METHOD_AUTO = 0, ///< The faster: by compute.
-    HAIR_HIT_METHOD_COMPUTE, ///< Vertices are gone through up to the first.
-    HAIR_HIT_METHOD_PREPASS ///< Tariq 2010: vertices are drawn as points, a texel per follower keeps the least.
+    /// The faster method, which is HAIR_HIT_METHOD_COMPUTE.
+    HAIR_HIT_METHOD_AUTO = 0,
+    /// Search along the vertices in a compute shader.
+    HAIR_HIT_METHOD_COMPUTE,
+    /// Draw the vertices as points, and keep the minimum index per follower (Tariq 2010).
+    HAIR_HIT_METHOD_PREPASS
 } hair_hit_method;
 
+/// Input of hair_create().
 typedef struct hair_desc {
     hair_struct_header header;
-    const char* label; ///< Name in the log and in GPU debuggers. NULL: "hair".
+    /// Name in the log and in GPU debuggers, copied. NULL selects "hair".
+    const char* label; ///< Default NULL.
     hair_solver solver; ///< Default HAIR_SOLVER_DIRECT.
-    float substep; ///< Length of a substep. s. 0 (as the solver wants) to 0.1, from 1e-5 on. Default 0.
-    hair_thread_mapping thread_mapping; ///< Of guides to GPU threads. Default HAIR_THREAD_MAPPING_AUTO.
-    float max_dt; ///< Longest a step advances; beyond, time slows. s. [1e-3, 1]. Default 0.1.
-    const hair_physics* physics; ///< NULL: the defaults.
-    const hair_look* look; ///< NULL: the defaults.
-    float transform[16]; ///< Groom to world. Rigid, by at most 1e9 m. Default identity.
-    float field_voxel; ///< Side of a voxel of the field, see hair_field_info. m. [0.0005, 1]. Default 0.005.
+    /// Length of a substep, at least 1e-5 s. HAIR_AUTO lets the solver choose from the physics.
+    float substep; ///< s. [0, 0.1]. Default HAIR_AUTO.
+    hair_thread_mapping thread_mapping; ///< Default HAIR_THREAD_MAPPING_AUTO.
+    /// Maximum time that one hair_step() advances. Longer steps slow the simulated time.
+    float max_dt; ///< s. [1e-3, 1]. Default 0.1.
+    /// Initial physics. NULL selects the defaults.
+    const hair_physics* physics; ///< Default NULL.
+    /// Initial look. NULL selects the defaults.
+    const hair_look* look; ///< Default NULL.
+    /// Initial pose of the head, groom to world. Rigid, with a translation of at most 1e9 m per
+    /// axis.
+    float transform[16]; ///< Default identity.
+    /// Size of a voxel of the field, see hair_field_info.
+    float field_voxel; ///< m. [0.0005, 1]. Default 0.005.
     hair_hit_method hit_method; ///< Default HAIR_HIT_METHOD_AUTO.
-    /// 1 watches the energy of guides for hair_solver_stats.gaining. It costs a dispatch in each step in which nothing drives hair.
+    /// Measurement of the energy of guides, for hair_solver_stats.gaining. 1 enables it. It costs
+    /// one dispatch in each step in which nothing drives the hair.
     uint32_t diagnose; ///< [0, 1]. Default 0.
 } hair_desc;
 HAIR_DESC(hair_desc)
 
-HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
-                                 hair_instance** out);
+/// Create an instance in its rest pose.
+///
+/// @param context Context, which must outlive the instance.
+/// @param groom Haircut. It may be destroyed after this call.
+/// @param desc Settings, copied.
+/// @param out Receives the instance.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom,
+                                 const hair_desc* desc, hair_instance** out);
+
+/// Destroy an instance. NULL does nothing.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API void hair_destroy(hair_instance* hair);
 
-/// Write all that the coming motion depends on but settings (physics, wind, look): strands, head, colliders, pins, air, how
-/// far gusts have gone, the time since the last substep; of collision meshes only a mark. `size` becomes the bytes it takes, also when `capacity` is too
-/// small, which is an error; NULL and a capacity of 0 only ask for it. Waits.
+// Saved states ------------------------------------------------------------------------------------
+
+/// Write the state that determines the future motion: strands, head, colliders, pins, air,
+/// turbulence, and the time since the last substep. The state does not contain physics, wind and
+/// look. The state contains only a hash of each collision mesh.
+///
+/// @param bytes Receives the state. NULL only queries the size.
+/// @param capacity Size of `bytes`. 0 if `bytes` is NULL.
+/// @param size Receives the size of the state in bytes, also if `capacity` is too small.
+/// Errors: HAIR_ERROR_ARGUMENT, also if `capacity` is too small, HAIR_ERROR_OPENGL.
+/// OpenGL: required. Waits for the GPU unless `bytes` is NULL.
 HAIR_API hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size);
 
-/// Go on from what hair_save wrote, here or elsewhere: with the same settings and inputs the same driver gives
-/// the same bits. Any bytes may be given: what is no saved state is refused, and so is one of guides with other
-/// numbers of vertices, of another solver or of another hair_desc.substep. Where that is 0, substeps go on as long
-/// as the solver wants them with the physics that are set here. Collision meshes are those of the same content that the
-/// instance's colliders have; others are not there until the colliders are set again.
+/// Restore a state of hair_save(), also in another process. With the same settings and inputs, the
+/// same driver then gives the same bits.
+///
+/// Any bytes may be passed. The call refuses damaged bytes. It also refuses states of guides with
+/// other numbers of vertices, of another solver, or of another hair_desc.substep. If that substep
+/// is HAIR_AUTO, substeps continue with the length that the solver chooses for the physics of this
+/// instance. Collision meshes are matched by content to the meshes of this instance's colliders.
+/// Other mesh colliders are absent until hair_set_colliders() sets them.
+///
+/// @param bytes State.
+/// @param size Size of the state in bytes.
+/// Errors: HAIR_ERROR_ARGUMENT for a state of other hair, HAIR_ERROR_FILE for damaged bytes,
+///     HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_load(hair_instance* hair, const void* bytes, size_t size);
 
 #endif
