@@ -1,204 +1,333 @@
-/// hair_view.h - views, lights, level of detail, shaders and drawing. [GL]
+/// hair_view.h - drawing: passes, level of detail, shaders, lights and views.
 #ifndef HAIR_HAIR_VIEW_H
 #define HAIR_HAIR_VIEW_H
 
 #include <hair/hair_base.h>
 
+// Passes ------------------------------------------------------------------------------------------
+
+/// Output of a draw.
 typedef enum hair_pass {
-    HAIR_PASS_COLOR = 0, ///< Shaded, with depth.
-    HAIR_PASS_DEPTH, ///< Depth only: shadow maps and pre-passes.
-    HAIR_PASS_GUIDES, ///< Debug: simulated strands as lines, by stretch: blue -2 % to red +2 %.
-    HAIR_PASS_COLLIDERS, ///< Debug: what hair collides with, shaded; and a slice of the field, see hair_slice.
-    /// With depth: how far hair has moved on the screen since the frame before, see hair_view.frame_index. To a float target: x and
-    /// y in viewports, to the right and up, without jitter; 0 and 1 beside. Keeps the vertices of two frames: 40 bytes each.
+    /// Shaded colour, with depth.
+    HAIR_PASS_COLOR = 0,
+    /// Depth only, for shadow maps and depth pre-passes.
+    HAIR_PASS_DEPTH,
+    /// Debug view of the guides as lines. The colour shows the stretch, from blue at -2 % to red at
+    /// +2 %.
+    HAIR_PASS_GUIDES,
+    /// Debug view of the colliders, shaded, and of a slice of the field. See hair_slice.
+    HAIR_PASS_COLLIDERS,
+    /// Motion vectors, with depth. They are the displacement on the screen since the previous
+    /// frame, see hair_view.frame_index. The target has floats. x and y are in viewports, to the
+    /// right and up, without jitter. The other channels are 0 and 1. Needs memory for the vertices
+    /// of two frames, 40 bytes each.
     HAIR_PASS_MOTION,
-    /// With depth: numbers. To an unsigned integer target: 1 + strand, 1 + its guide, place along it from 0 to 65535.
+    /// Indices, with depth. The target has unsigned integers: 1 + strand, 1 + guide of the strand,
+    /// and the position along the strand from 0 to 65535.
     HAIR_PASS_ID,
-    /// Debug: the air of the last step, if there is wind, as arrows in a hair_slice; HAIR_SLICE_NONE is HAIR_SLICE_Z here.
-    /// Grey ones are as fast as the wind, blue ones slower, red ones twice as fast.
+    /// Debug view of the wind of the last step, as arrows in a hair_slice. HAIR_SLICE_NONE means
+    /// HAIR_SLICE_Z here. Gray arrows are as fast as the ambient wind, blue arrows slower, and red
+    /// arrows twice as fast. Draws nothing without wind.
     HAIR_PASS_WIND,
-    /// What hair takes of a light that it is seen from, as hair_light.shadow_matrix does, for what it falls on: the share of
-    /// each texel that strands of true width cover, times hair_view.opacity, whatever size texels have; it is fit to be
-    /// filtered. To a float target, R16F will do, that was cleared to 0: what lies behind has 1 - opacity of the light.
-    /// Blending is set for it and put back; depth is tested as that is set, and not written. Attach the depth map of
-    /// bodies, hair_light.opaque_shadow_map: then only hair before the first body counts, which is what falls on it.
+    /// Opacity of the hair as seen from a light, to shadow other geometry. The view is that of
+    /// hair_light.shadow_matrix. The value is the fraction of each texel that strands of true width
+    /// cover, times hair_view.opacity. The fraction does not depend on the texel size, and the
+    /// texture may be filtered. The target has floats, for example R16F, and is cleared to 0.
+    /// Geometry behind the hair then receives 1 - opacity of the light. The pass sets blending and
+    /// restores it. Depth is tested with the current settings and not written. Attach the depth of
+    /// hair_light.opaque_shadow_map, so that only hair in front of the first opaque surface counts.
     HAIR_PASS_OPACITY
 } hair_pass;
 
-/// How followers become what is drawn: the picture is the same.
+/// Way in which followers become pixels. All paths draw the same image.
 typedef enum hair_render_path {
-    HAIR_RENDER_PATH_TESSELLATION = 0, ///< Isolines, from one-point patches.
-    HAIR_RENDER_PATH_INSTANCED, ///< No tessellator: vertices by their numbers, for the strands that are drawn.
-    HAIR_RENDER_PATH_CACHED, ///< Vertices written once, for all views until hair moves: 24 bytes each; and
-    ///< shaded for each view of colour before it draws them: 8 more. With a
-    ///< hair_lod those of what is drawn are written for each view: 40 bytes, of
-    ///< lines 24; only of HAIR_PASS_COLOR and HAIR_PASS_DEPTH and without a
-    ///< shader, else as HAIR_RENDER_PATH_INSTANCED.
-    /// As HAIR_RENDER_PATH_CACHED, but pixels too are made by compute, and come to the framebuffer as rectangles: for GPUs of which
-    /// few units draw. Of HAIR_PASS_COLOR and HAIR_PASS_DEPTH as ribbons, by samples, without a shader that shades pixels;
-    /// all else is drawn as by HAIR_RENDER_PATH_CACHED. With a hair_lod vertices are written for each view, 32 bytes. What is
-    /// blended is blended once, the nearest. Depth functions other than less and greater are taken for less. Up to 16 samples;
-    /// memory: 8 bytes, of depth alone 4, for each sample of the pixels that hair can be in, and half as many again.
+    /// Tessellation into isolines, from patches of one point.
+    HAIR_RENDER_PATH_TESSELLATION = 0,
+    /// Vertices computed from their index in the vertex shader, for the drawn strands only.
+    HAIR_RENDER_PATH_INSTANCED,
+    /// Vertex cache, written once for all views until the hair moves. It takes 24 bytes per vertex,
+    /// and 8 more for shading per view of HAIR_PASS_COLOR. With a hair_lod, the cache holds the
+    /// drawn vertices of one view instead. It takes 40 bytes per vertex, or 24 for lines. This
+    /// applies to HAIR_PASS_COLOR and HAIR_PASS_DEPTH without a shader. Other views with a hair_lod
+    /// use HAIR_RENDER_PATH_INSTANCED.
+    HAIR_RENDER_PATH_CACHED,
+    /// Rasterization in compute shaders, from the vertex cache, and composition of tiles into the
+    /// framebuffer. Fastest on GPUs with few raster units.
+    ///
+    /// Applies to ribbons of HAIR_PASS_COLOR and HAIR_PASS_DEPTH with HAIR_COVERAGE_MSAA, up to 16
+    /// samples, and without a shader at HAIR_SHADE_PIXELS. Other views use HAIR_RENDER_PATH_CACHED.
+    /// Blending applies only to the nearest strand. Depth functions other than less and greater
+    /// count as less. With a hair_lod, each view writes its vertices, 32 bytes each. The image
+    /// takes 8 bytes per sample of every pixel that the hair can reach, or 4 for depth, plus one
+    /// half of this.
     HAIR_RENDER_PATH_COMPUTE,
-    HAIR_RENDER_PATH_AUTO ///< What was measured to be the fastest on this driver: by its name, never by timing. hair_report says
-    ///< which it is.
+    /// The path that was measured as fastest on drivers of this name, never by timing.
+    /// hair_report() tells which path it is.
+    HAIR_RENDER_PATH_AUTO
 } hair_render_path;
 
 typedef enum hair_primitive {
-    HAIR_PRIMITIVE_RIBBONS = 0, ///< Camera-facing, of true width.
-    HAIR_PRIMITIVE_LINES ///< One pixel wide: the cheap setting.
+    HAIR_PRIMITIVE_RIBBONS = 0, ///< Camera-facing ribbons of true width.
+    HAIR_PRIMITIVE_LINES ///< Lines, one pixel wide. Cheaper.
 } hair_primitive;
 
-/// How pixels come to show strands that are thinner than they are.
+/// Antialiasing of strands that are thinner than a pixel.
 typedef enum hair_coverage {
-    HAIR_COVERAGE_MSAA = 0, ///< By their samples, which see opaque ribbons of true width; the default.
-    /// Of HAIR_PASS_COLOR, for ribbons only: by the share of the pixel that they cover, whatever its samples. Segments are
-    /// sorted from far to near and blended over what is there, as far as its depth lets them: draw the body before, the
-    /// hair's own depth is not written. Colours are multiplied by alpha. Memory: 32 bytes for each vertex of all followers,
-    /// whatever the picture's size; what lies between each other by less than 1/16384 of the hair's extent is in any order.
+    /// Multisampling of opaque ribbons of true width. Default.
+    HAIR_COVERAGE_MSAA = 0,
+    /// Analytic coverage, the fraction of a pixel that a ribbon covers, whatever the number of
+    /// samples. Applies to ribbons of HAIR_PASS_COLOR. Segments are sorted from far to near and
+    /// blended over the image where the depth test passes. Draw opaque geometry first. The pass
+    /// does not write depth. Colours are premultiplied by alpha. Needs 32 bytes per vertex of all
+    /// followers, whatever the image size. Segments whose depth differs by less than 1/16384 of the
+    /// hair's extent may be in any order.
     HAIR_COVERAGE_ALPHA
 } hair_coverage;
 
-/// A slice through the field, at right angles to one of the head's axes. The colliders before it are cut away.
-/// Blue is outside, red inside, white the surface; a line for every voxel from it.
-typedef enum hair_slice { HAIR_SLICE_NONE = 0, HAIR_SLICE_X, HAIR_SLICE_Y, HAIR_SLICE_Z } hair_slice;
+/// Slice through the field, perpendicular to an axis of the head. Colliders in front of the slice
+/// are cut away. The slice is blue outside, red inside and white at the surface, with a line for
+/// every voxel of distance.
+typedef enum hair_slice {
+    HAIR_SLICE_NONE = 0,
+    HAIR_SLICE_X,
+    HAIR_SLICE_Y,
+    HAIR_SLICE_Z
+} hair_slice;
 
-/// Level of detail: how much of the hair is drawn. Of the strands that are left out those that are drawn make up the
-/// width, so that they cover as much, and move inwards among their neighbours as far as they reach out farther to either side;
-/// lines, which have no width, cannot. All changes continuously. HAIR_SELF_SHADOW_STRANDS finds
-/// light for what is drawn only. Dynamic, its cells are no smaller than 2 pixels, and followers are led round colliders as far as 5 mm
-/// are more than a pixel, in full where they are 2: where no view shows that, it is not found out either.
+// Level of detail ---------------------------------------------------------------------------------
+
+/// Level of detail, the fraction of the strands and segments that a view draws.
+///
+/// All changes are continuous. Drawn strands become wider, so that they cover as much as all
+/// strands would. They also move inwards among their neighbours by as much as they are widened.
+/// Lines have no width, so they cover less. HAIR_SELF_SHADOW_STRANDS computes the light of drawn
+/// strands only.
+///
+/// With per_patch, two more details depend on the size on the screen. Cells of
+/// HAIR_SELF_SHADOW_STRANDS are at least 2 pixels large. Followers are pushed out of colliders only
+/// if 5 mm are more than a pixel, and fully from 2 pixels on. A view that does not show this
+/// displacement does not compute it.
 typedef struct hair_lod {
     hair_struct_header header;
-    float strand_fraction; ///< Share of the strands that is drawn, at most. [0, 1]. Default 1.
-    float segment_fraction; ///< Share of hair_look.segments that they have, at most. [0, 1]. Default 1.
-    float width_exponent; ///< Strands are 1 / share to this power as wide. [0, 2]. Default 1.
-    uint32_t per_patch; ///< 1: by patch, as follows. 0: alike everywhere, as above. [0, 1]. Default 1.
-    /// Strands that would be thinner on the screen than this are drawn so wide, and as many fewer. Pixels.
-    float strand_pixels; ///< [0.01, 100]. Default 0.25.
-    float segment_pixels; ///< Length of a segment on the screen, likewise. [0.1, 1000]. Default 4.
-    /// Share of the strands of a patch that is left, at least.
+    /// Maximum fraction of the strands that are drawn.
+    float strand_fraction; ///< [0, 1]. Default 1.
+    /// Maximum fraction of hair_look.segments per strand.
+    float segment_fraction; ///< [0, 1]. Default 1.
+    /// Exponent of the width. Strands become wider by the drawn fraction to the power of
+    /// -width_exponent.
+    float width_exponent; ///< [0, 2]. Default 1.
+    /// Selection by the size on the screen of each patch of strands, by the members below. 0 uses
+    /// the members above for all patches.
+    uint32_t per_patch; ///< [0, 1]. Default 1.
+    /// Minimum width of a strand on the screen. Strands that would be thinner are drawn with this
+    /// width, and in proportionally smaller number.
+    float strand_pixels; ///< Pixels. [0.01, 100]. Default 0.25.
+    /// Minimum length of a segment on the screen. Strands with shorter segments get fewer segments.
+    float segment_pixels; ///< Pixels. [0.1, 1000]. Default 4.
+    /// Minimum fraction of the strands of a patch that are drawn.
     float min_strand_fraction; ///< [0.001, 1]. Default 0.05.
-    float importance; ///< Hair is taken for as many times as large as it appears. [0, 1000]. Default 1.
-    /// The same for hair that a head hides whose place is told from its roots. Below 1 what the head is certain to hide
-    /// is not drawn: then the head must be. What is not in view never is.
+    /// Factor of the projected size that selects the level of detail.
+    float importance; ///< [0, 1000]. Default 1.
+    /// Factor of the projected size of hair behind the head, whose position is estimated from the
+    /// roots. Below 1, hair that the head certainly occludes is not drawn. The application must
+    /// then draw the head. Hair outside the view is never drawn.
     float occluded_importance; ///< [0, 1]. Default 1.
 } hair_lod;
 HAIR_DESC(hair_lod)
 
-/// Where the host's own shading runs.
+// Shaders -----------------------------------------------------------------------------------------
+
+/// Shader stage in which the application's shading runs.
 typedef enum hair_shade_at {
-    HAIR_SHADE_VERTICES = 0, ///< Of strands, as ours: cheap. Pixels get what lies between.
-    HAIR_SHADE_PIXELS ///< In the fragment shader, whose other outputs it may declare and write.
+    /// Per vertex of a strand, like the built-in shading. Cheap. Pixels are interpolated.
+    HAIR_SHADE_VERTICES = 0,
+    /// In the fragment shader, which may declare and write further outputs.
+    HAIR_SHADE_PIXELS
 } hair_shade_at;
 
-/// Shading of the host's own: GLSL 4.50 that has
+/// Shading by the application, a text in GLSL 4.50 that defines
+///
 ///     vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f) + 0.1 * f.color, 1.0); }
-/// and whatever that needs: uniform buffers from binding 8 on, textures from unit 24 on and, of pixels, storage buffers from
-/// binding 8 on, which the host binds. It returns light towards the eye and, of pixels, alpha. It may call
-///     vec3 hair_shade_ours(hair_fragment f)            what would be without it
-///     vec3 hair_world(hair_fragment f)                 where it is in the world, m
-///     uint hair_lights()                               of the view
-///     vec3 hair_light(hair_fragment f, uint i, out vec3 to)  the i-th's irradiance without shadow; to: its direction
-///     float hair_light_through(hair_fragment f, uint i)      share of it that comes through hair and bodies
-///     vec3 hair_sky(hair_fragment f)                   irradiance of the surroundings
-/// A hair_fragment has: vec3 position (from the head's origin, m, world axes), tangent, to_eye (unit); float t (0 root, 1
-/// tip), random (the strand's own, [0, 1)), across (a ribbon, -1 to 1; 0 at vertices); vec3 color (reflectance); vec2 uv (of
-/// the root on the scalp; 0 where the groom has none); uint strand, lock (its guide), seed. The rest of the library's names
-/// are in sight too and may change: give your own a prefix. What is not finite or below 0 becomes 0.
+///
+/// The function returns the light towards the eye and, for HAIR_SHADE_PIXELS, alpha. Values that
+/// are not finite or below 0 become 0.
+///
+/// A hair_fragment has these members:
+///
+///     vec3 position    position relative to the head's origin, m, along the world axes
+///     vec3 tangent     unit direction of the strand
+///     vec3 to_eye      unit direction to the eye
+///     float t          position along the strand, from 0 at the root to 1 at the tip
+///     float random     random number of the strand in [0, 1)
+///     float across     position across a ribbon, from -1 to 1, and 0 per vertex
+///     vec3 color       reflectance
+///     vec2 uv          texture coordinates of the root on the scalp, 0 if there are none
+///     uint strand      index of the strand
+///     uint lock        index of the guide
+///     uint seed        random seed of the strand
+///
+/// The text may call these functions:
+///
+///     vec3 hair_shade_ours(hair_fragment f)                  the built-in shading
+///     vec3 hair_world(hair_fragment f)                       the position in the world, m
+///     uint hair_lights()                                     the number of lights of the view
+///     vec3 hair_light(hair_fragment f, uint i, out vec3 to)  unshadowed irradiance of light i, and
+///                                                            the direction to the light
+///     float hair_light_through(hair_fragment f, uint i)      transmittance of hair and opaque
+///                                                            geometry towards light i
+///     vec3 hair_sky(hair_fragment f)                         irradiance of the surroundings
+///
+/// The text may use uniform buffers from binding 8 on and textures from unit 24 on. At
+/// HAIR_SHADE_PIXELS it may also use storage buffers from binding 8 on. The application binds them.
+/// Other names of the library are visible and may change, so give your own names a prefix.
 typedef struct hair_shader_desc {
     hair_struct_header header;
-    const char* label; ///< In errors, before the line: "label:12: …". NULL: "shader".
-    const char* glsl; ///< Its text, without #version. Required.
+    /// Name in error messages, as in "label:12: ...". NULL selects "shader".
+    const char* label; ///< Default NULL.
+    /// Text of the shader, without #version. Required. It is copied.
+    const char* glsl;
     hair_shade_at at; ///< Default HAIR_SHADE_VERTICES.
 } hair_shader_desc;
 HAIR_DESC(hair_shader_desc)
 
-/// A text that does not compile is HAIR_ERROR_OPENGL, its first error in the log. Programs are made as views need them.
+/// Create a shader and compile the variant that most views use. Other variants are compiled when a
+/// view first needs them.
+///
+/// @param context Context, which must outlive the shader.
+/// @param desc Text and name, copied.
+/// @param out Receives the shader.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL if the text does not compile,
+///     with the first error in the log, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc,
                                         hair_shader** out);
-HAIR_API void hair_shader_destroy(hair_shader* shader); ///< Before its context.
+
+/// Destroy a shader, before its context. NULL does nothing.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API void hair_shader_destroy(hair_shader* shader);
+
+// Lights ------------------------------------------------------------------------------------------
 
 typedef enum hair_light_kind {
-    HAIR_LIGHT_DIRECTIONAL = 0, ///< So far away that all of its light comes from one side: the sun.
-    HAIR_LIGHT_POINT, ///< A lamp that shines everywhere.
-    HAIR_LIGHT_SPOT ///< One that shines into a cone.
+    HAIR_LIGHT_DIRECTIONAL = 0, ///< A light at infinity, such as the sun.
+    HAIR_LIGHT_POINT, ///< A light that shines in all directions.
+    HAIR_LIGHT_SPOT ///< A light that shines into a cone.
 } hair_light_kind;
 
+/// A light. At most four lights of a view may have a hair_shadow_map or an opaque_shadow_map.
 typedef struct hair_light {
     hair_struct_header header;
     hair_light_kind kind; ///< Default HAIR_LIGHT_DIRECTIONAL.
-    /// Towards the light: from anywhere, or of a spot from the middle of what it shines at. Any length. World.
+    /// Direction to the light in the world, of any length other than 0. For a spot, it is the
+    /// direction from the centre of the lit area to the light. Ignored by points.
     float direction[3]; ///< [-1e6, 1e6]. Default (0.4, 0.8, 0.45).
-    float position[3]; ///< Of a point or spot. World. m. [-1e9, 1e9]. Default 0.
-    float color[3]; ///< Its irradiance; of a point or spot that 1 m away. [0, 1e6]. Default 3.
-    float range; ///< Of a point or spot: farther it does not shine. m. 0 (any) to 1e6. Default 0.
-    float source_radius; ///< Of a point or spot: nearer it gets no brighter. m. [0.001, 1000]. Default 0.05.
-    /// Of a spot: half of the angle of its full brightness.
+    float position[3]; ///< Position of a point or spot in the world. m. [-1e9, 1e9]. Default 0.
+    /// Irradiance, linear rgb. For a point or spot, it is the irradiance at a distance of 1 m.
+    float color[3]; ///< [0, 1e6]. Default 3.
+    /// Distance beyond which a point or spot does not shine. 0 disables this limit.
+    float range; ///< m. [0, 1e6]. Default 0.
+    /// Distance below which the light of a point or spot does not increase any more.
+    float source_radius; ///< m. [0.001, 1000]. Default 0.05.
+    /// Half angle of the cone in which a spot has full brightness.
     float inner_angle; ///< Radians. [0, 1.57]. Default 0.3.
-    /// And beyond which it does not shine: above inner_angle.
+    /// Half angle of the cone outside which a spot does not shine. It is greater than inner_angle.
     float outer_angle; ///< Radians. [0, 1.57]. Default 0.5.
-    /// Of OpenGL: 2D, depth of hair seen from the light, as HAIR_PASS_DEPTH draws it: what hair lets through of it. Bodies in
-    /// it take no more than hair would there. 0: none. One or both textures of up to 4 lights.
-    uint32_t hair_shadow_map;
-    /// World to clip space of both; orthographic or, of points and spots, in perspective. Depth grows away from the light.
+    /// 2D depth texture of the hair, rendered from the light with HAIR_PASS_DEPTH. It attenuates
+    /// the light. Opaque geometry in the texture attenuates only as hair would. 0 disables it.
+    uint32_t hair_shadow_map; ///< Default 0.
+    /// Transform from the world to the clip space of both shadow maps. It is orthographic or, for
+    /// points and spots, in perspective. Depth grows away from the light.
     float shadow_matrix[16]; ///< Default identity.
-    uint32_t opaque_shadow_map; ///< The same of what lets no light through: a head, clothes, walls. 0: none.
-    float opaque_bias; ///< Hair no farther than this behind what that shows is lit. m. [0, 1]. Default 0.003.
+    /// 2D depth texture of opaque geometry, such as head, clothes and walls, rendered from the
+    /// light. It blocks the light. 0 disables it.
+    uint32_t opaque_shadow_map; ///< Default 0.
+    /// Distance behind opaque_shadow_map up to which hair is lit.
+    float opaque_bias; ///< m. [0, 1]. Default 0.003.
 } hair_light;
 HAIR_DESC(hair_light)
 
+// Views -------------------------------------------------------------------------------------------
+
+/// Input of hair_draw().
 typedef struct hair_view {
     hair_struct_header header;
     hair_pass pass; ///< Default HAIR_PASS_COLOR.
     hair_render_path render_path; ///< Default HAIR_RENDER_PATH_TESSELLATION.
     hair_primitive primitive; ///< Default HAIR_PRIMITIVE_RIBBONS.
     float view[16]; ///< World to view. Default identity.
-    float projection[16]; ///< View to clip. Reversed, infinite depth are fine. Default identity.
-    const hair_light* lights; ///< light_count of them. NULL: each as hair_light_default() has it.
+    /// View to clip space, without jitter. Reversed and infinite depth are supported.
+    float projection[16]; ///< Default identity.
+    /// Lights, light_count of them. NULL selects light_count lights of hair_light_default().
+    const hair_light* lights; ///< Default NULL.
     uint32_t light_count; ///< [0, 16]. Default 1.
-    float ambient[3]; ///< Irradiance of surroundings that are the same on all sides. [0, 1e6]. Default 0.35.
-    /// Radiance of the surroundings beside that, as 9 spherical harmonics of r, g, b each, up to order 2 and as Ramamoorthi
-    /// and Hanrahan 2001 order and scale them, over world axes: 1; y, z, x; xy, yz, 3 z^2 - 1, xz, x^2 - y^2. Each in
-    /// [-1e6, 1e6]. NULL: none.
-    const float* sky;
-    hair_slice slice; ///< Of HAIR_PASS_COLLIDERS, HAIR_PASS_WIND. Default HAIR_SLICE_NONE.
-    float slice_at; ///< Where, as a share of the field's box. [0, 1]. Default 0.5.
-    const hair_lod* lod; ///< NULL: all is drawn.
-    hair_shader* shader; ///< Of HAIR_PASS_COLOR. NULL: as hair_look.shading says.
+    /// Irradiance of uniform surroundings, linear rgb.
+    float ambient[3]; ///< [0, 1e6]. Default 0.35.
+    /// Radiance of the surroundings, added to `ambient`, as 9 spherical harmonics of rgb each.
+    /// Order and scale are those of Ramamoorthi and Hanrahan 2001, over the world axes: 1, y, z, x,
+    /// xy, yz, 3 z^2 - 1, xz, x^2 - y^2. NULL disables it.
+    const float* sky; ///< [-1e6, 1e6]. Default NULL.
+    /// Slice of HAIR_PASS_COLLIDERS and HAIR_PASS_WIND.
+    hair_slice slice; ///< Default HAIR_SLICE_NONE.
+    /// Position of the slice along its axis, as a fraction of the field's box.
+    float slice_at; ///< [0, 1]. Default 0.5.
+    /// Level of detail. NULL draws everything.
+    const hair_lod* lod; ///< Default NULL.
+    /// Shader of HAIR_PASS_COLOR, from the context of the instance. NULL selects hair_look.shading.
+    hair_shader* shader; ///< Default NULL.
     hair_coverage coverage; ///< Default HAIR_COVERAGE_MSAA.
-    float opacity; ///< Of HAIR_COVERAGE_ALPHA, HAIR_PASS_OPACITY: of what strands cover. [0, 1]. Default 1.
-    float jitter[2]; ///< By which the picture is moved right and up. Pixels. [-64, 64]. Default 0.
-    /// Of HAIR_PASS_MOTION. Draws of one number share the frame before, which is the last of another number in which hair was
-    /// drawn so: number frames, and it is right for several views, whatever was stepped between. 0: each draw is a frame.
-    /// Where there was none, after hair_reset or hair_load, or with another number of segments, hair has stood still;
-    /// hair_teleport takes along where it was.
-    uint32_t frame_index; ///< Also of HAIR_SELF_SHADOW_STRANDS. Default 0.
-    float prev_view[16]; ///< View of the frame before. Default identity.
-    float prev_projection[16]; ///< And its projection, without jitter. Default identity.
-    /// Of OpenGL: 2D, linear colours that those of strands are multiplied by, where hair_groom_desc.scalp_uvs have their
-    /// roots, as the texture itself filters them. 0, or a groom without uvs: none.
-    uint32_t color_texture;
-    /// Of OpenGL: 2D, depth of what you have drawn that is opaque, as that may be bound to be drawn to as well: patches of strands
-    /// that are wholly behind it are not drawn, by any path. Of any size; all of it is what the viewport is. What is behind says
-    /// glDepthFunc: reversed depth is fine, by one that is neither less nor greater nothing is hidden. glDepthRange and
-    /// glClipControl are as they were when it was drawn. Not of HAIR_PASS_GUIDES, _COLLIDERS and _WIND. 0: none.
-    uint32_t occluder_depth;
-    /// World to clip space of that, as of the frame before: what since has come out from behind something is drawn a frame late,
-    /// and what was not in that picture is drawn. All 0: the view's own, projection times view. Default 0.
-    float occluder_matrix[16];
+    /// Opacity of the covered area, for HAIR_COVERAGE_ALPHA and HAIR_PASS_OPACITY.
+    float opacity; ///< [0, 1]. Default 1.
+    /// Displacement of the image to the right and up, for temporal antialiasing.
+    float jitter[2]; ///< Pixels. [-64, 64]. Default 0.
+    /// Number of the frame, for HAIR_PASS_MOTION and HAIR_SELF_SHADOW_STRANDS. Draws with the same
+    /// index share one previous frame: the last one drawn by HAIR_PASS_MOTION with a different
+    /// index. Count frames, and motion vectors are right for several views and any number of steps
+    /// between them. 0 makes every draw a frame of its own. Hair has no motion in the first frame,
+    /// after hair_reset() or hair_load(), and after a change of the number of segments.
+    /// hair_teleport() moves the previous frame along.
+    uint32_t frame_index; ///< Default 0.
+    float prev_view[16]; ///< `view` of the previous frame. Default identity.
+    float prev_projection[16]; ///< `projection` of the previous frame. Default identity.
+    /// 2D texture of linear colours, sampled at the root's hair_groom_desc.scalp_uvs with the
+    /// texture's own filter. It multiplies the colours of strands in HAIR_PASS_COLOR. 0, or a groom
+    /// without uvs, disables it.
+    uint32_t color_texture; ///< Default 0.
+    /// 2D depth texture of your opaque geometry, for occlusion culling. Patches of strands that are
+    /// wholly behind it are not drawn, on any path. The texture may also be the bound depth
+    /// attachment. It may have any size, and covers the viewport. glDepthFunc determines which side
+    /// is behind, so reversed depth works. A function that is neither less nor greater disables
+    /// culling. glDepthRange and glClipControl must be as they were when the texture was drawn.
+    /// HAIR_PASS_GUIDES, HAIR_PASS_COLLIDERS and HAIR_PASS_WIND ignore the texture. 0 disables it.
+    uint32_t occluder_depth; ///< Default 0.
+    /// Transform from the world to the clip space of occluder_depth, which may be that of the
+    /// previous frame. Hair that has come out from behind an occluder since then appears one frame
+    /// late. Hair outside that image is drawn. All 0 selects `projection` times `view`.
+    float occluder_matrix[16]; ///< Default 0.
 } hair_view;
 HAIR_DESC(hair_view)
 
-/// Have all programs compiled that hair_step and a hair_draw of `view` would run with what is set now, so that no frame waits for
-/// them: call it while something else is shown until *ready is 1, also before colliders, wind or another look are first set on hair
-/// that is on the screen. Drivers with KHR_parallel_shader_compile compile all at once beside what you do, and no call
-/// waits; others compile one program a call, as a shader of yours is anywhere. view NULL: only what steps run. On
-/// failure *ready is as it was.
-HAIR_API hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready);
-
-/// Draw into the bound framebuffer and viewport, with the depth function that is set. An incomplete framebuffer
-/// is HAIR_ERROR_OPENGL.
+/// Draw an instance into the bound framebuffer and viewport, with the current depth function. A
+/// program that is not compiled yet is compiled by this call, see hair_precompile().
+///
+/// @param view What to draw, and how. The textures must exist during the call.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, also if the framebuffer is
+///     incomplete, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
+
+/// Compile all programs that hair_step() and a hair_draw() of `view` need with the current
+/// settings, so that no frame waits for the compiler.
+///
+/// Call it while something else is shown, until `ready` is 1. Also call it before colliders, wind
+/// or another look are set on visible hair for the first time. Drivers with
+/// KHR_parallel_shader_compile compile all programs in the background, and no call waits. On other
+/// drivers each call compiles one program and waits for it. This also holds for programs of a
+/// hair_shader on every driver.
+///
+/// @param view View to prepare. NULL prepares hair_step() only.
+/// @param ready Receives 1 if all programs are compiled, and 0 otherwise. Unchanged on failure.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready);
 
 #endif
