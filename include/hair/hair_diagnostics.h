@@ -1,143 +1,244 @@
-/// hair_diagnostics.h - read-back, statistics, the field, timings, reports and memory.
+/// hair_diagnostics.h - read-back, solver statistics, the field, timings, reports, and memory.
 #ifndef HAIR_HAIR_DIAGNOSTICS_H
 #define HAIR_HAIR_DIAGNOSTICS_H
 
 #include <hair/hair_base.h>
 
+// Read-back ---------------------------------------------------------------------------------------
+
+/// Vertices that hair_read_positions() reads.
 typedef enum hair_read_source {
-    HAIR_READ_GUIDES = 0, ///< Vertices of the guides where the last substep left them.
-    HAIR_READ_SMOOTH, ///< Vertices of the guides as drawn: smoothed, interpolated to now.
-    HAIR_READ_FOLLOWERS ///< Vertices of all followers as drawn: look.segments + 1 each.
+    HAIR_READ_GUIDES = 0, ///< Guides at the end of the last substep.
+    HAIR_READ_SMOOTH, ///< Guides as drawn, smoothed and interpolated to the current time.
+    HAIR_READ_FOLLOWERS ///< All followers as drawn, hair_look.segments + 1 vertices each.
 } hair_read_source;
 
-/// Copy positions, xyz each, world, of at most `capacity` vertices. `count` becomes how many there are. Waits.
-HAIR_API hair_result hair_read_positions(hair_instance* hair, hair_read_source source, float* positions,
-                                         uint32_t capacity, uint32_t* count);
+/// Copy vertex positions from the GPU.
+///
+/// @param source Vertices to read.
+/// @param positions Receives xyz per vertex in the world, m. May be NULL if `capacity` is 0.
+/// @param capacity Maximum number of vertices to write.
+/// @param count Receives the number of vertices that there are.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL.
+/// OpenGL: required. Waits for the GPU unless `capacity` is 0.
+HAIR_API hair_result hair_read_positions(hair_instance* hair, hair_read_source source,
+                                         float* positions, uint32_t capacity, uint32_t* count);
 
-/// What went wrong since the instance was created, and how it was borne.
+// Solver statistics -------------------------------------------------------------------------------
+
+/// Statistics of the simulation. Times are counted since the instance was created.
 typedef struct hair_solver_stats {
     hair_struct_header header;
-    uint32_t euler_fallbacks; ///< Times that a substep of a straight guide was redone by implicit Euler.
-    /// Times that a substep, or a part of one, was redone by follow-the-leader after that.
+    /// Number of times that a substep of a straight guide was repeated with implicit Euler.
+    uint32_t euler_fallbacks;
+    /// Number of times that a substep, or a part of one, was repeated with follow-the-leader, after
+    /// implicit Euler had failed too.
     uint32_t follow_fallbacks;
-    uint32_t reset; ///< Times that a guide was put back in its rest pose: it was not finite.
-    /// Guides made stiffer to hold their groom against gravity, as `gravity_preload` asks.
+    /// Number of times that a guide was put back in its rest pose because it was not finite.
+    uint32_t reset;
+    /// Number of guides that are stiffened to hold their groom against gravity, as
+    /// hair_physics.gravity_preload asks.
     uint32_t stiffened;
-    float max_stiffening; ///< Greatest multiple of the stiffness at any vertex of these guides. At most 3.
-    float substep; ///< Length of a substep. s.
-    /// Times that a guide was stretched in a substep: what holds it was too far apart.
+    /// Maximum multiple of the stiffness at any vertex of these guides. At most 3.
+    float max_stiffening;
+    /// Length of a substep, s.
+    float substep;
+    /// Number of times that a guide was stretched in a substep because its root and pins were too
+    /// far apart.
     uint32_t overextended;
-    uint32_t sagging; ///< Guides that three times their stiffness does not hold: they sag from the groom.
-    float farthest_sag; ///< Greatest distance from the groom at which a vertex of these guides rests. m.
-    uint32_t parts; ///< Times that a substep of a guide that is curved, fine or heavy was redone in parts.
-    /// Guides whose stiffness is reduced to what single precision can solve at this substep.
+    /// Number of guides that cannot hold their groom even with three times their stiffness. They
+    /// sag.
+    uint32_t sagging;
+    /// Maximum distance from the groom at which a vertex of these guides rests, m.
+    float farthest_sag;
+    /// Number of times that a substep of a curved, fine or heavy guide was repeated in parts.
+    uint32_t parts;
+    /// Number of guides whose stiffness is reduced to the maximum that single precision can solve
+    /// with this substep.
     uint32_t softened;
-    float softest; ///< Least factor of the stiffness at any vertex of these guides. 1: none is softened.
-    /// Guides that still move at 2 cm/s though damping had the time to calm any hair: see below.
+    /// Minimum factor of the stiffness at any vertex of these guides. 1 if no guide is softened.
+    float softest;
+    /// Number of guides that move at 2 cm/s or more although damping has had the time to stop any
+    /// hair. See hair_get_solver_stats().
     uint32_t restless;
-    float fastest; ///< Greatest speed of a guide vertex relative to the head, over the last substep. m/s.
-    /// Times that the energy of a guide grew in 0.25 s, with hair_desc.diagnose: see below.
+    /// Maximum speed of a guide vertex relative to the head in the last substep, m/s.
+    float fastest;
+    /// Number of times that the energy of a guide has grown within 0.25 s. 0 without
+    /// hair_desc.diagnose. See hair_get_solver_stats().
     uint32_t gaining;
-    /// Guides with a segment whose length is off by more than 1 % after the last substep.
+    /// Number of guides with a segment whose length error exceeds 1 % after the last substep.
     uint32_t overstretched;
-    float stretch; ///< Greatest relative error of a segment's length after the last substep.
+    /// Maximum relative length error of a segment after the last substep.
+    float stretch;
 } hair_solver_stats;
 HAIR_DESC(hair_solver_stats)
 
-/// Report how the simulation fares. Waits for the GPU.
+/// Write statistics of the simulation to `out`, which comes from hair_solver_stats_default().
 ///
-/// `restless` and `gaining` look at hair that nothing drives: the head rests, no wind blows, no collider within reach moves,
-/// and no setting changes. `restless` allows 17 s / damping, and 18 s for every metre of a guide's length, and looks at guides
-/// that are held at the root. `gaining` counts under the solvers direct and accurate. There the energy of motion, gravity,
-/// bending, twist and the pull to the rest pose may not grow, and falls by at least half of what damping takes. It looks
-/// neither at hair with cohesion or pressure_stiffness nor at a skinned scalp.
+/// `restless` and `gaining` count only while nothing drives the hair. The head rests, no wind
+/// blows, no collider within reach moves, and no setting changes.
+///
+/// `restless` counts guides that are held at the root, after a time of 17 s / damping plus 18 s per
+/// metre of the guide's length, with hair_physics.damping in 1/s.
+///
+/// `gaining` counts under HAIR_SOLVER_DIRECT and HAIR_SOLVER_ACCURATE. The energy is the sum of
+/// motion, gravity, bending, twist, and the restoring force to the rest pose. It must not grow, and
+/// must fall by at least half of what damping dissipates. Hair with cohesion or pressure_stiffness
+/// and skinned scalps are not counted.
+///
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Waits for the GPU.
 HAIR_API hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out);
 
-/// The field: how far the nearest collider is, in a box in the head's frame around the hair at rest and a quarter of the
-/// longest strand beyond it. Along its longest side are 32 to 256 voxels, of the side that hair_desc asks for as far as
-/// that allows. Exact at the middles of voxels for every shape but collision meshes, between them to be interpolated.
+// The field ---------------------------------------------------------------------------------------
+
+/// The field, the distance to the nearest collider as a 3D texture.
+///
+/// The field covers a box in the frame of the head. The box contains the hair at rest and a margin
+/// of a quarter of the longest strand. The longest side has 32 to 256 voxels, of the size
+/// hair_desc.field_voxel if this range allows it. At voxel centres the distance is exact for every
+/// shape but HAIR_SHAPE_MESH. Interpolate between voxel centres.
 typedef struct hair_field_info {
     hair_struct_header header;
-    /// Of OpenGL: 3D, R16F. m, below 0 inside. 0: no collider reaches into the box.
+    /// 3D texture of format R16F with the distance in m, negative inside. 0 if no collider reaches
+    /// into the box.
     uint32_t distance_texture;
-    /// 3D, R32UI: which of hair_set_colliders is nearest; 4294967295: none near. Or 0.
+    /// 3D texture of format R32UI with the index of the nearest collider in hair_set_colliders(),
+    /// or 4294967295 if none is near. May be 0.
     uint32_t collider_texture;
-    uint32_t size[3]; ///< Voxels along the head's x, y and z.
-    float voxel; ///< Side of one. m.
-    float far; ///< Of colliders farther than this it says so and no more; and so of all beyond the box. m.
-    float transform[16]; ///< World to texture coordinates: the box is [0, 1]^3.
+    /// Number of voxels along the x, y and z axes of the head.
+    uint32_t size[3];
+    /// Size of a voxel, m.
+    float voxel;
+    /// Maximum distance that the field stores, m. It holds for all colliders farther away, and
+    /// everywhere outside the box.
+    float far;
+    /// Transform from the world to texture coordinates, in which the box is [0, 1]^3.
+    float transform[16];
 } hair_field_info;
 HAIR_DESC(hair_field_info)
 
-/// Bring the field up to date with the colliders and the head of the last step, for shaders of the host to read. Only what
-/// moved is written. The textures are the library's, and as they are until the next call for this instance.
+/// Update the field to the colliders and the head of the last step, for shaders of the application.
+/// The call writes only what has moved. The library owns the textures. They stay valid and
+/// unchanged until the next call for this instance.
+///
+/// @param out Receives the field. It comes from hair_field_info_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_get_field(hair_instance* hair, hair_field_info* out);
 
+// Timings -----------------------------------------------------------------------------------------
+
+/// GPU time of a pass.
 typedef struct hair_timing {
-    const char* pass; ///< Its label and features, as "sim/direct_curved_32". As long as the context.
-    float ms; ///< GPU time of its last finished run. 0 before there is one.
-    uint32_t runs; ///< Since the context was created.
-    double total_ms; ///< GPU time of its finished runs together, but for more than four at once.
+    /// Label and features of the pass, such as "sim/direct_curved_32". Valid as long as the
+    /// context.
+    const char* pass;
+    /// GPU time of the last finished run, ms. 0 before the first.
+    float ms;
+    /// Number of runs since the context was created.
+    uint32_t runs;
+    /// Total GPU time of the finished runs, ms. If more than four runs are in flight, only the
+    /// newest four count.
+    double total_ms;
 } hair_timing;
 
-/// GPU time of every pass that something has needed yet, if the context was created with `timings`. Never waits. Returns how
-/// many passes there are; writes at most `capacity`. What was there once stays in its place.
+/// Write the GPU time of every pass that a call has needed so far, if hair_context_desc.timings is
+/// 1. A pass keeps its index. Return the number of passes, or 0 if `context` is NULL.
+///
+/// @param out Receives the timings. NULL only counts the passes.
+/// @param capacity Maximum number of timings to write.
+/// OpenGL: required. Does not wait for the GPU.
 HAIR_API uint32_t hair_get_timings(hair_context* context, hair_timing* out, uint32_t capacity);
 
-/// Why work was done or not.
+// Reports -----------------------------------------------------------------------------------------
+
+/// Reason why a stage has not run in a frame.
 typedef enum hair_skip_reason {
-    HAIR_SKIP_REASON_NONE = 0, ///< It was.
-    HAIR_SKIP_REASON_ASLEEP, ///< Hair is at rest, as hair_physics.sleep_threshold has it.
-    HAIR_SKIP_REASON_UNCHANGED, ///< What it makes is there and still holds.
-    HAIR_SKIP_REASON_OUT_OF_VIEW, ///< No view showed any of the hair.
-    HAIR_SKIP_REASON_NONE_NEAR, ///< No collider is near the hair.
-    HAIR_SKIP_REASON_NOT_WANTED, ///< Settings ask for none of it: no wind, no cohesion, a rigid head, another path.
-    HAIR_SKIP_REASON_NOT_DUE, ///< Its time has not come: no substep fell due, hair is in motion.
-    HAIR_SKIP_REASON_NOT_CALLED ///< No call asked for it.
+    /// The stage has run.
+    HAIR_SKIP_REASON_NONE = 0,
+    /// The hair is asleep, see hair_physics.sleep_threshold.
+    HAIR_SKIP_REASON_ASLEEP,
+    /// The result of an earlier run is still valid.
+    HAIR_SKIP_REASON_UNCHANGED,
+    /// No view has shown any of the hair.
+    HAIR_SKIP_REASON_OUT_OF_VIEW,
+    /// No collider is near the hair.
+    HAIR_SKIP_REASON_NONE_NEAR,
+    /// The settings do not need the stage, for example without wind, without cohesion, with a rigid
+    /// head, or on another render path.
+    HAIR_SKIP_REASON_NOT_WANTED,
+    /// The hair is in motion, but no substep was due.
+    HAIR_SKIP_REASON_NOT_DUE,
+    /// No call has needed the stage.
+    HAIR_SKIP_REASON_NOT_CALLED
 } hair_skip_reason;
 
-HAIR_API const char*
-hair_skip_reason_string(hair_skip_reason reason); ///< Static text, NULL beyond the last. [any thread]
+/// Return a static text for a reason, or NULL beyond the last.
+/// OpenGL: not used. Any thread.
+HAIR_API const char* hair_skip_reason_string(hair_skip_reason reason);
 
-/// One kind of work of an instance in a frame, which lasts from one hair_step to the next.
+/// One stage of the work of an instance in a frame. A frame lasts from one hair_step() to the next.
 typedef struct hair_report_row {
-    const char* stage; ///< Static text: "solve", "smooth", "color", …
-    const char* pass; ///< The last pass that ran for it, as in hair_timing. NULL: none did.
-    hair_skip_reason skip_reason;
-    uint32_t runs; ///< Of passes.
-    float ms; ///< GPU time, from the first of passes that follow each other to the last. 0 without timings.
-    uint64_t bytes; ///< OpenGL memory that it has.
+    const char* stage; ///< Name of the stage, such as "solve", a static text.
+    const char* pass; ///< Last pass of the stage, as in hair_timing. NULL if none has run.
+    hair_skip_reason skip_reason; ///< HAIR_SKIP_REASON_NONE if the stage has run.
+    uint32_t runs; ///< Number of passes that have run.
+    /// GPU time, ms, from the start of the first to the end of the last of consecutive passes. 0
+    /// without hair_context_desc.timings.
+    float ms;
+    uint64_t bytes; ///< OpenGL memory of the stage, bytes.
 } hair_report_row;
 
+/// Sum of the rows of a report.
 typedef struct hair_report_info {
     hair_struct_header header;
-    uint32_t frame; ///< Counted from 1. 0: none is finished, and there are no rows.
-    uint32_t age; ///< Frames that have begun since.
-    float ms; ///< Of all rows.
-    uint64_t bytes; ///< Of all rows; what instances share is not among them.
+    uint32_t
+        frame; ///< Number of the frame, from 1. 0 if no frame is finished. There are no rows then.
+    uint32_t age; ///< Number of frames that have begun since.
+    float ms; ///< GPU time of all rows, ms.
+    uint64_t bytes; ///< OpenGL memory of all rows, bytes, without memory shared by instances.
 } hair_report_info;
 HAIR_DESC(hair_report_info)
 
-/// What became of all work in the newest frame that the GPU is done with; without hair_context_desc.timings, in the
-/// newest there is. `wait` 1: in the newest, waiting for it. `count` becomes how many rows there are, of which at most
-/// `capacity`, `stride` = sizeof(hair_report_row) apart, are written.
+/// Report every stage of the newest frame that the GPU has finished. Without
+/// hair_context_desc.timings, report the newest frame.
+///
+/// @param wait 1 reports the newest frame and waits until the GPU has finished it. 0 does not wait.
+/// @param info Receives the sums. It comes from hair_report_info_default().
+/// @param rows Receives the rows. May be NULL if `capacity` is 0.
+/// @param stride sizeof(hair_report_row).
+/// @param capacity Maximum number of rows to write.
+/// @param count Receives the number of rows that there are.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Waits for the GPU only if `wait` is 1.
 HAIR_API hair_result hair_report(hair_instance* hair, uint32_t wait, hair_report_info* info,
-                                 hair_report_row* rows, size_t stride, uint32_t capacity, uint32_t* count);
+                                 hair_report_row* rows, size_t stride, uint32_t capacity,
+                                 uint32_t* count);
 
-/// OpenGL memory of a context's buffers and textures: of its instances, and what these share. Programs are not counted, nor
-/// what a driver adds. Bytes.
+// Memory ------------------------------------------------------------------------------------------
+
+/// OpenGL memory of the buffers and textures of a context, its instances, and what they share.
+/// Programs and the overhead of the driver are not counted.
 typedef struct hair_memory {
     hair_struct_header header;
-    uint64_t bytes; ///< In use now.
-    uint64_t peak; ///< In use at once, since the context was created.
-    uint64_t limit; ///< 0: none.
+    uint64_t bytes; ///< Memory in use, bytes.
+    uint64_t peak; ///< Maximum memory in use since the context was created, bytes.
+    uint64_t limit; ///< Limit of hair_set_memory_limit(), bytes. 0 means no limit.
 } hair_memory;
 HAIR_DESC(hair_memory)
 
-HAIR_API hair_result hair_get_memory(const hair_context* context, hair_memory* out); ///< No OpenGL.
+/// Write the memory of a context to `out`, which comes from hair_memory_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_memory(const hair_context* context, hair_memory* out);
 
-/// From now on, what would take more than `bytes` in all is HAIR_ERROR_MEMORY, with both numbers in the log, and the call that
-/// needed it does nothing: nothing is left out in silence. What is in use stays. 0, the default: no limit. No OpenGL.
+/// Limit the OpenGL memory of a context. A call that would exceed the limit returns
+/// HAIR_ERROR_MEMORY, logs both numbers, and does nothing. Memory in use is not freed.
+///
+/// @param bytes Limit in bytes. 0 removes the limit. Default 0.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes);
 
 #endif
