@@ -1,33 +1,53 @@
-/// hair.h - strand hair in real time: simulated by OpenGL compute, drawn by tessellation.
+/// hair.h - strand hair in real time, simulated and drawn with OpenGL 4.5: the whole library.
 ///
-/// A hair_groom is the haircut: immutable, no GPU, shared by any number of heads. A hair_context is the
-/// library's hold on one OpenGL context. A hair_instance is one head of living hair: a groom in a context. A
-/// hair_collision_mesh is the shape of a collider that no simpler shape describes: immutable and shared as well.
+/// Objects. A hair_groom is a haircut. It is immutable, lives on the CPU, and can be shared by any
+/// number of heads. A hair_context holds the library's objects in one OpenGL context. A
+/// hair_instance is the hair of one head: a groom in a context. A hair_collision_mesh is the shape
+/// of a collider that no simpler shape describes. It is immutable and can be shared too.
 ///
-///   Words      strand: one hair. guide: a strand that is simulated. follower: a strand made while drawing,
-///              by interpolation. root, tip: first and last vertex of a strand. scalp: the surface that
-///              roots sit on. collider: a body hair collides with. field: how far the nearest of them is, as a
-///              3D texture. step: one call of hair_step, made of substeps.
-///   Units      metres, kilograms, seconds, radians. Right-handed; +y is up in the built-in haircuts only.
-///              Matrices are 16 floats, column-major. Colours are linear, Rec. 709 primaries.
-///   Ownership  Arrays and strings passed in are copied before the call returns. X_create is undone by
-///              X_destroy, which takes NULL. A groom or a collision mesh may be destroyed while instances use it. A
-///              context is destroyed after its instances.
-///   Errors     A fallible call returns a hair_result. Anything but HAIR_OK leaves the object as it was and
-///              sends one sentence to hair_host.log. Nothing throws, exits or prints.
-///   Threads    No globals. A context and its instances belong to one thread at a time; different contexts,
-///              and calls marked [any thread], run in parallel.
-///   OpenGL     Calls marked [GL] need the context's OpenGL context current on the calling thread. They use
-///              4.5 core, leave the error flag alone, and keep the promise of hair_gl_state.
+/// Terms.
+///   strand     One hair.
+///   guide      A strand that is simulated.
+///   follower   A strand that is interpolated between guides when hair is drawn.
+///   root, tip  First and last vertex of a strand.
+///   scalp      Surface that carries the roots.
+///   patch      Group of neighbouring followers that is culled together.
+///   collider   Rigid body that hair collides with.
+///   field      Distance to the nearest collider, as a 3D texture.
+///   step       One call of hair_step(). A step consists of substeps.
+///
+/// Units. Metres, kilograms, seconds and radians. Coordinates are right-handed. +y is up only in
+/// the built-in haircuts. Matrices have 16 floats in column-major order. Colours are linear with
+/// Rec. 709 primaries.
+///
+/// Ownership. Arrays and strings that are passed in are copied before the call returns, unless the
+/// comment says otherwise. X_create() is undone by X_destroy(), which accepts NULL. A groom or a
+/// collision mesh may be destroyed while instances use it. Destroy a context after its instances
+/// and shaders.
+///
+/// Errors. A call that can fail returns a hair_result. After any result but HAIR_OK, the object is
+/// as it was, and one sentence has been sent to hair_host.log. The comment of each call lists its
+/// results other than HAIR_OK after "Errors:". No call throws, exits or prints.
+///
+/// Threads. There are no globals. A context and its instances belong to one thread at a time.
+/// Different contexts may be used in parallel, and calls marked "Any thread" too.
+///
+/// OpenGL. The comment of each call tells its needs after "OpenGL:". "required" means that the
+/// OpenGL context of the hair_context is current on the calling thread. Calls keep the OpenGL state
+/// as hair_gl_state says, and leave the error flag alone. A call that waits for the GPU stalls
+/// until the GPU has finished the work so far.
+///
+/// Comments of fields. The range is in brackets, and then comes the default. A field with a range
+/// is checked, and a value outside it is refused with HAIR_ERROR_ARGUMENT.
 #ifndef HAIR_HAIR_H
 #define HAIR_HAIR_H
 
 #include <hair/hair_base.h>
 #include <hair/hair_groom.h>
 #include <hair/hair_context.h>
-#include <hair/hair_look.h>
-#include <hair/hair_physics.h>
 #include <hair/hair_instance.h>
+#include <hair/hair_physics.h>
+#include <hair/hair_look.h>
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>
 

@@ -1,10 +1,11 @@
 /// hair_asset.h - haircuts from bytes, from parameters, and back to bytes. Part of libhair.
 ///
-/// A hair_asset holds plain arrays. They are strands in metres, +y up, root first and repaired, and the scalp if there is one. The library never opens a file. No call in this header uses OpenGL.
+/// A hair_asset holds plain arrays. They are strands in metres, +y up, root first and repaired, and
+/// the scalp if there is one. The library never opens a file. No call in this header uses OpenGL.
 #ifndef HAIR_HAIR_ASSET_H
 #define HAIR_HAIR_ASSET_H
 
-#include <hair/hair_groom.h>
+#include <hair/hair.h>
 
 /// A haircut as plain arrays. It is immutable.
 typedef struct hair_asset hair_asset;

@@ -60,8 +60,8 @@ typedef enum hair_result {
     HAIR_ERROR_ARGUMENT,
     /// hair_host.alloc or the driver has refused memory, or hair_set_memory_limit forbids it.
     HAIR_ERROR_MEMORY,
-    /// No OpenGL context is current, the context is older than 4.5, a limit of the driver is
-    /// exceeded, or the driver does not compile a shader.
+    /// No OpenGL context is current, or it is older than 4.5. Also an exceeded limit of the driver,
+    /// or a shader that the driver does not compile.
     HAIR_ERROR_OPENGL,
     /// The bytes are unreadable, or not in the format that they claim. The log has the byte offset.
     HAIR_ERROR_FILE,

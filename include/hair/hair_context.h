@@ -10,7 +10,7 @@
 typedef enum hair_gl_state {
     /// Every call leaves all OpenGL state as it was.
     HAIR_GL_STATE_RESTORE = 0,
-    /// Calls may change the following state, and no other:
+    /// Calls may change only this state:
     /// - program, vertex array, patch vertices, face culling, primitive restart,
     /// - indirect draw buffer and indirect dispatch buffer,
     /// - storage buffers 0 to 7 and uniform buffers 0 to 2,

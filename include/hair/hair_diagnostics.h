@@ -78,8 +78,8 @@ HAIR_DESC(hair_solver_stats)
 /// `restless` and `gaining` count only while nothing drives the hair. The head rests, no wind
 /// blows, no collider within reach moves, and no setting changes.
 ///
-/// `restless` counts guides that are held at the root, after a time of 17 s / damping plus 18 s per
-/// metre of the guide's length, with hair_physics.damping in 1/s.
+/// `restless` counts guides that are held at the root. It counts them after 17 / damping plus 18 s
+/// per metre of the guide's length, with hair_physics.damping.
 ///
 /// `gaining` counts under HAIR_SOLVER_DIRECT and HAIR_SOLVER_ACCURATE. The energy is the sum of
 /// motion, gravity, bending, twist, and the restoring force to the rest pose. It must not grow, and

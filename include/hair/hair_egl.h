@@ -2,7 +2,7 @@
 #ifndef HAIR_HAIR_EGL_H
 #define HAIR_HAIR_EGL_H
 
-#include <hair/hair_base.h>
+#include <hair/hair.h>
 
 /// An OpenGL context made by EGL, without a surface.
 typedef struct hair_egl hair_egl;

@@ -223,8 +223,9 @@ typedef enum hair_look_preset {
     HAIR_LOOK_COUNT
 } hair_look_preset;
 
-/// Apply a preset of shape to a look: set every member from `taper` to `curl_profile_z`, and raise
-/// `segments` to the number that the turns of 0.4 m of hair need. Other members keep their values.
+/// Apply a preset of shape to a look. The call sets every member from `taper` to `curl_profile_z`.
+/// It raises `segments` to the number that the turns of 0.4 m of hair need. Other members keep
+/// their values.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param preset Preset below HAIR_LOOK_COUNT.
