@@ -27,7 +27,7 @@ FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -MMD -MP $(opt.$
 C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
 CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLAGS) $(CXXFLAGS)
 
-VERSION := $(shell awk '/define HAIR_VERSION_(MAJOR|MINOR|PATCH)/{v=v s $$3; s="."} END{print v}' include/hair/hair.h)
+VERSION := $(shell awk '/define HAIR_VERSION_(MAJOR|MINOR|PATCH)/{v=v s $$3; s="."} END{print v}' include/hair/hair_base.h)
 MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 
 # Folders of lib/ in the order of the data flow. A file includes only from its own folder and from

@@ -1,42 +1,81 @@
-/// hair_asset.h - haircuts from bytes, from parameters, and back to bytes. In libhair; never opens a file.
+/// hair_asset.h - haircuts from bytes, from parameters, and back to bytes. Part of libhair.
 ///
-/// A hair_asset is plain arrays: strands in metres, +y up, root first, repaired, with the scalp if there is
-/// one. All calls are [any thread].
+/// A hair_asset holds plain arrays. They are strands in metres, +y up, root first and repaired, and
+/// the scalp if there is one. The library never opens a file. No call in this header uses OpenGL.
 #ifndef HAIR_HAIR_ASSET_H
 #define HAIR_HAIR_ASSET_H
 
 #include <hair/hair.h>
 
+/// A haircut as plain arrays. It is immutable.
 typedef struct hair_asset hair_asset;
 
+// Files -------------------------------------------------------------------------------------------
+
 typedef enum hair_format {
-    HAIR_FORMAT_NONE = 0, ///< Made by hair_asset_generate.
-    HAIR_FORMAT_HAIR, ///< .hair ("cyHair"): all strands, any number of vertices each.
-    HAIR_FORMAT_TFX4, ///< .tfx version 4: guides, the same number of vertices each, 4 to 64, a power of two.
-    HAIR_FORMAT_TFX3, ///< .tfx version 3. Read only.
-    HAIR_FORMAT_TFX2 ///< .tfx version 2, text. Read only.
+    /// No file. The asset comes from hair_asset_generate().
+    HAIR_FORMAT_NONE = 0,
+    /// .hair ("cyHair"). All strands, with any number of vertices each.
+    HAIR_FORMAT_HAIR,
+    /// .tfx version 4. Guides with the same number of vertices, a power of two from 4 to 64.
+    HAIR_FORMAT_TFX4,
+    /// .tfx version 3. Read only.
+    HAIR_FORMAT_TFX3,
+    /// .tfx version 2, text. Read only.
+    HAIR_FORMAT_TFX2
 } hair_format;
 
+/// Input of hair_asset_read().
 typedef struct hair_asset_desc {
     hair_struct_header header;
-    const hair_host* host; ///< NULL: the C library's allocator, no log.
-    const hair_import* import; ///< NULL: the defaults.
+    /// Callbacks. NULL selects the allocator of the C library and disables the log.
+    const hair_host* host; ///< Default NULL.
+    /// Conversion of the strands. NULL selects the defaults.
+    const hair_import* import; ///< Default NULL.
 } hair_asset_desc;
 HAIR_DESC(hair_asset_desc)
 
-/// Read strands. The format is told by the first bytes. Malformed input of any kind is HAIR_ERROR_FILE and a
-/// sentence with the byte offset. Memory stays under 4 times `size` and 64 MiB, whatever the bytes claim, and
-/// 12 bytes for every vertex that import.strand_vertices asks for.
+/// Read strands from the bytes of a file. The first bytes determine the format.
+///
+/// Any bytes may be passed. Memory stays below 4 times `size` plus 64 MiB, whatever the bytes
+/// claim, plus 12 bytes per vertex that hair_import.strand_vertices asks for.
+///
+/// @param desc Callbacks and import settings.
+/// @param bytes Content of the file.
+/// @param size Size of the content in bytes.
+/// @param out Receives the asset.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_FILE for malformed bytes, with the byte offset in the
+///     log, HAIR_ERROR_MEMORY, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size,
                                      hair_asset** out);
+
+/// Destroy an asset. NULL does nothing.
+/// OpenGL: not used. Any thread.
 HAIR_API void hair_asset_destroy(hair_asset* asset);
 
-/// Write strands as HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Returns in `size` the bytes needed; writes them if
-/// `capacity` is enough. Colours of files are sRGB, and kept at 8 places of a strand. For .tfx all strands must have the same fitting number of vertices: resample first.
+/// Write strands in the format of a file. Colours become sRGB. An asset has 8 colours per strand.
+///
+/// @param asset Asset to write.
+/// @param format HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. The strands of a .tfx file must all have 4,
+///     8, 16, 32 or 64 vertices. Set hair_import.strand_vertices to resample them.
+/// @param bytes Receives the content of the file if `capacity` suffices. NULL only queries the
+///     size.
+/// @param capacity Size of `bytes`. 0 if `bytes` is NULL.
+/// @param size Receives the size of the content in bytes. The call succeeds also if `capacity` is
+///     too small, so compare the two.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_write(const hair_asset* asset, hair_format format, void* bytes,
                                       size_t capacity, size_t* size);
 
-/// The built-in haircuts, on the built-in scalp.
+/// Return the name of a format, such as "tfx4", or NULL beyond the last.
+/// OpenGL: not used. Any thread.
+HAIR_API const char* hair_format_name(hair_format format);
+
+// Built-in haircuts -------------------------------------------------------------------------------
+
+/// Built-in haircuts, on the built-in scalp.
 typedef enum hair_style {
     HAIR_STYLE_LONG = 0,
     HAIR_STYLE_BOB,
@@ -47,52 +86,82 @@ typedef enum hair_style {
     HAIR_STYLE_COUNT
 } hair_style;
 
+/// Input of hair_asset_generate().
 typedef struct hair_style_desc {
     hair_struct_header header;
-    const hair_host* host; ///< NULL: the C library's allocator, no log.
+    /// Callbacks. NULL selects the allocator of the C library and disables the log.
+    const hair_host* host; ///< Default NULL.
     hair_style style; ///< Default HAIR_STYLE_LONG.
-    uint32_t guide_count; ///< Guides, spread evenly over the scalp. [16, 4096]. Default 166.
-    uint32_t strand_vertices; ///< Vertices of each. 0 (as the style needs) to 256. Default 0.
-    float length; ///< Of the style's own lengths. [0.1, 4]. Default 1.
-    uint32_t seed; ///< Of every random choice. Default 1.
+    /// Number of guides, spread evenly over the scalp.
+    uint32_t guide_count; ///< [16, 4096]. Default 166.
+    /// Number of vertices per guide, at least 2. HAIR_AUTO selects the number by `style`.
+    uint32_t strand_vertices; ///< [0, 256]. Default HAIR_AUTO.
+    /// Multiple of the lengths of the style.
+    float length; ///< [0.1, 4]. Default 1.
+    /// Seed of all random choices.
+    uint32_t seed; ///< Default 1.
 } hair_style_desc;
 HAIR_DESC(hair_style_desc)
 
-/// Make a haircut: guides whose roots are the scalp's vertices. The built-in scalp is the hair-bearing part
-/// of the skull, an ellipsoid around (0, 1.63, 0) of half axes (0.077, 0.098, 0.096) m, on which the middles of its
-/// triangles lie; the face looks along +z; the neck goes down from there to shoulders 0.40 m wide at height 1.40.
+/// Generate a haircut. The roots of its guides are the vertices of the scalp.
+///
+/// The scalp is the part of the skull that bears hair. The skull is an ellipsoid around (0, 1.63,
+/// 0) m with the half axes (0.077, 0.098, 0.096) m. The centres of the scalp's triangles lie on it.
+/// The face looks along +z. The neck goes down to shoulders that are 0.40 m wide at the height 1.40
+/// m.
+///
+/// @param desc Style and sizes.
+/// @param out Receives the asset.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out);
 
-HAIR_API const char* hair_style_name(hair_style style); ///< "long", "bob", … NULL beyond the last.
-HAIR_API const char* hair_format_name(hair_format format); ///< "hair", "tfx4", … NULL beyond the last.
+/// Return the name of a style, such as "long", or NULL beyond the last.
+/// OpenGL: not used. Any thread.
+HAIR_API const char* hair_style_name(hair_style style);
 
+// Content -----------------------------------------------------------------------------------------
+
+/// Content of an asset. The arrays are valid as long as the asset.
 typedef struct hair_asset_info {
     hair_struct_header header;
-    hair_format format;
-    hair_strand_set strand_set; ///< .tfx and the built-in haircuts hold guides; .hair holds all.
-    uint32_t strand_count; ///< After the repairs.
-    uint32_t vertex_count;
-    uint32_t min_vertices, max_vertices; ///< Vertices of a strand.
-    float length[3]; ///< Least, mean, greatest. m.
-    float lower[3], upper[3]; ///< Bounds. m.
-    uint32_t file_strands; ///< Before the repairs and `share`.
-    uint32_t file_vertices;
-    hair_import_stats import_stats;
-    const float* positions; ///< xyz per vertex. Lives as long as the asset, as do the following.
-    const uint32_t* strand_vertices; ///< Per strand.
-    const float* strand_radii; ///< Per strand, at the root. m. NULL: the file has none.
-    const float* scalp_positions; ///< xyz per vertex. NULL: no scalp.
-    const uint32_t* scalp_triangles;
-    uint32_t scalp_vertex_count, scalp_triangle_count;
-    /// Per strand, linear rgb at 8 even places from root to tip. NULL: the file has none.
+    hair_format format; ///< Format of the file.
+    /// Meaning of the strands. .tfx files and the built-in haircuts hold guides. .hair files hold
+    /// all strands.
+    hair_strand_set strand_set;
+    uint32_t strand_count; ///< Number of strands after the repairs.
+    uint32_t vertex_count; ///< Number of vertices of all strands.
+    uint32_t min_vertices; ///< Minimum number of vertices of a strand.
+    uint32_t max_vertices; ///< Maximum number of vertices of a strand.
+    float length[3]; ///< Minimum, mean and maximum length of the strands, m.
+    float lower[3]; ///< Lower corner of the bounds of the strands, m.
+    float upper[3]; ///< Upper corner of the bounds of the strands, m.
+    uint32_t file_strands; ///< Number of strands in the file, before the import.
+    uint32_t file_vertices; ///< Number of vertices in the file, before the import.
+    hair_import_stats import_stats; ///< Repairs of the import.
+    const float* positions; ///< Vertex positions, xyz each, strand after strand, m.
+    const uint32_t* strand_vertices; ///< Number of vertices of each strand.
+    const float* strand_radii; ///< Radius of each strand at the root, m. NULL if there are none.
+    const float* scalp_positions; ///< Scalp vertices, xyz each, m. NULL if there is no scalp.
+    const uint32_t* scalp_triangles; ///< Three vertex indices per triangle of the scalp.
+    uint32_t scalp_vertex_count; ///< Number of scalp vertices.
+    uint32_t scalp_triangle_count; ///< Number of scalp triangles.
+    /// Linear rgb at 8 even places from root to tip of each strand. NULL if there are no colours.
     const float* strand_colors;
 } hair_asset_info;
 HAIR_DESC(hair_asset_info)
 
+/// Write the content of an asset to `out`, which comes from hair_asset_info_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out);
 
-/// Point `desc` at the asset's strands, their radii and colours, scalp and what they are; the rest of `desc` stays. The asset must
-/// live until hair_groom_create has returned.
+/// Set the strands, radii, colours, strand_set and scalp of `desc` to those of an asset. Other
+/// members keep their values. The asset must live until hair_groom_create() has returned.
+///
+/// @param desc Desc to change, from hair_groom_desc_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* desc);
 
 #endif

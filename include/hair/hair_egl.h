@@ -1,17 +1,33 @@
-/// hair_egl.h - an OpenGL context with no window, for tools, tests and servers. In libhair_egl.
+/// hair_egl.h - an OpenGL context without a window, for tools, tests and servers. In libhair_egl.
 #ifndef HAIR_HAIR_EGL_H
 #define HAIR_HAIR_EGL_H
 
 #include <hair/hair.h>
 
+/// An OpenGL context made by EGL, without a surface.
 typedef struct hair_egl hair_egl;
 
-/// Try every EGL device, hardware first, then Mesa's surfaceless platform, until one gives OpenGL 4.5 core;
-/// make it current with no surface. The log says which device was taken and why each other was not. `device`
-/// picks one by its index in the order EGL lists them; -1: any. host NULL: no log.
+/// Create an OpenGL 4.5 core context and make it current without a surface.
+///
+/// The call tries every EGL device, hardware first, and then the surfaceless platform of Mesa. The
+/// log tells which device is used, and why each other device is not.
+///
+/// @param host Callbacks. NULL selects the allocator of the C library and disables the log.
+/// @param device Index of a device in the order of EGL. -1 tries all devices.
+/// @param out Receives the context.
+/// Errors: HAIR_ERROR_ARGUMENT if there is no such device, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL if
+///     no device has OpenGL 4.5 core.
 HAIR_API hair_result hair_egl_create(const hair_host* host, int device, hair_egl** out);
-HAIR_API void hair_egl_destroy(hair_egl* egl); ///< Takes NULL.
-HAIR_API hair_result hair_egl_make_current(hair_egl* egl); ///< On the calling thread. NULL: none is current.
-HAIR_API void* hair_egl_get_proc(const char* name, void* user); ///< For hair_context_desc.get_proc.
+
+/// Destroy a context. NULL does nothing.
+HAIR_API void hair_egl_destroy(hair_egl* egl);
+
+/// Make a context current on the calling thread. NULL makes no context current.
+/// Errors: HAIR_ERROR_OPENGL if EGL refuses.
+HAIR_API hair_result hair_egl_make_current(hair_egl* egl);
+
+/// Return the address of an OpenGL function, or NULL. Use it as hair_context_desc.get_proc. `user`
+/// is ignored.
+HAIR_API void* hair_egl_get_proc(const char* name, void* user);
 
 #endif

@@ -1,0 +1,83 @@
+/// hair_context.h - contexts: the objects of the library in one OpenGL context.
+///
+/// A context and its instances belong to one thread at a time. Different contexts run in parallel.
+#ifndef HAIR_HAIR_CONTEXT_H
+#define HAIR_HAIR_CONTEXT_H
+
+#include <hair/hair_base.h>
+
+/// Treatment of the OpenGL state by calls that use OpenGL.
+typedef enum hair_gl_state {
+    /// Every call leaves all OpenGL state as it was.
+    HAIR_GL_STATE_RESTORE = 0,
+    /// Calls may change only this state:
+    /// - program, vertex array, patch vertices, face culling, primitive restart,
+    /// - indirect draw buffer and indirect dispatch buffer,
+    /// - storage buffers 0 to 7 and uniform buffers 0 to 2,
+    /// - buffer textures of units 0 to 7, 17 and 18,
+    /// - 3D textures and samplers of units 8 to 11,
+    /// - 2D textures and samplers of units 12 to 16 and 19 to 23,
+    /// - image units 0 and 1.
+    HAIR_GL_STATE_CLOBBER
+} hair_gl_state;
+
+/// A cache of compiled program binaries, provided by the application, for example in files. The
+/// library detects entries that are damaged, truncated or from another driver, and compiles and
+/// stores those programs again. Do not let untrusted code write to the cache, because drivers trust
+/// well-formed binaries. The callbacks run while the context is used, on its thread.
+typedef struct hair_cache {
+    /// Function that copies the entry of `key` to `bytes` if the entry has at most `capacity`
+    /// bytes. It returns the size of the entry, or 0 if there is none.
+    size_t (*get)(uint64_t key, void* bytes, size_t capacity, void* user);
+    /// Function that stores a copy of the entry of `key`, replacing an older entry. It may also do
+    /// nothing.
+    void (*put)(uint64_t key, const void* bytes, size_t size, void* user);
+    /// Pointer passed to both callbacks.
+    void* user;
+} hair_cache;
+
+/// Input of hair_context_create().
+typedef struct hair_context_desc {
+    hair_struct_header header;
+    /// Callbacks. NULL selects the allocator of the C library and disables the log.
+    const hair_host* host; ///< Default NULL.
+    /// Function that returns the address of an OpenGL function, or NULL. Required.
+    void* (*get_proc)(const char* name, void* user);
+    /// Pointer passed to get_proc.
+    void* get_proc_user; ///< Default NULL.
+    hair_gl_state gl_state; ///< Default HAIR_GL_STATE_RESTORE.
+    /// Measurement of the GPU time of passes, for hair_get_timings() and hair_report(). 1 enables
+    /// it.
+    uint32_t timings; ///< [0, 1]. Default 0.
+    /// Directory from which the shaders of glsl/ are read, for development. NULL selects the
+    /// built-in shaders.
+    const char* glsl_dir; ///< Default NULL.
+    /// Cache of program binaries. The struct is copied. `get` and `put` are required. NULL disables
+    /// the cache.
+    const hair_cache* cache; ///< Default NULL.
+} hair_context_desc;
+HAIR_DESC(hair_context_desc)
+
+/// Create a context for the OpenGL context that is current. OpenGL 4.5 core is required.
+///
+/// The call compiles only a small test of the driver, and waits for its result. The library
+/// compiles every other program when a call first needs it, and keeps the program as long as the
+/// context. See hair_precompile().
+///
+/// @param desc Callbacks and settings. They are copied.
+/// @param out Receives the context.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Waits for the GPU.
+HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
+
+/// Destroy a context. Destroy its instances and shaders first. NULL does nothing.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API void hair_context_destroy(hair_context* context);
+
+/// Compile all programs in use again, from hair_context_desc.glsl_dir. A program that fails to
+/// compile keeps its last valid version.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL if a program does not compile.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_context_reload(hair_context* context);
+
+#endif
