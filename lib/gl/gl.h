@@ -5,6 +5,8 @@
 
 #include <GL/glcorearb.h>
 
+#include <stdbool.h>
+
 #include "lib/base/host.h"
 #include "glsl/shared.h"
 
@@ -120,8 +122,6 @@ struct hair_gl {
     struct hair_gl_saved saved;
 #define FUNCTION(type, name, parameters) type(APIENTRY* name) parameters;
 #include "lib/gl/functions.inl"
-
-#include <stdbool.h>
 #undef FUNCTION
 };
 

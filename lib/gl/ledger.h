@@ -4,11 +4,11 @@
 
 #include "lib/gl/gl.h"
 
+#include <stdbool.h>
+
 typedef enum hair_gl_work {
 #define WORK(name, label, begins) HAIR_GL_WORK_##name,
 #include "lib/gl/works.inl"
-
-#include <stdbool.h>
 #undef WORK
     HAIR_GL_WORKS
 } hair_gl_work;
