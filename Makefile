@@ -32,14 +32,14 @@ MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 
 # Folders of lib/ in the order of the data flow. A file includes only from its own folder and from
 # those before it.
-# The folders egl/, bullet/ and reference/ are separate libraries.
-ROOMS := base asset collide groom gl field wind sim interpolate draw api
+# The folders egl/ and bullet/ are separate libraries.
+ROOMS := base asset collide groom rod gl field wind sim strands draw api
 
 objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
 EGL   := $(call objects,lib/egl/*.c)
 BUL   := $(call objects,lib/bullet/*.cpp)
-REF   := $(call objects,lib/reference/*.cpp)
+REF   := $(call objects,tests/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/unit/*_test.c))
@@ -149,7 +149,7 @@ $(B)/tests/%.c.o: tests/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(C) -Wno-conversion -DHAIR_BUILD_DIR='"$(B)"' -DHAIR_BULLET=$(BULLET) -c $< -o $@
-$(B)/lib/reference/%.cpp.o: lib/reference/%.cpp
+$(B)/tests/reference/%.cpp.o: tests/reference/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -O2 $(EIGEN) -c $< -o $@
@@ -177,7 +177,7 @@ $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
 # Bullet objects of a scene, or a stub without Bullet.
-WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/none.c.o,$(B)/tools/bullet/world.cpp.o $(B)/libhair_bullet.a)
+WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/bullet_stub.c.o,$(B)/tools/bullet/world.cpp.o $(B)/libhair_bullet.a)
 $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
@@ -212,10 +212,10 @@ run-tests: $(TESTS)
 
 glsl: ## Compile every shader offline, without a GPU
 	@{ { printf '#define FEATURE(name, define) @define name;\n#define TEXT(x) #x\n' ; \
-	     printf '#define PASS(name, label, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \
+	     printf '#define PASS(name, label, category, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \
 	     $(CC) -E -P -I. -x c - | tr -d '\n' | tr ';' '\n' | awk -f tools/programs.awk; \
-	   printf '%s\n' glsl/gl/selftest.tesc glsl/gl/selftest.tese '-DHAIR_OWN_VERTICES=1 glsl/draw/strand.vert' \
-	     '-DHAIR_FIBRES=1 -DHAIR_OWN_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
+	   printf '%s\n' glsl/gl/driver_quirks.tesc glsl/gl/driver_quirks.tese '-DHAIR_USER_VERTICES=1 glsl/draw/strand.vert' \
+	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
 check: rooms circles symbols formatted ## Check the order of folders, circles of files, exported names and formatting

@@ -47,29 +47,30 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_HISTORY 4 // hair_history[] per guide vertex.
 // hair_vec4[] per guide vertex. Frame of its segment, unit quaternion, y along the segment.
 #define HAIR_BIND_MATERIAL 5
-// uint[] of every solver. It begins with HAIR_SOLVER_STATS_COUNT counters. For solvers that run as two
-// programs, the two headers and the numbers of HAIR_SOLVER_STATS_LISTS follow.
+// uint[] of every solver. It begins with HAIR_SOLVER_STATS_COUNT counters. For solvers that run as
+// two programs, the two headers and the numbers of HAIR_SOLVER_STATS_LISTS follow.
 #define HAIR_BIND_SOLVER_STATS 6
 // hair_vec4[] of the mixed scheme, in place of HAIR_BIND_REDUCTION. See bend_size() in
 // lib/sim/rods.c.
 #define HAIR_BIND_BEND 7
-// hair_vec4[] per round of cyclic reduction and guide vertex. Read-only. See lib/sim/reduce.c.
+// hair_vec4[] per round of cyclic reduction and guide vertex. Read-only. See
+// lib/rod/cyclic_reduction.c.
 #define HAIR_BIND_REDUCTION 7
 // Buffers of the pass that writes the distance field. It has none of the buffers above.
 #define HAIR_BIND_BRICK 0  // hair_field_brick[] per work group.
 // uint[]. Indices in HAIR_UNIT_WORK of the colliders that reach into each brick.
-#define HAIR_BIND_MEMBER 1
+#define HAIR_BIND_BRICK_COLLIDER 1
 #define HAIR_BIND_NODE 3   // float[]. Distances at the grid nodes of collision meshes, m.
 // Additional buffers of the hair-hair grid, whose passes also read the state and the history. The
 // grid gives each guide vertex the effect of the hair around it.
 
-// int[]. HAIR_CROWD_NODE_NUMBERS per grid node. The grid of the fluid has four per node: mass and
+// int[]. HAIR_GRID_NODE_NUMBERS per grid node. The grid of the fluid has four per node: mass and
 // momentum.
-#define HAIR_BIND_CROWD 3
-#define HAIR_BIND_SHARE 5    // hair_share[] per guide vertex. Read-only.
+#define HAIR_BIND_HAIR_GRID 3
+#define HAIR_BIND_SPLAT 5    // hair_grid_splat[] per guide vertex. Read-only.
 // float[] per node. Volume above which the node exerts pressure. Read-only.
-#define HAIR_BIND_LIMIT 6
-#define HAIR_BIND_PUSH 7     // hair_vec4[] per guide vertex. Acceleration, m/s^2.
+#define HAIR_BIND_REST_DENSITY 6
+#define HAIR_BIND_ACCELERATION 7     // hair_vec4[] per guide vertex. Acceleration, m/s^2.
 
 // Buffers of the pass that measures the activity of guides. It also reads the state.
 
@@ -77,7 +78,7 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_ANCHOR 3
 // uint[4]. Two answers that are written alternately. Each holds the greatest distance from the
 // anchor, m, and the greatest speed, m/s, as bits of floats.
-#define HAIR_BIND_STIR 4
+#define HAIR_BIND_ACTIVITY 4
 
 // Additional buffers of the passes that diagnose hair, which also have those of the rod solvers.
 #define HAIR_BIND_FOUND 3  // uint[HAIR_FOUND_COUNT] of motion.comp.
@@ -87,15 +88,15 @@ typedef uint32_t hair_uint;
 
 // float[]. The application's buffer, which contains the scalp's positions.
 #define HAIR_BIND_GIVEN 2
-#define HAIR_BIND_RIDE 3       // hair_ride[] per guide.
+#define HAIR_BIND_ROOT_TRANSFORM 3       // hair_root_transform[] per guide.
 #define HAIR_BIND_SCALP 4      // float[]. xyz per scalp vertex, in the space of the application.
 #define HAIR_BIND_SCALP_REST 5 // float[]. xyz per scalp vertex at rest, in groom space. Read-only.
-#define HAIR_BIND_SEAT 6       // hair_seat[] of guides, then of followers. Read-only.
+#define HAIR_BIND_ROOT_BINDING 6       // hair_root_binding[] of guides, then of followers. Read-only.
 #define HAIR_BIND_FOLLOWER 7   // hair_follower[]
 
 // Buffers of the passes that find followers inside colliders.
 #define HAIR_BIND_HIT 3    // float[] per follower. First vertex inside, or HAIR_NO_HIT.
-#define HAIR_BIND_REPAIR 4 // uvec2[] per follower and control point of repair.glsl. Four halves.
+#define HAIR_BIND_REPAIR 4 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
 #define HAIR_BIND_LIST 5 // uint[]. Two counts, used alternately, then the followers to be repaired.
 // Read-only buffers of hit.comp with HAIR_HIT_GROUP and of the pass that writes the vertex cache.
 // They have these in place of textures of guides and followers.
@@ -107,32 +108,32 @@ typedef uint32_t hair_uint;
 // Buffers of the vertex cache of followers.
 
 // hair_vec4[] per follower vertex. xyz: position from the head's origin, m. w: radius, m.
-#define HAIR_BIND_EXPANDED 4
+#define HAIR_BIND_CACHED_POSITION 4
 #define HAIR_BIND_SHADED 6           // uvec2[] per follower vertex. Light to the eye, as halves.
 // uvec2[] per follower vertex. Unit tangent, three 16-bit numbers that map to [-1, 1].
-#define HAIR_BIND_EXPANDED_TANGENT 5
+#define HAIR_BIND_CACHED_TANGENT 5
 
 // Buffers of the passes that write the strand list, which is drawn without a tessellator.
 #define HAIR_BIND_START 3   // uint[] per patch. Index of its first strand in the list.
 #define HAIR_BIND_STRAND 4  // hair_strand[] per drawn strand.
 // hair_draw_command[HAIR_COMMANDS]. Commands 0 and 1 draw segments by their two ends. Command
 // HAIR_SORTED_COMMAND draws sorted segments. Command HAIR_PAIRED_COMMAND and the one after it draw
-// segments by pairs of vertices. Command HAIR_STAGE_COMMAND dispatches the pass that writes the
-// per-view vertices.
+// segments by pairs of vertices. Command HAIR_EXPAND_VIEW_COMMAND dispatches the pass that writes
+// the per-view vertices.
 #define HAIR_BIND_COMMAND 5
 #define HAIR_COMMANDS 6
 #define HAIR_SORTED_COMMAND 2
 #define HAIR_PAIRED_COMMAND 3
-#define HAIR_STAGE_COMMAND 5
+#define HAIR_EXPAND_VIEW_COMMAND 5
 #define HAIR_PAIRED_INDICES 6 // Per segment.
 // Buffers of the pass that writes the per-view vertices, in the order of the strand list. It writes
-// to HAIR_BIND_EXPANDED and the two slots after it, in their formats. With HAIR_SIDES it writes
-// clip-space positions to HAIR_BIND_EXPANDED: one hair_vec4 per side of a ribbon vertex, or one per
-// line vertex.
-#define HAIR_BIND_LISTED 3  // hair_draw_command[HAIR_COMMANDS]. Read-only.
+// to HAIR_BIND_CACHED_POSITION and the two slots after it, in their formats. With HAIR_SIDES it
+// writes clip-space positions to HAIR_BIND_CACHED_POSITION: one hair_vec4 per side of a ribbon
+// vertex, or one per line vertex.
+#define HAIR_BIND_LIST_COMMAND 3  // hair_draw_command[HAIR_COMMANDS]. Read-only.
 // Additional buffers of the passes that sort the segments of listed strands.
-#define HAIR_BIND_BUCKET 0 // uint[HAIR_SORT_BUCKETS]. Depth histogram, later its prefix sum.
-#define HAIR_BIND_SORTED 1 // uvec2[] per segment. Indices of its two vertices.
+#define HAIR_BIND_HISTOGRAM 0 // uint[HAIR_SORT_BUCKETS]. Depth histogram, later its prefix sum.
+#define HAIR_BIND_SORTED_SEGMENTS 1 // uvec2[] per segment. Indices of its two vertices.
 
 // Buffers of the compute rasteriser.
 
@@ -143,40 +144,41 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_TILE 1    // uint[] per tile. 1 if the tile contains hair.
 // Buffers of the self-shadowing passes.
 #define HAIR_BIND_DENSITY 0        // uint[] per node of the density grid. Amount of hair.
-// uint[6]. Bounding box of all hair, in the encoding of ordered.glsl.
+// uint[6]. Bounding box of all hair, in the encoding of light/float_key.glsl.
 #define HAIR_BIND_DENSITY_BOX 1
 // float[] per node. Visible fraction of the sky, then the strands met on the way to each light.
 #define HAIR_BIND_DENSITY_LIGHT 3
-#define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_EXPANDED. Read-only.
-// uint[] per follower vertex. One number for the sky, then one per light. See light.comp.
+#define HAIR_BIND_DENSITY_STRAND 4 // hair_vec4[] as at HAIR_BIND_CACHED_POSITION. Read-only.
+// uint[] per follower vertex. One number for the sky, then one per light. See
+// vertex_transmittance.comp.
 #define HAIR_BIND_LIGHT 5
 
 // Buffers of occlusion culling against the application's depth.
 
-// float[]. Hi-Z: farthest depth of every texel of every level. See glsl/hide.glsl.
-#define HAIR_BIND_HIDE_DEPTH 0
-#define HAIR_BIND_HIDE_BOX 1 // hair_vec4[] per guide and part. Lower corner, then upper corner, m.
-#define HAIR_BIND_HIDE_PATCH 2 // hair_patch[]
+// float[]. Hi-Z: farthest depth of every texel of every level. See glsl/draw/hiz.glsl.
+#define HAIR_BIND_HIZ 0
+#define HAIR_BIND_GUIDE_BOUNDS 1 // hair_vec4[] per guide and part. Lower corner, then upper corner, m.
+#define HAIR_BIND_OCCLUSION_PATCH 2 // hair_patch[]
 
 // Buffers of the fluid passes. They read what they do not write as textures.
 
 // float[] per axis and slot. Velocity of the face along the axis, m/s. See glsl/wind/fluid.glsl.
 #define HAIR_BIND_VELOCITY 0
 // float[] per axis and slot. Velocity along the axis of what closes the face, m/s.
-#define HAIR_BIND_WALL 1
+#define HAIR_BIND_WALL_VELOCITY 1
 // uint[] per slot of every level. Open fractions of its three faces, 10 bits each, in 1023rds.
-#define HAIR_BIND_OPEN 2
+#define HAIR_BIND_FACE_FRACTION 2
 // float[] per cell of every level. Pressure in m/s: a difference of pressure is a change of
 // velocity.
 #define HAIR_BIND_PRESSURE 3
 // float[] per cell of every level. Right side of the pressure equation, m/s.
-#define HAIR_BIND_RIGHT 4
+#define HAIR_BIND_RHS 4
 #define HAIR_BIND_MOTION 5   // hair_fluid_motion[] per collider. Read-only.
 
 #define HAIR_LIGHTS 16     // Maximum per view.
 #define HAIR_SHADOW_MAPS 4 // Maximum for all lights of a view.
 // Maximum of a drawn colour. Half-float formats can hold it.
-#define HAIR_MOST_LIGHT 64000.0
+#define HAIR_MAX_LIGHT 64000.0
 
 // Maximum Newton steps of the mixed scheme in a substep. The first is for a work group, the second
 // for a thread that solves a guide of n vertices.
@@ -199,11 +201,11 @@ typedef uint32_t hair_uint;
 #define HAIR_FOUND_FASTEST 2 // m/s, as bits of a float.
 #define HAIR_FOUND_STRETCH 3 // Relative error of a length, as bits of a float.
 #define HAIR_FOUND_COUNT 4
-// Guides per work group in programs with HAIR_FIRST, one subgroup per guide.
-#define HAIR_FIRST_GUIDES 28
-// Two headers, used alternately, follow the counters at HAIR_SOLVER_STATS_COUNT. A header holds the work
-// group counts x, y and z of an indirect dispatch over a list of guides, then the list's length.
-// The guide numbers of the current dispatch's list begin at HAIR_SOLVER_STATS_LISTS.
+// Guides per work group in programs with HAIR_PASS1, one subgroup per guide.
+#define HAIR_PASS1_GUIDES 28
+// Two headers, used alternately, follow the counters at HAIR_SOLVER_STATS_COUNT. A header holds the
+// work group counts x, y and z of an indirect dispatch over a list of guides, then the list's
+// length. The guide numbers of the current dispatch's list begin at HAIR_SOLVER_STATS_LISTS.
 #define HAIR_SOLVER_STATS_LIST 4 // Numbers in a header.
 #define HAIR_SOLVER_STATS_LISTS (HAIR_SOLVER_STATS_COUNT + 2 * HAIR_SOLVER_STATS_LIST)
 
@@ -213,16 +215,16 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_FIELD 2        // hair_field_params.
 // hair_wind_params, of the rod solvers and of the pass that draws the wind.
 #define HAIR_BIND_WIND 2
-#define HAIR_BIND_CROWD_PARAMS 1 // hair_crowd_params, of passes that draw nothing.
+#define HAIR_BIND_HAIR_GRID_PARAMS 1 // hair_grid_params, of passes that draw nothing.
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, of passes that draw nothing.
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the fluid passes.
 #define HAIR_BIND_LEVEL 1        // hair_fluid_level, of the fluid passes.
-#define HAIR_BIND_STIR_PARAMS 1  // hair_stir_params, of passes that draw nothing.
+#define HAIR_BIND_ACTIVITY_PARAMS 1  // hair_activity_params, of passes that draw nothing.
 #define HAIR_BIND_ENERGY_PARAMS 1 // hair_energy_params, of passes that draw nothing.
 #define HAIR_BIND_MOTION_PARAMS 1 // hair_motion_params, of passes that draw nothing.
-// hair_shown_params, of the passes that draw colliders, the distance field and the wind.
-#define HAIR_BIND_SHOWN 0
-#define HAIR_BIND_HIDE 0         // hair_hide_params, of occlusion culling.
+// hair_debug_params, of the passes that draw colliders, the distance field and the wind.
+#define HAIR_BIND_DEBUG 0
+#define HAIR_BIND_OCCLUSION 0         // hair_occlusion_params, of occlusion culling.
 #define HAIR_BIND_RASTER 0       // hair_raster_params, of the compute rasteriser.
 
 // Texture units. Vertex and tessellation stages use them because OpenGL guarantees those stages no
@@ -242,53 +244,54 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_GUIDE 2    // hair_guide[], unsigned.
 #define HAIR_UNIT_OWNER 3    // uint per guide vertex. Its guide.
 // Textures of the rod solvers, whose storage slots are all taken.
-#define HAIR_UNIT_PUSH 0 // HAIR_BIND_PUSH.
+#define HAIR_UNIT_ACCELERATION 0 // HAIR_BIND_ACCELERATION.
 #define HAIR_UNIT_CONTACT 1  // hair_contact[], unsigned as followers are.
 #define HAIR_UNIT_PIN 2      // hair_held[], where guides are pinned.
 // uint[]. For each grid cell, the index of its first member in this array. After the last cell, the
 // index at which its members end. Then the members.
 #define HAIR_UNIT_CELL 3
 #define HAIR_UNIT_NODE 4     // float[]. HAIR_BIND_NODE.
-#define HAIR_UNIT_RIDE 6     // HAIR_BIND_RIDE, for passes that need the scalp motion.
+#define HAIR_UNIT_ROOT_TRANSFORM 6     // HAIR_BIND_RIDE, for passes that need the scalp motion.
 #define HAIR_UNIT_HIT 6      // float per follower, as at HAIR_BIND_HIT.
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point.
 // Textures of the vertex cache, for draws from it, in place of what it was computed from.
-#define HAIR_UNIT_EXPANDED 6 // vec4 per vertex, as at HAIR_BIND_EXPANDED.
+#define HAIR_UNIT_CACHED_POSITION 6 // vec4 per vertex, as at HAIR_BIND_CACHED_POSITION.
 #define HAIR_UNIT_SHADED 1           // vec4 per vertex, as at HAIR_BIND_SHADED.
-#define HAIR_UNIT_EXPANDED_TANGENT 7 // vec4 per vertex. xyz in [0, 1] stand for [-1, 1].
+#define HAIR_UNIT_CACHED_TANGENT 7 // vec4 per vertex. xyz in [0, 1] stand for [-1, 1].
 #define HAIR_UNIT_FIELD 8    // Distance field: signed distance, m.
 #define HAIR_UNIT_COLLIDER 9    // Number of the nearest collider.
 #define HAIR_UNIT_FIBRE 10   // Table of lib/draw/fibre.h.
 #define HAIR_UNIT_AIR 11     // Velocity of the fluid at the centres of its cells, m/s.
 // Textures of the fluid passes. The others are bound as their slots say.
 #define HAIR_UNIT_VELOCITY 0 // HAIR_BIND_VELOCITY before the step.
-#define HAIR_UNIT_CARRIED 1  // HAIR_BIND_VELOCITY after advection.
-#define HAIR_UNIT_OPEN 2
+#define HAIR_UNIT_ADVECTED 1  // HAIR_BIND_VELOCITY after advection.
+#define HAIR_UNIT_FACE_FRACTION 2
 #define HAIR_UNIT_PRESSURE 3
 // HAIR_BIND_CROWD in fours, of a grid over the whole box. For porous.comp, in place of pressure.
 #define HAIR_UNIT_THICKET 3
-#define HAIR_UNIT_RIGHT 4
-#define HAIR_UNIT_WALL 6
-// HAIR_BIND_OPEN and HAIR_BIND_WALL as colliders alone leave them. The buffers at HAIR_UNIT_OPEN
-// and HAIR_UNIT_WALL include the effect of hair.
-#define HAIR_UNIT_BARE_OPEN 5
-#define HAIR_UNIT_BARE_WALL 7
-// Vertex cache of the previous frame, as HAIR_UNIT_EXPANDED. For velocity passes, in place of
-// frames.
+#define HAIR_UNIT_RHS 4
+#define HAIR_UNIT_WALL_VELOCITY 6
+// HAIR_BIND_FACE_FRACTION and HAIR_BIND_WALL_VELOCITY as colliders alone leave them. The buffers at
+// HAIR_UNIT_FACE_FRACTION and HAIR_UNIT_WALL_VELOCITY include the effect of hair.
+#define HAIR_UNIT_BARE_FACE_FRACTION 5
+#define HAIR_UNIT_BARE_WALL_VELOCITY 7
+// Vertex cache of the previous frame, as HAIR_UNIT_CACHED_POSITION. For velocity passes, in place
+// of frames.
 #define HAIR_UNIT_BEFORE 2
 #define HAIR_UNIT_UV 5       // vec2 per follower. Texture coordinates of its root on the scalp.
 #define HAIR_UNIT_COLOR 16 // The application's colour texture, at the coordinates of HAIR_UNIT_UV.
-#define HAIR_UNIT_PAINT 17   // vec4 per follower and sample along it. Colours of the groom.
+#define HAIR_UNIT_GROOM_COLOR 17   // vec4 per follower and sample along it. Colours of the groom.
 #define HAIR_UNIT_SHADOW 12 // First of HAIR_SHADOW_MAPS units. The application's shadow maps.
 #define HAIR_UNIT_LIGHT 18   // uint per follower vertex and light, unsigned. HAIR_BIND_LIGHT.
 // First of HAIR_SHADOW_MAPS units. The application's depth maps of opaque geometry.
 #define HAIR_UNIT_BODY 19
-#define HAIR_UNIT_HIDDEN 23  // The application's depth, for occlusion culling.
+#define HAIR_UNIT_OCCLUSION 23  // The application's depth, for occlusion culling.
 // Gusts of standard deviation 1. For passes that evaluate the wind, in place of the distance field.
 #define HAIR_UNIT_GUST 8
 // The application's wind velocities, m/s. In place of HAIR_UNIT_COLLIDER.
 #define HAIR_UNIT_VOLUME 9
-// hair_field_collider[]. For the pass that writes the distance field, in place of HAIR_UNIT_POSITION.
+// hair_field_collider[]. For the pass that writes the distance field, in place of
+// HAIR_UNIT_POSITION.
 #define HAIR_UNIT_WORK 0
 
 // Image units.
@@ -296,7 +299,7 @@ typedef uint32_t hair_uint;
 #define HAIR_IMAGE_COLLIDER 1 // Number of the nearest collider.
 #define HAIR_IMAGE_AIR 0 // Texture at HAIR_UNIT_AIR, of the pass that writes it.
 
-#define HAIR_MOST_GROUPS 65535u      // Work groups in one dimension that OpenGL guarantees.
+#define HAIR_MAX_GROUPS 65535u      // Work groups in one dimension that OpenGL guarantees.
 // Threads of a work group, except in passes with a work group per guide. See lib/gl/passes.inl.
 #define HAIR_GROUP_SIZE 64
 #define HAIR_MAX_GUIDES 262144       // Per groom.
@@ -319,13 +322,13 @@ typedef uint32_t hair_uint;
 #define HAIR_FEW_COLLIDERS 16
 #define HAIR_CELL_COLLIDERS 64        // Maximum colliders of a grid cell.
 // Loop iterations over the colliders of a cell in a substep, where a thread counts them. See
-// lib/sim/rounds.c.
+// lib/sim/loop_budget.c.
 #define HAIR_CONTACT_ROUNDS 4000
 #define HAIR_CONTACT_TEXELS 13 // Per hair_contact.
 // Bits of a cell member that are the number of its hair_contact.
-#define HAIR_MEMBER_NUMBER 1048575u
-#define HAIR_MEMBER_WALKED 16777216u // Bit of a cell member that is neither a sphere nor a capsule.
-#define HAIR_MEMBER_LONG 33554432u   // Bit of a cell member that is not a sphere.
+#define HAIR_ENTRY_NUMBER 1048575u
+#define HAIR_ENTRY_WALKED 16777216u // Bit of a cell member that is neither a sphere nor a capsule.
+#define HAIR_ENTRY_LONG 33554432u   // Bit of a cell member that is not a sphere.
 #define HAIR_FOLLOWER_TEXELS 6 // Per hair_follower.
 #define HAIR_PATCH_TEXELS 4 // Per hair_patch.
 #define HAIR_MAP_SETS 4 // Maximum per groom.
@@ -333,31 +336,31 @@ typedef uint32_t hair_uint;
 #define HAIR_TURN_PLACES 16    // Samples of one turn of a curl.
 // Side of a brick, voxels. A work group writes one brick of the distance field.
 #define HAIR_BRICK 8
-#define HAIR_SHOWN_COLLIDERS 96    // Colliders drawn at once.
+#define HAIR_DEBUG_COLLIDERS 96    // Colliders drawn at once.
 #define HAIR_COLLIDER_TEXELS 6 // Per hair_field_collider.
 #define HAIR_WIND_BALLS 4    // Maximum spheres that shelter hair from the wind.
 #define HAIR_WIND_SOURCES 4  // Maximum local wind sources per instance.
 #define HAIR_GUST_NODES 32   // Texels of the gust texture along each axis.
 #define HAIR_GUST_LENGTHS 8  // Side of the gust texture, in integral length scales.
 #define HAIR_NO_COLLIDER 4294967295u // A collider's number that means that no collider is near.
-#define HAIR_CROWD_NODES 32       // Maximum along an axis.
+#define HAIR_GRID_NODES 32       // Maximum along an axis.
 // Integers per node of the hair-hair grid. Index 0 is the mass. The constants below are the other
 // indices. Positions are relative to the node, in cells.
-#define HAIR_CROWD_NODE_NUMBERS 18
-#define HAIR_CROWD_MOMENTUM 1u    // Three.
-#define HAIR_CROWD_VOLUME 4u      // One.
-#define HAIR_CROWD_MOMENT 5u      // Three: mass times position.
-#define HAIR_CROWD_ANGULAR 8u     // Three: angular momentum.
-#define HAIR_CROWD_SQUARES 11u    // Three: mass times position squared, xx, yy and zz.
-#define HAIR_CROWD_PRODUCTS 14u   // Three: mass times position squared, yz, zx and xy.
-// Sum of mass times the mass of the same guide at the node, times hair_crowd_params.per_strand.
-#define HAIR_CROWD_ALIKE 17u
+#define HAIR_GRID_NODE_NUMBERS 18
+#define HAIR_GRID_MOMENTUM 1u    // Three.
+#define HAIR_GRID_VOLUME 4u      // One.
+#define HAIR_GRID_MOMENT 5u      // Three: mass times position.
+#define HAIR_GRID_ANGULAR 8u     // Three: angular momentum.
+#define HAIR_GRID_SQUARES 11u    // Three: mass times position squared, xx, yy and zz.
+#define HAIR_GRID_PRODUCTS 14u   // Three: mass times position squared, yz, zx and xy.
+// Sum of mass times the mass of the same guide at the node, times hair_grid_params.per_strand.
+#define HAIR_GRID_ALIKE 17u
 // Maximum speed along an axis relative to the head, m/s. Greater speeds are clamped to it.
-#define HAIR_CROWD_SPEED 16.0f
+#define HAIR_GRID_SPEED 16.0f
 
-// Maximum cells along an axis of the coarsest level. See glsl/wind/bottom.comp.
-#define HAIR_FLUID_BOTTOM 8
-#define HAIR_FLUID_BOTTOM_THREADS 256
+// Maximum cells along an axis of the coarsest level. See glsl/wind/coarse_solve.comp.
+#define HAIR_FLUID_COARSEST 8
+#define HAIR_FLUID_COARSEST_THREADS 256
 #define HAIR_FLUID_FASTEST 1e4 // m/s. A greater speed counts as not finite.
 
 // Size of the fibre table.
@@ -370,11 +373,11 @@ typedef uint32_t hair_uint;
 // Units of hair whose projected area equals one face of a cell.
 #define HAIR_DENSITY_UNITS 65536.0
 
-#define HAIR_HIDE_PARTS 4 // Parts of a strand that are tested separately.
+#define HAIR_OCCLUSION_PARTS 4 // Parts of a strand that are tested separately.
 // Texels of the application's depth along each axis that form one texel of the first Hi-Z level.
-#define HAIR_HIDE_FIRST 8
-#define HAIR_HIDE_NEXT 4  // Texels of a level along each axis that form one texel of the next.
-#define HAIR_HIDE_TEXELS 8 // Maximum texels along each axis in which a box is looked up.
+#define HAIR_HIZ_FIRST 8
+#define HAIR_HIZ_NEXT 4  // Texels of a level along each axis that form one texel of the next.
+#define HAIR_HIZ_TEXELS 8 // Maximum texels along each axis in which a box is looked up.
 
 #define HAIR_NO_HIT 1e9 // First vertex inside a collider, for followers that have none.
 #define HAIR_HIT_FOLLOWERS 32    // Followers per work group of hit.comp.
@@ -383,7 +386,7 @@ typedef uint32_t hair_uint;
 #define HAIR_HIT_COLUMNS 4096u
 // Blend zone above the first vertex inside, as a fraction of the length.
 #define HAIR_SWITCH_ZONE 0.2
-#define HAIR_REPAIR_INTERVALS 8  // Intervals of a follower in the curves of repair.glsl.
+#define HAIR_REPAIR_INTERVALS 8  // Intervals of a follower in the curves of strands/repair.glsl.
 #define HAIR_REPAIR_CONTROLS 10  // Control points stored per follower.
 #define HAIR_REPAIR_THREADS 32   // Threads of a work group.
 #define HAIR_REPAIR_SAMPLES 64   // Maximum segments of a follower that are tested.
@@ -415,9 +418,10 @@ HAIR_SIZE(hair_rest, 48)
 
 // A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. All quantities are
 // divided by the mass of one metre of hair, which makes masses lengths. Follow-the-leader uses
-// strain and factors differently, with the symbols of lib/sim/follow.c. Its strain holds K r + a'
+// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K r + a'
 // and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a damping
-// rate. Its segment.w is the part of this rate that acts against the turn of the segment before, 1/s.
+// rate. Its segment.w is the part of this rate that acts against the turn of the segment before,
+// 1/s.
 struct hair_rod {
     // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
     // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it
@@ -544,7 +548,7 @@ struct hair_step_params {
     float     kick;
     float     damping;        // 1/s.
     float     friction;
-    float     share_start; // Fraction of the step done before this dispatch.
+    float     fraction_start; // Fraction of the step done before this dispatch.
     // Factor of displacements after a change of the substep's length. Otherwise 1.
     float     rescale;
     hair_uint vertices; // Vertices of all guides.
@@ -558,7 +562,7 @@ struct hair_step_params {
     hair_vec4 cells_lower; // xyz: lower corner, m. w: 1 / side of a cell, 1/m.
     hair_uint cells_x, cells_y, cells_z;
     // Half the length of a vertex's path on which the grid finds everything that it can touch, m.
-    float     cells_give;
+    float     cells_slack;
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) collider[HAIR_STEP_COLLIDERS];
     HAIR_STRUCT(hair_body) body[HAIR_STEP_COLLIDERS];
@@ -598,14 +602,14 @@ struct hair_wind_params {
 HAIR_SIZE(hair_wind_params, 160 + 16 * HAIR_WIND_BALLS + 32 * HAIR_WIND_SOURCES + 16 * HAIR_STEP_SUBSTEPS)
 
 // Contribution of a guide vertex to the hair-hair grid, in the grid's units.
-struct hair_share {
+struct hair_grid_splat {
     hair_uint mass, volume;
     hair_uint first, end; // Vertices of its guide.
 };
-HAIR_SIZE(hair_share, 16)
+HAIR_SIZE(hair_grid_splat, 16)
 
 // Parameters of the hair-hair grid of mass, momentum and volume. The grid moves with the head.
-struct hair_crowd_params {
+struct hair_grid_params {
     hair_vec4 rotation; // Head rotation at the end of the last substep.
     // xyz: displacement of the head's origin over the last substep, m. w: speed per displacement,
     // 1/s.
@@ -615,15 +619,15 @@ struct hair_crowd_params {
     hair_uint vertices;  // Vertices of all guides.
     float     cohesion;  // Rate at which relative velocities are removed, 1/s.
     float     pressure_stiffness;    // Pressure coefficient, m^2/s^2.
-    // Cells travelled to the middle of a block at HAIR_CROWD_SPEED. 0 leaves positions as they are.
+    // Cells travelled to the middle of a block at HAIR_GRID_SPEED. 0 leaves positions as they are.
     float     ahead;
     // 1 / mass, in units, of a length of strand that never lies at one node.
     float     per_strand;
 };
-HAIR_SIZE(hair_crowd_params, 80)
+HAIR_SIZE(hair_grid_params, 80)
 
 // Parameters of occlusion culling against the application's depth.
-struct hair_hide_params {
+struct hair_occlusion_params {
     // Matrix from positions relative to the head's origin: xy are texture coordinates, z is signed
     // depth, all times w.
     hair_mat4 to_texture;
@@ -634,7 +638,7 @@ struct hair_hide_params {
     hair_uint levels;
     hair_uint level;    // Level that is made from the one before it.
     float     sign;     // 1, or -1 where the application's depth decreases with distance.
-    float     most;     // Farthest signed depth.
+    float     max_size;     // Farthest signed depth.
     float     slack;    // Rounding error of depth.
     float     thick;    // Maximum radius of strands before the factors of maps and groom, m.
     // Texture coordinates by which strands are drawn beyond their geometry.
@@ -642,7 +646,7 @@ struct hair_hide_params {
     hair_uint clips;    // 1 if geometry outside the texture is not visible.
     hair_uint guides;
 };
-HAIR_SIZE(hair_hide_params, 128)
+HAIR_SIZE(hair_occlusion_params, 128)
 
 // Parameters of the compute rasteriser. Pixels are in row order. The samples of a pixel are
 // adjacent.
@@ -667,13 +671,13 @@ struct hair_raster_params {
 HAIR_SIZE(hair_raster_params, 128 + 8 * HAIR_RASTER_SAMPLES)
 
 // Parameters of the activity test of guides that may have come to rest.
-struct hair_stir_params {
+struct hair_activity_params {
     hair_uint vertices; // Vertices of all guides.
-    hair_uint turn;     // 0 or 1. The answer that is written. The other one is cleared.
+    hair_uint parity;     // 0 or 1. The answer that is written. The other one is cleared.
     hair_uint anchors;  // 1 if the current positions become the anchors.
     float     rate;     // Speed per displacement, 1/s.
 };
-HAIR_SIZE(hair_stir_params, 16)
+HAIR_SIZE(hair_activity_params, 16)
 
 // Parameters by which motion.comp measures guides after the last substep.
 struct hair_motion_params {
@@ -730,31 +734,31 @@ struct hair_follower {
 HAIR_SIZE(hair_follower, 96)
 
 // Root binding: the point on the scalp to which a root is bound, at rest.
-struct hair_seat {
+struct hair_root_binding {
     hair_uint corner0, corner1, corner2; // Scalp vertices of its triangle.
     float     weight1, weight2;          // Barycentric weights of corner1 and corner2.
     float     away_x, away_y, away_z;    // Offset from the point to the root, m.
 };
-HAIR_SIZE(hair_seat, 32)
+HAIR_SIZE(hair_root_binding, 32)
 
-// Times of hair_ride.
-#define HAIR_RIDE_THEN 0 // End of the last substep before this step.
-#define HAIR_RIDE_START 1  // Start of this step.
-#define HAIR_RIDE_END 2    // End of this step.
-#define HAIR_RIDE_BEFORE 3 // Start of the last substep done.
-#define HAIR_RIDE_AFTER 4  // End of the last substep done.
-#define HAIR_RIDES 5
+// Times of hair_root_transform.
+#define HAIR_ROOT_TRANSFORM_THEN 0 // End of the last substep before this step.
+#define HAIR_ROOT_TRANSFORM_START 1  // Start of this step.
+#define HAIR_ROOT_TRANSFORM_END 2    // End of this step.
+#define HAIR_ROOT_TRANSFORM_BEFORE 3 // Start of the last substep done.
+#define HAIR_ROOT_TRANSFORM_AFTER 4  // End of the last substep done.
+#define HAIR_ROOT_TRANSFORMS 5
 
 // Scalp motion of a guide's root in the head. The rest pose is rotated about the root, then
 // shifted.
-struct hair_ride {
-    hair_vec4 shift[HAIR_RIDES]; // xyz: m, in the head's frame.
-    hair_vec4 turn[HAIR_RIDES];  // Unit quaternions.
+struct hair_root_transform {
+    hair_vec4 shift[HAIR_ROOT_TRANSFORMS]; // xyz: m, in the head's frame.
+    hair_vec4 turn[HAIR_ROOT_TRANSFORMS];  // Unit quaternions.
 };
-HAIR_SIZE(hair_ride, HAIR_RIDES * 32)
+HAIR_SIZE(hair_root_transform, HAIR_ROOT_TRANSFORMS * 32)
 
 // Bits of hair_scalp_params.what.
-#define HAIR_SCALP_FRESH 1u // The scalp was given since the last step.
+#define HAIR_SCALP_CHANGED 1u // The scalp was given since the last step.
 #define HAIR_SCALP_RESET 2u // There is no history.
 #define HAIR_SCALP_AGAIN 4u // The step has already begun. Only its substeps continue.
 
@@ -767,11 +771,11 @@ struct hair_scalp_params {
     hair_uint guides;
     hair_uint followers;
     hair_uint first, stride; // First position and stride in the application's buffer, in floats.
-    hair_uint what;          // HAIR_SCALP_ bits.
+    hair_uint flags;          // HAIR_SCALP_ bits.
     hair_uint substeps;      // Substeps of this step.
     // Fraction of the step done at the start of its last substep, where it has two or more.
-    float     share_before;
-    float     share_after;   // Fraction of the step done at the end of its last substep.
+    float     fraction_before;
+    float     fraction_after;   // Fraction of the step done at the end of its last substep.
     hair_uint smooth_vertices;
     hair_uint unused0, unused1;
 };
@@ -789,7 +793,7 @@ struct hair_patch {
     float     reach;         // Maximum distance of any follower from the guide's root, m.
     float     length;        // Length of its longest follower, m.
     float     importance;    // Factor of the size on the screen.
-    hair_uint hidden;        // 1 if the last occlusion culling found the patch occluded.
+    hair_uint occluded;        // 1 if the last occlusion culling found the patch occluded.
 };
 HAIR_SIZE(hair_patch, 64)
 
@@ -818,15 +822,15 @@ struct hair_field_collider {
 HAIR_SIZE(hair_field_collider, 96)
 
 // A collider to be drawn, and its bounding box in its own axes.
-struct hair_shown_collider {
+struct hair_debug_collider {
     HAIR_STRUCT(hair_field_collider) collider;
     hair_vec4 lower; // xyz: m.
     hair_vec4 upper; // xyz: m.
 };
-HAIR_SIZE(hair_shown_collider, 128)
+HAIR_SIZE(hair_debug_collider, 128)
 
 // Parameters of colliders that are drawn for debugging, cut open at a slice of the distance field.
-struct hair_shown_params {
+struct hair_debug_params {
     hair_vec4 rotation; // Head rotation, unit quaternion.
     // Plane of the slice in the head's frame. xyz: unit normal. 0 if there is no slice. w: distance
     // of the plane, m.
@@ -839,9 +843,9 @@ struct hair_shown_params {
     // Arrows of the wind. x, y: number along each side. z: spacing, m. w: speed that is drawn grey,
     // m/s.
     hair_vec4 air;
-    HAIR_STRUCT(hair_shown_collider) shown[HAIR_SHOWN_COLLIDERS];
+    HAIR_STRUCT(hair_debug_collider) shown[HAIR_DEBUG_COLLIDERS];
 };
-HAIR_SIZE(hair_shown_params, 112 + HAIR_SHOWN_COLLIDERS * 128)
+HAIR_SIZE(hair_debug_params, 112 + HAIR_DEBUG_COLLIDERS * 128)
 
 // HAIR_BRICK^3 voxels, and the colliders that reach into them.
 struct hair_field_brick {
@@ -918,9 +922,9 @@ struct hair_strand_look {
     float curl_turns;
     float curl_guide_phase, curl_strand_phase, curl_spread, curl_left_fraction;
     // Bounds of how far the look moves a strand.
-    float     most_stray; // Fraction of the length.
-    float     most_aside; // m.
-    float     most_width; // Factor of the offsets, at least 1.
+    float     max_stray; // Fraction of the length.
+    float     max_offset; // m.
+    float     max_width; // Factor of the offsets, at least 1.
     hair_uint unused;
 };
 HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_PLACES) * 16 + 64)
@@ -958,8 +962,8 @@ struct hair_tint {
     float     root_recovery; // 1 / fraction of the strand over which the loss at the root fades.
     float     streak_clumping;  // Fraction of strands that are streaks together with their lock.
     float     sparkle;
-    float     paint;       // Blend factor of the groom's colours.
-    float     paint_power; // Exponent that darkens the groom's colours.
+    float     groom_color;       // Blend factor of the groom's colours.
+    float     groom_color_power; // Exponent that darkens the groom's colours.
     hair_uint unused0, unused1;
 };
 HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 48)
@@ -999,32 +1003,32 @@ struct hair_draw_params {
     // Parameters of follower collision.
     hair_uint followers; // Number of all followers.
     hair_uint follower_collision; // hair_follower_collision.
-    hair_uint turn;      // 0 or 1. The count at HAIR_BIND_LIST that is current.
+    hair_uint parity;      // 0 or 1. The count at HAIR_BIND_LIST that is current.
     float     collision_margin;    // Distance from a collider to which followers are pushed, m.
     hair_uint lights;    // Number of lights.
     hair_uint textured;  // 1 if there is a colour texture.
-    hair_uint lit;       // Numbers per vertex at HAIR_UNIT_LIGHT. 0 if there are none.
+    hair_uint light_values;       // Numbers per vertex at HAIR_UNIT_LIGHT. 0 if there are none.
     hair_uint culls;     // 1 if patches that are wholly outside `sides` are left out.
     // 1 if passes over follower vertices leave out followers that the view does not draw.
     hair_uint drawn_only;
     hair_uint chunks;     // Work groups per patch in passes over follower vertices.
-    float     led;        // Fraction of the push out of colliders that the view shows.
+    float     push_out_weight;        // Fraction of the push out of colliders that the view shows.
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 
     // Planes of the view frustum. xyz: unit normals, inwards. w: distance, m.
     hair_mat4 sides;
     // Sphere that occludes what is behind it. xyz: centre. w: radius, m. 0 disables it.
-    hair_vec4 skull;
-    float     strand_share;    // Maximum fraction of the strands.
-    float     segment_share;   // Maximum fraction of the segments.
+    hair_vec4 head_sphere;
+    float     strand_fraction;    // Maximum fraction of the strands.
+    float     segment_fraction;   // Maximum fraction of the segments.
     float     width_power;     // Strands are (1 / fraction) to this power times as wide.
     // Pixels per metre where w of clip space is 1. 0 disables detail by size on the screen.
     float     pixels_per_unit;
     float     strand_pixels;   // Wanted width of a strand, pixels.
     float     segment_pixels;  // Wanted length of a segment, pixels.
-    float     least_share; // Minimum fraction of the strands of a patch.
-    float     hidden_share; // Factor of the size of strands behind the skull.
+    float     min_strand_fraction; // Minimum fraction of the strands of a patch.
+    float     occluded_importance; // Factor of the size of strands behind the skull.
     hair_mat4 now_to_clip;    // From the head's origin, without jitter.
     // From the head's origin in the previous frame that was drawn.
     hair_mat4 before_to_clip;

@@ -7,9 +7,9 @@
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
 #include "tools/common/render.h"
-#include "tools/common/sink.h"
+#include "tools/common/frame_writer.h"
 #include "tools/common/stats.h"
-#include "tools/common/subject.h"
+#include "tools/common/groom_source.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -20,7 +20,7 @@
 #include <xxhash.h>
 
 #define TOOL "hair-capture"
-#define MOST_SHADER ((size_t)1 << 20) // bytes
+#define MAX_SHADER ((size_t)1 << 20) // bytes
 // Maximum step, s, the default of hair_desc.max_dt. A longer frame is stepped in parts.
 #define LONGEST_STEP 0.1f
 
@@ -38,7 +38,7 @@ struct capture {
     hair_collider* colliders;
     uint32_t collider_room;
     struct hair_render* render;
-    struct hair_sink sink;
+    struct hair_frame_writer sink;
     struct hair_stats stats;
     float reach; // radius of the head's reach, m
     float* vertices; // vertices of all guides, for the hash
@@ -75,7 +75,7 @@ static void say_all(hair_log_level level, const char* sentence, void* tool)
 static int make_groom(struct capture* capture)
 {
     struct hair_scene* scene = &capture->options.scene;
-    int code = hair_subject_load(TOOL, &capture->host, scene, &capture->groom);
+    int code = hair_groom_source_load(TOOL, &capture->host, scene, &capture->groom);
     if (code) return code;
     hair_groom_info* info = &capture->stats.groom;
     *info = hair_groom_info_default();
@@ -108,7 +108,7 @@ static int make_mesh(struct capture* capture)
     struct head_mesh mesh;
     bool ball = scene->subject == HAIR_SUBJECT_FUR;
     if (!scene->head && !ball) return HAIR_EXIT_OK;
-    if (scene->head ? head_mesh_create(&mesh) : hair_rig_ball(scene->ball_radius, &mesh)) {
+    if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) {
         hair_complain(TOOL, "out of memory for the head");
         return HAIR_EXIT_RUNTIME;
     }
@@ -124,7 +124,7 @@ static int make_render(struct capture* capture)
                                     .height = options->scene.height,
                                     .samples = options->samples,
                                     .supersample = options->supersample,
-                                    .linear = capture->sink.kind == HAIR_SINK_EXR};
+                                    .linear = capture->sink.kind == HAIR_FRAME_WRITER_EXR};
     int code = hair_render_create(TOOL, &desc, &capture->render);
     return code ? code : make_mesh(capture);
 }
@@ -149,11 +149,11 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
     if (!result)
         result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (!reserve_colliders(capture, HAIR_RIG_COLLIDERS + other_count)) {
+    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + other_count)) {
         hair_complain(TOOL, "out of memory for %u colliders", other_count);
         return HAIR_ERROR_MEMORY;
     }
-    uint32_t count = hair_rig_colliders(&capture->options.scene, time, transform, capture->colliders);
+    uint32_t count = hair_head_rig_colliders(&capture->options.scene, time, transform, capture->colliders);
     if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
     return hair_set_colliders(capture->hair, capture->colliders, count + other_count,
                               sizeof *capture->colliders);
@@ -164,7 +164,7 @@ static int make_shader(struct capture* capture)
     hair_shader_desc desc = hair_shader_desc_default();
     struct hair_bytes bytes;
     if (!capture->options.shader) return HAIR_EXIT_OK;
-    if (!hair_file_read(TOOL, capture->options.shader, MOST_SHADER, &bytes)) return HAIR_EXIT_INPUT;
+    if (!hair_file_read(TOOL, capture->options.shader, MAX_SHADER, &bytes)) return HAIR_EXIT_INPUT;
     char* text = malloc(bytes.size + 1);
     if (text) {
         memcpy(text, bytes.data, bytes.size);
@@ -266,7 +266,7 @@ static int show(struct capture* capture, uint32_t frame)
     if (code) return code;
     hair_clock_add(&capture->stats.draw, hair_now() - before);
     if (capture->options.hash) code = hair_exit_for(hash(capture, image));
-    if (!code && !hair_sink_put(&capture->sink, image, frame)) code = HAIR_EXIT_RUNTIME;
+    if (!code && !hair_frame_writer_put(&capture->sink, image, frame)) code = HAIR_EXIT_RUNTIME;
     return code;
 }
 
@@ -348,15 +348,15 @@ static int run(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
     const struct hair_scene* scene = &options->scene;
-    int code = hair_sink_plan(TOOL, options->out, scene->width, scene->height, options->end - options->first,
-                              &capture->sink);
+    int code = hair_frame_writer_plan(TOOL, options->out, scene->width, scene->height,
+                                      options->end - options->first, &capture->sink);
     if (!code) code = make(capture);
     if (code) return code;
-    if (!hair_sink_open(&capture->sink, (double)scene->fps)) return HAIR_EXIT_RUNTIME;
+    if (!hair_frame_writer_open(&capture->sink, (double)scene->fps)) return HAIR_EXIT_RUNTIME;
     code = run_frames(capture);
     if (code)
-        hair_sink_discard(&capture->sink);
-    else if (!hair_sink_commit(&capture->sink))
+        hair_frame_writer_discard(&capture->sink);
+    else if (!hair_frame_writer_commit(&capture->sink))
         code = HAIR_EXIT_RUNTIME;
     if (!code) code = write_stats(capture);
     return code ? code : print_hashes(capture);

@@ -70,7 +70,7 @@ PICTURE("color=blue", "--scene demo --set color=blue")
 ROW("Variety: what chance, water, dye and light make of one colour")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
 PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_darkening=0.6")
-PICTURE("A share of grey hairs (streaks by strand)",
+PICTURE("A fraction of grey hairs (streaks by strand)",
         "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_clumping=0 --set streak_color.r=0.6 --set "
         "streak_color.g=0.6 --set streak_color.b=0.6")
 PICTURE("Dyed tips: a ramp of eight colours",

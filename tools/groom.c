@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define TOOL "hair-groom"
-#define MOST_BYTES ((size_t)4 << 30)
+#define MAX_BYTES ((size_t)4 << 30)
 
 enum { INFO = 1, CONVERT = 2, GENERATE = 4 };
 
@@ -27,7 +27,7 @@ static const struct command {
     {"generate", GENERATE, 2, "generate STYLE OUT", "write a built-in haircut"},
 };
 
-enum choice { SCALE = 256, UP, TIP_FIRST, SHARE, VERTICES, GUIDES, LENGTH, SEED, FORMAT, HELP, VERSION };
+enum choice { SCALE = 256, UP, TIP_FIRST, FRACTION, VERTICES, GUIDES, LENGTH, SEED, FORMAT, HELP, VERSION };
 
 static const struct row {
     const char* name;
@@ -38,7 +38,7 @@ static const struct row {
     {"scale", SCALE, INFO | CONVERT, "X", "metres per unit of the file; 1"},
     {"up", UP, INFO | CONVERT, "AXIS", "of the file that points up: y, z or x; turned to y"},
     {"tip-first", TIP_FIRST, INFO | CONVERT, NULL, "strands of the file run from tip to root"},
-    {"keep-fraction", SHARE, INFO | CONVERT, "X", "of the strands to keep; 1"},
+    {"keep-fraction", FRACTION, INFO | CONVERT, "X", "of the strands to keep; 1"},
     {"vertices", VERTICES, INFO | CONVERT | GENERATE, "N", "of every strand, resampled; as they are"},
     {"guides", GUIDES, GENERATE, "N", "strands to make; 166"},
     {"length", LENGTH, GENERATE, "X", "times the style's own lengths; 1"},
@@ -161,7 +161,7 @@ static bool take_option(const struct row* row, const char* text, struct said* sa
     case SCALE: return parse_number(row->name, text, &said->import.scale);
     case UP: return parse_up(text, &said->import.up);
     case TIP_FIRST: said->import.tip_first = 1; return true;
-    case SHARE: return parse_number(row->name, text, &said->import.keep_fraction);
+    case FRACTION: return parse_number(row->name, text, &said->import.keep_fraction);
     case VERTICES:
         if (!parse_count(row->name, text, &said->import.strand_vertices)) return false;
         said->style.strand_vertices = said->import.strand_vertices;
@@ -250,7 +250,7 @@ static int exit_code(hair_result result)
 static int read_asset(const char* path, const struct said* said, hair_asset** out)
 {
     struct hair_bytes bytes;
-    if (!hair_file_read(TOOL, path, MOST_BYTES, &bytes)) return HAIR_EXIT_INPUT;
+    if (!hair_file_read(TOOL, path, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
     hair_host named = {NULL, NULL, hair_print_log, (void*)hair_log_name(TOOL, path)};
     hair_asset_desc desc = hair_asset_desc_default();
     desc.host = &named;

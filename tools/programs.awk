@@ -8,8 +8,8 @@
 
 function exists(mixture) # return whether some scene needs the combination
 {
-    if (mixture ~ / (ANY|BODIES) / && mixture !~ / COLLIDERS /) return 0
-    if (mixture ~ / FEW / && (mixture !~ / ANY / || mixture ~ / THREAD /)) return 0
+    if (mixture ~ / (COLLIDER_GRID|BODIES) / && mixture !~ / COLLIDERS /) return 0
+    if (mixture ~ / FEW_GUIDES / && (mixture !~ / COLLIDER_GRID / || mixture ~ / THREAD_PER_GUIDE /)) return 0
     return 1
 }
 
@@ -52,7 +52,7 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     stages = ""
     for (i = 4; i in field; i += 2) stages = stages field[i]
     all = " "
-    while (match(features, /HAIR_GL_WITH\([A-Z]+\)/)) {
+    while (match(features, /HAIR_GL_WITH\([A-Z0-9_]+\)/)) {
         all = all substr(features, RSTART + 13, RLENGTH - 14) " "
         features = substr(features, RSTART + RLENGTH)
     }
@@ -62,10 +62,10 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
     count = split(all, has, " ")
     print_program(" ", stages)
     print_program(mixed, stages)
-    if (all ~ / ANY /) print_program(" COLLIDERS ANY ", stages)
-    if (all ~ / FEW /) print_program(" COLLIDERS ANY FEW ", stages)
-    if (all ~ / FEW /) print_program(" COLLIDERS ANY BODIES FEW ", stages)
-    if (all ~ / DEPTH / && all ~ / SHARES /) print_program(" DEPTH SHARES ", stages) # opacity pass
+    if (all ~ / COLLIDER_GRID /) print_program(" COLLIDERS COLLIDER_GRID ", stages)
+    if (all ~ / FEW_GUIDES /) print_program(" COLLIDERS COLLIDER_GRID FEW_GUIDES ", stages)
+    if (all ~ / FEW_GUIDES /) print_program(" COLLIDERS COLLIDER_GRID BODIES FEW_GUIDES ", stages)
+    if (all ~ / DEPTH / && all ~ / ALPHA_COVERAGE /) print_program(" DEPTH ALPHA_COVERAGE ", stages) # opacity pass
     for (i = 1; i <= count; i++) {
         print_program(" " has[i] " ", stages)
         without = mixed

@@ -2,7 +2,7 @@
 // in a slice. An arrow points along the wind from its node. It reaches the next node at the
 // reference speed of params.air.w.
 #version 450 core
-#include "shown.glsl"
+#include "draw/debug_params.glsl"
 #include "wind/air.glsl"
 
 layout(location = 0) out vec3 line_color;

@@ -1,9 +1,9 @@
 // colliders.frag - a collider, found by sphere tracing along the ray (Hart 1996) with the distance
 // function of the distance field, and shaded. Only the part behind the slice is drawn.
 #version 450 core
-#include "shown.glsl"
+#include "draw/debug_params.glsl"
 #include "field/shape.glsl"
-#include "lights.glsl"
+#include "light/lights.glsl"
 
 #define STEPS 96
 
@@ -23,7 +23,7 @@ vec3 normal_at(vec3 p, float h)
 
 void main()
 {
-    hair_shown_collider shown = params.shown[number];
+    hair_debug_collider shown = params.shown[number];
     vec4             turn  = quat_conjugate(shown.collider.rotation), back = quat_conjugate(params.rotation);
     own          = shown.collider;
     own.rotation = vec4(0.0, 0.0, 0.0, 1.0);
@@ -67,7 +67,7 @@ void main()
         hair_beam beam = beam_at(i, rotate(params.rotation, at));
         sum += 0.3 * beam.irradiance * max(dot(normal_there, beam.to), 0.0);
     }
-    color = vec4(min(hue * sum, HAIR_MOST_LIGHT), 1.0);
+    color = vec4(min(hue * sum, HAIR_MAX_LIGHT), 1.0);
     if (cut) color.rgb *= 0.4;
     vec4 clip    = to_clip(at);
     gl_FragDepth = clamp(params.depth.x + params.depth.y * clip.z / clip.w, 0.0, 1.0);

@@ -1,6 +1,6 @@
 // colliders.vert - the bounding box of a collider. One instance per collider, 36 vertices.
 #version 450 core
-#include "shown.glsl"
+#include "draw/debug_params.glsl"
 
 layout(location = 0) out vec3 box_position; // Position in the collider's axes.
 layout(location = 1) flat out vec3 face;    // Outward normal.
@@ -8,7 +8,7 @@ layout(location = 2) flat out int number;
 
 void main()
 {
-    hair_shown_collider own = params.shown[gl_InstanceID];
+    hair_debug_collider own = params.shown[gl_InstanceID];
     // Two triangles on each of six sides.
     int   side   = gl_VertexID / 6, corner = gl_VertexID % 6, axis = side / 2;
     ivec2 at     = ivec2((0x32 >> corner) & 1, (0x2c >> corner) & 1);

@@ -1,7 +1,7 @@
 // patch.tesc - the isolines of one part of a patch of followers. A part has at most
 // HAIR_MAX_ISOLINES followers and HAIR_MAX_ISOLINE_SEGMENTS of their segments.
 #version 450 core
-#include "patch.glsl"
+#include "strands/patch.glsl"
 layout(vertices = 1) out;
 
 layout(location = 0) flat in uvec2 vertex_patch[];

@@ -8,7 +8,7 @@
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
 #endif
-#include "raster.glsl"
+#include "draw/raster.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
@@ -39,12 +39,12 @@ float half_of(raster_outline o) { return 0.5 * max(distance(o.corner[0].xy, o.co
 
 ivec4 bounds_of(raster_ribbon r, raster_outline o)
 {
-    vec2 most  = vec2(raster.columns, raster.rows);
+    vec2 max_value  = vec2(raster.columns, raster.rows);
     vec2 lower = min(min(o.corner[0].xy, o.corner[1].xy), min(o.corner[2].xy, o.corner[3].xy));
     vec2 upper = max(max(o.corner[0].xy, o.corner[1].xy), max(o.corner[2].xy, o.corner[3].xy));
     // A ribbon that is not finite is nowhere.
-    bool there = r.seen.x < r.seen.y && all(lessThan(lower, most)) && all(greaterThanEqual(upper, vec2(0.0)));
-    return there ? ivec4(max(lower, vec2(0.0)), min(upper, most - 1.0)) : ivec4(0, 0, -1, -1);
+    bool there = r.seen.x < r.seen.y && all(lessThan(lower, max_value)) && all(greaterThanEqual(upper, vec2(0.0)));
+    return there ? ivec4(max(lower, vec2(0.0)), min(upper, max_value - 1.0)) : ivec4(0, 0, -1, -1);
 }
 
 void take(uint segment, uint at, float depth)
@@ -66,8 +66,8 @@ float slant_of(vec2 way) { return way.x / (abs(way.y) < 1e-6 ? 1e-6 : way.y); }
 // Return the maximum number of pieces of a row.
 uint pieces_of(raster_outline o, ivec4 about)
 {
-    float half_ = half_of(o), most = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
-    return 1u + uint(min(most, float(about.z - about.x))) / HAIR_RASTER_PIECE;
+    float half_ = half_of(o), max_value = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
+    return 1u + uint(min(max_value, float(about.z - about.x))) / HAIR_RASTER_PIECE;
 }
 
 // Rasterise one piece of a row. It covers the part of the middle line that is no farther from the
@@ -84,8 +84,8 @@ void fill(uint segment, raster_outline o, ivec4 about, int y, uint piece)
     for (int i = first; i <= last; ++i) {
         uint at = (uint(y) * raster.columns + uint(i)) * raster.samples, own = row + uint(i) / HAIR_RASTER_TILE;
         for (uint s = 0u; s < raster.samples; ++s) {
-            float share, depth;
-            if (!sees(o, vec2(i, y) + sample_at(s), share, depth)) continue;
+            float fraction, depth;
+            if (!sees(o, vec2(i, y) + sample_at(s), fraction, depth)) continue;
             take(segment, at + s, depth);
             if (own != told) tile[own] = 1u;
             told = own;

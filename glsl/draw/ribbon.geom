@@ -2,8 +2,8 @@
 // all pixels that it partly covers.
 #version 450 core
 #include "draw_params.glsl"
-#include "passed.glsl"
-#include "ribbon.glsl"
+#include "draw/varyings.glsl"
+#include "draw/ribbon.glsl"
 layout(lines) in;
 layout(triangle_strip, max_vertices = 4) out;
 
@@ -25,8 +25,8 @@ layout(location = 6) in vec3 clip_before[];
 layout(location = 5) out vec3 ribbon_now;
 layout(location = 6) out vec3 ribbon_before;
 #endif
-#ifdef HAIR_SHARES
-layout(location = 7) noperspective out vec4 ribbon_share;
+#ifdef HAIR_ALPHA_COVERAGE
+layout(location = 7) noperspective out vec4 ribbon_fraction;
 #endif
 
 void pass_on(int end, float across)
@@ -44,18 +44,18 @@ void pass_on(int end, float across)
 #endif
 }
 
-#ifdef HAIR_SHARES
+#ifdef HAIR_ALPHA_COVERAGE
 // Return the factor by which the ribbon must be widened. `share` receives the vertex's coverage
-// terms, see coverage.glsl.
-float widen(vec4 center, vec3 side, out vec4 share)
+// terms, see draw/coverage.glsl.
+float widen(vec4 center, vec3 side, out vec4 fraction)
 {
     vec4  clip  = draw.view_to_clip * (draw.view * center), by = draw.view_to_clip * (draw.view * vec4(side, 0.0));
     vec2  pixel = 0.5 * draw.viewport.xy * (by.xy - clip.xy / clip.w * by.w) / clip.w;
     float half_ = length(pixel);
     if (!(half_ > 1e-9)) return 0.0;
     vec2 n = abs(pixel) / half_; // A square pixel seen along the strand is a trapezoid.
-    share  = vec4(half_ + draw.viewport.z, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y));
-    return share.x / half_;
+    fraction  = vec4(half_ + draw.viewport.z, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y));
+    return fraction.x / half_;
 }
 #endif
 
@@ -64,14 +64,14 @@ void main()
     for (int end = 0; end < 2; ++end) {
         vec3  center = strand_position[end].xyz;
         vec3  side   = side_of(strand_position[end], strand_tangent[end]);
-#ifdef HAIR_SHARES
-        vec4 share = vec4(0.0);
-        side *= widen(vec4(center, 1.0), side, share);
+#ifdef HAIR_ALPHA_COVERAGE
+        vec4 fraction = vec4(0.0);
+        side *= widen(vec4(center, 1.0), side, fraction);
 #endif
         for (int k = -1; k <= 1; k += 2) {
             pass_on(end, float(k));
-#ifdef HAIR_SHARES
-            ribbon_share = vec4(float(k) * share.x, share.yzw);
+#ifdef HAIR_ALPHA_COVERAGE
+            ribbon_fraction = vec4(float(k) * fraction.x, fraction.yzw);
 #endif
             gl_Position = draw.view_to_clip * (draw.view * vec4(center + float(k) * side, 1.0));
             EmitVertex();

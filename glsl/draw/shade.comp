@@ -1,16 +1,16 @@
 // shade.comp - light from strand vertices to the eye, computed before drawing, because some GPUs
-// have few graphics units. Work groups are those of run.glsl.
+// have few graphics units. Work groups are those of strands/vertex_range.glsl.
 #version 450 core
-#include "strand.glsl"
-#include "run.glsl"
-#include "packed.glsl"
+#include "draw/strand.glsl"
+#include "strands/vertex_range.glsl"
+#include "strands/packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };
 
 void main()
 {
-    vertex_run run  = find_run();
+    vertex_range run  = find_vertex_range();
     uint       each = draw.segments + 1u;
     for (uint i = run.first; i < run.end; i += run.stride) {
         uint          number   = i / each;

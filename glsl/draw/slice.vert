@@ -1,6 +1,6 @@
 // slice.vert - a slice of the distance field's box, as a strip of four vertices.
 #version 450 core
-#include "shown.glsl"
+#include "draw/debug_params.glsl"
 
 // Position from the head's origin, along the world's axes.
 layout(location = 0) out vec3 slice_position;

@@ -1,9 +1,9 @@
 // strand.frag - a pixel of a strand: its colour, or its numbers or velocity in place of the colour.
 #version 450 core
 #include "draw_params.glsl"
-#include "passed.glsl"
-#ifdef HAIR_OWN_PIXELS
-#include "shading.glsl"
+#include "draw/varyings.glsl"
+#ifdef HAIR_USER_PIXELS
+#include "light/shading.glsl"
 #endif
 
 layout(location = 2) in vec3 strand_color;
@@ -17,8 +17,8 @@ layout(location = 4) in vec4 strand_place;
 layout(location = 5) in vec3 clip_now;
 layout(location = 6) in vec3 clip_before;
 #endif
-#ifdef HAIR_SHARES
-#include "coverage.glsl"
+#ifdef HAIR_ALPHA_COVERAGE
+#include "draw/coverage.glsl"
 #endif
 
 #ifdef HAIR_IDS
@@ -37,7 +37,7 @@ void main()
 #else
 layout(location = 0) out vec4 color;
 
-#ifdef HAIR_OWN_PIXELS
+#ifdef HAIR_USER_PIXELS
 vec4 shade_pixel()
 {
     hair_fragment f;
@@ -63,9 +63,9 @@ vec4 shade_pixel() { return vec4(strand_color, 1.0); }
 void main()
 {
     vec4 shaded = shade_pixel();
-    color       = min(mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0))), HAIR_MOST_LIGHT);
-#ifdef HAIR_SHARES
-    color *= coverage_of(strand_share) * draw.viewport.w;
+    color       = min(mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0))), HAIR_MAX_LIGHT);
+#ifdef HAIR_ALPHA_COVERAGE
+    color *= coverage_of(strand_fraction) * draw.viewport.w;
 #endif
 }
 #endif

@@ -1,7 +1,7 @@
 // strand.tese - one vertex of a follower, found from its isoline and segment.
 #version 450 core
-#include "strand.glsl"
-#include "strand_out.glsl"
+#include "draw/strand.glsl"
+#include "draw/strand_out.glsl"
 layout(isolines, equal_spacing) in;
 
 layout(location = 0) patch in uvec4 lines;

@@ -1,10 +1,10 @@
 // strand.vert - one vertex of a strand without a tessellator. Its number gives the strand in the
 // list and the segment.
 #version 450 core
-#include "strand.glsl"
-#include "strand_out.glsl"
+#include "draw/strand.glsl"
+#include "draw/strand_out.glsl"
 #ifdef HAIR_PAIRED
-#include "ribbon.glsl"
+#include "draw/ribbon.glsl"
 #endif
 
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;

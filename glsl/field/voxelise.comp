@@ -10,7 +10,7 @@ layout(local_size_x = HAIR_BRICK, local_size_y = HAIR_BRICK, local_size_z = HAIR
 #define DEEPEST 6e4 // m. A half float can hold it.
 
 layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_field_brick brick[]; };
-layout(std430, binding = HAIR_BIND_MEMBER) readonly buffer member_buffer { uint member[]; };
+layout(std430, binding = HAIR_BIND_BRICK_COLLIDER) readonly buffer member_buffer { uint member[]; };
 // A texture, because one driver reads storage buffers many times as slowly.
 layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer collider_texture;
 layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
@@ -25,7 +25,7 @@ hair_field_collider fetch_collider(uint i)
     collider.rotation = uintBitsToFloat(texelFetch(collider_texture, at + 1));
     collider.size     = uintBitsToFloat(texelFetch(collider_texture, at + 2));
     collider.shape = last.x, collider.number = last.y;
-#ifdef HAIR_FORMS
+#ifdef HAIR_MESHES
     uvec4 nodes = texelFetch(collider_texture, at + 4);
     collider.grid  = uintBitsToFloat(texelFetch(collider_texture, at + 3));
     collider.nodes_x = nodes.x, collider.nodes_y = nodes.y, collider.nodes_z = nodes.z, collider.first = nodes.w;

@@ -1,6 +1,6 @@
 // colliders.glsl - access to colliders. A few colliders are in the step's parameters. Any number of
-// them are in a texture, and a grid lists which of them can be met where (lib/collide/cells.h).
-#ifdef HAIR_ANY
+// them are in a texture, and a grid lists which of them can be met where (lib/collide/grid.h).
+#ifdef HAIR_COLLIDER_GRID
 layout(binding = HAIR_UNIT_CONTACT) uniform usamplerBuffer contact_texture;
 layout(binding = HAIR_UNIT_CELL) uniform usamplerBuffer cell_texture;
 layout(binding = HAIR_UNIT_NODE) uniform samplerBuffer node_texture;

@@ -24,19 +24,19 @@
 
 // Contact of a vertex. xyz: normal, or for GLIDES the direction in which the vertex can move. w:
 // FREE to STICKS.
-OWN(vec4, touch);
+LOCAL(vec4, touch);
 #ifndef HAIR_MIXED
 // Slip of a vertex. For SLIDES, xyz has the direction of the slip and friction as its length. w is
 // the fraction of the slip that friction takes. For STICKS, w is the friction.
-OWN(vec4, slip);
+LOCAL(vec4, slip);
 #endif
-#ifdef HAIR_ANY
+#ifdef HAIR_COLLIDER_GRID
 #define BITS uvec2 // One bit for each collider of a list
 #else
 #define BITS uint // One bit for each collider
 #endif
-OWN(BITS, reachable); // Colliders that the vertex can touch
-OWN(BITS, met);       // Colliders that the vertex met in this substep
+LOCAL(BITS, reachable); // Colliders that the vertex can touch
+LOCAL(BITS, met);       // Colliders that the vertex met in this substep
 float sunk;                  // Depth of the root in colliders, m
 
 // Loop over the vertices that can touch a collider. A software rasteriser executes a conditional
@@ -45,26 +45,26 @@ float sunk;                  // Depth of the root in colliders, m
 #ifdef HAIR_THREAD_PER_GUIDE
 #define LISTS_REACHING true
 #define EACH_REACHING for (uint i = first_reaching; i < guide_count; i = next_reaching[i])
-uint first_reaching, next_reaching[MOST];
+uint first_reaching, next_reaching[MAX_VERTICES];
 
 void list_reaching()
 {
     first_reaching = guide_count;
     for (uint i = guide_count; i-- > 0u;) {
         next_reaching[i] = first_reaching;
-        first_reaching   = own(reachable) != BITS(0u) ? i : first_reaching;
+        first_reaching   = local(reachable) != BITS(0u) ? i : first_reaching;
     }
 }
 #else
 #define LISTS_REACHING false
-#define EACH_REACHING EACH(guide_count)
+#define EACH_REACHING FOR_VERTICES(guide_count)
 void list_reaching() {}
 #endif
 
 // Number of loop rounds over colliders that a thread of a software rasteriser has left in this
-// substep. The limit is explained in lib/sim/rounds.c. With no rounds left, each vertex leaves only
-// the collider in which it is deepest, and the strand falls back to follow-the-leader.
-#if defined(HAIR_THREAD_PER_GUIDE) && defined(HAIR_ANY)
+// substep. The limit is explained in lib/sim/loop_budget.c. With no rounds left, each vertex leaves
+// only the collider in which it is deepest, and the strand falls back to follow-the-leader.
+#if defined(HAIR_THREAD_PER_GUIDE) && defined(HAIR_COLLIDER_GRID)
 uint rounds_left;
 void grant_rounds() { rounds_left = HAIR_CONTACT_ROUNDS; }
 void take_rounds(uint count) { rounds_left -= min(count, rounds_left); }
@@ -109,9 +109,9 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out v
 vec3 surface_of(uint k, vec3 end, vec3 head_moved, vec3 normal)
 {
     capsule now = collider_now(k), then = collider_then(k);
-    float along = nearest_share(end, now);
+    float along = nearest_fraction(end, now);
     return head_moved + (now.start - then.start) + along * (now.axis - then.axis) +
-           cross(COLLIDER_SPIN(k).xyz * (share_now - share_then), normal * now.radius);
+           cross(COLLIDER_SPIN(k).xyz * (fraction_now - fraction_then), normal * now.radius);
 }
 
 // Return the freedom that remains after a further contact of this normal.
@@ -124,7 +124,7 @@ vec4 left_of(vec4 freedom, vec3 normal)
 }
 
 #ifdef HAIR_BODIES
-#include "sim/body.glsl"
+#include "sim/shape_contact.glsl"
 #endif
 
 float root_depth_in(uint k, bool is_body)
@@ -163,10 +163,10 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 
 #endif
 
-#ifdef HAIR_ANY
-#include "sim/contact_any.glsl"
+#ifdef HAIR_COLLIDER_GRID
+#include "sim/contact_grid.glsl"
 #else
-#include "sim/contact_few.glsl"
+#include "sim/contact_uniform.glsl"
 #endif
 
 // Return the displacement that colliders allow for the wanted one, and the freedom that they leave.

@@ -1,7 +1,7 @@
 // contact_cache.glsl - a cache of the spheres that are close to a vertex. A vertex tests these
 // spheres several times in a substep. With few guides, no other guide runs while it waits for
 // memory. Overlapping spheres cover each other, so that few remain close.
-#include "sim/contact_lists.glsl"
+#include "sim/contact_grid_lists.glsl"
 
 // Many guides hide the latency of memory better without the cache, because the cache takes
 // registers.
@@ -11,7 +11,7 @@
 void  cache_close(uint i) {}
 bool  is_out_of_cached(uvec2 colliders, vec3 end, float way, float granted) { return false; }
 void  touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float friction) {}
-uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value, inout float was_max,
                      inout float depth, inout uvec2 from, inout uvec2 around)
 {
     return uvec2(0u);
@@ -26,9 +26,9 @@ uvec2 cached_bit[CACHED]; // Bit of each cached sphere in the list, or no bit
 // Places of the spheres at the start and end of the step, their spins, and their factors of
 // friction. A subgroup reads them once, when a list is made.
 #ifdef HAIR_SUBGROUP
-PARKED(vec4, cached_start[CACHED]);
-PARKED(vec4, cached_end[CACHED]);
-PARKED(vec4, cached_turn[CACHED]);
+SPILLED(vec4, cached_start[CACHED]);
+SPILLED(vec4, cached_end[CACHED]);
+SPILLED(vec4, cached_turn[CACHED]);
 #define CACHED_START(a) cached_start[a][lane]
 #define CACHED_END(a) cached_end[a][lane]
 #define CACHED_TURN(a) cached_turn[a][lane]
@@ -54,22 +54,22 @@ void cache(uint a, uint k)
 // sphere.
 void cache_close(uint i)
 {
-    uvec2 left = own(close);
+    uvec2 left = local(close);
     bool  spheres = true;
     uint  member[CACHED];
 #ifdef HAIR_BODIES
-    left &= ~own(walked);
+    left &= ~local(walked);
 #endif
     for (uint a = 0u; a < CACHED; ++a) {
         uvec2 at      = first_of(left);
         cached_bit[a] = mask_of(at);
-        member[a]     = member_at(own(members), at);
+        member[a]     = member_at(local(members), at);
         left &= ~cached_bit[a];
     }
     for (uint a = 0u; a < CACHED; ++a) {
-        spheres       = spheres && (member[a] & HAIR_MEMBER_LONG) == 0u;
+        spheres       = spheres && (member[a] & HAIR_ENTRY_LONG) == 0u;
         cached_bit[a] = spheres ? cached_bit[a] : uvec2(0u);
-        cache(a, member[a] & HAIR_MEMBER_NUMBER);
+        cache(a, member[a] & HAIR_ENTRY_NUMBER);
     }
 }
 
@@ -84,10 +84,10 @@ void advance_cached(vec3 start)
 {
     vec4 margin = vec4(0.0, 0.0, 0.0, params.collision_margin);
     for (uint a = 0u; a < CACHED; ++a) {
-        vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a), then = mix(begins, ends, share_then) + margin;
-        cached_now[a]  = mix(begins, ends, share_now) + margin;
+        vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a), then = mix(begins, ends, fraction_then) + margin;
+        cached_now[a]  = mix(begins, ends, fraction_now) + margin;
         cached_way[a]  = vec4(cached_now[a].xyz - then.xyz, length(cached_now[a].xyz - then.xyz));
-        cached_spin[a] = vec4(turns.xyz * (share_now - share_then), turns.w);
+        cached_spin[a] = vec4(turns.xyz * (fraction_now - fraction_then), turns.w);
         cached_was[a]  = then.w - length(start - then.xyz);
     }
 }
@@ -99,10 +99,10 @@ vec4 deepest_out, deepest_way, deepest_spin;
 
 // Cached variant of the search in leave_deepest(). Return a bit mask of the members tested. Return
 // no bits if the vertex may pass through a sphere.
-uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float most, inout float was_most,
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value, inout float was_max,
                      inout float depth, inout uvec2 from, inout uvec2 around)
 {
-    if ((colliders & ~own(close)) != uvec2(0u)) return uvec2(0u);
+    if ((colliders & ~local(close)) != uvec2(0u)) return uvec2(0u);
     bool  whole = false;
     uvec2 all   = uvec2(0u);
     float away[CACHED];
@@ -114,11 +114,11 @@ uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, i
     for (uint a = 0u; a < CACHED; ++a) {
         bool  looked = (colliders & cached_bit[a]) != uvec2(0u), first = (owed & cached_bit[a]) != uvec2(0u);
         float deep   = cached_now[a].w - away[a], rank = !looked ? -FARTHEST : first ? deep + FARTHEST : deep;
-        was_most     = looked ? max(was_most, cached_was[a]) : was_most;
+        was_max     = looked ? max(was_max, cached_was[a]) : was_max;
         all |= cached_bit[a];
         around |= looked && (first || deep > -2.0 * way) ? cached_bit[a] : uvec2(0u);
-        if (rank > most) {
-            most         = rank;
+        if (rank > max_value) {
+            max_value         = rank;
             depth        = deep;
             from         = cached_bit[a];
             deepest_out  = vec4(end - cached_now[a].xyz, away[a]);

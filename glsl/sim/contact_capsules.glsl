@@ -3,47 +3,48 @@
 #include "sim/colliders.glsl"
 
 // Fractions of the step that are done at the start and end of the substep.
-float share_then, share_now;
+float fraction_then, fraction_now;
 
 struct capsule { // A collider at one moment, with the margin
     vec3  start, axis;
     float radius, square; // `square` is the squared length of the axis, m^2
 };
 
-capsule collider_at(uint k, float share)
+capsule collider_at(uint k, float fraction)
 {
-    vec4 a = mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), share);
-    vec4 b = mix(COLLIDER_START(k, 1), COLLIDER_END(k, 1), share);
+    vec4 a = mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), fraction);
+    vec4 b = mix(COLLIDER_START(k, 1), COLLIDER_END(k, 1), fraction);
     vec3 axis = b.xyz - a.xyz;
     return capsule(a.xyz, axis, a.w + params.collision_margin, max(dot(axis, axis), 1e-12));
 }
 
-float nearest_share(vec3 position, capsule collider)
+float nearest_fraction(vec3 position, capsule collider)
 {
     return clamp(dot(position - collider.start, collider.axis) / collider.square, 0.0, 1.0);
 }
 
 vec3 from_axis(vec3 position, capsule collider)
 {
-    return position - collider.start - nearest_share(position, collider) * collider.axis;
+    return position - collider.start - nearest_fraction(position, collider) * collider.axis;
 }
 
 // Return an upper bound of how far collider k moves in the substep.
-float moves_of(uint k) { return COLLIDER_SPIN(k).w * (share_now - share_then); }
+float moves_of(uint k) { return COLLIDER_SPIN(k).w * (fraction_now - fraction_then); }
 
-// collider_then() and collider_now() return a capsule at the start and end of the substep. If a guide has
-// several threads, each of them computes other capsules, once per moment. A capsule written by
-// share_collider() is visible after COLLIDERS_MEET, and in the next substep by collider_then().
-#if defined(HAIR_ANY) || defined(HAIR_THREAD_PER_GUIDE)
-#define COLLIDERS_MEET
+// collider_then() and collider_now() return a capsule at the start and end of the substep. If a
+// guide has several threads, each of them computes other capsules, once per moment. A capsule
+// written by share_collider() is visible after COLLIDERS_BARRIER, and in the next substep by
+// collider_then().
+#if defined(HAIR_COLLIDER_GRID) || defined(HAIR_THREAD_PER_GUIDE)
+#define COLLIDERS_BARRIER
 void    begin_colliders() {}
 void    next_colliders() {}
 void    share_collider(uint k, capsule now) {}
-capsule collider_then(uint k) { return collider_at(k, share_then); }
-capsule collider_now(uint k) { return collider_at(k, share_now); }
+capsule collider_then(uint k) { return collider_at(k, fraction_then); }
+capsule collider_now(uint k) { return collider_at(k, fraction_now); }
 #else
 // find_colliders() votes before it reads the capsules.
-#define COLLIDERS_MEET MEET_TO_VOTE
+#define COLLIDERS_BARRIER VOTE_BARRIER
 #define MOMENTS uint(2 * HAIR_FEW_COLLIDERS)
 // Capsules of each guide at two moments, in alternating halves.
 shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GUIDES];
@@ -60,7 +61,7 @@ void share_collider(uint k, capsule now)
 void begin_colliders()
 {
     moment = MOMENTS * guide_of_group;
-    for (uint k = lane; k < params.colliders; k += lanes) share_collider(k, collider_at(k, share_now));
+    for (uint k = lane; k < params.colliders; k += lanes) share_collider(k, collider_at(k, fraction_now));
 }
 uint moment_before() { return 2u * MOMENTS * guide_of_group + uint(HAIR_FEW_COLLIDERS) - moment; }
 void next_colliders() { moment = moment_before(); }

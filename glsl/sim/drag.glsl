@@ -17,15 +17,15 @@ vec2 drags;
 vec3 drifts;
 
 // Scale the parts of v across and along the strand.
-vec3 by_parts(vec2 share, vec3 v)
+vec3 by_parts(vec2 fraction, vec3 v)
 {
     float a = dot(v, along);
-    return share.x * (v - a * along) + share.y * a * along;
+    return fraction.x * (v - a * along) + fraction.y * a * along;
 }
 
 // Compute drags and drifts at vertex i, whose velocity is about hv / h. Drag moves a strand by at
 // most its length in a substep. `share` is the fraction of the vertex's inertia that has weight.
-void feel_air(uint i, vec3 before, float share, vec3 hv)
+void feel_air(uint i, vec3 before, float fraction, vec3 hv)
 {
     float h     = SUBSTEP;
     vec3  after = GET(edge);
@@ -35,12 +35,12 @@ void feel_air(uint i, vec3 before, float share, vec3 hv)
     vec3  air   = h * air_at(root_then + GET(place), substep_number), past = air - hv;
     float faces = dot(past, along), across = length(past - faces * along);
     // A mass that hangs on a tip has no drag.
-    float light = min(0.5 * (beside + own(rest_length)) * own(slack), 1.0);
-    vec2  most  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
-    vec2  law   = min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), most);
+    float light = min(0.5 * (beside + local(rest_length)) * local(slack), 1.0);
+    vec2  max_value  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
+    vec2  law   = min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), max_value);
     // Damping and the law are drag by one air, so the greater of both acts.
     drags       = light * max(law - params.damping * h, 0.0);
-    drifts      = share * params.damping * h * air + by_parts(drags, air);
+    drifts      = fraction * params.damping * h * air + by_parts(drags, air);
 }
 
 // SHAKE: return the change of d in a substep by an acceleration and the wind.
@@ -51,8 +51,8 @@ vec3 dragged_on(vec3 d, vec3 push)
     // The series of (1 - exp(-x)) / x is used where x is small, because rounding spoils the
     // difference.
     vec2  small = 1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0)));
-    vec2  share = mix((1.0 - exp(-x)) / max(x, 0.1), small, lessThan(x, vec2(0.1)));
-    return by_parts(share, h * h * push + drifts - by_parts(x, d));
+    vec2  fraction = mix((1.0 - exp(-x)) / max(x, 0.1), small, lessThan(x, vec2(0.1)));
+    return by_parts(fraction, h * h * push + drifts - by_parts(x, d));
 }
 
 // BDF2 and Euler: return the part of `sum` that remains with implicit drag on the strand's own
@@ -60,7 +60,7 @@ vec3 dragged_on(vec3 d, vec3 push)
 vec3 dragged_back(uint i, float b, vec3 sum)
 {
     float h       = SUBSTEP;
-    float massive = 1.0 + b * params.damping * h + b * b * h * h * own(aim).w;
+    float massive = 1.0 + b * params.damping * h + b * b * h * h * local(aim).w;
     return by_parts(1.0 / (1.0 + b * drags / massive), sum);
 }
 

@@ -10,7 +10,7 @@
 // maxima over windows of time, which an oscillation does not change. A thread loops over the
 // vertices of a guide.
 #version 450 core
-#include "buffers.glsl"
+#include "sim/buffers.glsl"
 #include "rotation.glsl"
 #include "sim/rod_buffers.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;

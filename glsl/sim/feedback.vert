@@ -11,7 +11,7 @@
 #include "shared.h"
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
 #include "rotation.glsl"
-#include "capsules.glsl"
+#include "sim/capsules.glsl"
 #include "sim/angular.glsl"
 
 layout(binding = HAIR_UNIT_STATE) uniform samplerBuffer state_texture; // hair_state
@@ -35,7 +35,7 @@ vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
     return position + (target - position) * (k / (1.0 + k));
 }
 
-// Return vertex i, an end of the link (a, b), after relax_link() of constraints.glsl.
+// Return vertex i, an end of the link (a, b), after relax_link() of sim/constraints.glsl.
 vec3 relaxed(uint i, uint a, uint b, float rest_length, float stiffness)
 {
     vec3  link = vertex(b) - vertex(a);
@@ -81,11 +81,11 @@ vec3 bend_to_rest(uint i, vec4 head)
 }
 
 // Push vertex i out of all colliders. A collider that is too far away does nothing.
-vec3 collide(uint i, float share)
+vec3 collide(uint i, float fraction)
 {
     vec3 position = vertex(i);
     for (uint k = 0u; k < params.colliders && i >= 2u; ++k)
-        position = push_out(position, collider_at(params.collider[k], share, params.collision_margin));
+        position = push_out(position, collider_at(params.collider[k], fraction, params.collision_margin));
     return position;
 }
 

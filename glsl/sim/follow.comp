@@ -10,7 +10,7 @@
 //   t' ~ t + (d_1 - d_0) / l + h^2 Q a / I + (c u - (u . Q r) Q p) / I,   C = c r + p, p across r
 //
 // r is the rest direction, and Q the rotation of the segment before it from the rest pose. a
-// contains the stiffness K and the rest shape, which bears part of gravity (lib/sim/follow.c).
+// contains the stiffness K and the rest shape, which bears part of gravity (lib/rod/follow_segments.c).
 // Normalising t' makes the pull to the rest direction implicit, so that any stiffness is stable. A
 // segment is affected only by the segments before it. Its oscillation cannot feed theirs. The shape
 // at rest follows from the root on, whatever came before.
@@ -34,47 +34,47 @@
 #include "sim/rod.glsl"
 layout(local_size_x = GROUP_THREADS) in;
 #include "sim/contact.glsl"
-#include "sim/ride.glsl"
+#include "sim/root_transforms.glsl"
 
 #ifdef HAIR_WIND
 #include "sim/drag.glsl"
 #endif
 #ifdef HAIR_PINNED
-#include "sim/pin.glsl"
-#include "sim/leader.glsl"
+#include "sim/pins.glsl"
+#include "sim/follow_the_leader.glsl"
 #endif
 #include "sim/follow_state.glsl"
 
 // Number of rounds that push vertices out of colliders and draw the strand again.
 #define CONTACT_ROUNDS 3u
 
-OWN(vec3, pushed); // Displacement by colliders in the last round
+LOCAL(vec3, pushed); // Displacement by colliders in the last round
 
 #include "sim/follow_draw.glsl"
 
 // Find the planes above which colliders keep vertices. Return false if no vertex touches a
 // collider.
-bool meet_colliders(vec3 head_moved)
+bool update_follower_collision(vec3 head_moved)
 {
     bool touches = false;
-    EACH(guide_count) { own(touch) = own(slip) = vec4(0.0); }
+    FOR_VERTICES(guide_count) { local(touch) = local(slip) = vec4(0.0); }
     EACH_REACHING {
-        if (own(reachable) != BITS(0u)) {
-            outcome made = allowed(i, own(wanted), own(reachable), BITS(0u), head_moved, own(met));
-            own(touch)   = made.freedom;
-            own(slip)    = made.slip;
-            own(pushed)  = made.d - own(wanted);
-            own(wanted)  = made.d;
+        if (local(reachable) != BITS(0u)) {
+            outcome made = allowed(i, local(wanted), local(reachable), BITS(0u), head_moved, local(met));
+            local(touch)   = made.freedom;
+            local(slip)    = made.slip;
+            local(pushed)  = made.d - local(wanted);
+            local(wanted)  = made.d;
             touches      = touches || (i < guide_count && made.freedom.w != FREE);
         }
     }
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         // The plane is then normal to the push of both colliders together.
-        bool glides = own(touch).w == GLIDES;
-        PUT(handed, own(wanted));
-        PUT(edge, glides ? direction_or(own(pushed), vec3(0.0, 1.0, 0.0)) : own(touch).xyz);
+        bool glides = local(touch).w == GLIDES;
+        PUT(handed, local(wanted));
+        PUT(edge, glides ? direction_or(local(pushed), vec3(0.0, 1.0, 0.0)) : local(touch).xyz);
     }
-    return any_of(bvec2(touches, false)).x;
+    return group_any(bvec2(touches, false)).x;
 }
 
 void attempt_all(vec3 head_moved)
@@ -82,16 +82,16 @@ void attempt_all(vec3 head_moved)
     predict();
     draw(false);
     if (COLLIDERS) {
-        EACH(guide_count) { own(wanted) = GET(handed); }
+        FOR_VERTICES(guide_count) { local(wanted) = GET(handed); }
         find_colliders(head_moved);
         list_reaching();
-        for (uint n = 0u; n < CONTACT_ROUNDS && meet_colliders(head_moved); ++n) {
+        for (uint n = 0u; n < CONTACT_ROUNDS && update_follower_collision(head_moved); ++n) {
             draw(true);
-            EACH(guide_count) { own(wanted) = GET(handed); }
+            FOR_VERTICES(guide_count) { local(wanted) = GET(handed); }
         }
     }
 #ifdef HAIR_PINNED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
+    if (group_any(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
     finish(head_moved);
 }

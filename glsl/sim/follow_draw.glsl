@@ -11,14 +11,14 @@ void predict()
     float h   = params.gravity.w;
     clamp_way = rotate(turn_now, clamp_at_rest);
 #ifdef HAIR_WIND
-    EACH(guide_count) { PUT(moved, vec3(0.0)); }
+    FOR_VERTICES(guide_count) { PUT(moved, vec3(0.0)); }
     find_edges();
-    MEET;
+    GROUP_BARRIER;
 #endif
-    EACH(guide_count) {
-        vec3 d = own(displacement), force = vec3(0.0);
-#ifdef HAIR_CROWD
-        force = own(push);
+    FOR_VERTICES(guide_count) {
+        vec3 d = local(displacement), force = vec3(0.0);
+#ifdef HAIR_GRID
+        force = local(hair_acceleration);
 #endif
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
@@ -27,15 +27,15 @@ void predict()
 #else
         d = params.keep * d + params.kick * force;
 #endif
-        float k = own(aim).w * h * h;
-        d += k / (1.0 + k) * (rotate(turn_now, own(aim).xyz) + root_moved - GET(place) - d);
+        float k = local(aim).w * h * h;
+        d += k / (1.0 + k) * (rotate(turn_now, local(aim).xyz) + root_moved - GET(place) - d);
         PUT(lever, d);
-        PUT(edge, own(plane));
+        PUT(edge, local(plane));
         PUT(handed, root_moved);
-        own(touch) = vec4(0.0);
-        PUT(moved, own(slack) > 0.0 ? d + params.kick * params.gravity.xyz : held_move(i));
+        local(touch) = vec4(0.0);
+        PUT(moved, local(slack) > 0.0 ? d + params.kick * params.gravity.xyz : held_move(i));
     }
-    MEET;
+    GROUP_BARRIER;
 }
 
 // Keep a vertex that goes to d above its plane. Contact has moved it to a place on the plane, or
@@ -97,19 +97,19 @@ void draw_strand_after_root(bool met)
 
 void draw(bool met)
 {
-    MEET;
-    ONCE { draw_strand_after_root(met); }
-    MEET;
-    RENEW(moved)
-    RENEW(handed)
+    GROUP_BARRIER;
+    SINGLE_THREAD { draw_strand_after_root(met); }
+    GROUP_BARRIER;
+    RELOAD(moved)
+    RELOAD(handed)
 #ifdef HAIR_PINNED
-    EACH(guide_count) {
-        if (own(slack) == 0.0) PUT(moved, held_move(i));
+    FOR_VERTICES(guide_count) {
+        if (local(slack) == 0.0) PUT(moved, held_move(i));
     }
-    MEET;
+    GROUP_BARRIER;
     give_length();
-    ONCE { draw_strand(); }
-    MEET;
-    RENEW(moved)
+    SINGLE_THREAD { draw_strand(); }
+    GROUP_BARRIER;
+    RELOAD(moved)
 #endif
 }

@@ -3,28 +3,28 @@
 #define IS_PLANE 2.0
 #include "sim/load_vertex.glsl"
 
-OWN(vec3, plane); // Normal of the contact at the end of the last substep, or 0
+LOCAL(vec3, plane); // Normal of the contact at the end of the last substep, or 0
 
 void load()
 {
     bool pulled  = params.shape_frequency_root > 0.0 || params.shape_frequency_tip > 0.0;
     root_is_free = rod[guide_first].segment.y > 0.0;
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         uint       at      = guide_first + min(i, guide_count - 1u);
         hair_state was     = state[at];
         vec4       segment = rod[at].segment, contact = COLLIDERS ? material[at] : vec4(0.0);
-        own(plane) = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
+        local(plane) = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
         load_vertex(i, was, segment, pulled);
     }
 }
 
 void store()
 {
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         if (i < guide_count) {
             state[guide_first + i].position     = vec4(root_now + GET(place), 1.0);
-            state[guide_first + i].displacement = vec4(own(displacement), 0.0);
-            material[guide_first + i]           = vec4(own(plane), IS_PLANE);
+            state[guide_first + i].displacement = vec4(local(displacement), 0.0);
+            material[guide_first + i]           = vec4(local(plane), IS_PLANE);
         }
     }
 }
@@ -36,25 +36,25 @@ void finish(vec3 head_moved)
     bool  lost    = false;
     float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     vec3  root_d  = GET_AT(moved, 0u);
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         vec3  d = GET(moved), from_head = rounded(root_now + (GET(place) + (d - root_moved)));
         if (COLLIDERS) {
-            vec3 n = own(touch).xyz;
-            own(plane) = GET(edge);
-            if (own(touch).w == SLIDES || own(touch).w == STICKS) d -= max(dot(d - root_moved, n), 0.0) * n;
+            vec3 n = local(touch).xyz;
+            local(plane) = GET(edge);
+            if (local(touch).w == SLIDES || local(touch).w == STICKS) d -= max(dot(d - root_moved, n), 0.0) * n;
         }
         float speed = length(d - root_d);
         PUT(place, from_head - root_now);
-        own(displacement) = root_d + (d - root_d) * (speed > fastest ? fastest / speed : 1.0);
+        local(displacement) = root_d + (d - root_d) * (speed > fastest ? fastest / speed : 1.0);
         if (i < guide_count)
             lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
     }
-    if (!any_of(bvec2(lost, false)).x) return;
+    if (!group_any(bvec2(lost, false)).x) return;
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         PUT(place, rotate(turn_now, rest_from_root(i)));
-        own(displacement) = still;
-        own(plane)        = vec3(0.0);
+        local(displacement) = still;
+        local(plane)        = vec3(0.0);
     }
     count_in(HAIR_SOLVER_STATS_RESET);
 }

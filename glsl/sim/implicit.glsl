@@ -4,8 +4,8 @@
 // Eliminate and substitute by A = L D L^T, with two recurrences over the strand.
 void substitute(bool euler)
 {
-    MEET;
-    ONCE {
+    GROUP_BARRIER;
+    SINGLE_THREAD {
         // Sums to subtract from the next row and from the one after it.
         vec3 one = vec3(0.0), two = vec3(0.0);
         for (uint k = 0u; k < guide_count; ++k) {
@@ -24,8 +24,8 @@ void substitute(bool euler)
             PUT_AT(moved, k, value);
         }
     }
-    MEET;
-    RENEW(moved)
+    GROUP_BARRIER;
+    RELOAD(moved)
 }
 
 #ifdef HAIR_THREAD_PER_GUIDE
@@ -35,12 +35,12 @@ void solve_implicit(bool euler) { substitute(euler); }
 #else
 
 // Solve by parallel cyclic reduction of pairs of vertices. The CPU has reduced the matrix already
-// (lib/sim/reduce.c). Its factors are 0 where a pair has no other pair at that distance. Implicit
-// Euler is rare, and substitutes. Guides without a reduction substitute too, because they mostly
-// have one thread each.
+// (lib/rod/cyclic_reduction.c). Its factors are 0 where a pair has no other pair at that distance.
+// Implicit Euler is rare, and substitutes. Guides without a reduction substitute too, because they
+// mostly have one thread each.
 void solve_implicit(bool euler)
 {
-#ifndef HAIR_FIRST
+#ifndef HAIR_PASS1
     if (euler || uint(reduction.length()) < params.vertices) {
         substitute(euler);
         return;
@@ -54,16 +54,16 @@ void solve_implicit(bool euler)
     for (uint reach = 2u; reach < guide_count && rounds > 0u; reach *= 2u, --rounds, row_of += next) {
         vec4 m    = reduction[row_of];
         uint up = pair - reach, down = pair + reach;
-        lend(r);
+        broadcast(r);
         // Separate statements compile to one instruction each.
-        r = m.x * lent_by(up) + r;
-        r = m.y * lent_by(up + 1u) + r;
-        r = m.z * lent_by(down) + r;
-        r = m.w * lent_by(down + 1u) + r;
+        r = m.x * broadcast_from(up) + r;
+        r = m.y * broadcast_from(up + 1u) + r;
+        r = m.z * broadcast_from(down) + r;
+        r = m.w * broadcast_from(down + 1u) + r;
     }
     vec4 m = reduction[row_of];
-    lend(r);
-    PUT(moved, m.x * lent_by(pair) + m.y * lent_by(pair + 1u));
+    broadcast(r);
+    PUT(moved, m.x * broadcast_from(pair) + m.y * broadcast_from(pair + 1u));
 }
 
 #endif

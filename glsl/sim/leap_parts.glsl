@@ -6,7 +6,7 @@
 // lib/sim/programs.c has. A thread goes round once per vertex. A work group goes round once, and
 // more often in a reduction.
 #ifdef HAIR_THREAD_PER_GUIDE
-#define MAX_LOOPS (params.part_rounds / uint(MOST))
+#define MAX_LOOPS (params.part_rounds / uint(MAX_VERTICES))
 #else
 #define MAX_LOOPS (params.part_rounds / 3u)
 #endif
@@ -32,11 +32,11 @@ bool turns_far(int method)
     float min_cosine = leap_part < 1.0 || (known > 0.0 && known < 1.0) ? MIN_PART_COSINE : MIN_COSINE;
     bool  far = false, touches = false;
     rounds_spent += LOOPS_OF_PART + LOOPS_OF_STEP * length_steps;
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         far     = far || turns_at(i, min_cosine);
-        touches = touches || (COLLIDERS && own(met) != BITS(0u));
+        touches = touches || (COLLIDERS && local(met) != BITS(0u));
     }
-    bvec2 found = any_of(bvec2(far, touches));
+    bvec2 found = group_any(bvec2(far, touches));
     touching    = found.y;
     return IS_SHAKE(method) && found.x && may_split(0.5 * leap_part);
 }
@@ -64,7 +64,7 @@ void begin_part()
 {
     turn_then  = turn_now;
     root_then  = root_now;
-    share_then = share_now;
+    fraction_then = fraction_now;
 }
 
 // Do a substep in parts as long as the last one. Parts become twice as long after quiet substeps,

@@ -8,14 +8,14 @@ void load_vertex(uint i, hair_state was, vec4 segment, bool pulled)
     // A held root is where the scalp places it, wherever it was while it was free.
     bool moves = segment.y > 0.0 || (PINNED && i > 0u && i < guide_count);
     PUT(place, moves ? was.position.xyz - root_then : vec3(0.0));
-    own(displacement) = was.displacement.xyz * params.rescale;
-    own(rest_length)  = segment.x;
-    own(slack)        = segment.y;
-    own(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
+    local(displacement) = was.displacement.xyz * params.rescale;
+    local(rest_length)  = segment.x;
+    local(slack)        = segment.y;
+    local(aim)          = vec4(pulled ? rest_from_root(i) : vec3(0.0), segment.z);
 #ifdef HAIR_PINNED
     load_pin(i);
 #endif
-#ifdef HAIR_CROWD
-    own(push) = texelFetch(push_texture, int(guide_first + min(i, guide_count - 1u))).xyz;
+#ifdef HAIR_GRID
+    local(hair_acceleration) = texelFetch(acceleration_texture, int(guide_first + min(i, guide_count - 1u))).xyz;
 #endif
 }

@@ -14,20 +14,20 @@
 #ifdef HAIR_MIXED
 #define LEAPS(method) false
 #else
-#define LEAPS(method) (IS_BACK(method) && known < 2.0) // See past.glsl.
+#define LEAPS(method) (IS_BACK(method) && known < 2.0) // See velocity_history.glsl.
 #endif
 
 #if HAIR_SOLVER != SHAKE || defined(HAIR_STIFF)
 #define KEEPS_RATES
 #define HAS_BACK true
 // h v at the end of the last substep, or the displacement while known < 2.
-OWN(vec3, rate);
+LOCAL(vec3, rate);
 // h v at the end of the substep before.
-PARKED(vec3, rate_before);
-OWN(float, touched);    // 1 if the vertex touched a collider at the end of the last substep
+SPILLED(vec3, rate_before);
+LOCAL(float, touched);    // 1 if the vertex touched a collider at the end of the last substep
 #ifndef HAIR_MIXED
 // Tension of segment i that keeps its length, divided by the line density, m^2/s^2.
-OWN(float, tension);
+LOCAL(float, tension);
 
 #define GUESSED 0.5      // Minimum fraction of the last tension that guessed_part() returns
 #define SLOW 0.3         // w h up to which the whole tension is guessed
@@ -35,8 +35,8 @@ OWN(float, tension);
 #define STILL 0.05       // Speed relative to the root at which a vertex counts as still, m/s
 #define MOVING 0.2       // Speed from which on the vertex counts as moving, m/s
 // Maximum displacement by the guessed tension, as a fraction of the distance to a neighbour.
-#define MOST_GUESSED 0.5
-#define FIND_TENSION(part) own(tension) -= (part) * own(solution) / of_force
+#define MAX_GUESSED 0.5
+#define FIND_TENSION(part) local(tension) -= (part) * local(solution) / of_force
 #define KEEPS_TENSION
 #endif
 #else

@@ -19,11 +19,11 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/drag.glsl"
 #endif
 #include "sim/contact.glsl"
-#include "sim/past.glsl"
+#include "sim/velocity_history.glsl"
 #ifdef HAIR_PINNED
-#include "sim/pin.glsl"
+#include "sim/pins.glsl"
 #endif
-#include "sim/leader.glsl"
+#include "sim/follow_the_leader.glsl"
 #include "sim/mixed.glsl"
 #include "sim/mixed_rows.glsl"
 #include "sim/mixed_chain.glsl"
@@ -31,9 +31,9 @@ layout(local_size_x = GROUP_THREADS) in;
 #include "sim/mixed_system.glsl"
 #include "sim/mixed_solve.glsl"
 #include "sim/mixed_step.glsl"
-#include "sim/ride.glsl"
-#include "sim/stored.glsl"
-#include "sim/accept.glsl"
+#include "sim/root_transforms.glsl"
+#include "sim/load_store.glsl"
+#include "sim/finish_substep.glsl"
 #include "sim/substeps.glsl"
 
 #include "sim/mixed_parts.glsl"

@@ -45,21 +45,21 @@
 #define CALM (1.0 / 16.0)
 #define MAX_CALM 2.5      // Value of `known` from which turns are extrapolated linearly
 
-OWN(vec4, strain);     // xyz: rest strain u0. w: stiffness k.
-OWN(float, rest_real); // 2 w0 of the hinge
+LOCAL(vec4, strain);     // xyz: rest strain u0. w: stiffness k.
+LOCAL(float, rest_real); // 2 w0 of the hinge
 SHARED(vec4, section); // Frame of segment i at the start of the substep
 SHARED(vec4, tried);   // Frame that is tried
-OWN(vec4, turn);       // Rotation from `section` to `tried`
-OWN(vec3, turned);     // Rodrigues vector of this rotation in the last substep
-OWN(vec3, turned_before); // Rodrigues vector in the substep before
+LOCAL(vec4, turn);       // Rotation from `section` to `tried`
+LOCAL(vec3, turned);     // Rodrigues vector of this rotation in the last substep
+LOCAL(vec3, turned_before); // Rodrigues vector in the substep before
 // Force in segment i at the start of the substep. `handed` has the force that is tried.
-OWN(vec3, force);
-OWN(vec3, reached);    // Displacement of vertex i if segments exerted no forces
-OWN(float, mobility);  // W_i of vertex i without drag and contact
+LOCAL(vec3, force);
+LOCAL(vec3, reached);    // Displacement of vertex i if segments exerted no forces
+LOCAL(float, mobility);  // W_i of vertex i without drag and contact
 #ifdef HAIR_WIND
 // Unit vector along the strand at vertex i, which distinguishes the directions of drag.
-OWN(vec3, flow);
-OWN(vec2, mobilities); // Fractions of `mobility` across and along the strand
+LOCAL(vec3, flow);
+LOCAL(vec2, mobilities); // Fractions of `mobility` across and along the strand
 #endif
 
 bool touching;        // Some vertex can touch a collider in this substep.
@@ -79,57 +79,57 @@ vec3 change_by(vec4 q, vec3 v)
 vec3 yield_to(uint i, vec3 f)
 {
 #ifdef HAIR_WIND
-    float a = dot(f, own(flow));
-    f       = own(mobilities).x * (f - a * own(flow)) + own(mobilities).y * a * own(flow);
+    float a = dot(f, local(flow));
+    f       = local(mobilities).x * (f - a * local(flow)) + local(mobilities).y * a * local(flow);
 #endif
-    return own(mobility) * f;
+    return local(mobility) * f;
 }
 
 // Find p_i and W_i of vertex i. `before` is the tangent of the segment before.
 void move_freely(uint i, int method, vec3 before)
 {
     float h = SUBSTEP, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
-    vec3  on = IS_BACK(method) ? own(displacement) / 3.0 : vec3(0.0), pull = vec3(0.0);
-    vec3  hv = own(displacement);
-    if (known >= 2.0) hv = IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
-    if (own(aim).w > 0.0)
-        pull = own(aim).w * (rotate(turn_now, own(aim).xyz) + root_moved - on - GET(place));
+    vec3  on = IS_BACK(method) ? local(displacement) / 3.0 : vec3(0.0), pull = vec3(0.0);
+    vec3  hv = local(displacement);
+    if (known >= 2.0) hv = IS_BACK(method) ? (4.0 * local(rate) - spilled(rate_before)) / 3.0 : local(rate);
+    if (local(aim).w > 0.0)
+        pull = local(aim).w * (rotate(turn_now, local(aim).xyz) + root_moved - on - GET(place));
     vec3 acceleration = params.gravity.xyz + pull;
-#ifdef HAIR_CROWD
-    acceleration += own(push);
+#ifdef HAIR_GRID
+    acceleration += local(hair_acceleration);
 #endif
-    float massive = 1.0 + b * params.damping * h + b * b * h * h * own(aim).w;
+    float massive = 1.0 + b * params.damping * h + b * b * h * h * local(aim).w;
     vec3  q       = b * hv + b * b * h * h * acceleration;
 #ifdef HAIR_WIND
     feel_air(i, before, 1.0, hv);
     q += b * b * drifts;
-    own(flow)       = along;
-    own(mobilities) = 1.0 / (1.0 + b * drags / massive);
-    q               = by_parts(own(mobilities), q);
+    local(flow)       = along;
+    local(mobilities) = 1.0 / (1.0 + b * drags / massive);
+    q               = by_parts(local(mobilities), q);
 #endif
-    own(mobility) = own(slack) * b * b * h * h / massive;
-    own(reached)  = own(slack) > 0.0 ? on + q / massive : held_move(i);
+    local(mobility) = local(slack) * b * b * h * h / massive;
+    local(reached)  = local(slack) > 0.0 ? on + q / massive : held_move(i);
 }
 
 // Predict the turns of the segments, and turn the forces in them along. `afresh` predicts none.
 void predict_turns(bool afresh)
 {
-    EACH(guide_count) {
-        vec3 by   = known >= MAX_CALM ? 2.0 * own(turned) - own(turned_before) : own(turned);
-        own(turn) = afresh ? vec4(0.0, 0.0, 0.0, 1.0) : turn_by(by);
-        vec3 f    = afresh ? vec3(0.0) : rotate(own(turn), own(force));
+    FOR_VERTICES(guide_count) {
+        vec3 by   = known >= MAX_CALM ? 2.0 * local(turned) - local(turned_before) : local(turned);
+        local(turn) = afresh ? vec4(0.0, 0.0, 0.0, 1.0) : turn_by(by);
+        vec3 f    = afresh ? vec3(0.0) : rotate(local(turn), local(force));
         PUT(handed, i + 1u < guide_count ? f : vec3(0.0));
-        seen(tried) = normalize(quat_multiply(own(turn), seen(section)));
+        SHARED_READ(tried) = normalize(quat_multiply(local(turn), SHARED_READ(section)));
     }
-    MEET;
+    GROUP_BARRIER;
 }
 
 // Find the displacements by the forces that are tried, as if there were no colliders.
 void find_wanted()
 {
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         vec3 before = BEFORE_VEC3(handed);
-        own(wanted) = own(reached) + yield_to(i, GET(handed) - (i > 0u ? before : vec3(0.0)));
+        local(wanted) = local(reached) + yield_to(i, GET(handed) - (i > 0u ? before : vec3(0.0)));
     }
 }
 
@@ -137,15 +137,15 @@ void predict(int method)
 {
     scalp     = quat_multiply(turn_now, guide[guide_number].root_frame);
     clamp_way = along_of(scalp);
-    MEET;
-    EACH(guide_count) { PUT(edge, along_of(seen(section))); }
-    MEET;
+    GROUP_BARRIER;
+    FOR_VERTICES(guide_count) { PUT(edge, along_of(SHARED_READ(section))); }
+    GROUP_BARRIER;
 #ifdef HAIR_PINNED
-    EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
-    MEET;
+    FOR_VERTICES(guide_count) { PUT(moved, local(slack) == 0.0 ? held_move(i) : local(displacement)); }
+    GROUP_BARRIER;
     give_length();
 #endif
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         vec3 before = BEFORE_VEC3(edge);
         move_freely(i, method, before);
     }

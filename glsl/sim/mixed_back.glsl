@@ -10,7 +10,7 @@
 
 // Substitute rows by the matrix of each row. All threads make the matrices of their own rows at
 // once. Only products with the matrices remain to be done in turn.
-void substitute_rows(bool exact, bool up, uint rows, uint most, uint last)
+void substitute_rows(bool exact, bool up, uint rows, uint max_value, uint last)
 {
     uint      vertex = up ? lane + 1u : lane, next = up ? lane + 1u : lane - 1u;
     symmetric c = hinge_at(vertex);
@@ -23,7 +23,7 @@ void substitute_rows(bool exact, bool up, uint rows, uint most, uint last)
     mat3      turn_by_force = BY_MOBILITY(of_turn * y, w);
     mat3      y_across = transpose(y), force_by_turn = y_across * turn_by_turn;
     mat3      force_by_force = y_across * turn_by_force - BY_MOBILITY(full(of_force), w);
-    for (uint n = most; n-- > 0u;) {
+    for (uint n = max_value; n-- > 0u;) {
         vec3 theta = ROW(right_turn, next), f = ROW(right_force, next);
         vec3 turns = turn_by_turn * theta + turn_by_force * f;
         vec3 forces = force_by_turn * theta + force_by_force * f;
@@ -46,7 +46,7 @@ void substitute_row(uint j, uint n, uint i, bool exact, bool up)
     PUT_ROW(right_force, j, ROW(right_force, j) - turns * y + times(of_force, w));
 }
 
-void substitute_rows(bool exact, bool up, uint rows, uint most, uint last)
+void substitute_rows(bool exact, bool up, uint rows, uint max_value, uint last)
 {
     if (ELIMINATES) {
         for (uint n = rows; n-- > 0u;) {

@@ -31,32 +31,32 @@
 // Number of Newton steps that find planes. Later steps keep the planes, and converge.
 #define PLANES_UNTIL 4u
 
-OWN(vec4, plane);          // Planes of vertex i, as `outcome` has them
-OWN(vec4, other_plane);
-OWN(vec3, surface);        // Displacement of the surface at vertex i
-OWN(float, surface_friction);
+LOCAL(vec4, plane);          // Planes of vertex i, as `outcome` has them
+LOCAL(vec4, other_plane);
+LOCAL(vec3, surface);        // Displacement of the surface at vertex i
+LOCAL(float, surface_friction);
 // Derivative of the displacement by the wanted displacement.
-OWN(symmetric, freedom);
-OWN(vec3, pressing);       // Reaction that friction is measured by, m/s^2
+LOCAL(symmetric, freedom);
+LOCAL(vec3, pressing);       // Reaction that friction is measured by, m/s^2
 
 void find_planes_of(uint i, vec3 head_moved)
 {
-    vec3    pressed = of_force * own(reaction_found);
-    float   most    = OFF_PLANE * guide_length / float(guide_count - 1u);
-    vec3    want    = own(chain) - min(1.0, most / max(length(pressed), 1e-9)) * pressed;
-    outcome made = allowed(i, want, own(reachable), BITS(0u), head_moved, own(met));
-    own(plane)            = made.plane;
-    own(other_plane)      = made.other;
-    own(surface)          = made.surface;
-    own(surface_friction) = made.friction;
+    vec3    pressed = of_force * local(reaction_found);
+    float   max_value    = OFF_PLANE * guide_length / float(guide_count - 1u);
+    vec3    want    = local(chain) - min(1.0, max_value / max(length(pressed), 1e-9)) * pressed;
+    outcome made = allowed(i, want, local(reachable), BITS(0u), head_moved, local(met));
+    local(plane)            = made.plane;
+    local(other_plane)      = made.other;
+    local(surface)          = made.surface;
+    local(surface_friction) = made.friction;
 }
 
 // Find the planes of colliders where the chain is.
 void find_planes(vec3 head_moved)
 {
-    EACH(guide_count) {
-        own(plane) = own(other_plane) = vec4(0.0);
-        if (!LISTS_REACHING && own(reachable) != BITS(0u)) find_planes_of(i, head_moved);
+    FOR_VERTICES(guide_count) {
+        local(plane) = local(other_plane) = vec4(0.0);
+        if (!LISTS_REACHING && local(reachable) != BITS(0u)) find_planes_of(i, head_moved);
     }
     if (LISTS_REACHING) {
         EACH_REACHING { find_planes_of(i, head_moved); }
@@ -66,9 +66,9 @@ void find_planes(vec3 head_moved)
 // Replace the pressure that friction is measured by where the last Newton step found another one.
 void renew_pressure(bool all)
 {
-    EACH(guide_count) {
-        bool other = length(own(reaction_found) - own(pressing)) > PRESSURE_CHANGE * length(own(pressing));
-        if (all || other) own(pressing) = own(reaction_found);
+    FOR_VERTICES(guide_count) {
+        bool other = length(local(reaction_found) - local(pressing)) > PRESSURE_CHANGE * length(local(pressing));
+        if (all || other) local(pressing) = local(reaction_found);
     }
 }
 
@@ -100,11 +100,11 @@ symmetric taken_by(vec3 n, vec3 m, bool both)
 // tells whether the vertex presses and sticks.
 void hold_vertex(uint i, bool first)
 {
-    vec3  n = own(plane).xyz, m = own(other_plane).xyz, d = own(wanted);
-    vec2  beyond = vec2(own(plane).w - dot(n, d), own(other_plane).w - dot(m, d));
+    vec3  n = local(plane).xyz, m = local(other_plane).xyz, d = local(wanted);
+    vec2  beyond = vec2(local(plane).w - dot(n, d), local(other_plane).w - dot(m, d));
     vec2  by = pushes_of(dot(n, m), beyond, m != vec3(0.0), first);
     vec3  push = by.x * n + by.y * m;
-    own(reaction_found) = vec3(0.0);
+    local(reaction_found) = vec3(0.0);
     if (by == vec2(0.0)) return;
     bool both = by.x != 0.0 && by.y != 0.0;
     n = by.x != 0.0 ? n : m;
@@ -113,11 +113,11 @@ void hold_vertex(uint i, bool first)
     vec3      along = both ? normalize(cross(n, m)) : vec3(0.0);
     symmetric one = multiple_of_one(1.0), over = both ? outer(along) : minus(one, outer(n));
     symmetric gives = times(GRIP / (1.0 + GRIP), over);
-    vec3      held = of_force * times(over, own(reaction));
-    vec3      pressure = of_force * (own(pressing) - times(over, own(pressing)));
-    float     bears = dot(pressure, n + m) > 0.0 ? own(surface_friction) * length(pressure) : 0.0;
-    vec3      by_want = times(gives, d - own(surface)) - held / (1.0 + GRIP);
-    vec3      spring = first ? GRIP * times(over, own(chain) - own(surface)) - held : by_want;
+    vec3      held = of_force * times(over, local(reaction));
+    vec3      pressure = of_force * (local(pressing) - times(over, local(pressing)));
+    float     bears = dot(pressure, n + m) > 0.0 ? local(surface_friction) * length(pressure) : 0.0;
+    vec3      by_want = times(gives, d - local(surface)) - held / (1.0 + GRIP);
+    vec3      spring = first ? GRIP * times(over, local(chain) - local(surface)) - held : by_want;
     float     far = max(length(spring), 1e-30);
     bool      sticks = far <= bears;
     if (!sticks) {
@@ -126,19 +126,19 @@ void hold_vertex(uint i, bool first)
         by_want    = (bears / far) * spring;
     }
     PUT(moved, d + push - by_want);
-    own(reaction_found) = (push - by_want) / of_force;
-    own(freedom)        = minus(minus(one, taken_by(n, m, both)), gives);
-    own(touch)          = sticks || !both ? vec4(n, sticks ? STICKS : SLIDES) : vec4(along, GLIDES);
+    local(reaction_found) = (push - by_want) / of_force;
+    local(freedom)        = minus(minus(one, taken_by(n, m, both)), gives);
+    local(touch)          = sticks || !both ? vec4(n, sticks ? STICKS : SLIDES) : vec4(along, GLIDES);
 }
 
 // Find the displacements that planes leave.
 void hold_vertices(bool first)
 {
-    EACH(guide_count) {
-        PUT(moved, own(wanted));
+    FOR_VERTICES(guide_count) {
+        PUT(moved, local(wanted));
         if (!COLLIDERS) continue;
-        own(touch) = vec4(0.0);
-        if (own(reachable) == BITS(0u)) own(reaction_found) = vec3(0.0);
+        local(touch) = vec4(0.0);
+        if (local(reachable) == BITS(0u)) local(reaction_found) = vec3(0.0);
         else if (!LISTS_REACHING) hold_vertex(i, first);
     }
     if (COLLIDERS && LISTS_REACHING) {
@@ -147,10 +147,10 @@ void hold_vertices(bool first)
 }
 
 // Find the displacements that colliders allow in a Newton step.
-void meet_colliders(uint n, bool leads, vec3 head_moved)
+void update_follower_collision(uint n, bool leads, vec3 head_moved)
 {
     if (COLLIDERS && touching) {
-        if (leads) EACH(guide_count) { own(chain) = own(wanted); }
+        if (leads) FOR_VERTICES(guide_count) { local(chain) = local(wanted); }
         else if (n > 0u && n < PLANES_UNTIL) find_chain();
         if (leads || n < PLANES_UNTIL) find_planes(head_moved);
         if (n < PRESSED_UNTIL) renew_pressure(n == 0u);

@@ -9,24 +9,24 @@
 // Accept the frames and forces that the substep ended with.
 void accept_turns(bool led)
 {
-    MEET;
+    GROUP_BARRIER;
     if (led) align_frames();
-    EACH(guide_count) {
-        own(reaction)      = led ? vec3(0.0) : own(reaction_found);
-        own(turned_before) = own(turned);
-        own(turned)        = led ? vec3(0.0) : 2.0 * own(turn).xyz / own(turn).w;
-        own(force)         = led ? vec3(0.0) : GET(handed);
-        if (!led) seen(section) = seen(tried);
+    FOR_VERTICES(guide_count) {
+        local(reaction)      = led ? vec3(0.0) : local(reaction_found);
+        local(turned_before) = local(turned);
+        local(turned)        = led ? vec3(0.0) : 2.0 * local(turn).xyz / local(turn).w;
+        local(force)         = led ? vec3(0.0) : GET(handed);
+        if (!led) SHARED_READ(section) = SHARED_READ(tried);
     }
-    MEET;
+    GROUP_BARRIER;
 }
 
 // Rescale the past to motion in parts that are `ratio` times as long.
 void rescale_past(float ratio)
 {
-    EACH(guide_count) {
-        own(displacement) = ratio * (known < 2.0 ? own(displacement) : own(rate));
-        own(turned) *= ratio;
+    FOR_VERTICES(guide_count) {
+        local(displacement) = ratio * (known < 2.0 ? local(displacement) : local(rate));
+        local(turned) *= ratio;
     }
     known = 1.0;
 }
@@ -41,7 +41,7 @@ void place_part(float from, float to, vec3 head_moved)
     place_root(head_from, fraction_from);
     turn_then  = turn_now;
     root_then  = root_now;
-    share_then = fraction_from;
+    fraction_then = fraction_from;
     place_root(head_to, fraction_to);
     root_moved = root_now - root_then + (to - from) * head_moved;
 #ifdef HAIR_PINNED
@@ -74,7 +74,7 @@ void attempt_all(vec3 head_moved)
         }
         if (!fits) count_in(HAIR_SOLVER_STATS_FOLLOW_FALLBACKS);
         // Wrong forces make the result of contact meaningless.
-        if (!fits && (touching || any_of(bvec2(!finite, false)).x)) {
+        if (!fits && (touching || group_any(bvec2(!finite, false)).x)) {
             leads = true;
             continue;
         }
@@ -96,6 +96,6 @@ void attempt_all(vec3 head_moved)
     }
     if (part < 1.0) rescale_past(1.0 / part);
 #ifdef HAIR_PINNED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
+    if (group_any(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
 }

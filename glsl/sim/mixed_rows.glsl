@@ -8,23 +8,23 @@
 // A guide that fits into a subgroup has the rows in registers, which its threads read by shuffles.
 #if defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32 && !defined(HAIR_THREAD_PER_GUIDE)
 #define ROWS_IN_REGISTERS
-#define ROWS_MEET
+#define ROWS_BARRIER
 #define FIELD(name, n) vec3 name
 #define ROW(name, k) subgroupShuffle(name, k)
 #define PUT_ROW(name, k, v) \
     if ((k) == lane) name = v
 #elif defined(HAIR_THREAD_PER_GUIDE)
-#define ROWS_MEET
-#define FIELD(name, n) vec3 name[MOST]
+#define ROWS_BARRIER
+#define FIELD(name, n) vec3 name[MAX_VERTICES]
 #define ROW(name, k) name[k]
 #define PUT_ROW(name, k, v) name[k] = v
 #elif HAIR_GUIDE_THREADS <= 64
-#define ROWS_MEET synchronise()
+#define ROWS_BARRIER synchronise()
 #define FIELD(name, n) shared vec3 name[HAIR_GUIDE_THREADS + 1]
 #define ROW(name, k) name[k]
 #define PUT_ROW(name, k, v) name[k] = v
 #else // A work group has too little shared memory for such rows.
-#define ROWS_MEET memoryBarrierBuffer(), synchronise()
+#define ROWS_BARRIER memoryBarrierBuffer(), synchronise()
 #define FIELD(name, n) const uint name = uint(n)
 #define ROW(name, k) bend[3u * params.vertices + HAIR_MIXED_ROW_VECTORS * (guide_first + (k)) + name].xyz
 #define PUT_ROW(name, k, v) ROW(name, k) = v

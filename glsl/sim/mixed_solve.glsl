@@ -101,17 +101,17 @@ void solve_system(bool exact)
 {
     uint segments = guide_count - 1u, last = segments - 1u, middle = BOTH_ENDS ? segments / 2u : last;
     bool up       = GOES_UP(middle);
-    uint rows     = up ? middle : last - middle, most = BOTH_ENDS ? max(middle, last - middle) : middle;
+    uint rows     = up ? middle : last - middle, max_value = BOTH_ENDS ? max(middle, last - middle) : middle;
     convex        = true;
     carried s     = nothing_carried();
     // The loop includes the middle row, which makes programs half as long.
-    for (uint n = 0u; n <= most; ++n) {
-        bool meets = n == most;
+    for (uint n = 0u; n <= max_value; ++n) {
+        bool meets = n == max_value;
         uint j     = meets ? middle : up ? n : last - min(n, last);
         if (meets) add_other_end(up, s);
         if (ELIMINATES) eliminate_row(j, up ? j + 1u : j, exact, up, meets ? up : n < rows, s);
     }
-    ROWS_MEET;
-    substitute_rows(exact, up, rows, most, last);
-    ROWS_MEET;
+    ROWS_BARRIER;
+    substitute_rows(exact, up, rows, max_value, last);
+    ROWS_BARRIER;
 }

@@ -8,8 +8,8 @@
 #define CLOSE_TURN 0.03
 // Number of Newton steps of an attempt. Steps that are not trusted count too.
 #define MAX_ROUNDS 10u
-#define FEWEST_ROUNDS 4u // Number of Newton steps that every attempt may take
-// A software rasteriser leaves loops that go round too often. See lib/sim/rounds.c.
+#define MIN_ROUNDS 4u // Number of Newton steps that every attempt may take
+// A software rasteriser leaves loops that go round too often. See lib/sim/loop_budget.c.
 #ifdef HAIR_THREAD_PER_GUIDE
 #define MAX_ROUNDS_IN_ALL HAIR_MIXED_STEPS_BY_THREAD(HAIR_GUIDE_THREADS)
 #else
@@ -20,24 +20,24 @@
 
 bool guarded;       // A Newton step was not trusted in this substep.
 uint rounds_in_all; // Number of Newton steps in this substep
-uint most_turn;     // Greatest squared turn of this thread's segments, as bits
+uint max_turn;     // Greatest squared turn of this thread's segments, as bits
 bool finite;        // The result of the last attempt is finite, even if the attempt failed.
 
 // Find the colliders that each vertex can touch in this substep.
 void find_reachable(bool leads, vec3 head_moved)
 {
-    EACH(guide_count) { own(reaction_found) = own(reaction); }
+    FOR_VERTICES(guide_count) { local(reaction_found) = local(reaction); }
     if (COLLIDERS && !leads) {
         find_chain();
-        EACH(guide_count) { own(wanted) = own(chain); }
+        FOR_VERTICES(guide_count) { local(wanted) = local(chain); }
     }
     find_colliders(head_moved);
     list_reaching();
     touching = PINNED;
     if (!COLLIDERS) return;
     bool any = false;
-    EACH(guide_count) { any = any || (i < guide_count && own(reachable) != BITS(0u)); }
-    touching = any_of(bvec2(any, false)).x || PINNED;
+    FOR_VERTICES(guide_count) { any = any || (i < guide_count && local(reachable) != BITS(0u)); }
+    touching = group_any(bvec2(any, false)).x || PINNED;
 }
 
 // Apply the solution, and turn no segment by more than MAX_TURN. `far` means that the whole
@@ -46,36 +46,36 @@ void apply_solution(bool far)
 {
     float part = 1.0;
     if (far) {
-        float most = 0.0;
-        EACH(guide_count - 1u) {
+        float max_value = 0.0;
+        FOR_VERTICES(guide_count - 1u) {
             vec3 z = ROW(right_turn, i);
-            most   = max(most, i + 1u < guide_count ? length(z) : 0.0);
+            max_value   = max(max_value, i + 1u < guide_count ? length(z) : 0.0);
         }
-        part = MAX_TURN / max(most_of(most), MAX_TURN);
+        part = MAX_TURN / max(group_max(max_value), MAX_TURN);
     }
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         vec3  z = ROW(right_turn, i), f = ROW(right_force, i);
         bool  is_segment = i + 1u < guide_count;
         z           = is_segment ? part * z : vec3(0.0);
-        own(turn)   = normalize(quat_multiply(turn_by(z), own(turn)));
+        local(turn)   = normalize(quat_multiply(turn_by(z), local(turn)));
         PUT(handed, is_segment ? GET(handed) + part * f : vec3(0.0));
-        seen(tried) = normalize(quat_multiply(own(turn), seen(section)));
+        SHARED_READ(tried) = normalize(quat_multiply(local(turn), SHARED_READ(section)));
     }
-    MEET;
+    GROUP_BARRIER;
 }
 
 // Return whether the solution is not finite or turns a segment too far, and whether it turns one by
 // more than CLOSE_TURN.
 bvec2 judge_solution()
 {
-    uint most = 0u;
-    EACH(guide_count - 1u) {
+    uint max_value = 0u;
+    FOR_VERTICES(guide_count - 1u) {
         vec3 z = ROW(right_turn, i);
-        if (i + 1u < guide_count) most = max(most, bits_of(dot(z, z)));
+        if (i + 1u < guide_count) max_value = max(max_value, bits_of(dot(z, z)));
     }
-    most_turn = most;
-    bool far = most > floatBitsToUint(MAX_TURN * MAX_TURN) || !convex;
-    return any_of(bvec2(far, most > floatBitsToUint(CLOSE_TURN * CLOSE_TURN)));
+    max_turn = max_value;
+    bool far = max_value > floatBitsToUint(MAX_TURN * MAX_TURN) || !convex;
+    return group_any(bvec2(far, max_value > floatBitsToUint(CLOSE_TURN * CLOSE_TURN)));
 }
 
 // Do the substep by `method`: BDF2, implicit Euler, or follow-the-leader. Return whether it
@@ -87,11 +87,11 @@ bool attempt(int method, vec3 head_moved)
     bvec2 judged = bvec2(true);
     predict(method);
     find_reachable(leads, head_moved);
-    for (uint n = 0u; n < MAX_ROUNDS && (n < FEWEST_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
+    for (uint n = 0u; n < MAX_ROUNDS && (n < MIN_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
         if (!leads) find_wanted();
-        meet_colliders(n, leads, head_moved);
-        MEET;
+        update_follower_collision(n, leads, head_moved);
+        GROUP_BARRIER;
         // Vertices that are drawn into colliders are pushed out once.
         if (leads) {
             follow_leader();
@@ -99,7 +99,7 @@ bool attempt(int method, vec3 head_moved)
             continue;
         }
         bool loose = put_rows(exact, n < LOOSE_FROM ? 1.0 : LOOSER);
-        fits = done && (!touching || !any_of(bvec2(loose, false)).x);
+        fits = done && (!touching || !group_any(bvec2(loose, false)).x);
         if (fits || (done && !has_rounds())) break;
         solve_system(exact);
         judged = judge_solution();
@@ -112,7 +112,7 @@ bool attempt(int method, vec3 head_moved)
         done  = !judged.y;
         if (done && !touching) break;
     }
-    finite = most_turn < 0x7f800000u;
+    finite = max_turn < 0x7f800000u;
     // A solution that does not fit would stretch the strand between held vertices.
     return !judged.x && (!PINNED || fits);
 }

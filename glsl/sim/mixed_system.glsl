@@ -10,13 +10,13 @@
 
 void put_hinge(uint i, bool exact, vec4 a)
 {
-    vec4  r = quat_multiply(quat_conjugate(a), seen(tried));
+    vec4  r = quat_multiply(quat_conjugate(a), SHARED_READ(tried));
     if (r.w < 0.0) r = -r;
-    float k      = i + 1u < guide_count ? own(strain).w : 0.0;
-    vec3  s      = r.xyz, g = k * params.ratio.xyz * (2.0 * s - own(strain).xyz);
+    float k      = i + 1u < guide_count ? local(strain).w : 0.0;
+    vec3  s      = r.xyz, g = k * params.ratio.xyz * (2.0 * s - local(strain).xyz);
     // For a round section, `even` is the stiffness about both axes.
     float even   = k * params.ratio.z;
-    float opens  = even * (2.0 * r.w - own(rest_real));
+    float opens  = even * (2.0 * r.w - local(rest_real));
     symmetric c  = multiple_of_one(even - (exact ? 0.5 * (dot(g, s) + opens * r.w) : 0.0));
     c = plus(c, times(k * params.ratio.y - even, outer(rotate(a, vec3(-s.z, r.w, s.x)))));
     if (params.ratio.x != params.ratio.z)
@@ -29,25 +29,25 @@ void put_hinge(uint i, bool exact, vec4 a)
 void put_mobility(uint i)
 {
 #ifdef MOBILITY_IS_MATRIX
-    mat3 w = mat3(own(mobility));
+    mat3 w = mat3(local(mobility));
 #ifdef HAIR_WIND
-    w *= own(mobilities).x;
-    w += own(mobility) * (own(mobilities).y - own(mobilities).x) * outerProduct(own(flow), own(flow));
+    w *= local(mobilities).x;
+    w += local(mobility) * (local(mobilities).y - local(mobilities).x) * outerProduct(local(flow), local(flow));
 #endif
-    if (COLLIDERS && own(touch).w != FREE) {
-        w = full(own(freedom));
+    if (COLLIDERS && local(touch).w != FREE) {
+        w = full(local(freedom));
 #ifdef HAIR_WIND
-        w *= own(mobilities).x;
+        w *= local(mobilities).x;
 #endif
-        w *= own(mobility);
+        w *= local(mobility);
     }
     // Two held neighbours would leave the force between them nothing to act on.
-    if (PINNED && own(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(own(rest_length), 1e-6));
+    if (PINNED && local(slack) == 0.0) w = mat3(HELD * SUBSTEP * SUBSTEP / max(local(rest_length), 1e-6));
     symmetric half_w = half_of(w);
     PUT_ROW(mobility_diagonal, i, half_w.diagonal);
     PUT_ROW(mobility_beside, i, half_w.beside);
 #else
-    PUT_ROW(mobility_diagonal, i, vec3(own(mobility)));
+    PUT_ROW(mobility_diagonal, i, vec3(local(mobility)));
 #endif
 }
 
@@ -70,30 +70,30 @@ float length_error(vec4 turn) { return clamp(0.04 * length(turn.xyz), 1e-5, 2e-4
 bool put_rows(bool exact, float looser)
 {
     bool loose = false;
-    EACH(guide_count) {
+    FOR_VERTICES(guide_count) {
         vec4 a = BEFORE(tried);
         if (i == 0u) a = scalp;
         put_hinge(i, exact, a);
         put_mobility(i);
     }
-    ROWS_MEET;
-    EACH(guide_count - 1u) {
+    ROWS_BARRIER;
+    FOR_VERTICES(guide_count - 1u) {
         vec3  f = GET(handed), to = AFTER_VEC3(moved) - GET(moved), between = BETWEEN;
-        vec3  then = along_of(seen(section)), t = along_of(seen(tried));
-        float l = own(rest_length), pull = l * dot(t, f);
+        vec3  then = along_of(SHARED_READ(section)), t = along_of(SHARED_READ(tried));
+        float l = local(rest_length), pull = l * dot(t, f);
         symmetric c = symmetric(ROW(hinge_diagonal, i) + ROW(hinge_diagonal, i + 1u), ROW(hinge_beside, i) + ROW(hinge_beside, i + 1u));
         vec3 moment = ROW(hinge_moment, i + 1u) - ROW(hinge_moment, i);
         // Tension resists turning, compression does the opposite.
         if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, twice_mixed(t, f)));
         else c = plus(c, minus(multiple_of_one(max(pull, 0.0)), times(max(pull, 0.0), outer(t))));
         c      = plus(c, times(twist_hold(l, dot(t, times(c, t))), outer(t)));
-        vec3 e = l * change_by(own(turn), then) - to;
+        vec3 e = l * change_by(local(turn), then) - to;
 #ifdef HAIR_PINNED
         e += l * then - between;
 #endif
         if (i + 1u < guide_count) {
-            float most = looser * l * length_error(own(turn));
-            loose      = loose || bits_of(dot(e, e)) > floatBitsToUint(most * most);
+            float max_value = looser * l * length_error(local(turn));
+            loose      = loose || bits_of(dot(e, e)) > floatBitsToUint(max_value * max_value);
             PUT_ROW(turn_diagonal, i, c.diagonal);
             PUT_ROW(turn_beside, i, c.beside);
             PUT_ROW(force_diagonal, i, l * t);
@@ -101,6 +101,6 @@ bool put_rows(bool exact, float looser)
             PUT_ROW(right_force, i, e);
         }
     }
-    ROWS_MEET;
+    ROWS_BARRIER;
     return loose;
 }

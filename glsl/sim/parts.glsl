@@ -14,11 +14,11 @@ uint  length_steps;
 
 // Contact and pins may leave lengths broken in parts of any size. Guides that touch a collider,
 // have pins, or look up colliders in lists therefore take whole substeps.
-#if HAIR_SOLVER == SHAKE && !defined(HAIR_ANY) && !defined(HAIR_PINNED)
-#if defined(HAIR_FIRST) || defined(HAIR_LISTED)
+#if HAIR_SOLVER == SHAKE && !defined(HAIR_COLLIDER_GRID) && !defined(HAIR_PINNED)
+#if defined(HAIR_PASS1) || defined(HAIR_PASS2)
 #define WATCHES_TURNS
 #endif
-#ifdef HAIR_LISTED
+#ifdef HAIR_PASS2
 #define SPLITS
 #endif
 #endif
@@ -57,15 +57,15 @@ float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half
 #if defined(HAIR_THREAD_PER_GUIDE) || (defined(HAIR_SUBGROUP) && HAIR_GUIDE_THREADS == 32)
 #define PUT_SPREAD
 #define KEEP_SPREAD
-#define SPREAD_BEFORE (leap_part * (AFTER_VEC3(displacement) - own(displacement)))
+#define SPREAD_BEFORE (leap_part * (AFTER_VEC3(displacement) - local(displacement)))
 // Threads of a work group do not see a neighbour's displacement. find_edges() has a barrier between
 // the two macros.
 #else
 // Difference of the displacements of a segment's ends in the last leap.
-OWN(vec3, spread_before);
-#define PUT_SPREAD PUT(handed, leap_part * own(displacement))
-#define KEEP_SPREAD EACH(guide_count - 1u) { own(spread_before) = AFTER_VEC3(handed) - GET(handed); }
-#define SPREAD_BEFORE own(spread_before)
+LOCAL(vec3, spread_before);
+#define PUT_SPREAD PUT(handed, leap_part * local(displacement))
+#define KEEP_SPREAD FOR_VERTICES(guide_count - 1u) { local(spread_before) = AFTER_VEC3(handed) - GET(handed); }
+#define SPREAD_BEFORE local(spread_before)
 #endif
 
 // Return whether a segment turns too far for leapfrog, or not as in the leap before.
@@ -76,7 +76,7 @@ bool turns_at(uint i, float min_cosine)
     vec3  change = AFTER_VEC3(moved) - GET(moved) - SPREAD_BEFORE;
     float along  = dot(change, middle) / max(dot(middle, middle), 1e-9);
     float across = length(change - along * middle);
-    bool  turned = dot(GET(edge), GET(lever)) < min_cosine || across > MAX_TURN_CHANGE * own(rest_length);
+    bool  turned = dot(GET(edge), GET(lever)) < min_cosine || across > MAX_TURN_CHANGE * local(rest_length);
     return i + 1u < guide_count && turned;
 }
 #else

@@ -14,7 +14,7 @@
 vec3 offset_of(uint i, int method, vec3 last)
 {
     if (IS_SHAKE(method) || LEAPS(method)) return vec3(0.0);
-    return own(slack) == 0.0 ? held_move(i) : IS_BACK(method) ? last : vec3(0.0);
+    return local(slack) == 0.0 ? held_move(i) : IS_BACK(method) ? last : vec3(0.0);
 }
 
 #ifdef HAIR_WIND
@@ -25,11 +25,11 @@ vec3 offset_of(uint i, int method, vec3 last)
 void leap(uint i, vec3 force, vec3 bending)
 {
     float span = leap_span();
-    vec3  d    = leap_part * own(displacement), push = force + own(slack) * bending;
+    vec3  d    = leap_part * local(displacement), push = force + local(slack) * bending;
 #ifdef HAIR_WIND
-    own(wanted) = d + span * dragged_on(d, push);
+    local(wanted) = d + span * dragged_on(d, push);
 #else
-    own(wanted) = d + span * ((part_keep - 1.0) * d + part_kick * push);
+    local(wanted) = d + span * ((part_keep - 1.0) * d + part_kick * push);
 #endif
 }
 
@@ -37,10 +37,10 @@ void leap(uint i, vec3 force, vec3 bending)
 vec3 rate_from(uint i, int method)
 {
 #ifdef KEEPS_RATES
-    if (known < 2.0) return own(displacement);
-    return IS_BACK(method) ? (4.0 * own(rate) - parked(rate_before)) / 3.0 : own(rate);
+    if (known < 2.0) return local(displacement);
+    return IS_BACK(method) ? (4.0 * local(rate) - spilled(rate_before)) / 3.0 : local(rate);
 #else
-    return own(displacement);
+    return local(displacement);
 #endif
 }
 
@@ -58,15 +58,15 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
     float h = params.gravity.w, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
     bool  leaps = LEAPS(method);
     vec3  hv = rate_from(i, method), q = leaps ? -params.damping * h * hv : b * hv;
-    own(wanted) = leaps ? hv : IS_BACK(method) ? own(displacement) : vec3(0.0);
+    local(wanted) = leaps ? hv : IS_BACK(method) ? local(displacement) : vec3(0.0);
 #ifdef HAIR_WIND
     q += leaps ? drifts - by_parts(drags, hv) : b * b * drifts;
 #endif
-    PUT(moved, (q + of_force * force) / own(slack) + of_force * bending);
+    PUT(moved, (q + of_force * force) / local(slack) + of_force * bending);
 #ifdef HAIR_WIND
     PUT(moved, dragged_back(i, b, GET(moved)));
 #endif
-    if (IS_BACK(method) && !leaps) PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / own(slack) * own(displacement));
+    if (IS_BACK(method) && !leaps) PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / local(slack) * local(displacement));
 }
 
 #ifdef KEEPS_RATES
@@ -85,29 +85,29 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 // sqrt(stiffness). Bending itself is implicit.
 float guessed_part(uint i)
 {
-    float h = params.gravity.w, stiffness = own(strain).w * own(rest_length) * min(params.ratio.x, params.ratio.z);
-    float w = abs(own(tension)) * inversesqrt(max(stiffness, 1e-20)), d = length(own(displacement) - root_moved);
+    float h = params.gravity.w, stiffness = local(strain).w * local(rest_length) * min(params.ratio.x, params.ratio.z);
+    float w = abs(local(tension)) * inversesqrt(max(stiffness, 1e-20)), d = length(local(displacement) - root_moved);
     return mix(1.0, GUESSED, max(smoothstep(SLOW, FAST, w * h), 1.0 - smoothstep(STILL * h, MOVING * h, d)));
 }
 
 void pull_on()
 {
-    EACH(guide_count) { PUT(moved, own(slack) == 0.0 ? held_move(i) : own(displacement)); }
-    MEET;
-    EACH(guide_count - 1u) {
+    FOR_VERTICES(guide_count) { PUT(moved, local(slack) == 0.0 ? held_move(i) : local(displacement)); }
+    GROUP_BARRIER;
+    FOR_VERTICES(guide_count - 1u) {
         vec3  to   = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
-        float most = MOST_GUESSED * own(rest_length) * own(rest_length) / of_force;
+        float max_value = MAX_GUESSED * local(rest_length) * local(rest_length) / of_force;
         // An impact leaves no tension.
-        own(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * own(tension), -most, most);
-        PUT(handed, GET(handed) + own(tension) / max(length(to), 1e-9) * to);
+        local(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * local(tension), -max_value, max_value);
+        PUT(handed, GET(handed) + local(tension) / max(length(to), 1e-9) * to);
     }
-    MEET;
+    GROUP_BARRIER;
 }
 #endif
 
 // True if a program keeps the clamp's direction at rest in registers. Programs do so if registers
 // suffice, or if they are too few anyway.
-#if defined(HAIR_SUBGROUP) && (defined(HAIR_FIRST) || HAIR_SOLVER != BACK)
+#if defined(HAIR_SUBGROUP) && (defined(HAIR_PASS1) || HAIR_SOLVER != BACK)
 #define KEEPS_CLAMP true
 #else
 #define KEEPS_CLAMP false
@@ -120,51 +120,51 @@ void predict(int method)
     vec4 turn    = at_end ? turn_now : turn_then;
     scalp        = quat_multiply(turn, guide[guide_number].root_frame);
     clamp_way    = KEEPS_CLAMP ? rotate(turn, clamp_at_rest) : rotate(scalp, vec3(0.0, 1.0, 0.0));
-    EACH(guide_count) {
-        PUT(moved, offset_of(i, method, own(displacement)));
+    FOR_VERTICES(guide_count) {
+        PUT(moved, offset_of(i, method, local(displacement)));
         PUT_SPREAD;
     }
     find_edges();
     KEEP_SPREAD
-    MEET;
+    GROUP_BARRIER;
     find_bending();
     of_force = params.gravity.w * params.gravity.w * (IS_BACK(method) && at_end ? 4.0 / 9.0 : 1.0);
 #ifdef KEEPS_RATES
     if (IS_BACK(method)) pull_on();
 #endif
 
-    EACH(guide_count) {
-        // Fraction of the vertex's inertia that has weight. See lib/sim/taut.c.
-        float share  = heavy && i > 0u && i + 1u < guide_count
-                           ? min(0.5 * (rod[guide_first + i - 1u].segment.x + own(rest_length)) * own(slack), 1.0) : 1.0;
+    FOR_VERTICES(guide_count) {
+        // Fraction of the vertex's inertia that has weight. See lib/rod/tip_inertia.c.
+        float fraction  = heavy && i > 0u && i + 1u < guide_count
+                           ? min(0.5 * (rod[guide_first + i - 1u].segment.x + local(rest_length)) * local(slack), 1.0) : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
-        feel_air(i, before, share, IS_SHAKE(method) ? leap_part * own(displacement) : rate_from(i, method));
+        feel_air(i, before, fraction, IS_SHAKE(method) ? leap_part * local(displacement) : rate_from(i, method));
 #endif
-        own(wanted)  = held_move(i);
+        local(wanted)  = held_move(i);
         vec3 bending = by_segments(i);
-        vec3 force   = share * params.gravity.xyz;
-        if (own(aim).w > 0.0) {
-            vec3 ahead = at_end ? root_moved - offset_of(i, method, own(displacement)) : vec3(0.0);
-            force += own(aim).w * (rotate(turn, own(aim).xyz) + ahead - GET(place));
+        vec3 force   = fraction * params.gravity.xyz;
+        if (local(aim).w > 0.0) {
+            vec3 ahead = at_end ? root_moved - offset_of(i, method, local(displacement)) : vec3(0.0);
+            force += local(aim).w * (rotate(turn, local(aim).xyz) + ahead - GET(place));
         }
-#ifdef HAIR_CROWD
-        force += own(push);
+#ifdef HAIR_GRID
+        force += local(hair_acceleration);
 #endif
         PUT(moved, vec3(0.0));
-        if (own(slack) > 0.0) {
+        if (local(slack) > 0.0) {
             if (IS_SHAKE(method)) leap(i, force, bending);
             else step_back(i, method, force, bending);
         }
     }
     if (IS_SHAKE(method)) {
-        EACH(guide_count - 1u) { PUT(lever, GET(edge)); }
-        MEET;
+        FOR_VERTICES(guide_count - 1u) { PUT(lever, GET(edge)); }
+        GROUP_BARRIER;
     }
     if (!IS_SHAKE(method)) {
         solve_implicit(method >= EULER);
-        EACH(guide_count) {
-            if (own(slack) > 0.0) own(wanted) += GET(moved);
+        FOR_VERTICES(guide_count) {
+            if (local(slack) > 0.0) local(wanted) += GET(moved);
         }
     }
 }

@@ -13,12 +13,12 @@
 // The angular force has a potential, which sim/angular.glsl explains. Not handled: convergence,
 // friction, twist.
 #version 450 core
-#include "buffers.glsl"
+#include "sim/buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "rotation.glsl"
-#include "constraints.glsl"
+#include "sim/constraints.glsl"
 #include "sim/angular.glsl"
-#include "sim/ride.glsl"
+#include "sim/root_transforms.glsl"
 
 shared uint broken;
 // Angular_moves of each vertex.
@@ -52,8 +52,8 @@ void main()
     vec3      x            = state[own].position.xyz;
     vec3      displacement = state[own].displacement.xyz;
     float     dt           = params.gravity.w;
-    float     share        = float(i) / float(count - 1u);
-    float     frequency    = mix(params.shape_frequency_root, params.shape_frequency_tip, share);
+    float     fraction        = float(i) / float(count - 1u);
+    float     frequency    = mix(params.shape_frequency_root, params.shape_frequency_tip, fraction);
     // Rest links before vertex i and before vertex i-1.
     vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz, next = at_rest.position.xyz - before;
     vec3 link   = before - rest[first + max(min(i, count - 1u), 2u) - 2u].position.xyz;
@@ -66,7 +66,7 @@ void main()
         vec3 target   = rotate(rotation, at_rest.position.xyz);
         vec3 start    = x;
 #ifdef HAIR_SKINNED
-        ride r   = ride_at(g, params.substep[s].displacement.w);
+        root_transform r   = root_transform_at(g, params.substep[s].displacement.w);
         target   = rotate(rotation, carry(r, rest[first].position.xyz, at_rest.position.xyz));
         rotation = quat_multiply(rotation, r.turn);
 #endif

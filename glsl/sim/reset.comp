@@ -1,8 +1,8 @@
 // reset.comp - set every guide to its rest pose, at rest, under the head's current pose. One thread
 // per guide vertex.
 #version 450 core
-#include "buffers.glsl"
-#include "sim/ride.glsl"
+#include "sim/buffers.glsl"
+#include "sim/root_transforms.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 #ifdef HAIR_ROD
 #include "sim/rod_buffers.glsl"
@@ -22,7 +22,7 @@ void main()
         if (guide[middle].first <= i) low = middle;
         else high = middle;
     }
-    ride r = ride_of(low, HAIR_RIDE_END);
+    root_transform r = root_transform_of(low, HAIR_ROOT_TRANSFORM_END);
     place  = carry(r, rest[guide[low].first].position.xyz, place);
     turn   = quat_multiply(turn, r.turn);
 #endif

@@ -18,10 +18,10 @@
 layout(local_size_x = GROUP_THREADS) in;
 #include "sim/bending.glsl"
 #include "sim/predict.glsl"
-#include "sim/lengths.glsl"
-#include "sim/ride.glsl"
-#include "sim/stored.glsl"
-#include "sim/accept.glsl"
+#include "sim/length_constraints.glsl"
+#include "sim/root_transforms.glsl"
+#include "sim/load_store.glsl"
+#include "sim/finish_substep.glsl"
 
 #ifdef SPLITS
 void place_part(float size, float end, vec3 head_moved);
@@ -65,14 +65,14 @@ void attempt_all(vec3 head_moved)
 #endif
 #ifdef KEEPS_RATES
         // The failed attempt led to wrong tensions.
-        EACH(guide_count) { own(tension) = 0.0; }
+        FOR_VERTICES(guide_count) { local(tension) = 0.0; }
 #endif
         // Skip BDF2, which needs a past that SHAKE does not keep.
         if (IS_SHAKE(method)) ++method;
         count_in(method >= EULER ? HAIR_SOLVER_STATS_FOLLOW_FALLBACKS : HAIR_SOLVER_STATS_EULER_FALLBACKS);
     }
 #ifdef HAIR_PINNED
-    if (any_of(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
+    if (group_any(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
     accept(method, waits, head_moved);
 }
@@ -86,19 +86,19 @@ void attempt_all(vec3 head_moved)
 void main()
 {
     uint first = hair_guide_number(), guides_at_once = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GUIDES_IN_GROUP;
-#if defined(HAIR_FIRST)
+#if defined(HAIR_PASS1)
     if (first == 0u && lane == 0u) clear_list(1u - params.list);
     for (guide_number = first; guide_number < params.guides; guide_number += guides_at_once) {
         bool done = solve();
         if (!done && lane == 0u) add_to_list(guide_number);
-        MEET;
+        GROUP_BARRIER;
     }
-#elif defined(HAIR_LISTED)
+#elif defined(HAIR_PASS2)
     uint count = solver_stats[length_of_list(params.list)];
     for (uint n = first; n < count; n += guides_at_once) {
         guide_number = solver_stats[HAIR_SOLVER_STATS_LISTS + n];
         solve();
-        MEET;
+        GROUP_BARRIER;
     }
 #else
     guide_number = first;

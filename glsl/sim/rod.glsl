@@ -4,10 +4,10 @@
 // Positions are relative to the guide's root, where the scalp has it at the start of a substep.
 // Displacements are in the world, over the substep. After the substep, x' = x + displacement -
 // root_moved.
-#include "buffers.glsl"
+#include "sim/buffers.glsl"
 #include "rotation.glsl"
 #include "sim/rod_buffers.glsl"
-#include "sim/mapping.glsl"
+#include "sim/thread_mapping.glsl"
 #include "sim/tridiagonal.glsl"
 
 SHARED_VEC3(place);      // Position at the start of the substep.
@@ -16,17 +16,17 @@ SHARED_VEC3(edge);       // Unit vector along segment i after `moved`.
 // Effect of a hinge in bending. Later the direction in which a length is corrected.
 SHARED_VEC3(lever);
 SHARED_VEC3(handed);     // Vector for the neighbours, such as a segment's force. See each use.
-OWN(float, rest_length); // Rest length of segment i. 0 for the tip.
-OWN(float, slack);       // 1 / mass. 0 if the scalp or a pin holds the vertex.
-OWN(vec3, wanted);       // Displacement without contact.
-OWN(vec3, displacement); // Displacement over the last substep.
-OWN(float, excess);      // Excess length of segment i.
+LOCAL(float, rest_length); // Rest length of segment i. 0 for the tip.
+LOCAL(float, slack);       // 1 / mass. 0 if the scalp or a pin holds the vertex.
+LOCAL(vec3, wanted);       // Displacement without contact.
+LOCAL(vec3, displacement); // Displacement over the last substep.
+LOCAL(float, excess);      // Excess length of segment i.
 // xyz is the rest position from the root in groom space. w is the squared frequency of the pull to
 // it.
-OWN(vec4, aim);
-#ifdef HAIR_CROWD
-layout(binding = HAIR_UNIT_PUSH) uniform samplerBuffer push_texture;
-OWN(vec3, push); // Acceleration by the hair-hair grid, in m/s^2.
+LOCAL(vec4, aim);
+#ifdef HAIR_GRID
+layout(binding = HAIR_UNIT_ACCELERATION) uniform samplerBuffer acceleration_texture;
+LOCAL(vec3, hair_acceleration); // Acceleration by the hair-hair grid, in m/s^2.
 #endif
 
 // Data of the guide, which are equal in all its threads.
@@ -50,13 +50,13 @@ vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)
 #ifdef HAIR_MIXED
 float part_length;
 #define SUBSTEP part_length
-#elif defined(HAIR_LISTED)
+#elif defined(HAIR_PASS2)
 #define SUBSTEP (leap_part * params.gravity.w)
 #else
 #define SUBSTEP params.gravity.w
 #endif
 
-#ifdef HAIR_PINNED // Without pins only the root is held. See pin.glsl.
+#ifdef HAIR_PINNED // Without pins only the root is held. See pins.glsl.
 vec3 held_move(uint i);
 void give_length();
 #else
@@ -75,10 +75,10 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 // Vector from vertex i to the next at the start of the substep. Only work groups of several guides
 // store it. They have few registers, so that some of their values are in memory. Other programs
 // have no register to spare for a value that is quickly computed.
-#ifdef SHARES_GROUPS
-OWN(vec3, kept_between);
-#define KEEP_BETWEEN own(kept_between) = AFTER_VEC3(place) - GET(place)
-#define BETWEEN own(kept_between)
+#ifdef SEVERAL_GUIDES_PER_GROUP
+LOCAL(vec3, kept_between);
+#define KEEP_BETWEEN local(kept_between) = AFTER_VEC3(place) - GET(place)
+#define BETWEEN local(kept_between)
 #else
 #define KEEP_BETWEEN
 #define BETWEEN (AFTER_VEC3(place) - GET(place))
@@ -87,14 +87,14 @@ OWN(vec3, kept_between);
 // Compute unit edges after `moved`, and excess lengths.
 void find_edges()
 {
-    MEET;
+    GROUP_BARRIER;
     give_length();
-    EACH(guide_count - 1u) {
+    FOR_VERTICES(guide_count - 1u) {
         KEEP_BETWEEN;
         vec3  to = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
         float l  = length(to);
         PUT(edge, to / l);
-        own(excess) = l - own(rest_length);
+        local(excess) = l - local(rest_length);
     }
 }
 
@@ -106,9 +106,9 @@ void find_edges()
 // that a span between the root and a sticking vertex would tremble.
 float granted_error(uint i, float tolerance)
 {
-    float grant = tolerance * own(rest_length);
+    float grant = tolerance * local(rest_length);
 #ifdef HAIR_COLLIDERS
-    grant = clamp(SLOW_GRANT * length(own(displacement) - root_moved), MIN_GRANT * guide_length, grant);
+    grant = clamp(SLOW_GRANT * length(local(displacement) - root_moved), MIN_GRANT * guide_length, grant);
 #endif
     return grant;
 }
@@ -119,13 +119,13 @@ void measure(float tolerance)
 {
     bool is_loose = false, is_broken = false;
     find_edges();
-    EACH(guide_count - 1u) {
+    FOR_VERTICES(guide_count - 1u) {
         if (i + 1u < guide_count) {
-            is_loose  = is_loose || bits_of(own(excess)) > floatBitsToUint(granted_error(i, tolerance));
-            is_broken = is_broken || bits_of(own(excess)) > floatBitsToUint(TOO_LONG * own(rest_length));
+            is_loose  = is_loose || bits_of(local(excess)) > floatBitsToUint(granted_error(i, tolerance));
+            is_broken = is_broken || bits_of(local(excess)) > floatBitsToUint(TOO_LONG * local(rest_length));
         }
     }
-    bvec2 found = any_of(bvec2(is_loose, is_broken));
+    bvec2 found = group_any(bvec2(is_loose, is_broken));
     loose  = found.x;
     broken = found.y;
 }

@@ -1,13 +1,13 @@
 // substeps.glsl - the substeps of a step, one after the other, for one guide.
 
 // Place the root where the scalp has it after a fraction of the step, and set its rotation.
-void place_root(vec4 head, float share)
+void place_root(vec4 head, float fraction)
 {
     turn_now  = head;
     root_now  = rotate(head, root_at_rest);
-    share_now = share;
+    fraction_now = fraction;
 #ifdef HAIR_SKINNED
-    ride r   = ride_at(guide_number, share);
+    root_transform r   = root_transform_at(guide_number, fraction);
     root_now = rotate(head, root_at_rest + r.shift);
     turn_now = quat_multiply(head, r.turn);
 #endif
@@ -37,19 +37,19 @@ bool solve()
     clamp_at_rest = rotate(guide[guide_number].root_frame, vec3(0.0, 1.0, 0.0));
     uint begin = params.substep_first;
     vec4 head  = params.rotation_start;
-    float share = params.share_start;
+    float fraction = params.fraction_start;
     if (begin > 0u) {
         head  = params.substep[begin - 1u].rotation;
-        share = params.substep[begin - 1u].displacement.w;
+        fraction = params.substep[begin - 1u].displacement.w;
     }
-    place_root(head, share);
+    place_root(head, fraction);
     root_then = root_now;
 #ifdef HAIR_PINNED
     head_now  = head;
 #endif
     load();
     if (COLLIDERS) begin_colliders();
-#ifdef HAIR_FIRST
+#ifdef HAIR_PASS1
     if (HAIR_SOLVER == SHAKE ? known != 0.0 && known != 1.0 : known < LEAPS_NEXT) return false;
 #endif
 
@@ -60,7 +60,7 @@ bool solve()
 #endif
         turn_then       = turn_now;
         root_then       = root_now;
-        share_then      = share_now;
+        fraction_then      = fraction_now;
 #ifdef HAIR_PINNED
         head_then       = head_now;
         head_now        = params.substep[s].rotation;
@@ -70,13 +70,13 @@ bool solve()
 #if defined(HAIR_MIXED) || defined(SPLITS)
         head_at_start  = s == 0u ? params.rotation_start : params.substep[s - 1u].rotation;
         head_at_end    = params.substep[s].rotation;
-        fraction_at_start = share_then;
-        fraction_at_end   = share_now;
+        fraction_at_start = fraction_then;
+        fraction_at_end   = fraction_now;
 #endif
 
         grant_rounds();
         if (COLLIDERS) next_colliders();
-#ifdef HAIR_FIRST
+#ifdef HAIR_PASS1
         if (!attempt(HAIR_SOLVER, head_moved) || !accept(HAIR_SOLVER, false, head_moved)) return false;
 #elif defined(SPLITS)
         do_substep(head_moved);

@@ -1,7 +1,7 @@
 // tridiagonal.glsl - solve a x_(i-1) + b x_i + c x_(i+1) = r for i < n. The first a and the last c
 // are 0.
-OWN(vec4, row); // a, b, c, r
-OWN(float, solution);
+LOCAL(vec4, row); // a, b, c, r
+LOCAL(float, solution);
 
 #ifdef HAIR_THREAD_PER_GUIDE
 
@@ -37,8 +37,8 @@ void solve_rows(uint n)
 {
     vec3 mine = lane < n ? row.xzw / row.y : vec3(0.0);
     for (uint reach = 1u; reach < lanes; reach *= 2u) {
-        lend(mine);
-        mine = reduced(mine, lent_by(lane - reach), lent_by(lane + reach));
+        broadcast(mine);
+        mine = reduced(mine, broadcast_from(lane - reach), broadcast_from(lane + reach));
     }
     solution = mine.z;
 }

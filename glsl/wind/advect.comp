@@ -2,7 +2,7 @@
 // which its fluid comes, linear between faces (Stam 1999, "Stable Fluids"). Fluid from outside the
 // box has the velocity of the wind there. One thread per slot.
 #version 450 core
-#include "wind/trace.glsl"
+#include "wind/backtrace.glsl"
 #include "wind/ambient.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
@@ -14,14 +14,14 @@ void main()
     if (i >= side * side * side) return;
     ivec3 at = place_of(i, side);
     for (int axis = 0; axis < 3; ++axis) {
-        vec3  from = trace(face_place(axis, at) + fluid.shift.xyz, -1.0);
+        vec3  from = backtrace(face_place(axis, at) + fluid.shift.xyz, -1.0);
         vec4  near, far;
-        float carried = ambient_at(from - fluid.shift.xyz)[axis];
+        float advected = ambient_at(from - fluid.shift.xyz)[axis];
         if (is_in_box(from)) {
             fluid_spot spot = spot_at(axis, from);
             fetch_faces(velocity_texture, axis, spot, near, far);
-            carried = between(near, far, spot.part);
+            advected = between(near, far, spot.part);
         }
-        velocity[face_of(axis, at)] = carried;
+        velocity[face_of(axis, at)] = advected;
     }
 }

@@ -44,13 +44,13 @@ vec3 from_source(uint k, vec3 place)
     float radius = wind.source[k].w, speed = wind.jet[k].w, r = length(p);
     if (dot(way, way) == 0.0) return speed * p / radius * min(1.0, pow(radius / max(r, radius), 3.0));
     float x = dot(p, way), half_width = radius + 0.094 * max(x, 0.0);
-    float share = max(dot(p, p) - x * x, 0.0) / (half_width * half_width);
-    return speed * radius / half_width * exp2(-share) * smoothstep(-radius, 0.0, x) * way;
+    float fraction = max(dot(p, p) - x * x, 0.0) / (half_width * half_width);
+    return speed * radius / half_width * exp2(-fraction) * smoothstep(-radius, 0.0, x) * way;
 }
 
 // Return the weight of the fluid at a position in its box, given in fractions of its sides. The
 // weight falls to 0 over the last eighth on all sides.
-float fluid_share(vec3 place)
+float fluid_fraction(vec3 place)
 {
     vec3 inside = clamp(8.0 * (0.5 - abs(place - 0.5)), 0.0, 1.0);
     return inside.x * inside.y * inside.z;
@@ -61,7 +61,7 @@ float fluid_share(vec3 place)
 vec3 in_fluid(vec3 place, vec3 around)
 {
     vec3 at = (place - wind.box.xyz) * wind.box.w;
-    return mix(around, textureLod(air_texture, at, 0.0).xyz, fluid_share(at));
+    return mix(around, textureLod(air_texture, at, 0.0).xyz, fluid_fraction(at));
 }
 
 // Return a velocity, or 0 if it is not finite, as the application's texture may be. The test uses

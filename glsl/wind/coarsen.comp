@@ -4,7 +4,7 @@
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std430, binding = HAIR_BIND_OPEN) buffer open_buffer { uint slots[]; };
+layout(std430, binding = HAIR_BIND_FACE_FRACTION) buffer face_fraction_buffer { uint slots[]; };
 
 void main()
 {
@@ -18,7 +18,7 @@ void main()
         uint  sum = 2u;
         for (int k = 0; k < 4; ++k) {
             ivec3 fine = 2 * at + (k & 1) * a + (k >> 1) * b;
-            sum += texelFetch(open_texture, int(level.slot) + index_of(fine, level.cells + 1u)).x >> (10 * axis) & 1023u;
+            sum += texelFetch(face_fraction_texture, int(level.slot) + index_of(fine, level.cells + 1u)).x >> (10 * axis) & 1023u;
         }
         slot |= sum / 4u << (10 * axis);
     }

@@ -5,15 +5,15 @@
 #include "wind/fluid.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(binding = HAIR_UNIT_WALL) uniform samplerBuffer wall_texture;
+layout(binding = HAIR_UNIT_WALL_VELOCITY) uniform samplerBuffer wall_velocity_texture;
 layout(std430, binding = HAIR_BIND_PRESSURE) writeonly buffer pressure_buffer { float pressure[]; };
-layout(std430, binding = HAIR_BIND_RIGHT) writeonly buffer right_buffer { float right[]; };
+layout(std430, binding = HAIR_BIND_RHS) writeonly buffer rhs_buffer { float rhs[]; };
 
 float flow_through(int axis, ivec3 at)
 {
     int   face  = face_of(axis, at);
-    float share = open_share(texelFetch(open_texture, index_of(at, fluid.cells + 1u)).x, axis);
-    return mix(texelFetch(wall_texture, face).x, texelFetch(velocity_texture, face).x, share);
+    float fraction = face_fraction(texelFetch(face_fraction_texture, index_of(at, fluid.cells + 1u)).x, axis);
+    return mix(texelFetch(wall_velocity_texture, face).x, texelFetch(velocity_texture, face).x, fraction);
 }
 
 void main()
@@ -23,6 +23,6 @@ void main()
     ivec3 at  = place_of(i, fluid.cells);
     float sum = 0.0;
     for (int axis = 0; axis < 3; ++axis) sum += flow_through(axis, at) - flow_through(axis, at + axis_of(axis));
-    right[i]    = sum;
+    rhs[i]    = sum;
     pressure[i] = 0.0;
 }

@@ -12,7 +12,7 @@ layout(std140, binding = HAIR_BIND_FLUID) uniform fluid_buffer { hair_fluid_para
 layout(std140, binding = HAIR_BIND_LEVEL) uniform level_buffer { hair_fluid_level level; };
 
 layout(binding = HAIR_UNIT_VELOCITY) uniform samplerBuffer velocity_texture;
-layout(binding = HAIR_UNIT_OPEN) uniform usamplerBuffer open_texture;
+layout(binding = HAIR_UNIT_FACE_FRACTION) uniform usamplerBuffer face_fraction_texture;
 
 uint thread() { return hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; }
 
@@ -36,7 +36,7 @@ int face_of(int axis, ivec3 at)
 vec3 face_place(int axis, ivec3 at) { return vec3(at) + 0.5 * vec3(1 - axis_of(axis)); }
 
 // Return the open fraction of a face, from the bits of a slot.
-float open_share(uint slot, int axis) { return float(slot >> (10 * axis) & 1023u) / 1023.0; }
+float face_fraction(uint slot, int axis) { return float(slot >> (10 * axis) & 1023u) / 1023.0; }
 
 // Return whether a speed is finite and plausible. The test uses bits, because comparisons with NaN
 // may be compiled away.

@@ -13,6 +13,6 @@ void main()
     ivec3      at   = place_of(i, level.cells);
     fluid_cell cell = fetch_cell(at);
     float      own  = texelFetch(pressure_texture, cell_of(at)).x;
-    if (cell.whole > 0.0) own += level.relax * ((cell.right + cell.sum) / cell.whole - own);
+    if (cell.whole > 0.0) own += level.relax * ((cell.rhs + cell.sum) / cell.whole - own);
     pressure[i] = own;
 }

@@ -9,15 +9,15 @@
 // of u by pressure. This is the open fraction of the face. Air therefore flows around hair that is
 // too dense to pass within a step. One thread per slot.
 #version 450 core
-#include "wind/trace.glsl"
+#include "wind/backtrace.glsl"
 #include "wind/cylinder.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_THICKET) uniform isamplerBuffer thicket_texture; // Mass and momentum.
-layout(binding = HAIR_UNIT_BARE_OPEN) uniform usamplerBuffer bare_open_texture;
-layout(binding = HAIR_UNIT_BARE_WALL) uniform samplerBuffer bare_wall_texture;
-layout(std430, binding = HAIR_BIND_WALL) writeonly buffer wall_buffer { float wall[]; };
-layout(std430, binding = HAIR_BIND_OPEN) writeonly buffer open_buffer { uint slots[]; };
+layout(binding = HAIR_UNIT_BARE_FACE_FRACTION) uniform usamplerBuffer bare_face_fraction_texture;
+layout(binding = HAIR_UNIT_BARE_WALL_VELOCITY) uniform samplerBuffer bare_wall_velocity_texture;
+layout(std430, binding = HAIR_BIND_WALL_VELOCITY) writeonly buffer wall_velocity_buffer { float wall_velocity[]; };
+layout(std430, binding = HAIR_BIND_FACE_FRACTION) writeonly buffer face_fraction_buffer { uint slots[]; };
 
 // Return mass and momentum of hair at a position, linear between nodes. Nodes are the centres of
 // cells of their own size.
@@ -30,8 +30,8 @@ vec4 hair_at(vec3 place)
     vec4  sum  = vec4(0.0);
     for (int k = 0; k < 8; ++k) {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
-        vec3  share  = mix(1.0 - part, part, vec3(corner));
-        sum += share.x * share.y * share.z * vec4(texelFetch(thicket_texture, index_of(low + corner, fluid.nodes)));
+        vec3  fraction  = mix(1.0 - part, part, vec3(corner));
+        sum += fraction.x * fraction.y * fraction.z * vec4(texelFetch(thicket_texture, index_of(low + corner, fluid.nodes)));
     }
     return sum;
 }
@@ -56,14 +56,14 @@ void main()
     uint side = fluid.cells + 1u, i = thread();
     if (i >= side * side * side) return;
     ivec3 at   = place_of(i, side);
-    uint  bare = texelFetch(bare_open_texture, int(i)).x, slot = 0u;
+    uint  bare = texelFetch(bare_face_fraction_texture, int(i)).x, slot = 0u;
     for (int axis = 0; axis < 3; ++axis) {
         int   face = face_of(axis, at);
         uint  open = bare >> (10 * axis) & 1023u;
         vec4  hair = hair_at(face_place(axis, at));
-        float speed = texelFetch(bare_wall_texture, face).x;
+        float speed = texelFetch(bare_wall_velocity_texture, face).x;
         if (open > 0u && hair.x > 0.0) {
-            vec3  velocity = HAIR_CROWD_SPEED * hair.yzw / hair.x;
+            vec3  velocity = HAIR_GRID_SPEED * hair.yzw / hair.x;
             float left     = left_of(face_place(axis, at), hair.x * fluid.thick, velocity);
             uint  still    = clamp(uint(float(open) * left + 0.5), 1u, open);
             float held     = float(open - still), closed = float(1023u - open);
@@ -71,7 +71,7 @@ void main()
             open = still;
         }
         slot |= open << (10 * axis);
-        wall[face] = speed;
+        wall_velocity[face] = speed;
     }
     slots[i] = slot;
 }

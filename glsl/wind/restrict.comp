@@ -6,7 +6,7 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_PRESSURE) writeonly buffer pressure_buffer { float pressure[]; };
-layout(std430, binding = HAIR_BIND_RIGHT) writeonly buffer right_buffer { float right[]; };
+layout(std430, binding = HAIR_BIND_RHS) writeonly buffer rhs_buffer { float rhs[]; };
 
 void main()
 {
@@ -15,6 +15,6 @@ void main()
     ivec3 at  = 2 * place_of(i, cells);
     float sum = 0.0;
     for (int k = 0; k < 8; ++k) sum += residual_at(at + ivec3(k & 1, k >> 1 & 1, k >> 2));
-    right[level.coarse_cell + i]    = 0.5 * sum;
+    rhs[level.coarse_cell + i]    = 0.5 * sum;
     pressure[level.coarse_cell + i] = 0.0;
 }

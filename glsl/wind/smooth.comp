@@ -15,5 +15,5 @@ void main()
     fluid_cell cell = fetch_cell(at);
     float      own  = texelFetch(pressure_texture, cell_of(at)).x;
     if (cell.whole > 0.0)
-        pressure[cell_of(at)] = own + level.relax * ((cell.right + cell.sum) / cell.whole - own);
+        pressure[cell_of(at)] = own + level.relax * ((cell.rhs + cell.sum) / cell.whole - own);
 }

@@ -2,15 +2,15 @@
 #ifndef HAIR_API_API_H
 #define HAIR_API_API_H
 
-#include "lib/api/fields.h"
+#include "lib/api/schema.h"
 #include "lib/draw/draw.h"
 #include "lib/field/field.h"
-#include "lib/gl/ledger.h"
+#include "lib/gl/frame_profiler.h"
 
 struct hair_context {
     hair_host host;
     struct hair_gl gl;
-    struct hair_forms forms; // shared by the fields of all instances
+    struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
 };
 
 struct hair_shader {
@@ -19,13 +19,13 @@ struct hair_shader {
 };
 
 // Requests of a frame, in addition to the work that ran.
-struct hair_asked {
+struct hair_frame_requests {
     int asleep;
     // Number of views in colour, in depth only and of opacity. `unseen` counts those that show no
     // hair.
     uint32_t views[3], unseen[3];
-    int listed, expanded; // 1 if a view needs the strand list, or the vertex cache
-    int hides; // 1 if a view uses occlusion culling
+    int strand_list, vertex_cache; // 1 if a view needs the strand list, or the vertex cache
+    int occlusion; // 1 if a view uses occlusion culling
 };
 
 struct hair_instance {
@@ -35,18 +35,18 @@ struct hair_instance {
     int has_slowed; // 1 if dt has exceeded max_dt and the log has said so
     struct hair_rods_softened told; // state of softened guides that was logged last
     int has_left_out; // 1 if guides pass through some colliders and the log has said so
-    hair_vec3 reach[2]; // bounds of the hair in the head's frame, without pins
+    hair_vec3 bounds[2]; // bounds of the hair in the head's frame, without pins
     float longest; // maximum length of a strand with its stretch, m
     struct hair_sim sim;
     struct hair_smooth smooth;
     struct hair_draw draw;
     struct hair_collider_field field;
-    struct hair_gl_ledger ledger;
-    struct hair_asked asked[HAIR_GL_FRAMES]; // per frame of the ledger
+    struct hair_gl_profiler profiler;
+    struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
 };
 
 // Compute the bounds of a groom's strands in its space. Return their maximum length.
-float hair_find_reach(const hair_groom* groom, hair_vec3 bounds[2]);
+float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2]);
 
 // Return HAIR_ERROR_OPENGL unless a context is current, because OpenGL without a context is
 // undefined.
@@ -57,12 +57,12 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
                                  struct hair_pose* out);
 
 // Check the textures that the application passes to a view, as far as a draw of `view` reads them.
-hair_result hair_check_lent(const hair_instance* hair, const hair_view* view);
+hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view);
 
 // Enter the context for work that the ledger records.
 void hair_enter(hair_instance* hair);
 // Return the requests of the current frame.
-struct hair_asked* hair_asked_now(hair_instance* hair);
+struct hair_frame_requests* hair_current_requests(hair_instance* hair);
 // End the current frame and begin the next.
 void hair_begin_frame(hair_instance* hair);
 

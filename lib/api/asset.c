@@ -8,8 +8,8 @@ hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size
     hair_host host = HAIR_HOST_OF(desc);
     hair_asset_desc own;
     hair_import import;
-    hair_result result = HAIR_TAKE(&host, hair_asset_desc, desc, &own);
-    if (!result) result = HAIR_TAKE_OR_DEFAULT(&host, hair_import, own.import, &import);
+    hair_result result = HAIR_COPY_IN(&host, hair_asset_desc, desc, &own);
+    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import);
     if (result) return result;
     if (!bytes) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "bytes is NULL");
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
@@ -35,7 +35,7 @@ hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out)
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_style_desc own;
-    hair_result result = HAIR_TAKE(&host, hair_style_desc, desc, &own);
+    hair_result result = HAIR_COPY_IN(&host, hair_style_desc, desc, &own);
     if (result) return result;
     if (own.strand_vertices == 1)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT,
@@ -117,7 +117,7 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
         .strand_colors = asset->strands.colors,
     };
     measure(&asset->strands, &info);
-    return HAIR_GIVE(&asset->host, hair_asset_info, &info, out);
+    return HAIR_COPY_OUT(&asset->host, hair_asset_info, &info, out);
 }
 
 hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* desc)

@@ -1,12 +1,12 @@
 // collision_mesh.c - public calls on collision meshes.
-#include "lib/api/fields.h"
+#include "lib/api/schema.h"
 #include "lib/collide/collision_mesh.h"
 
 hair_result hair_collision_mesh_create(const hair_collision_mesh_desc* desc, hair_collision_mesh** out)
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_collision_mesh_desc own;
-    hair_result result = HAIR_TAKE(&host, hair_collision_mesh_desc, desc, &own);
+    hair_result result = HAIR_COPY_IN(&host, hair_collision_mesh_desc, desc, &own);
     if (result) return result;
     if (!own.positions)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_collision_mesh_desc.positions is NULL");
@@ -16,13 +16,13 @@ hair_result hair_collision_mesh_create(const hair_collision_mesh_desc* desc, hai
     return hair_collision_mesh_build(&host, &own, out);
 }
 
-void hair_collision_mesh_destroy(hair_collision_mesh* form)
+void hair_collision_mesh_destroy(hair_collision_mesh* mesh)
 {
-    hair_collision_mesh_release(form);
+    hair_collision_mesh_release(mesh);
 }
 
-hair_result hair_collision_mesh_describe(const hair_collision_mesh* form, hair_collision_mesh_info* out)
+hair_result hair_collision_mesh_describe(const hair_collision_mesh* mesh, hair_collision_mesh_info* out)
 {
-    if (!form) return HAIR_ERROR_ARGUMENT;
-    return HAIR_GIVE(&form->host, hair_collision_mesh_info, &form->info, out);
+    if (!mesh) return HAIR_ERROR_ARGUMENT;
+    return HAIR_COPY_OUT(&mesh->host, hair_collision_mesh_info, &mesh->info, out);
 }

@@ -6,7 +6,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_context_desc own;
-    hair_result result = HAIR_TAKE(&host, hair_context_desc, desc, &own);
+    hair_result result = HAIR_COPY_IN(&host, hair_context_desc, desc, &own);
     if (result) return result;
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
@@ -15,7 +15,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
     context->host = host;
-    context->forms.gl = &context->gl;
+    context->sdf_pool.gl = &context->gl;
     result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
@@ -56,9 +56,9 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
     const struct hair_gl_memory* memory = &context->gl.memory;
     hair_memory own = hair_memory_default();
     own.bytes = memory->bytes;
-    own.peak = memory->most;
+    own.peak = memory->peak;
     own.limit = memory->limit;
-    return HAIR_GIVE(&context->host, hair_memory, &own, out);
+    return HAIR_COPY_OUT(&context->host, hair_memory, &own, out);
 }
 
 hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)

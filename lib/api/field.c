@@ -26,7 +26,8 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
 hair_result hair_update_field(hair_instance* hair)
 {
     const struct hair_colliders* colliders = &hair->sim.colliders;
-    return hair_field_update(&hair->field, colliders->now.collider, colliders->now.count, &hair->sim.at_step);
+    return hair_field_update(&hair->field, colliders->current.collider, colliders->current.count,
+                             &hair->sim.head_at_last_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
@@ -34,7 +35,7 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_field_info own = hair_field_info_default();
-    hair_result result = HAIR_GIVE(&context->host, hair_field_info, &own, out);
+    hair_result result = HAIR_COPY_OUT(&context->host, hair_field_info, &own, out);
     if (!result) result = hair_check_current(context);
     if (result) return result;
     hair_enter(hair);
@@ -50,6 +51,6 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     for (int i = 0; i < 3; ++i) own.size[i] = HAIR_BRICK * box->bricks[i];
     own.voxel = box->voxel;
     own.far = box->far;
-    write_transform(box, &hair->sim.at_step, own.transform);
-    return HAIR_GIVE(&context->host, hair_field_info, &own, out);
+    write_transform(box, &hair->sim.head_at_last_step, own.transform);
+    return HAIR_COPY_OUT(&context->host, hair_field_info, &own, out);
 }

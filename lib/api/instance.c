@@ -24,7 +24,7 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
 // Log how guides hold the groom. The gravity preload may ask for more than hair can bear.
 static void tell_held(hair_instance* hair)
 {
-    struct hair_rods_report held = hair_sim_held(&hair->sim);
+    struct hair_rods_report held = hair_sim_preload_report(&hair->sim);
     if (held.stiffened)
         hair_log(&hair->context->host, HAIR_LOG_INFO,
                  "%s: %u of %u guides are stiffened, up to %.3g times, to hold their groom against gravity",
@@ -38,7 +38,7 @@ static void tell_held(hair_instance* hair)
 // Log how guides are softened, if this differs from the last log.
 static void tell_softened(hair_instance* hair)
 {
-    struct hair_rods_softened now = hair_sim_held(&hair->sim).softened, *told = &hair->told;
+    struct hair_rods_softened now = hair_sim_preload_report(&hair->sim).softened, *told = &hair->told;
     if (now.guides == told->guides && now.worst == told->worst && now.factor == told->factor) return;
     *told = now;
     if (!now.guides) {
@@ -58,9 +58,9 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->context = context;
     hair->max_dt = (double)desc->max_dt;
     hair->sim.asked_substep = (double)desc->substep;
-    hair->sim.contacts.forms = &context->forms;
+    hair->sim.contacts.sdf_pool = &context->sdf_pool;
     hair->sim.solver = desc->solver;
-    hair->draw.hits.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
+    hair->draw.follower_collision.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
     hair->sim.by_thread = desc->solver != HAIR_SOLVER_REDBLACK &&
                           (desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
                                ? context->gl.software
@@ -77,19 +77,19 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          "%s: hair_desc.thread_mapping is HAIR_THREAD_MAPPING_FEEDBACK, which only the "
                          "solver redblack has",
                          hair->label);
-    hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
-    if (!result) result = HAIR_TAKE_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
-    if (!result) hair_look_soak(&hair->draw.look);
+    hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
+    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
+    if (!result) hair_look_apply_wetness(&hair->draw.look);
     if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
     if (!result) result = hair_check_current(context);
     if (result) return result;
 
-    hair->longest = hair_find_reach(groom, hair->reach);
+    hair->longest = hair_find_bounds(groom, hair->bounds);
     HAIR_ASSERT(hair->longest > 0);
-    hair_vec3 middle = hair_lerp(hair->reach[0], hair->reach[1], 0.5f);
-    hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->reach[1])};
-    hair_field_create(&hair->field, &context->forms, groom, desc->field_voxel);
-    hair->sim.blow.field = &hair->field;
+    hair_vec3 middle = hair_lerp(hair->bounds[0], hair->bounds[1], 0.5f);
+    hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
+    hair_field_create(&hair->field, &context->sdf_pool, groom, desc->field_voxel);
+    hair->sim.wind_coupling.field = &hair->field;
     hair_gl_enter(&context->gl);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
     hair->told = hair_rods_report_none().softened;
@@ -108,7 +108,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
     hair_desc own;
-    hair_result result = HAIR_TAKE(host, hair_desc, desc, &own);
+    hair_result result = HAIR_COPY_IN(host, hair_desc, desc, &own);
     if (result) return result;
     if (!groom) return hair_fail(host, HAIR_ERROR_ARGUMENT, "groom is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
@@ -126,7 +126,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
-    hair_gl_ledger_free(&hair->context->gl, &hair->ledger);
+    hair_gl_profiler_free(&hair->context->gl, &hair->profiler);
     hair_draw_destroy(&hair->draw);
     hair_field_destroy(&hair->field);
     hair_smooth_destroy(&hair->smooth);
@@ -138,9 +138,9 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_physics own;
-    hair_result result = HAIR_TAKE(&hair->context->host, hair_physics, physics, &own);
+    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    if (own.collision_margin != hair->sim.physics.collision_margin) hair->draw.hits.fresh = 0;
+    if (own.collision_margin != hair->sim.physics.collision_margin) hair->draw.follower_collision.valid = 0;
     hair->sim.physics = own;
     return HAIR_OK;
 }
@@ -149,10 +149,10 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_look own;
-    hair_result result = HAIR_TAKE(&hair->context->host, hair_look, look, &own);
+    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_look, look, &own);
     if (result) return result;
-    hair_look_soak(&own);
-    if (memcmp(&own, &hair->draw.look, sizeof own) != 0) hair->draw.hits.fresh = 0;
+    hair_look_apply_wetness(&own);
+    if (memcmp(&own, &hair->draw.look, sizeof own) != 0) hair->draw.follower_collision.valid = 0;
     hair->draw.look = own;
     return HAIR_OK;
 }
@@ -173,7 +173,7 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
     const hair_host* host = &hair->context->host;
     hair_result result = hair_colliders_set(host, &hair->sim.colliders, colliders, count, stride);
     uint32_t contacts = hair_sim_contacts(&hair->sim);
-    if (hair->sim.colliders.changed) hair->draw.hits.fresh = 0;
+    if (hair->sim.colliders.changed) hair->draw.follower_collision.valid = 0;
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
         hair_log(
@@ -206,7 +206,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     if (hair_sleep_through(&hair->sim)) {
         hair_sim_pass_time(&hair->sim, time);
         hair_begin_frame(hair);
-        hair_asked_now(hair)->asleep = 1;
+        hair_current_requests(hair)->asleep = 1;
         return HAIR_OK;
     }
     hair_result result = hair_check_current(context);
@@ -214,28 +214,28 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->sim.unseen = unseen;
         return result;
     }
-    struct hair_gl_ledger was = hair->ledger;
-    struct hair_asked asked = hair->asked[(was.number + 1) % HAIR_GL_FRAMES];
+    struct hair_gl_profiler was = hair->profiler;
+    struct hair_frame_requests requests = hair->requests[(was.number + 1) % HAIR_GL_FRAMES];
     hair_enter(hair);
     hair_begin_frame(hair);
-    if (hair_blow_is_on(&hair->sim)) {
+    if (hair_wind_coupling_is_on(&hair->sim)) {
         // The field is that at the end of the step, because it moves along with the head.
-        const struct hair_collider_list* colliders = &hair->sim.colliders.now;
+        const struct hair_collider_list* colliders = &hair->sim.colliders.current;
         result = hair_field_update(&hair->field, colliders->collider, colliders->count, &hair->sim.head);
     }
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) {
         tell_softened(hair);
         hair->smooth.done = 0;
-        hair_draw_tidy(&hair->draw, hair->ledger.number);
+        hair_draw_free_unused(&hair->draw, hair->profiler.number);
     }
     hair_gl_leave(&context->gl);
     if (result) { // The frame is undone.
-        HAIR_ASSERT(hair->ledger.number == was.number + 1);
-        *hair_asked_now(hair) = asked;
+        HAIR_ASSERT(hair->profiler.number == was.number + 1);
+        *hair_current_requests(hair) = requests;
         for (int i = 0; i < HAIR_GL_FRAMES; ++i)
-            memcpy(was.frame[i].query, hair->ledger.frame[i].query, sizeof was.frame[i].query);
-        hair->ledger = was;
+            memcpy(was.frame[i].query, hair->profiler.frame[i].query, sizeof was.frame[i].query);
+        hair->profiler = was;
         hair->sim.unseen = unseen;
     }
     return result;
@@ -262,10 +262,10 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     hair_enter(hair);
-    struct hair_pose was = hair->sim.at_step;
+    struct hair_pose was = hair->sim.head_at_last_step;
     result = hair_sim_teleport(&hair->sim, &pose);
     if (!result) {
-        hair_draw_take_along(&hair->draw, &was, &pose);
+        hair_draw_teleport_history(&hair->draw, &was, &pose);
         hair->smooth.done = 0;
     }
     hair_gl_leave(&hair->context->gl);

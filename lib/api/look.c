@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define MOST_VERTICES 65536u // Maximum number of an example.
+#define MAX_VERTICES 65536u // Maximum number of an example.
 
 static const char* const kinds[] = {
     [HAIR_LOOK_NATURAL] = "natural", [HAIR_LOOK_STRAIGHT] = "straight", [HAIR_LOOK_WAVY] = "wavy",
@@ -76,7 +76,7 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
     if (!look || (unsigned)kind >= HAIR_LOOK_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own, fresh = hair_look_default();
-    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
     if (result) return result;
     // The members that shape strands are contiguous.
     size_t first = offsetof(hair_look, taper), end = offsetof(hair_look, absorption);
@@ -97,7 +97,7 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
         own.tip_stray_fraction = 0.5f;
     }
     if (own.segments < segments[kind]) own.segments = segments[kind];
-    return HAIR_GIVE(&silent, hair_look, &own, look);
+    return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }
 
 static const struct {
@@ -125,12 +125,12 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     if (!look || (unsigned)color >= HAIR_COLOR_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own;
-    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
     if (result) return result;
     memcpy(own.root_color, colors[color].root, sizeof own.root_color);
     memcpy(own.tip_color, colors[color].tip, sizeof own.tip_color);
     own.color_spread = colors[color].spread;
-    return HAIR_GIVE(&silent, hair_look, &own, look);
+    return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }
 
 // Curls from an example --------------------------------------------------------------------------
@@ -149,9 +149,9 @@ static hair_vec3 vertex_of(const struct example* e, uint32_t i)
 
 // Compute the x and z coordinates across the axis at fraction `share` of the length. Search from
 // segment `i` on, which starts `before` metres along the example.
-static void look_at(const struct example* e, float share, uint32_t* i, float* before, float out[2])
+static void look_at(const struct example* e, float fraction, uint32_t* i, float* before, float out[2])
 {
-    float at = share * e->length, link = hair_distance(vertex_of(e, *i), vertex_of(e, *i + 1));
+    float at = fraction * e->length, link = hair_distance(vertex_of(e, *i), vertex_of(e, *i + 1));
     HAIR_ASSERT(*i + 1 < e->vertices);
     while (*i + 2 < e->vertices && *before + link < at) {
         *before += link;
@@ -187,7 +187,7 @@ static void find_turn(const struct example* e, float turn[2][HAIR_TURN_PLACES], 
 
 static int is_usable(const float* positions, uint32_t vertices)
 {
-    if (!positions || vertices < 3 || vertices > MOST_VERTICES) return 0;
+    if (!positions || vertices < 3 || vertices > MAX_VERTICES) return 0;
     for (size_t i = 0; i < 3 * (size_t)vertices; ++i)
         if (!(fabsf(positions[i]) <= 1e6f)) return 0;
     return 1;
@@ -198,7 +198,7 @@ hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t
     if (!look || !is_usable(positions, vertex_count)) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own;
-    hair_result result = HAIR_TAKE(&silent, hair_look, look, &own);
+    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
     if (result) return result;
 
     struct example e = {.positions = positions, .vertices = vertex_count, .first = hair_load3(positions)};
@@ -221,5 +221,5 @@ hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t
     own.curl_shape = HAIR_CURL_SHAPE_EXAMPLE;
     own.curl_wavelength = axis;
     own.curl_turns = 0;
-    return HAIR_GIVE(&silent, hair_look, &own, look);
+    return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }

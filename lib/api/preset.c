@@ -25,7 +25,7 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
     if (!physics || (unsigned)preset >= HAIR_PRESET_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_physics own;
-    hair_result result = HAIR_TAKE(&silent, hair_physics, physics, &own);
+    hair_result result = HAIR_COPY_IN(&silent, hair_physics, physics, &own);
     if (result) return result;
     own.fiber_radius = presets[preset].radius;
     own.youngs_modulus = presets[preset].young;
@@ -34,5 +34,5 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
     own.stiffness_root = own.stiffness_tip = presets[preset].stiffness;
     own.damping = presets[preset].damping;
     own.friction = presets[preset].friction;
-    return HAIR_GIVE(&silent, hair_physics, &own, physics);
+    return HAIR_COPY_OUT(&silent, hair_physics, &own, physics);
 }

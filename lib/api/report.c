@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-#define MOST_BUFFERS 17 // Maximum for one kind of work.
-#define MOST_TEXTURES 2 // Maximum for one kind of work, without buffer textures.
+#define MAX_BUFFERS 17 // Maximum for one kind of work.
+#define MAX_TEXTURES 2 // Maximum for one kind of work, without buffer textures.
 
 const char* hair_skip_reason_string(hair_skip_reason why)
 {
@@ -20,98 +20,104 @@ const char* hair_skip_reason_string(hair_skip_reason why)
 
 void hair_enter(hair_instance* hair)
 {
-    HAIR_ASSERT(!hair->context->gl.ledger);
+    HAIR_ASSERT(!hair->context->gl.profiler);
     hair_gl_enter(&hair->context->gl);
-    hair->context->gl.ledger = &hair->ledger;
+    hair->context->gl.profiler = &hair->profiler;
 }
 
-struct hair_asked* hair_asked_now(hair_instance* hair)
+struct hair_frame_requests* hair_current_requests(hair_instance* hair)
 {
-    return &hair->asked[hair->ledger.number % HAIR_GL_FRAMES];
+    return &hair->requests[hair->profiler.number % HAIR_GL_FRAMES];
 }
 
 void hair_begin_frame(hair_instance* hair)
 {
-    hair_gl_ledger_next(&hair->ledger);
-    *hair_asked_now(hair) = (struct hair_asked){0};
+    hair_gl_profiler_next_frame(&hair->profiler);
+    *hair_current_requests(hair) = (struct hair_frame_requests){0};
 }
 
 // Reasons -----------------------------------------------------------------------------------------
 
 // Return the reason why work for views has not run.
-static hair_skip_reason why_not_shown(const struct hair_asked* asked)
+static hair_skip_reason why_not_shown(const struct hair_frame_requests* requests)
 {
     uint32_t views = 0, unseen = 0;
-    for (int i = 0; i < 3; ++i) views += asked->views[i], unseen += asked->unseen[i];
+    for (int i = 0; i < 3; ++i) views += requests->views[i], unseen += requests->unseen[i];
     if (views == 0) return HAIR_SKIP_REASON_NOT_CALLED;
     if (views == unseen) return HAIR_SKIP_REASON_OUT_OF_VIEW;
     return HAIR_SKIP_REASON_UNCHANGED;
 }
 
-static hair_skip_reason why_not_met(const hair_instance* hair, const struct hair_asked* asked, int pushes)
+static hair_skip_reason why_not_collided(const hair_instance* hair,
+                                         const struct hair_frame_requests* requests, int pushes)
 {
     const hair_look* look = &hair->draw.look;
     int off = look->follower_collision == HAIR_FOLLOWER_COLLISION_NONE || look->density <= 0 ||
               !hair->draw.followers;
     if (off || (pushes && look->follower_collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
         return HAIR_SKIP_REASON_NOT_WANTED;
-    if (!hair->sim.colliders.now.count) return HAIR_SKIP_REASON_NONE_NEAR;
-    hair_skip_reason why = why_not_shown(asked);
+    if (!hair->sim.colliders.current.count) return HAIR_SKIP_REASON_NONE_NEAR;
+    hair_skip_reason why = why_not_shown(requests);
     return why == HAIR_SKIP_REASON_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_SKIP_REASON_NONE_NEAR
                                                                                   : why;
 }
 
-static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct hair_asked* asked, int kind)
+static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct hair_frame_requests* requests,
+                                      int kind)
 {
-    if (asked->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
+    if (requests->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
     if (hair->draw.look.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
     return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
 // Return the reason why occlusion culling has not run. If a view uses it, hair is in no depth
 // image, or the depth test does not tell near from far.
-static hair_skip_reason why_not_hidden(const struct hair_asked* asked)
+static hair_skip_reason why_not_culled(const struct hair_frame_requests* requests)
 {
-    hair_skip_reason shown = why_not_shown(asked);
+    hair_skip_reason shown = why_not_shown(requests);
     if (shown != HAIR_SKIP_REASON_UNCHANGED) return shown;
-    return asked->hides ? HAIR_SKIP_REASON_OUT_OF_VIEW : HAIR_SKIP_REASON_NOT_WANTED;
+    return requests->occlusion ? HAIR_SKIP_REASON_OUT_OF_VIEW : HAIR_SKIP_REASON_NOT_WANTED;
 }
 
-static hair_skip_reason why_not_simulated(const struct hair_asked* asked, int wanted)
+static hair_skip_reason why_not_simulated(const struct hair_frame_requests* requests, int wanted)
 {
     if (!wanted) return HAIR_SKIP_REASON_NOT_WANTED;
-    return asked->asleep ? HAIR_SKIP_REASON_ASLEEP : HAIR_SKIP_REASON_NOT_DUE;
+    return requests->asleep ? HAIR_SKIP_REASON_ASLEEP : HAIR_SKIP_REASON_NOT_DUE;
 }
 
-static hair_skip_reason why_not(const hair_instance* hair, const struct hair_asked* asked, hair_gl_work work)
+static hair_skip_reason why_not(const hair_instance* hair, const struct hair_frame_requests* requests,
+                                hair_gl_category work)
 {
     const struct hair_sim* sim = &hair->sim;
-    hair_skip_reason shown = why_not_shown(asked);
-    int skin = hair_skin_is_on(sim);
+    hair_skip_reason shown = why_not_shown(requests);
+    int skin = hair_scalp_motion_is_on(sim);
     switch (work) {
-    case HAIR_GL_WORK_SCALP: return skin ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_WORK_RIDE: return why_not_simulated(asked, skin);
-    case HAIR_GL_WORK_WIND: return why_not_simulated(asked, sim->wind.model != HAIR_WIND_AMBIENT);
-    case HAIR_GL_WORK_CROWD: return why_not_simulated(asked, hair_crowd_is_on(sim));
-    case HAIR_GL_WORK_DIAGNOSE: return why_not_simulated(asked, sim->diagnosis.wanted);
-    case HAIR_GL_WORK_STIR: return why_not_simulated(asked, sim->physics.sleep_threshold > 0);
-    case HAIR_GL_WORK_SOLVE: return why_not_simulated(asked, 1);
-    case HAIR_GL_WORK_SMOOTH: return shown;
-    case HAIR_GL_WORK_SEAT: return skin ? shown : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_WORK_FIELD:
-    case HAIR_GL_WORK_HIT: return why_not_met(hair, asked, 0);
-    case HAIR_GL_WORK_REPAIR: return why_not_met(hair, asked, 1);
-    case HAIR_GL_WORK_EXPAND:
-        return asked->expanded || shown != HAIR_SKIP_REASON_UNCHANGED ? shown : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_WORK_LIGHT:
+    case HAIR_GL_CATEGORY_UNPACK_SCALP:
+        return skin ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
+    case HAIR_GL_CATEGORY_ROOT_TRANSFORMS: return why_not_simulated(requests, skin);
+    case HAIR_GL_CATEGORY_WIND: return why_not_simulated(requests, sim->wind.model != HAIR_WIND_AMBIENT);
+    case HAIR_GL_CATEGORY_HAIR_GRID: return why_not_simulated(requests, hair_grid_is_on(sim));
+    case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, sim->diagnosis.wanted);
+    case HAIR_GL_CATEGORY_ACTIVITY: return why_not_simulated(requests, sim->physics.sleep_threshold > 0);
+    case HAIR_GL_CATEGORY_SOLVE: return why_not_simulated(requests, 1);
+    case HAIR_GL_CATEGORY_SMOOTH: return shown;
+    case HAIR_GL_CATEGORY_BIND_FOLLOWERS: return skin ? shown : HAIR_SKIP_REASON_NOT_WANTED;
+    case HAIR_GL_CATEGORY_FIELD:
+    case HAIR_GL_CATEGORY_HIT: return why_not_collided(hair, requests, 0);
+    case HAIR_GL_CATEGORY_REPAIR: return why_not_collided(hair, requests, 1);
+    case HAIR_GL_CATEGORY_EXPAND:
+        return requests->vertex_cache || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
+                                                                             : HAIR_SKIP_REASON_NOT_WANTED;
+    case HAIR_GL_CATEGORY_SELF_SHADOW:
         return hair->draw.look.self_shadow != HAIR_SELF_SHADOW_STRANDS ? HAIR_SKIP_REASON_NOT_WANTED : shown;
-    case HAIR_GL_WORK_HIDE: return why_not_hidden(asked);
-    case HAIR_GL_WORK_COUNT_STRANDS:
-    case HAIR_GL_WORK_LIST:
-        return asked->listed || shown != HAIR_SKIP_REASON_UNCHANGED ? shown : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_WORK_DEPTH: return why_not_drawn(hair, asked, 1);
-    case HAIR_GL_WORK_OPACITY: return why_not_drawn(hair, asked, 2);
-    case HAIR_GL_WORK_COLOR: return why_not_drawn(hair, asked, 0);
+    case HAIR_GL_CATEGORY_OCCLUSION: return why_not_culled(requests);
+    case HAIR_GL_CATEGORY_SCAN_STRANDS:
+    case HAIR_GL_CATEGORY_COMPACT_STRANDS:
+        return requests->strand_list || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
+                                                                            : HAIR_SKIP_REASON_NOT_WANTED;
+    case HAIR_GL_CATEGORY_DEPTH: return why_not_drawn(hair, requests, 1);
+    case HAIR_GL_CATEGORY_OPACITY: return why_not_drawn(hair, requests, 2);
+    case HAIR_GL_CATEGORY_COLOR: return why_not_drawn(hair, requests, 0);
     default: return HAIR_SKIP_REASON_NOT_CALLED;
     }
 }
@@ -120,82 +126,89 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_ask
 
 // Return the bytes of an instance's buffers and textures for one kind of work. Missing objects are
 // 0.
-static uint64_t bytes_of(const hair_instance* hair, hair_gl_work work)
+static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
 {
     const struct hair_sim* sim = &hair->sim;
     const struct hair_draw* draw = &hair->draw;
-    const struct hair_fluid* air = &sim->blow.fluid;
+    const struct hair_fluid* air = &sim->wind_coupling.fluid;
     const struct hair_gl* gl = &hair->context->gl;
-    const GLuint buffers[HAIR_GL_WORKS][MOST_BUFFERS] = {
-        [HAIR_GL_WORK_SCALP] = {sim->skin.scalp[0], sim->skin.scalp[1], sim->skin.rest, sim->skin.params},
-        [HAIR_GL_WORK_RIDE] = {sim->skin.ride, sim->skin.seat},
-        [HAIR_GL_WORK_WIND] = {sim->air.params, air->velocity[0].buffer, air->velocity[1].buffer,
-                               air->velocity[2].buffer, air->wall.buffer, air->open.buffer, air->right.buffer,
-                               air->pressure[0].buffer, air->pressure[1].buffer, air->params,
-                               air->level_params, air->motion, air->hair.grid.buffer, air->hair.wall.buffer,
-                               air->hair.open.buffer, sim->blow.share, sim->blow.params},
-        [HAIR_GL_WORK_CROWD] = {sim->crowd.params, sim->crowd.grid, sim->crowd.share, sim->crowd.limit,
-                                sim->crowd.push},
-        [HAIR_GL_WORK_STIR] = {sim->sleep.anchor, sim->sleep.stir, sim->sleep.seen, sim->sleep.params},
-        [HAIR_GL_WORK_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params, sim->diagnosis.found,
-                                   sim->diagnosis.motion_params},
-        [HAIR_GL_WORK_SOLVE] = {sim->guide, sim->rest, sim->state, sim->solver_stats, sim->step, sim->rod,
-                                sim->history, sim->material, sim->reduction, sim->bend, sim->pins.buffer,
-                                sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
-        [HAIR_GL_WORK_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
-        [HAIR_GL_WORK_FIELD] = {hair->field.params, hair->field.work, sim->contacts.collider,
-                                sim->contacts.cell},
-        [HAIR_GL_WORK_HIT] = {draw->hits.hit, draw->hits.list},
-        [HAIR_GL_WORK_REPAIR] = {draw->hits.repair},
-        [HAIR_GL_WORK_EXPAND] = {draw->expanded.position, draw->expanded.tangent, draw->expanded.shaded,
-                                 draw->motion.buffer, draw->staged.buffer[0], draw->staged.buffer[1],
-                                 draw->staged.buffer[2]},
-        [HAIR_GL_WORK_LIGHT] = {draw->self_shadow.density, draw->self_shadow.box, draw->self_shadow.nodes,
-                                draw->self_shadow.light},
-        [HAIR_GL_WORK_HIDE] = {draw->hidden.params, draw->hidden.depth, draw->hidden.box},
-        [HAIR_GL_WORK_LIST] = {draw->listed.start, draw->listed.strand, draw->listed.command,
-                               draw->listed.indices[0].index, draw->listed.indices[1].index},
-        [HAIR_GL_WORK_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted.bucket,
-                                draw->sorted.index, draw->uv, draw->paint, draw->raster.params,
-                                draw->raster.nearest, draw->raster.tile},
+    const GLuint buffers[HAIR_GL_CATEGORIES][MAX_BUFFERS] = {
+        [HAIR_GL_CATEGORY_UNPACK_SCALP] = {sim->scalp_motion.scalp[0], sim->scalp_motion.scalp[1],
+                                           sim->scalp_motion.rest, sim->scalp_motion.params},
+        [HAIR_GL_CATEGORY_ROOT_TRANSFORMS] = {sim->scalp_motion.root_transform,
+                                              sim->scalp_motion.root_binding},
+        [HAIR_GL_CATEGORY_WIND] = {sim->wind_state.params, air->velocity[0].buffer, air->velocity[1].buffer,
+                                   air->velocity[2].buffer, air->wall_velocity.buffer,
+                                   air->face_fraction.buffer, air->rhs.buffer, air->pressure[0].buffer,
+                                   air->pressure[1].buffer, air->params, air->level_params, air->motion,
+                                   air->hair.grid.buffer, air->hair.wall_velocity.buffer,
+                                   air->hair.face_fraction.buffer, sim->wind_coupling.splat,
+                                   sim->wind_coupling.params},
+        [HAIR_GL_CATEGORY_HAIR_GRID] = {sim->hair_grid.params, sim->hair_grid.grid, sim->hair_grid.splat,
+                                        sim->hair_grid.rest_density, sim->hair_grid.acceleration},
+        [HAIR_GL_CATEGORY_ACTIVITY] = {sim->sleep.anchor, sim->sleep.activity, sim->sleep.readback,
+                                       sim->sleep.params},
+        [HAIR_GL_CATEGORY_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params,
+                                       sim->diagnosis.found, sim->diagnosis.motion_params},
+        [HAIR_GL_CATEGORY_SOLVE] = {sim->guide, sim->rest, sim->state, sim->solver_stats, sim->step, sim->rod,
+                                    sim->history, sim->material, sim->reduction, sim->bend, sim->pins.buffer,
+                                    sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
+        [HAIR_GL_CATEGORY_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
+        [HAIR_GL_CATEGORY_FIELD] = {hair->field.params, hair->field.work, sim->contacts.collider,
+                                    sim->contacts.cell},
+        [HAIR_GL_CATEGORY_HIT] = {draw->follower_collision.hit, draw->follower_collision.list},
+        [HAIR_GL_CATEGORY_REPAIR] = {draw->follower_collision.repair},
+        [HAIR_GL_CATEGORY_EXPAND] = {draw->vertex_cache.position, draw->vertex_cache.tangent,
+                                     draw->vertex_cache.shaded, draw->motion.buffer,
+                                     draw->view_cache.buffer[0], draw->view_cache.buffer[1],
+                                     draw->view_cache.buffer[2]},
+        [HAIR_GL_CATEGORY_SELF_SHADOW] = {draw->self_shadow.density, draw->self_shadow.box,
+                                          draw->self_shadow.nodes, draw->self_shadow.light},
+        [HAIR_GL_CATEGORY_OCCLUSION] = {draw->occlusion.params, draw->occlusion.depth, draw->occlusion.box},
+        [HAIR_GL_CATEGORY_COMPACT_STRANDS] = {draw->strand_list.start, draw->strand_list.strand,
+                                              draw->strand_list.command, draw->strand_list.indices[0].index,
+                                              draw->strand_list.indices[1].index},
+        [HAIR_GL_CATEGORY_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted_segments.bucket,
+                                    draw->sorted_segments.index, draw->uv, draw->groom_color,
+                                    draw->raster.params, draw->raster.nearest, draw->raster.tile},
     };
-    const GLuint textures[HAIR_GL_WORKS][MOST_TEXTURES] = {
-        [HAIR_GL_WORK_WIND] = {air->air, sim->air.gusts},
-        [HAIR_GL_WORK_FIELD] = {hair->field.distance, hair->field.number},
-        [HAIR_GL_WORK_HIT] = {draw->hits.image},
-        [HAIR_GL_WORK_COLOR] = {draw->fibres.texture},
+    const GLuint textures[HAIR_GL_CATEGORIES][MAX_TEXTURES] = {
+        [HAIR_GL_CATEGORY_WIND] = {air->air, sim->wind_state.gusts},
+        [HAIR_GL_CATEGORY_FIELD] = {hair->field.distance, hair->field.number},
+        [HAIR_GL_CATEGORY_HIT] = {draw->follower_collision.image},
+        [HAIR_GL_CATEGORY_COLOR] = {draw->fibres.texture},
     };
-    HAIR_ASSERT((unsigned)work < HAIR_GL_WORKS);
+    HAIR_ASSERT((unsigned)work < HAIR_GL_CATEGORIES);
     uint64_t bytes = 0;
-    for (int i = 0; i < MOST_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
-    for (int i = 0; i < MOST_TEXTURES; ++i) bytes += hair_gl_texture_bytes(gl, textures[work][i]);
+    for (int i = 0; i < MAX_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
+    for (int i = 0; i < MAX_TEXTURES; ++i) bytes += hair_gl_texture_bytes(gl, textures[work][i]);
     return bytes;
 }
 
 // The report --------------------------------------------------------------------------------------
 
-static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, float ms[HAIR_GL_WORKS])
+static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, float ms[HAIR_GL_CATEGORIES])
 {
-    uint32_t newest = hair->ledger.number;
+    uint32_t newest = hair->profiler.number;
     for (uint32_t number = newest; number > 0 && number + HAIR_GL_FRAMES > newest; --number) {
-        const struct hair_gl_frame* frame = hair_gl_ledger_frame(&hair->ledger, number);
-        if (hair_gl_ledger_read(&hair->context->gl, frame, waits, ms)) return frame;
+        const struct hair_gl_frame* frame = hair_gl_profiler_frame(&hair->profiler, number);
+        if (hair_gl_profiler_read(&hair->context->gl, frame, waits, ms)) return frame;
     }
     return NULL;
 }
 
-static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_frame* frame, hair_gl_work work,
-                              float ms)
+static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_frame* frame,
+                              hair_gl_category work, float ms)
 {
-    const struct hair_asked* asked = &hair->asked[frame->number % HAIR_GL_FRAMES];
-    hair_report_row row = {.stage = hair_gl_work_label(work),
+    const struct hair_frame_requests* requests = &hair->requests[frame->number % HAIR_GL_FRAMES];
+    hair_report_row row = {.stage = hair_gl_category_label(work),
                            .runs = frame->runs[work],
                            .ms = ms,
                            .bytes = bytes_of(hair, work)};
-    HAIR_ASSERT(frame->number <= hair->ledger.number);
+    HAIR_ASSERT(frame->number <= hair->profiler.number);
     HAIR_ASSERT(!row.runs || hair_gl_find(&hair->context->gl, frame->pass[work]));
     if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;
-    row.skip_reason = row.runs ? HAIR_SKIP_REASON_NONE : why_not(hair, asked, work);
+    row.skip_reason = row.runs ? HAIR_SKIP_REASON_NONE : why_not(hair, requests, work);
     return row;
 }
 
@@ -205,8 +218,8 @@ hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* i
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
     hair_report_info own = hair_report_info_default();
-    float ms[HAIR_GL_WORKS];
-    hair_result result = HAIR_GIVE(host, hair_report_info, &own, info);
+    float ms[HAIR_GL_CATEGORIES];
+    hair_result result = HAIR_COPY_OUT(host, hair_report_info, &own, info);
     if (result) return result;
     if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
     if (!rows && capacity)
@@ -221,13 +234,13 @@ hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* i
     *count = 0;
     if (!frame) return HAIR_OK;
     own.frame = frame->number;
-    own.age = hair->ledger.number - frame->number;
-    for (int work = 0; work < HAIR_GL_WORKS; ++work) {
-        hair_report_row row = row_of(hair, frame, (hair_gl_work)work, ms[work]);
+    own.age = hair->profiler.number - frame->number;
+    for (int work = 0; work < HAIR_GL_CATEGORIES; ++work) {
+        hair_report_row row = row_of(hair, frame, (hair_gl_category)work, ms[work]);
         own.ms += row.ms;
         own.bytes += row.bytes;
         if (*count < capacity) memcpy((unsigned char*)rows + *count * stride, &row, sizeof row);
         ++*count;
     }
-    return HAIR_GIVE(host, hair_report_info, &own, info);
+    return HAIR_COPY_OUT(host, hair_report_info, &own, info);
 }

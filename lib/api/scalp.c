@@ -8,9 +8,10 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
                          struct hair_pose* space)
 {
     const hair_host* host = &hair->context->host;
-    const struct hair_seats* seats = hair->sim.skin.seats;
+    const struct hair_root_bindings* root_bindings = hair->sim.scalp_motion.root_bindings;
     *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
-    if (!seats) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
+    if (!root_bindings)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
     if (stride < 12 || stride > LONGEST || stride % 4)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
                          hair->label, stride, LONGEST);
@@ -50,15 +51,15 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
     hair_result result = check(hair, stride, to_world, &space);
     if (result) return result;
-    uint32_t vertices = hair->sim.skin.seats->vertex_count;
+    uint32_t vertices = hair->sim.scalp_motion.root_bindings->vertex_count;
     if (count != vertices)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
                          hair->label, count, vertices);
     float* packed = take(hair, positions, count, stride, &result);
     if (!packed) return result;
     hair_enter(hair);
-    result = hair_draw_make_seats(&hair->draw, &hair->sim);
-    if (!result) hair_skin_give(&hair->sim, packed, &space);
+    result = hair_draw_create_scalp_roots(&hair->draw, &hair->sim);
+    if (!result) hair_scalp_motion_set(&hair->sim, packed, &space);
     hair_gl_leave(&hair->context->gl);
     hair_free(host, packed);
     return result;
@@ -71,7 +72,7 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
 {
     const struct hair_gl* gl = &hair->context->gl;
     GLint64 has = 0, mapped = 0, access = 0;
-    GLint most = 0, align = 1;
+    GLint max = 0, align = 1;
     // Queries of another object would raise the application's error flag.
     if (!buffer || !gl->IsBuffer(buffer))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
@@ -82,22 +83,22 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
     if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
                          hair->label, buffer);
-    uint64_t need = (uint64_t)stride * (hair->sim.skin.seats->vertex_count - 1) + 12, there = (uint64_t)has;
-    if (offset % 4 || offset > there || need > there - offset)
+    uint64_t ensure = (uint64_t)stride * (hair->sim.scalp_motion.root_bindings->vertex_count - 1) + 12,
+             there = (uint64_t)has;
+    if (offset % 4 || offset > there || ensure > there - offset)
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                          "%s: offset is %zu, not a multiple of 4 from which on gl_buffer's %llu bytes hold "
                          "the %llu of the "
                          "scalp",
-                         hair->label, offset, (unsigned long long)there, (unsigned long long)need);
+                         hair->label, offset, (unsigned long long)there, (unsigned long long)ensure);
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
     *from = offset - offset % (size_t)align;
-    *size = (size_t)need + (offset - *from);
+    *size = (size_t)ensure + (offset - *from);
     HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
-    if (*size > (size_t)most)
+    if (*size > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                         "%s: the scalp takes %zu bytes, more than the driver's %d", hair->label, *size,
-                         most);
+                         "%s: the scalp takes %zu bytes, more than the driver's %d", hair->label, *size, max);
     return HAIR_OK;
 }
 
@@ -111,10 +112,10 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
     if (result) return result;
     hair_enter(hair);
-    result = hair_draw_make_seats(&hair->draw, &hair->sim);
+    result = hair_draw_create_scalp_roots(&hair->draw, &hair->sim);
     if (!result)
-        hair_skin_give_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
-                              (uint32_t)(stride / 4), &space);
+        hair_scalp_motion_set_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
+                                     (uint32_t)(stride / 4), &space);
     hair_gl_leave(&hair->context->gl);
     return result;
 }

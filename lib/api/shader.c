@@ -6,12 +6,13 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
     struct hair_gl* gl = &context->gl;
     GLuint program = 0;
     shader->context = context;
-    hair_result result = hair_gl_make_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
-                                             desc->at == HAIR_SHADE_PIXELS, &shader->gl);
+    hair_result result = hair_gl_create_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
+                                               desc->at == HAIR_SHADE_PIXELS, &shader->gl);
     if (result) return result;
     // Compile the variant that most views use. Errors of other variants show here too.
     hair_gl_enter(gl);
-    result = hair_gl_need_own(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
+    result =
+        hair_gl_ensure_user_program(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
     hair_gl_leave(gl);
     return result;
 }
@@ -21,7 +22,7 @@ hair_result hair_shader_create(hair_context* context, const hair_shader_desc* de
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
     hair_shader_desc own;
-    hair_result result = HAIR_TAKE(host, hair_shader_desc, desc, &own);
+    hair_result result = HAIR_COPY_IN(host, hair_shader_desc, desc, &own);
     if (result) return result;
     if (!own.glsl) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_shader_desc.glsl is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");

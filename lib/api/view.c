@@ -42,13 +42,13 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
 }
 
 // Structs that a caller's view points to, checked and copied.
-struct loan {
+struct storage {
     hair_lod lod;
     hair_light light[HAIR_LIGHTS];
 };
 
 // Copy and check the lights. They are as far apart as the caller's struct is long.
-static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_light light[HAIR_LIGHTS])
+static hair_result copy_lights(const hair_instance* hair, hair_view* view, hair_light light[HAIR_LIGHTS])
 {
     const hair_host* host = &hair->context->host;
     hair_light usual = hair_light_default();
@@ -58,7 +58,7 @@ static hair_result take_lights(const hair_instance* hair, hair_view* view, hair_
     uint32_t shadows = 0;
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < view->light_count && !result; ++i) {
-        result = HAIR_TAKE(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
+        result = HAIR_COPY_IN(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
         if (!result) result = check_light(hair, &light[i], i);
         if (!result) shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
     }
@@ -81,21 +81,21 @@ static hair_result check_sky(const hair_instance* hair, const float* sky)
     return HAIR_OK;
 }
 
-static hair_result take_view(const hair_instance* hair, const hair_view* view, hair_view* own,
-                             struct loan* loan)
+static hair_result copy_view(const hair_instance* hair, const hair_view* view, hair_view* own,
+                             struct storage* storage)
 {
     const hair_host* host = &hair->context->host;
-    hair_result result = HAIR_TAKE(host, hair_view, view, own);
+    hair_result result = HAIR_COPY_IN(host, hair_view, view, own);
     if (!result && own->lod) {
-        result = HAIR_TAKE(host, hair_lod, own->lod, &loan->lod);
-        own->lod = &loan->lod;
+        result = HAIR_COPY_IN(host, hair_lod, own->lod, &storage->lod);
+        own->lod = &storage->lod;
     }
     if (!result && own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
     if (!result && own->shader && own->shader->gl.pixels && own->render_path == HAIR_RENDER_PATH_COMPUTE)
         own->render_path = HAIR_RENDER_PATH_CACHED; // Shading of pixels needs rasterisation.
-    if (!result) result = take_lights(hair, own, loan->light);
+    if (!result) result = copy_lights(hair, own, storage->light);
     return result ? result : check_sky(hair, own->sky);
 }
 
@@ -114,56 +114,58 @@ static hair_result check_framebuffer(const hair_instance* hair)
 // the field's copy.
 static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_collider_list* list = &hair->sim.colliders.now;
+    const struct hair_collider_list* list = &hair->sim.colliders.current;
     int needed = view->slice != HAIR_SLICE_NONE;
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
     hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
     if (!result)
         result = hair_draw_colliders(&hair->draw, &hair->field, list->collider, list->count,
-                                     &hair->sim.at_step, view);
+                                     &hair->sim.head_at_last_step, view);
     return result;
 }
 
 static hair_result draw_air(hair_instance* hair, const hair_view* view)
 {
     const struct hair_sim* sim = &hair->sim;
-    const struct hair_fluid* fluid = sim->air.box.w > 0 ? &sim->blow.fluid : NULL;
-    if (!sim->air.params) return HAIR_OK;
-    return hair_draw_air(&hair->draw, &sim->air, &sim->wind, fluid, &hair->field.box, &sim->at_step, view);
+    const struct hair_fluid* fluid = sim->wind_state.box.w > 0 ? &sim->wind_coupling.fluid : NULL;
+    if (!sim->wind_state.params) return HAIR_OK;
+    return hair_draw_air(&hair->draw, &sim->wind_state, &sim->wind, fluid, &hair->field.box,
+                         &sim->head_at_last_step, view);
 }
 
 // Find followers inside colliders and push them out before they are drawn, unless nobody can see
 // this. Colliders still block light in that case.
-static hair_result meet_colliders(hair_instance* hair)
+static hair_result update_follower_collision(hair_instance* hair)
 {
     struct hair_draw* draw = &hair->draw;
-    if (hair_draw_has_met_colliders(draw, &hair->smooth)) return HAIR_OK;
-    if (draw->led <= 0) {
+    if (hair_draw_has_follower_collision(draw, &hair->smooth)) return HAIR_OK;
+    if (draw->push_out_weight <= 0) {
         hair_result result =
             draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        draw->hits.field = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+        draw->follower_collision.field = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
         return result;
     }
     int wanted = draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE && draw->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair->sim.colliders.now.count) hair_draw_free_hits(draw);
-    return hair_draw_meet_colliders(draw, &hair->smooth, near ? &hair->field : NULL,
-                                    hair->sim.physics.collision_margin);
+    if (!hair->sim.colliders.current.count) hair_draw_free_follower_collision(draw);
+    return hair_draw_update_follower_collision(draw, &hair->smooth, near ? &hair->field : NULL,
+                                               hair->sim.physics.collision_margin);
 }
 
 static void make_ready(hair_instance* hair)
 {
-    hair_smooth_need(&hair->smooth, &hair->sim);
-    hair_draw_seat(&hair->draw, &hair->smooth, &hair->sim);
+    hair_smooth_ensure(&hair->smooth, &hair->sim);
+    hair_draw_bind_followers(&hair->draw, &hair->smooth, &hair->sim);
 }
 
 // Return whether every strand stays within its length of its root. This needs a guide with a fixed
 // root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
 static int is_held(const struct hair_sim* sim)
 {
-    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_skin_is_on(sim);
+    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count &&
+           !hair_scalp_motion_is_on(sim);
 }
 
 static int is_of_surroundings(const hair_view* view)
@@ -175,22 +177,22 @@ static int is_of_surroundings(const hair_view* view)
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
-    return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.at_step, view);
+    return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.head_at_last_step, view);
 }
 
 // Record the request of a view. Return whether it is to be drawn.
 static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
 {
-    struct hair_asked* asked = hair_asked_now(hair);
+    struct hair_frame_requests* requests = hair_current_requests(hair);
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
     int kind = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
     HAIR_ASSERT(0 <= kind && kind < 3);
     int unseen = is_out_of_view(hair, view);
-    ++asked->views[kind];
-    asked->unseen[kind] += (uint32_t)unseen;
-    asked->listed |= !unseen && view->render_path != HAIR_RENDER_PATH_TESSELLATION;
-    asked->expanded |= !unseen && hair_draw_expands(view);
-    asked->hides |= !unseen && hair_draw_hides(view);
+    ++requests->views[kind];
+    requests->unseen[kind] += (uint32_t)unseen;
+    requests->strand_list |= !unseen && view->render_path != HAIR_RENDER_PATH_TESSELLATION;
+    requests->vertex_cache |= !unseen && hair_draw_uses_vertex_cache(view);
+    requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
     return !unseen && hair->draw.look.density > 0;
 }
 
@@ -199,26 +201,27 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_view own;
-    struct loan loan;
-    hair_result result = take_view(hair, view, &own, &loan);
+    struct storage storage;
+    hair_result result = copy_view(hair, view, &own, &storage);
     if (!result) result = hair_check_current(context);
-    if (!result) result = hair_check_lent(hair, &own);
+    if (!result) result = hair_check_view_textures(hair, &own);
     if (!result) result = check_framebuffer(hair);
     if (!result) own.render_path = hair_draw_path(&hair->draw, &own);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
-    hair_draw_tidy(&hair->draw, hair->ledger.number);
+    hair_draw_free_unused(&hair->draw, hair->profiler.number);
     if (is_of_surroundings(&own)) {
         result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
-        hair_draw_look(&hair->draw, &hair->sim.at_step, &own);
-        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0) result = meet_colliders(hair);
-        hair->draw.bounded =
-            (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) && !hair_skin_is_on(&hair->sim);
-        hair->draw.held = is_held(&hair->sim);
+        hair_draw_select_lod(&hair->draw, &hair->sim.head_at_last_step, &own);
+        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0)
+            result = update_follower_collision(hair);
+        hair->draw.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
+                                 !hair_scalp_motion_is_on(&hair->sim);
+        hair->draw.has_attached_roots = is_held(&hair->sim);
         if (!result)
-            result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.at_step, &own,
+            result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.head_at_last_step, &own,
                                    own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
     }
     hair_gl_leave(&context->gl);
@@ -226,21 +229,22 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     return result;
 }
 
-static hair_result need_programs(hair_instance* hair, const hair_view* view)
+static hair_result ensure_programs(hair_instance* hair, const hair_view* view)
 {
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
-    int colliders = sim->colliders.now.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
+    int colliders = sim->colliders.current.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
     hair_result result = HAIR_OK;
-    if (view->pass == HAIR_PASS_GUIDES) return hair_gl_need(gl, HAIR_GL_GUIDES);
-    if (view->pass == HAIR_PASS_WIND) return sim->air.params ? hair_gl_need(gl, HAIR_GL_AIR) : HAIR_OK;
-    if (colliders && (!shows || view->slice)) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
-    if (!result && sim->colliders.forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
-    if (!result && shows) result = hair_gl_need(gl, HAIR_GL_COLLIDERS);
-    if (!result && shows && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
+    if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
+    if (view->pass == HAIR_PASS_WIND)
+        return sim->wind_state.params ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
+    if (colliders && (!shows || view->slice)) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE);
+    if (!result && sim->colliders.meshes) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES);
+    if (!result && shows) result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
+    if (!result && shows && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
     if (result || shows) return result;
     struct hair_gl_shader* shader = view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL;
-    return hair_draw_need_programs(&hair->draw, view, shader, colliders);
+    return hair_draw_ensure_programs(&hair->draw, view, shader, colliders);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready)
@@ -248,18 +252,18 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t
     if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
     hair_view own;
-    struct loan loan;
-    hair_result result = view ? take_view(hair, view, &own, &loan) : HAIR_OK;
+    struct storage storage;
+    hair_result result = view ? copy_view(hair, view, &own, &storage) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
     if (view) own.render_path = hair_draw_path(&hair->draw, &own);
     hair_gl_enter(gl);
-    hair_gl_begin_ahead(gl);
-    result = hair_sim_need_programs(&hair->sim);
-    if (!result && view) result = need_programs(hair, &own);
-    uint32_t unready = hair_gl_end_ahead(gl);
+    hair_gl_begin_async(gl);
+    result = hair_sim_ensure_programs(&hair->sim);
+    if (!result && view) result = ensure_programs(hair, &own);
+    uint32_t pending = hair_gl_end_async(gl);
     hair_gl_leave(gl);
-    if (!result) *ready = unready == 0;
+    if (!result) *ready = pending == 0;
     return result;
 }
 
@@ -290,12 +294,12 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
-    hair_draw_look(&hair->draw, &hair->sim.at_step, NULL);
-    hair_result result = meet_colliders(hair);
-    if (!result) result = hair_draw_read_expanded(&hair->draw, &hair->smooth, &vertices);
+    hair_draw_select_lod(&hair->draw, &hair->sim.head_at_last_step, NULL);
+    hair_result result = update_follower_collision(hair);
+    if (!result) result = hair_draw_read_vertex_cache(&hair->draw, &hair->smooth, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
-    copy_to_world(&vertices->x, 4, count, &hair->sim.at_step, positions);
+    copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
     return HAIR_OK;
 }
@@ -305,7 +309,7 @@ static hair_result read_smooth(hair_instance* hair, uint32_t count, float* posit
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
     hair_gl_leave(&hair->context->gl);
-    return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.at_step, positions);
+    return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.head_at_last_step, positions);
 }
 
 hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
@@ -354,5 +358,5 @@ hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
     result = hair_sim_solver_stats(&hair->sim, &own);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
-    return HAIR_GIVE(&hair->context->host, hair_solver_stats, &own, out);
+    return HAIR_COPY_OUT(&hair->context->host, hair_solver_stats, &own, out);
 }

@@ -4,12 +4,12 @@
 #include <string.h>
 
 static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
-                                double least, double most)
+                                double min, double max)
 {
-    if ((double)value >= least && (double)value <= most) return HAIR_OK; // NaN fails too.
+    if ((double)value >= min && (double)value <= max) return HAIR_OK; // NaN fails too.
     return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
                      "%s: hair_wind.sources[%u].%s is %g, not in [%g, %g]", hair->label, i, name,
-                     (double)value, least, most);
+                     (double)value, min, max);
 }
 
 static hair_result check_source(const hair_instance* hair, uint32_t i, const hair_wind_source* source)
@@ -43,7 +43,7 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     const hair_host* host = &hair->context->host;
     hair_wind own;
     hair_wind_source sources[HAIR_WIND_SOURCES] = {0};
-    hair_result result = HAIR_TAKE_OR_DEFAULT(host, hair_wind, wind, &own);
+    hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_wind, wind, &own);
     if (!result && own.source_count && !own.sources)
         result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
                            hair->label, own.source_count);
@@ -54,10 +54,10 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     }
     if (!result && own.texture) result = check_texture(hair, own.texture);
     if (result) return result;
-    if (memcmp(hair->sim.air.source, sources, own.source_count * sizeof *sources) != 0)
-        hair_sleep_stir(&hair->sim);
-    memcpy(hair->sim.air.source, sources, own.source_count * sizeof *sources);
-    own.sources = own.source_count ? hair->sim.air.source : NULL;
+    if (memcmp(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources) != 0)
+        hair_sleep_wake(&hair->sim);
+    memcpy(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources);
+    own.sources = own.source_count ? hair->sim.wind_state.source : NULL;
     hair->sim.wind = own;
     return HAIR_OK;
 }

@@ -1,7 +1,7 @@
 // asset.c - conversion from bytes of any format to a clean haircut, and back.
 #include "lib/asset/formats.h"
 
-#define MOST_STRANDS 4194304 // Maximum, as of hair_groom_desc.strand_count.
+#define MAX_STRANDS 4194304 // Maximum, as of hair_groom_desc.strand_count.
 
 static const struct format {
     bool (*is)(const unsigned char* bytes, size_t size);
@@ -38,11 +38,11 @@ static hair_result check_cleaned(const struct hair_source* source, const hair_as
             "none of the %u strands between byte 0 and byte %zu can be used: %u have fewer than two "
             "good vertices, %u are shorter than 10 micrometres",
             asset->file_strands, source->size, repairs->dropped_single, repairs->dropped_short);
-    if (asset->strands.strand_count > MOST_STRANDS)
+    if (asset->strands.strand_count > MAX_STRANDS)
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "%u strands are left between byte 0 and byte %zu, more than %u: keep fewer by "
                          "hair_import.keep_fraction",
-                         asset->strands.strand_count, source->size, MOST_STRANDS);
+                         asset->strands.strand_count, source->size, MAX_STRANDS);
     return HAIR_OK;
 }
 

@@ -41,11 +41,11 @@ hair_result hair_read_colors(const struct hair_source* source, size_t at, size_t
 {
     HAIR_ASSERT(size >= 12 && !strands->colors);
     HAIR_ASSERT(at + size * strands->vertex_count <= source->size);
-    uint32_t most = 0;
+    uint32_t max = 0;
     size_t first = 0;
     for (uint32_t i = 0; i < strands->strand_count; ++i)
-        if (strands->vertices[i] > most) most = strands->vertices[i];
-    float* own = hair_alloc(source->host, most, 3 * sizeof *own);
+        if (strands->vertices[i] > max) max = strands->vertices[i];
+    float* own = hair_alloc(source->host, max, 3 * sizeof *own);
     strands->colors = hair_alloc(source->host, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof *own);
     hair_result result =
         own && strands->colors ? HAIR_OK : hair_fail_memory(source->host, "the colours of a file");

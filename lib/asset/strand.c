@@ -34,10 +34,10 @@ uint32_t hair_strand_merge(float* positions, uint32_t vertices)
 {
     // A second round finds vertices only where rounding of the length decides.
     for (;;) {
-        double least = SHORTEST_SEGMENT * hair_strand_length(positions, vertices);
+        double min = SHORTEST_SEGMENT * hair_strand_length(positions, vertices);
         uint32_t kept = vertices ? 1 : 0;
         for (size_t i = 1; i < vertices; ++i)
-            if (distance(positions + 3 * ((size_t)kept - 1), positions + 3 * i) >= least)
+            if (distance(positions + 3 * ((size_t)kept - 1), positions + 3 * i) >= min)
                 copy_vertex(positions + 3 * (size_t)kept++, positions + 3 * i);
         HAIR_ASSERT(kept <= vertices);
         if (kept == vertices) return kept;

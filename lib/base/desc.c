@@ -7,7 +7,7 @@ static double read_field(const void* desc, const struct hair_field* field)
 {
     const unsigned char* at = (const unsigned char*)desc + field->offset;
     HAIR_ASSERT(field->offset % 4 == 0 && field->offset >= sizeof(hair_struct_header));
-    if (field->type == HAIR_FIELD_UINT) {
+    if (field->type == HAIR_SCHEMA_UINT) {
         uint32_t value;
         memcpy(&value, at, sizeof value);
         return value;
@@ -20,7 +20,7 @@ static double read_field(const void* desc, const struct hair_field* field)
 static void write_default(void* desc, const struct hair_field* field)
 {
     unsigned char* at = (unsigned char*)desc + field->offset;
-    if (field->type == HAIR_FIELD_UINT) {
+    if (field->type == HAIR_SCHEMA_UINT) {
         uint32_t value = (uint32_t)field->value;
         memcpy(at, &value, sizeof value);
     } else {
@@ -29,7 +29,7 @@ static void write_default(void* desc, const struct hair_field* field)
     }
 }
 
-static void write_defaults(void* desc, uint32_t size, hair_struct_header header, struct hair_fields fields)
+static void write_defaults(void* desc, uint32_t size, hair_struct_header header, struct hair_schema fields)
 {
     HAIR_ASSERT(size >= sizeof header && fields.field);
     memset(desc, 0, size);
@@ -38,7 +38,7 @@ static void write_defaults(void* desc, uint32_t size, hair_struct_header header,
         if (fields.field[i].offset + 4 <= size) write_default(desc, &fields.field[i]);
 }
 
-void hair_fields_init(void* desc, hair_struct_header header, struct hair_fields fields)
+void hair_schema_init(void* desc, hair_struct_header header, struct hair_schema fields)
 {
     if (!desc || header.size < sizeof header) return;
     write_defaults(desc, header.size, header, fields);
@@ -56,8 +56,8 @@ hair_result hair_check_header(const hair_host* host, const char* name, hair_stru
     return HAIR_OK;
 }
 
-hair_result hair_fields_take(const hair_host* host, const char* name, const void* desc, void* own,
-                             struct hair_fields fields)
+hair_result hair_schema_copy_in(const hair_host* host, const char* name, const void* desc, void* own,
+                                struct hair_schema fields)
 {
     if (!desc) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
     hair_struct_header header;
@@ -72,9 +72,9 @@ hair_result hair_fields_take(const hair_host* host, const char* name, const void
         HAIR_ASSERT(field->offset + 4 <= fields.size);
         HAIR_ASSERT(field->min <= field->value && field->value <= field->max);
         double value = read_field(own, field);
-        double least = field->type == HAIR_FIELD_FLOAT ? (float)field->min : field->min;
-        double most = field->type == HAIR_FIELD_FLOAT ? (float)field->max : field->max;
-        if (!(value >= least && value <= most)) // Written so that NaN fails too.
+        double min = field->type == HAIR_SCHEMA_FLOAT ? (float)field->min : field->min;
+        double max = field->type == HAIR_SCHEMA_FLOAT ? (float)field->max : field->max;
+        if (!(value >= min && value <= max)) // Written so that NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is %.9g, not in [%.9g, %.9g]", field->name, value,
                              field->min, field->max);
     }

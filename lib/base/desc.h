@@ -5,18 +5,18 @@
 
 #include "lib/base/host.h"
 
-typedef enum hair_field_type { HAIR_FIELD_FLOAT = 0, HAIR_FIELD_UINT } hair_field_type;
+typedef enum hair_schema_type { HAIR_SCHEMA_FLOAT = 0, HAIR_SCHEMA_UINT } hair_schema_type;
 
 // One number of a desc. Enums are unsigned here. The table has no pointers, so it is read-only
 // without relocation.
 struct hair_field {
     char name[48]; // "hair_physics.damping"
     uint32_t offset;
-    hair_field_type type;
+    hair_schema_type type;
     double value, min, max; // `value` is the default.
 };
 
-struct hair_fields {
+struct hair_schema {
     const struct hair_field* field;
     uint32_t count;
     uint32_t size; // sizeof the struct in this library
@@ -24,7 +24,7 @@ struct hair_fields {
 
 // Fill in the part of the struct that the caller knows with zeros, `header` and the defaults. An
 // older caller may know a shorter struct.
-void hair_fields_init(void* desc, hair_struct_header header, struct hair_fields fields);
+void hair_schema_init(void* desc, hair_struct_header header, struct hair_schema fields);
 
 // Return HAIR_ERROR_VERSION unless a default function of this major version has filled in `header`.
 hair_result hair_check_header(const hair_host* host, const char* name, hair_struct_header header);
@@ -33,7 +33,7 @@ hair_result hair_check_header(const hair_host* host, const char* name, hair_stru
 // defaults. Return HAIR_ERROR_VERSION unless a default function of this major version has filled in
 // `header`. Return HAIR_ERROR_ARGUMENT if a number is outside its range. `name` is the name of the
 // struct.
-hair_result hair_fields_take(const hair_host* host, const char* name, const void* desc, void* own,
-                             struct hair_fields fields);
+hair_result hair_schema_copy_in(const hair_host* host, const char* name, const void* desc, void* own,
+                                struct hair_schema fields);
 
 #endif

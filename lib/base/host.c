@@ -23,7 +23,7 @@ static void default_free(void* memory, size_t size, void* user)
     free(memory);
 }
 
-hair_host hair_host_take(const hair_host* host)
+hair_host hair_host_or_default(const hair_host* host)
 {
     hair_host own = {0};
     if (host) own = *host;

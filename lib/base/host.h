@@ -13,7 +13,7 @@
 
 // Return a complete host to keep, with the C library's allocator if `host` has none. NULL selects
 // all defaults.
-hair_host hair_host_take(const hair_host* host);
+hair_host hair_host_or_default(const hair_host* host);
 
 // Return the result of a call from the enclosing function unless the result is HAIR_OK.
 #define HAIR_TRY(call)                                                                                       \

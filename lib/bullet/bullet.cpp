@@ -9,7 +9,7 @@
 
 hair_result hair_bullet_create(const hair_host* host, size_t scalar_size, hair_bullet** out)
 {
-    const hair_host own = hair_host_take(host);
+    const hair_host own = hair_host_or_default(host);
     if (scalar_size != sizeof(btScalar))
         return hair_fail(
             &own, HAIR_ERROR_VERSION,
@@ -29,8 +29,9 @@ void hair_bullet_destroy(hair_bullet* bullet)
 {
     if (!bullet) return;
     const hair_host host = bullet->host;
-    for (uint32_t i = 0; i < bullet->met_capacity; ++i) hair_collision_mesh_destroy(bullet->met[i].form);
-    hair_free(&host, bullet->met);
+    for (uint32_t i = 0; i < bullet->cached_capacity; ++i)
+        hair_collision_mesh_destroy(bullet->cached[i].mesh);
+    hair_free(&host, bullet->cached);
     hair_free(&host, bullet->colliders);
     hair_free(&host, bullet->hits);
     hair_free(&host, bullet);
@@ -41,13 +42,13 @@ hair_result hair_bullet_reserve(const hair_host* host, void** array, uint32_t* c
 {
     HAIR_ASSERT(size > 0 && (*array || !*capacity));
     if (count <= *capacity) return HAIR_OK;
-    const uint32_t most = count < 32 ? 32 : count + count / 2;
-    void* grown = hair_alloc(host, most, size);
+    const uint32_t max_value = count < 32 ? 32 : count + count / 2;
+    void* grown = hair_alloc(host, max_value, size);
     if (!grown) return hair_fail_memory(host, "Bullet's colliders");
     if (*array) std::memcpy(grown, *array, *capacity * size);
     hair_free(host, *array);
     *array = grown;
-    *capacity = most;
+    *capacity = max_value;
     return HAIR_OK;
 }
 
@@ -71,7 +72,7 @@ hair_result hair_bullet_clear(hair_bullet* bullet)
 hair_result hair_bullet_invalidate(hair_bullet* bullet, const btCollisionShape* shape)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
-    for (uint32_t i = 0; i < bullet->met_capacity && !shape; ++i) bullet->met[i].print = 0;
+    for (uint32_t i = 0; i < bullet->cached_capacity && !shape; ++i) bullet->cached[i].fingerprint = 0;
     if (shape) hair_bullet_free_old(bullet, UINT32_MAX, shape);
     return HAIR_OK;
 }
@@ -83,13 +84,13 @@ const hair_collider* hair_bullet_colliders(const hair_bullet* bullet, uint32_t* 
 }
 
 // Take a shape. On failure nothing of it stays in the list, unless failures are only warned about.
-static hair_result take(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking)
+static hair_result add_all(hair_bullet* bullet, const btCollisionShape* shape, const hair_gather& context)
 {
     const uint32_t before = bullet->count;
     bullet->visits = 0;
-    hair_result result = hair_bullet_add(bullet, shape, taking);
+    hair_result result = hair_bullet_add(bullet, shape, context);
     HAIR_ASSERT(before <= bullet->count && bullet->count <= bullet->capacity);
-    if (result && !taking.is_quiet) bullet->count = before;
+    if (result && !context.log_once) bullet->count = before;
     return result;
 }
 
@@ -98,39 +99,39 @@ hair_result hair_bullet_add_shape(hair_bullet* bullet, const btCollisionShape* s
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "shape is NULL");
-    hair_taking taking = {btTransform::getIdentity(), 1, 0xcbf29ce484222325u, 0, false};
-    if (transform) taking.transform.setFromOpenGLMatrix(transform);
+    hair_gather context = {btTransform::getIdentity(), 1, 0xcbf29ce484222325u, 0, false};
+    if (transform) context.transform.setFromOpenGLMatrix(transform);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
             const btScalar off =
-                taking.transform.getBasis().getRow(i).dot(taking.transform.getBasis().getRow(k)) - (i == k);
+                context.transform.getBasis().getRow(i).dot(context.transform.getBasis().getRow(k)) - (i == k);
             if (!(std::fabs(off) <= btScalar(1e-3)))
                 return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT,
                                  "transform is not a rigid motion to 1e-3");
         }
-    taking.key = hair_bullet_print(taking.key, &bullet->count, sizeof bullet->count);
-    return take(bullet, shape, taking);
+    context.key = hair_bullet_fingerprint(context.key, &bullet->count, sizeof bullet->count);
+    return add_all(bullet, shape, context);
 }
 
-static hair_result take_object(hair_bullet* bullet, const btCollisionObject* object, bool is_quiet)
+static hair_result gather_object(hair_bullet* bullet, const btCollisionObject* object, bool log_once)
 {
     const btBroadphaseProxy* proxy = object->getBroadphaseHandle();
     const int unique = proxy ? proxy->m_uniqueId : 0;
     const btCollisionShape* shape = object->getCollisionShape();
     float friction = object->getFriction();
-    hair_taking taking = {object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0,
-                          is_quiet};
-    taking.key = hair_bullet_print(0xcbf29ce484222325u, &object, sizeof object);
-    taking.key = hair_bullet_print(taking.key, &unique, sizeof unique);
+    hair_gather context = {object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0,
+                           log_once};
+    context.key = hair_bullet_fingerprint(0xcbf29ce484222325u, &object, sizeof object);
+    context.key = hair_bullet_fingerprint(context.key, &unique, sizeof unique);
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "the object has no shape");
-    return take(bullet, shape, taking);
+    return add_all(bullet, shape, context);
 }
 
 hair_result hair_bullet_add_object(hair_bullet* bullet, const btCollisionObject* object)
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!object) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "object is NULL");
-    return take_object(bullet, object, false);
+    return gather_object(bullet, object, false);
 }
 
 // Worlds ------------------------------------------------------------------------------------------
@@ -196,7 +197,7 @@ hair_result hair_bullet_add_world(hair_bullet* bullet, const btCollisionWorld* w
     for (uint32_t i = 0; i < bullet->hit_count; ++i) {
         const btBroadphaseProxy* proxy = static_cast<const btBroadphaseProxy*>(bullet->hits[i]);
         hair_result result =
-            take_object(bullet, static_cast<const btCollisionObject*>(proxy->m_clientObject), true);
+            gather_object(bullet, static_cast<const btCollisionObject*>(proxy->m_clientObject), true);
         if (result && result != HAIR_ERROR_ARGUMENT) return result;
     }
     return HAIR_OK;

@@ -11,10 +11,10 @@ extern "C" {
 }
 
 // A shape that has been met, with its collision mesh.
-struct hair_met {
+struct hair_cached_shape {
     const btCollisionShape* shape;
-    uint64_t print; // hash of its numbers. Another hash means another shape at the same address.
-    hair_collision_mesh* form; // NULL if the shape can have none, which the log has said.
+    uint64_t fingerprint; // hash of its numbers. Another hash means another shape at the same address.
+    hair_collision_mesh* mesh; // NULL if the shape can have none, which the log has said.
     uint32_t round; // number of the hair_bullet_clear() round in which the shape was last met
 };
 
@@ -25,8 +25,8 @@ struct hair_bullet {
     uint32_t visits; // number of shapes visited while one object is taken
     hair_collider* colliders;
     uint32_t count, capacity;
-    hair_met* met; // hash table. Empty slots have no shape.
-    uint32_t met_count, met_capacity;
+    hair_cached_shape* cached; // hash table. Empty slots have no shape.
+    uint32_t cached_count, cached_capacity;
     const void** hits; // proxies that the broadphase has found
     uint32_t hit_count, hit_capacity;
 };
@@ -51,48 +51,50 @@ struct hair_mesh {
 };
 
 // An object or shape being taken: its pose, and the common properties of its colliders.
-struct hair_taking {
+struct hair_gather {
     btTransform transform;
     float friction;
     uint64_t key; // key of the object, from which each of its colliders derives its own
     uint32_t depth;
-    bool is_quiet; // Shapes that can be no collider cause one warning instead of an error.
+    bool log_once; // Shapes that can be no collider cause one warning instead of an error.
 };
 
 // Functions of shape.cpp.
-hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking);
+hair_result hair_bullet_add(hair_bullet* bullet, const btCollisionShape* shape, const hair_gather& context);
 hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape* shape,
-                                     const hair_taking& taking, hair_collider collider,
+                                     const hair_gather& context, hair_collider collider,
                                      const btQuaternion& turn);
 
 // Functions of hull.cpp and mesh.cpp. They add a shape's collider and make its collision mesh if
 // there is none yet. A hull whose points are on one line needs none.
-hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking);
-hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking);
+hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_gather& context);
+hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape,
+                                 const hair_gather& context);
 
 // Functions of collision_meshes.cpp.
 // Return the entry of a shape, or NULL if the shape has not been met with this print.
-hair_met* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print);
+hair_cached_shape* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, uint64_t fingerprint);
 // Store the collision mesh of a shape and take ownership. NULL stands for a shape that can have
 // none.
-hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape, uint64_t print,
-                             hair_collision_mesh* form);
+hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape, uint64_t fingerprint,
+                             hair_collision_mesh* collision_mesh);
 // Free the entries that have not been met for more than `rounds` rounds, and the entry of `shape`.
 void hair_bullet_free_old(hair_bullet* bullet, uint32_t rounds, const btCollisionShape* shape);
 // Functions of mesh.cpp.
 // Add the collider of a shape with its collision mesh, rounded by a margin.
 hair_result hair_bullet_add_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
-                                           const hair_taking& taking, const hair_collision_mesh* form,
-                                           float rounding, float scale);
+                                           const hair_gather& context,
+                                           const hair_collision_mesh* collision_mesh, float rounding,
+                                           float scale);
 // Make and store the collision mesh of a shape. A shape that can have none is stored as well, so
 // that it is not tried again.
 hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
-                                            uint64_t print, const struct hair_mesh& mesh, float room,
+                                            uint64_t fingerprint, const struct hair_mesh& mesh, float room,
                                             const hair_collision_mesh** out);
 // Continue the FNV-1a hash `print` with `bytes`. Defined in collision_meshes.cpp.
-uint64_t hair_bullet_print(uint64_t print, const void* bytes, size_t size);
+uint64_t hair_bullet_fingerprint(uint64_t fingerprint, const void* bytes, size_t size);
 
-hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_taking& taking,
+hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_gather& context,
                               const char* what);
 
 #endif

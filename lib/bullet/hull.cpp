@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#define MOST_POINTS 1048576
+#define MAX_POINTS 1048576
 // Number of directions over a sphere. A hull of points that far apart sags by 0.4 % of the radius.
 #define DIRECTIONS 1024
 
@@ -34,7 +34,7 @@ struct mesh_points : btInternalTriangleIndexCallback {
     void internalProcessTriangleIndex(btVector3* triangle, int, int) override
     {
         for (int k = 0; k < 3; ++k)
-            if (out->mesh.vertex_count < MOST_POINTS) out->mesh.add_vertex(triangle[k]);
+            if (out->mesh.vertex_count < MAX_POINTS) out->mesh.add_vertex(triangle[k]);
     }
 };
 } // namespace
@@ -46,15 +46,15 @@ static void add_spheres(const btMultiSphereShape* shape, cloud* out)
 {
     const btVector3& s = shape->getLocalScaling();
     bool uniform = s.x() == s.y() && s.y() == s.z() && s.x() > 0;
-    btScalar least = shape->getSphereCount() ? BT_LARGE_FLOAT : 0, most = 0;
+    btScalar min_value = shape->getSphereCount() ? BT_LARGE_FLOAT : 0, max_value = 0;
     for (int i = 0; i < shape->getSphereCount(); ++i) {
-        least = btMin(least, shape->getSphereRadius(i));
-        most = btMax(most, shape->getSphereRadius(i));
+        min_value = btMin(min_value, shape->getSphereRadius(i));
+        max_value = btMax(max_value, shape->getSphereRadius(i));
     }
-    if (!uniform) least = 0;
-    out->rounding = static_cast<float>(uniform ? least * s.x() : btScalar(0));
+    if (!uniform) min_value = 0;
+    out->rounding = static_cast<float>(uniform ? min_value * s.x() : btScalar(0));
     for (int i = 0; i < shape->getSphereCount(); ++i) {
-        const btScalar radius = shape->getSphereRadius(i) - least;
+        const btScalar radius = shape->getSphereRadius(i) - min_value;
         if (radius <= 0)
             out->mesh.add_vertex(shape->getSpherePosition(i) * s);
         else
@@ -155,51 +155,51 @@ static void close_hull(const hair_mesh& points, hair_mesh* out)
 }
 
 // Return a hash of the points, by which a hull is made only once.
-static uint64_t print_of(const cloud& points)
+static uint64_t fingerprint_of(const cloud& points)
 {
-    uint64_t print = hair_bullet_print(0xcbf29ce484222325u, points.mesh.positions,
-                                       3 * sizeof(float) * points.mesh.vertex_count);
-    print = hair_bullet_print(print, &points.rounding, sizeof points.rounding);
-    return print > 1 ? print : 2;
+    uint64_t fingerprint = hair_bullet_fingerprint(0xcbf29ce484222325u, points.mesh.positions,
+                                                   3 * sizeof(float) * points.mesh.vertex_count);
+    fingerprint = hair_bullet_fingerprint(fingerprint, &points.rounding, sizeof points.rounding);
+    return fingerprint > 1 ? fingerprint : 2;
 }
 
-static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking,
+static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, const hair_gather& context,
                               const cloud& points)
 {
-    if (!points.mesh.vertex_count) return hair_bullet_wrong(bullet, shape, taking, "has no points");
-    if (points.mesh.vertex_count >= MOST_POINTS)
-        return hair_bullet_wrong(bullet, shape, taking, "has 1048576 points or more");
+    if (!points.mesh.vertex_count) return hair_bullet_wrong(bullet, shape, context, "has no points");
+    if (points.mesh.vertex_count >= MAX_POINTS)
+        return hair_bullet_wrong(bullet, shape, context, "has 1048576 points or more");
     for (uint32_t i = 0; i < 3 * points.mesh.vertex_count; ++i)
         if (!(std::fabs(points.mesh.positions[i]) <= 1e6f))
-            return hair_bullet_wrong(bullet, shape, taking, "has a point that is not within 1e6 m");
+            return hair_bullet_wrong(bullet, shape, context, "has a point that is not within 1e6 m");
     hair_collider collider = hair_collider_default();
     btQuaternion turn;
     if (as_capsule(points.mesh, &collider, &turn)) {
         collider.size[0] = points.rounding; // All of the rounding is the radius.
-        return hair_bullet_add_collider(bullet, shape, taking, collider, turn);
+        return hair_bullet_add_collider(bullet, shape, context, collider, turn);
     }
-    const uint64_t print = print_of(points);
-    const hair_met* met = hair_bullet_find(bullet, shape, print);
-    const hair_collision_mesh* form = met ? met->form : nullptr;
-    if (!met) {
+    const uint64_t fingerprint = fingerprint_of(points);
+    const hair_cached_shape* cached = hair_bullet_find(bullet, shape, fingerprint);
+    const hair_collision_mesh* collision_mesh = cached ? cached->mesh : nullptr;
+    if (!cached) {
         hair_mesh hull = {};
         hull.host = &bullet->host;
         close_hull(points.mesh, &hull);
-        hair_result result =
-            hull.result ? hull.result
-                        : hair_bullet_make_collision_mesh(bullet, shape, print, hull, points.rounding, &form);
+        hair_result result = hull.result ? hull.result
+                                         : hair_bullet_make_collision_mesh(bullet, shape, fingerprint, hull,
+                                                                           points.rounding, &collision_mesh);
         hull.release();
         if (result) return result;
     }
-    return hair_bullet_add_collision_mesh(bullet, shape, taking, form, points.rounding, 1);
+    return hair_bullet_add_collision_mesh(bullet, shape, context, collision_mesh, points.rounding, 1);
 }
 
-hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_taking& taking)
+hair_result hair_bullet_add_hull(hair_bullet* bullet, const btConvexShape* shape, const hair_gather& context)
 {
     cloud points = {};
     points.mesh.host = &bullet->host;
     gather(shape, &points);
-    hair_result result = points.mesh.result ? points.mesh.result : add_points(bullet, shape, taking, points);
+    hair_result result = points.mesh.result ? points.mesh.result : add_points(bullet, shape, context, points);
     points.mesh.release();
     return result;
 }

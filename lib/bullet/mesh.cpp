@@ -8,7 +8,7 @@
 #include <cmath>
 
 // Maximum number of vertices of a collision mesh. Each triangle has three of its own.
-#define MOST_TRIANGLES 16777216u
+#define MAX_TRIANGLES 16777216u
 // Depth of a height field below its lowest point, as a fraction of its longest side.
 #define DEPTH 0.1f
 
@@ -51,11 +51,11 @@ void hair_mesh::release()
 }
 
 hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
-                                            uint64_t print, const hair_mesh& mesh, float room,
+                                            uint64_t fingerprint, const hair_mesh& mesh, float room,
                                             const hair_collision_mesh** out)
 {
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    hair_collision_mesh* form = nullptr;
+    hair_collision_mesh* collision_mesh = nullptr;
     desc.host = &bullet->host;
     desc.positions = mesh.positions;
     desc.triangles = mesh.triangles;
@@ -64,28 +64,29 @@ hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisi
     desc.resolution = bullet->resolution;
     desc.padding = room;
     hair_result result = HAIR_OK;
-    if (mesh.triangle_count && mesh.positions) result = hair_collision_mesh_create(&desc, &form);
+    if (mesh.triangle_count && mesh.positions) result = hair_collision_mesh_create(&desc, &collision_mesh);
     if (result && result != HAIR_ERROR_ARGUMENT) return result;
-    result = hair_bullet_keep(bullet, shape, print, form);
-    if (result) hair_collision_mesh_destroy(form);
-    *out = result ? nullptr : form;
+    result = hair_bullet_keep(bullet, shape, fingerprint, collision_mesh);
+    if (result) hair_collision_mesh_destroy(collision_mesh);
+    *out = result ? nullptr : collision_mesh;
     return result;
 }
 
 hair_result hair_bullet_add_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
-                                           const hair_taking& taking, const hair_collision_mesh* form,
-                                           float rounding, float scale)
+                                           const hair_gather& context,
+                                           const hair_collision_mesh* collision_mesh, float rounding,
+                                           float scale)
 {
-    if (!form)
-        return taking.is_quiet
+    if (!collision_mesh)
+        return context.log_once
                    ? HAIR_ERROR_ARGUMENT
-                   : hair_bullet_wrong(bullet, shape, taking, "has triangles that make no collision mesh");
+                   : hair_bullet_wrong(bullet, shape, context, "has triangles that make no collision mesh");
     hair_collider collider = hair_collider_default();
     collider.shape = HAIR_SHAPE_MESH;
-    collider.mesh = form;
+    collider.mesh = collision_mesh;
     collider.rounding = rounding;
     collider.scale = scale;
-    return hair_bullet_add_collider(bullet, shape, taking, collider, btQuaternion::getIdentity());
+    return hair_bullet_add_collider(bullet, shape, context, collider, btQuaternion::getIdentity());
 }
 
 namespace
@@ -117,13 +118,14 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 {
     const uint32_t up = static_cast<uint32_t>(field->getUpAxis()), u = (up + 1) % 3, v = (up + 2) % 3;
     const uint32_t surface = mesh->triangle_count;
-    float least[3], most[3];
-    for (uint32_t k = 0; k < 3; ++k) least[k] = INFINITY, most[k] = -INFINITY;
+    float min_value[3], max_value[3];
+    for (uint32_t k = 0; k < 3; ++k) min_value[k] = INFINITY, max_value[k] = -INFINITY;
     for (uint32_t i = 0; i < 3 * mesh->vertex_count; ++i) {
-        least[i % 3] = std::fmin(least[i % 3], mesh->positions[i]);
-        most[i % 3] = std::fmax(most[i % 3], mesh->positions[i]);
+        min_value[i % 3] = std::fmin(min_value[i % 3], mesh->positions[i]);
+        max_value[i % 3] = std::fmax(max_value[i % 3], mesh->positions[i]);
     }
-    const float floor = least[up] - DEPTH * std::fmax(most[u] - least[u], most[v] - least[v]);
+    const float floor =
+        min_value[up] - DEPTH * std::fmax(max_value[u] - min_value[u], max_value[v] - min_value[v]);
     for (uint32_t t = 0; t < surface && !mesh->result; ++t) {
         const uint32_t below = mesh->vertex_count;
         btVector3 corner[3];
@@ -140,8 +142,8 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
         for (uint32_t k = 0; k < 3; ++k) {
             const btVector3 &a = corner[k], &b = corner[(k + 1) % 3];
             const int i = static_cast<int>(u), j = static_cast<int>(v);
-            const bool rim = (a[i] == b[i] && (a[i] == least[u] || a[i] == most[u])) ||
-                             (a[j] == b[j] && (a[j] == least[v] || a[j] == most[v]));
+            const bool rim = (a[i] == b[i] && (a[i] == min_value[u] || a[i] == max_value[u])) ||
+                             (a[j] == b[j] && (a[j] == min_value[v] || a[j] == max_value[v]));
             if (!rim) continue;
             const uint32_t top = mesh->triangles[3 * t + k], next = mesh->triangles[3 * t + (k + 1) % 3];
             mesh->add_triangle(next, top, below + k);
@@ -153,7 +155,7 @@ static void close_below(const btHeightfieldTerrainShape* field, hair_mesh* mesh)
 // Forms -------------------------------------------------------------------------------------------
 
 // Return a hash of the properties that are cheap to read: bounds, scale and margin.
-static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, const btVector3& upper)
+static uint64_t fingerprint_of(const btConcaveShape* shape, const btVector3& lower, const btVector3& upper)
 {
     float numbers[10];
     for (int k = 0; k < 3; ++k) {
@@ -162,31 +164,32 @@ static uint64_t print_of(const btConcaveShape* shape, const btVector3& lower, co
         numbers[6 + k] = static_cast<float>(shape->getLocalScaling()[k]);
     }
     numbers[9] = static_cast<float>(shape->getMargin());
-    uint64_t print = hair_bullet_print(0xcbf29ce484222325u, numbers, sizeof numbers);
-    return print > 1 ? print : 2;
+    uint64_t fingerprint = hair_bullet_fingerprint(0xcbf29ce484222325u, numbers, sizeof numbers);
+    return fingerprint > 1 ? fingerprint : 2;
 }
 
 // Refuse a shape with too many triangles. It is stored without a collision mesh, so that they are
 // not counted again.
-static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
-                          uint64_t print, uint64_t count)
+static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_gather& context,
+                          uint64_t fingerprint, uint64_t count)
 {
-    const hair_result result = hair_bullet_keep(bullet, shape, print, nullptr);
+    const hair_result result = hair_bullet_keep(bullet, shape, fingerprint, nullptr);
     if (result) return result;
-    hair_log(&bullet->host, taking.is_quiet ? HAIR_LOG_WARNING : HAIR_LOG_ERROR,
+    hair_log(&bullet->host, context.log_once ? HAIR_LOG_WARNING : HAIR_LOG_ERROR,
              "Bullet's shape %s of type %d has %llu triangles, more than %u: hair goes through it",
              shape->getName(), shape->getShapeType(), static_cast<unsigned long long>(count),
-             MOST_TRIANGLES / 3);
+             MAX_TRIANGLES / 3);
     return HAIR_ERROR_ARGUMENT;
 }
 
-static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking,
-                        uint64_t print, const btVector3& lower, const btVector3& upper,
+static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const hair_gather& context,
+                        uint64_t fingerprint, const btVector3& lower, const btVector3& upper,
                         const hair_collision_mesh** out)
 {
     counter triangles;
     shape->processAllTriangles(&triangles, lower, upper);
-    if (triangles.count > MOST_TRIANGLES / 3) return refuse(bullet, shape, taking, print, triangles.count);
+    if (triangles.count > MAX_TRIANGLES / 3)
+        return refuse(bullet, shape, context, fingerprint, triangles.count);
     hair_mesh mesh = {};
     mesh.host = &bullet->host;
     gatherer gatherer;
@@ -196,13 +199,13 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
         close_below(static_cast<const btHeightfieldTerrainShape*>(shape), &mesh);
     hair_result result = mesh.result;
     if (!result)
-        result = hair_bullet_make_collision_mesh(bullet, shape, print, mesh,
+        result = hair_bullet_make_collision_mesh(bullet, shape, fingerprint, mesh,
                                                  2 * static_cast<float>(shape->getMargin()), out);
     mesh.release();
     return result;
 }
 
-hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_taking& taking)
+hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shape, const hair_gather& context)
 {
     // All uniformly scaled copies of a mesh use one collision mesh.
     const btConcaveShape* own = shape;
@@ -219,14 +222,14 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
     for (int k = 0; k < 3; ++k)
         if (!(lower[k] <= upper[k]) || !(btFabs(lower[k]) <= btScalar(1e6)) ||
             !(btFabs(upper[k]) <= btScalar(1e6)))
-            return hair_bullet_wrong(bullet, shape, taking, "has bounds that are not within 1e6 m");
-    const uint64_t print = print_of(own, lower, upper);
-    const hair_met* met = hair_bullet_find(bullet, own, print);
-    const hair_collision_mesh* form = met ? met->form : nullptr;
-    if (!met) {
-        hair_result result = make(bullet, own, taking, print, lower, upper, &form);
+            return hair_bullet_wrong(bullet, shape, context, "has bounds that are not within 1e6 m");
+    const uint64_t fingerprint = fingerprint_of(own, lower, upper);
+    const hair_cached_shape* cached = hair_bullet_find(bullet, own, fingerprint);
+    const hair_collision_mesh* collision_mesh = cached ? cached->mesh : nullptr;
+    if (!cached) {
+        hair_result result = make(bullet, own, context, fingerprint, lower, upper, &collision_mesh);
         if (result) return result;
     }
-    return hair_bullet_add_collision_mesh(bullet, shape, taking, form, static_cast<float>(shape->getMargin()),
-                                          scale);
+    return hair_bullet_add_collision_mesh(bullet, shape, context, collision_mesh,
+                                          static_cast<float>(shape->getMargin()), scale);
 }

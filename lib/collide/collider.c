@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "lib/collide/collision_mesh.h"
-#include "lib/collide/pair.h"
+#include "lib/collide/match.h"
 
 // Return how many components of `size` a shape uses.
 static int sizes_of(hair_shape shape)
@@ -94,15 +94,15 @@ static hair_result reserve(const hair_host* host, struct hair_collider_list* lis
 static hair_result reserve_all(const hair_host* host, struct hair_colliders* colliders, uint32_t count,
                                uint32_t count_before)
 {
-    hair_result result = reserve(host, &colliders->now, count);
-    if (!result) result = reserve(host, &colliders->before, count > count_before ? count : count_before);
+    hair_result result = reserve(host, &colliders->current, count);
+    if (!result) result = reserve(host, &colliders->previous, count > count_before ? count : count_before);
     if (result || count <= colliders->capacity) return result;
-    uint32_t* pair = hair_alloc(host, colliders->now.capacity, sizeof *pair);
+    uint32_t* pair = hair_alloc(host, colliders->current.capacity, sizeof *pair);
     if (!pair) return hair_fail_memory(host, "colliders");
-    if (colliders->now.count) memcpy(pair, colliders->pair, colliders->now.count * sizeof *pair);
-    hair_free(host, colliders->pair);
-    colliders->pair = pair;
-    colliders->capacity = colliders->now.capacity;
+    if (colliders->current.count) memcpy(pair, colliders->match, colliders->current.count * sizeof *pair);
+    hair_free(host, colliders->match);
+    colliders->match = pair;
+    colliders->capacity = colliders->current.capacity;
     return HAIR_OK;
 }
 
@@ -119,25 +119,25 @@ static void put(struct hair_collider_list* list, const hair_collider* from, uint
 
 static void count_contacts(struct hair_colliders* colliders)
 {
-    uint32_t capsules = 0, bodies = 0, forms = 0;
-    for (uint32_t i = 0; i < colliders->now.count; ++i) {
-        const hair_collider* collider = &colliders->now.collider[i];
+    uint32_t capsules = 0, bodies = 0, meshes = 0;
+    for (uint32_t i = 0; i < colliders->current.count; ++i) {
+        const hair_collider* collider = &colliders->current.collider[i];
         capsules += collider->shape <= HAIR_SHAPE_CAPSULE;
         bodies += collider->shape <= HAIR_SHAPE_PLANE;
-        forms += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
+        meshes += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
     }
-    colliders->contacts = bodies + forms;
-    HAIR_ASSERT(capsules <= bodies && colliders->contacts <= colliders->now.count);
-    colliders->forms = forms;
+    colliders->contacts = bodies + meshes;
+    HAIR_ASSERT(capsules <= bodies && colliders->contacts <= colliders->current.count);
+    colliders->meshes = meshes;
     colliders->capsules = capsules < HAIR_STEP_COLLIDERS ? capsules : HAIR_STEP_COLLIDERS;
     colliders->bodies = bodies < HAIR_STEP_COLLIDERS ? bodies : HAIR_STEP_COLLIDERS;
 }
 
 static hair_result check_list(const hair_host* host, const hair_collider* from, uint32_t count, size_t stride)
 {
-    if (count > HAIR_MOST_COLLIDERS)
+    if (count > HAIR_MAX_COLLIDERS)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "collider count is %u, not in [0, %u]", count,
-                         HAIR_MOST_COLLIDERS);
+                         HAIR_MAX_COLLIDERS);
     if (count && !from)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders is NULL but their count is %u", count);
     if (count && (stride < sizeof(hair_collider) || stride > 4096))
@@ -173,13 +173,13 @@ hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* col
             result = hair_fail(host, HAIR_ERROR_ARGUMENT,
                                "colliders[%u].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH", i);
     }
-    if (!result && are_there(&colliders->now, from, count, stride)) return HAIR_OK;
-    if (!result) result = reserve_all(host, colliders, count, colliders->before.count);
+    if (!result && are_there(&colliders->current, from, count, stride)) return HAIR_OK;
+    if (!result) result = reserve_all(host, colliders, count, colliders->previous.count);
     if (!result)
-        result = hair_pair_colliders(host, from, count, stride, colliders->before.collider,
-                                     colliders->before.count, colliders->pair);
+        result = hair_match_colliders(host, from, count, stride, colliders->previous.collider,
+                                      colliders->previous.count, colliders->match);
     if (result) return result;
-    put(&colliders->now, from, count, stride);
+    put(&colliders->current, from, count, stride);
     count_contacts(colliders);
     colliders->changed = 1;
     return HAIR_OK;
@@ -193,10 +193,10 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
     if (!result) result = check_list(host, before, count_before, sizeof *before);
     if (!result) result = reserve_all(host, colliders, count, count_before);
     if (!result)
-        result = hair_pair_colliders(host, now, count, sizeof *now, before, count_before, colliders->pair);
+        result = hair_match_colliders(host, now, count, sizeof *now, before, count_before, colliders->match);
     if (result) return result;
-    put(&colliders->now, now, count, sizeof *now);
-    put(&colliders->before, before, count_before, sizeof *before);
+    put(&colliders->current, now, count, sizeof *now);
+    put(&colliders->previous, before, count_before, sizeof *before);
     count_contacts(colliders);
     colliders->changed = 1;
     return HAIR_OK;
@@ -204,35 +204,36 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
 
 void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders)
 {
-    put(&colliders->now, NULL, 0, 0);
-    put(&colliders->before, NULL, 0, 0);
-    hair_free(host, colliders->now.collider);
-    hair_free(host, colliders->before.collider);
-    hair_free(host, colliders->pair);
+    put(&colliders->current, NULL, 0, 0);
+    put(&colliders->previous, NULL, 0, 0);
+    hair_free(host, colliders->current.collider);
+    hair_free(host, colliders->previous.collider);
+    hair_free(host, colliders->match);
     *colliders = (struct hair_colliders){0};
 }
 
-const hair_collider* hair_colliders_before(const struct hair_colliders* colliders, uint32_t i)
+const hair_collider* hair_colliders_previous(const struct hair_colliders* colliders, uint32_t i)
 {
-    HAIR_ASSERT(i < colliders->now.count);
-    const hair_collider* now = &colliders->now.collider[i];
-    uint32_t k = colliders->pair[i];
-    if (k >= colliders->before.count) return now;
-    const hair_collider* before = &colliders->before.collider[k];
+    HAIR_ASSERT(i < colliders->current.count);
+    const hair_collider* now = &colliders->current.collider[i];
+    uint32_t k = colliders->match[i];
+    if (k >= colliders->previous.count) return now;
+    const hair_collider* before = &colliders->previous.collider[k];
     return before->shape == now->shape ? before : now;
 }
 
-void hair_colliders_settle(struct hair_colliders* colliders)
+void hair_colliders_end_step(struct hair_colliders* colliders)
 {
     if (!colliders->changed) return;
     colliders->changed = 0;
-    HAIR_ASSERT(colliders->now.count <= colliders->capacity);
-    put(&colliders->before, colliders->now.collider, colliders->now.count, sizeof *colliders->now.collider);
-    for (uint32_t i = 0; i < colliders->now.count; ++i) colliders->pair[i] = i;
+    HAIR_ASSERT(colliders->current.count <= colliders->capacity);
+    put(&colliders->previous, colliders->current.collider, colliders->current.count,
+        sizeof *colliders->current.collider);
+    for (uint32_t i = 0; i < colliders->current.count; ++i) colliders->match[i] = i;
 }
 
-void hair_colliders_forget(struct hair_colliders* colliders)
+void hair_colliders_reset(struct hair_colliders* colliders)
 {
-    put(&colliders->before, NULL, 0, 0);
+    put(&colliders->previous, NULL, 0, 0);
     colliders->changed = 1;
 }

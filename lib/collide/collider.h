@@ -7,7 +7,7 @@
 #include "lib/base/pose.h"
 #include "glsl/shared.h"
 
-#define HAIR_MOST_COLLIDERS 1048576u // Maximum number of an instance.
+#define HAIR_MAX_COLLIDERS 1048576u // Maximum number of an instance.
 
 // A list of colliders. It holds references to their collision meshes.
 struct hair_collider_list {
@@ -17,17 +17,17 @@ struct hair_collider_list {
 
 struct hair_colliders {
     // `before` is the list of the previous step. It has room for as many colliders as `now` has.
-    struct hair_collider_list now, before;
-    uint32_t* pair; // index in `before` of each collider of `now`, or HAIR_UNPAIRED
+    struct hair_collider_list current, previous;
+    uint32_t* match; // index in `before` of each collider of `now`, or HAIR_UNMATCHED
     uint32_t capacity; // of pair
     uint32_t capsules; // result of hair_colliders_capsules()
     uint32_t bodies; // result of hair_colliders_bodies()
     uint32_t contacts; // number of all but collision meshes without data
-    uint32_t forms; // number of collision meshes among the contacts
+    uint32_t meshes; // number of collision meshes among the contacts
     int changed; // 1 if `now` differs from `before`
 };
 
-#define HAIR_UNPAIRED UINT32_MAX
+#define HAIR_UNMATCHED UINT32_MAX
 
 // Set `count` colliders, `stride` bytes apart. On failure nothing has changed.
 hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
@@ -41,10 +41,10 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
 void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders);
 
 // Return the i-th collider at the previous step, or its current state if it was not there.
-const hair_collider* hair_colliders_before(const struct hair_colliders* colliders, uint32_t i);
+const hair_collider* hair_colliders_previous(const struct hair_colliders* colliders, uint32_t i);
 
-// Write the HAIR_STEP_COLLIDERS spheres and capsules nearest to the head, in their order, relative to
-// its start and end poses. Return their number.
+// Write the HAIR_STEP_COLLIDERS spheres and capsules nearest to the head, in their order, relative
+// to its start and end poses. Return their number.
 uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const struct hair_pose* head_before,
                                  const struct hair_pose* head_now,
                                  struct hair_capsule out[HAIR_STEP_COLLIDERS]);
@@ -67,9 +67,9 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
 void hair_collider_extent(const hair_collider* collider, hair_vec3* middle, hair_vec3* half);
 
 // End the step: `now` becomes `before`.
-void hair_colliders_settle(struct hair_colliders* colliders);
+void hair_colliders_end_step(struct hair_colliders* colliders);
 
 // Forget the previous poses, because they do not tell how colliders move.
-void hair_colliders_forget(struct hair_colliders* colliders);
+void hair_colliders_reset(struct hair_colliders* colliders);
 
 #endif

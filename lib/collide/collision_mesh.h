@@ -1,5 +1,5 @@
-// collision_mesh.h - a collision mesh: distances to a triangle mesh at the nodes of a grid in the mesh's own
-// space.
+// collision_mesh.h - a collision mesh: distances to a triangle mesh at the nodes of a grid in the
+// mesh's own space.
 #ifndef HAIR_COLLIDE_COLLISION_MESH_H
 #define HAIR_COLLIDE_COLLISION_MESH_H
 
@@ -13,14 +13,14 @@ struct hair_collision_mesh {
     hair_host host; // owner of the memory
     atomic_uint holders;
     hair_collision_mesh_info info;
-    uint64_t mark; // hash of the content. Collision meshes with equal marks have equal shapes.
+    uint64_t content_hash; // hash of the content. Collision meshes with equal marks have equal shapes.
     uint32_t size[3]; // number of nodes along x, y, z
     float origin[3]; // position of the first node, m
     float voxel; // distance between nodes, m
     // Signed distance at each node, m, negative inside. Node (i, j, k) is at i + size[0] (j +
-    // size[1] k). The surface and the room around it stay HAIR_COLLISION_MESH_PADDING voxels away from the
-    // grid's faces. Distances are exact up to HAIR_COLLISION_MESH_BAND voxels from the mesh, and nearly exact
-    // beyond.
+    // size[1] k). The surface and the room around it stay HAIR_COLLISION_MESH_PADDING voxels away
+    // from the grid's faces. Distances are exact up to HAIR_COLLISION_MESH_BAND voxels from the
+    // mesh, and nearly exact beyond.
     float* distance;
 };
 
@@ -33,8 +33,8 @@ hair_result hair_collision_mesh_build(const hair_host* host, const hair_collisio
                                       hair_collision_mesh** out);
 
 // Add a reference. Any thread. NULL is ignored.
-void hair_collision_mesh_hold(const hair_collision_mesh* form);
+void hair_collision_mesh_hold(const hair_collision_mesh* mesh);
 // Remove a reference and free the collision mesh with the last one. Any thread. NULL is ignored.
-void hair_collision_mesh_release(const hair_collision_mesh* form);
+void hair_collision_mesh_release(const hair_collision_mesh* mesh);
 
 #endif

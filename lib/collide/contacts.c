@@ -120,8 +120,8 @@ static uint32_t choose(const struct hair_colliders* colliders, const struct hair
 {
     float distance[HAIR_STEP_COLLIDERS];
     uint32_t count = 0, farthest = 0;
-    for (uint32_t i = 0; i < colliders->now.count; ++i) {
-        const hair_collider* collider = &colliders->now.collider[i];
+    for (uint32_t i = 0; i < colliders->current.count; ++i) {
+        const hair_collider* collider = &colliders->current.collider[i];
         if (collider->shape > last) continue;
         float far = distance_of(collider, head);
         if (count == HAIR_STEP_COLLIDERS) {
@@ -157,8 +157,8 @@ static uint32_t fill(const struct hair_colliders* colliders, const struct hair_p
 {
     uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose(colliders, head_now, last, chosen);
     for (uint32_t i = 0; i < count; ++i) {
-        const hair_collider *now = &colliders->now.collider[chosen[i]],
-                            *before = hair_colliders_before(colliders, chosen[i]);
+        const hair_collider *now = &colliders->current.collider[chosen[i]],
+                            *before = hair_colliders_previous(colliders, chosen[i]);
         around[i] = capsule_of(before, now, head_before, head_now);
         if (out) out[i] = body_of(before, now, head_before, head_now);
     }
@@ -184,19 +184,19 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
                                            const struct hair_pose* head_before,
                                            const struct hair_pose* head_now)
 {
-    HAIR_ASSERT(i < colliders->now.count);
-    const hair_collider* now = &colliders->now.collider[i];
-    hair_collider before = *hair_colliders_before(colliders, i);
+    HAIR_ASSERT(i < colliders->current.count);
+    const hair_collider* now = &colliders->current.collider[i];
+    hair_collider before = *hair_colliders_previous(colliders, i);
     before.mesh = now->mesh, before.scale = now->scale; // The collision mesh may have been another.
     struct hair_contact contact = {.around = capsule_of(&before, now, head_before, head_now),
                                    .body = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_MESH) return contact;
-    const hair_collision_mesh* form = now->mesh;
-    HAIR_ASSERT(form && form->distance);
+    const hair_collision_mesh* mesh = now->mesh;
+    HAIR_ASSERT(mesh && mesh->distance);
     contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_MESH};
-    contact.grid = (hair_vec4){form->origin[0], form->origin[1], form->origin[2], form->voxel};
-    contact.nodes_x = form->size[0];
-    contact.nodes_y = form->size[1];
-    contact.nodes_z = form->size[2];
+    contact.grid = (hair_vec4){mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel};
+    contact.nodes_x = mesh->size[0];
+    contact.nodes_y = mesh->size[1];
+    contact.nodes_z = mesh->size[2];
     return contact;
 }

@@ -1,4 +1,5 @@
-// distance.c - the exact signed distance to colliders. glsl/collider_distance.glsl is the GPU version.
+// distance.c - the exact signed distance to colliders. glsl/collide/collider_distance.glsl is the GPU
+// version.
 #include "lib/collide/distance.h"
 
 #include <math.h>
@@ -8,9 +9,9 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-static double clamp(double value, double least, double most)
+static double clamp(double value, double min, double max)
 {
-    return fmin(fmax(value, least), most);
+    return fmin(fmax(value, min), max);
 }
 
 // Compute v / |v|, or `otherwise` if v has no direction. Return |v|.
@@ -118,14 +119,14 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
 // Forms -------------------------------------------------------------------------------------------
 
 // Interpolate the distances within the grid. `slope` receives the gradient per voxel.
-static double interpolate(const hair_collision_mesh* form, const double at[3], double slope[3])
+static double interpolate(const hair_collision_mesh* mesh, const double at[3], double slope[3])
 {
-    size_t node = 0, step[3] = {1, form->size[0], (size_t)form->size[0] * form->size[1]};
+    size_t node = 0, step[3] = {1, mesh->size[0], (size_t)mesh->size[0] * mesh->size[1]};
     double t[3];
     for (int k = 0; k < 3; ++k) {
-        HAIR_ASSERT(form->size[k] >= 2);
-        double x = (at[k] - (double)form->origin[k]) / (double)form->voxel;
-        double i = clamp(floor(x), 0, form->size[k] - 2);
+        HAIR_ASSERT(mesh->size[k] >= 2);
+        double x = (at[k] - (double)mesh->origin[k]) / (double)mesh->voxel;
+        double i = clamp(floor(x), 0, mesh->size[k] - 2);
         t[k] = clamp(x - i, 0, 1);
         node += (size_t)i * step[k];
     }
@@ -134,7 +135,7 @@ static double interpolate(const hair_collision_mesh* form, const double at[3], d
     for (int corner = 0; corner < 8; ++corner) {
         int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
         double u = x ? t[0] : 1 - t[0], v = y ? t[1] : 1 - t[1], w = z ? t[2] : 1 - t[2];
-        double d = (double)form->distance[node + (size_t)x + (size_t)y * step[1] + (size_t)z * step[2]];
+        double d = (double)mesh->distance[node + (size_t)x + (size_t)y * step[1] + (size_t)z * step[2]];
         value += u * v * w * d;
         slope[0] += (x ? 1 : -1) * v * w * d;
         slope[1] += (y ? 1 : -1) * u * w * d;
@@ -143,17 +144,17 @@ static double interpolate(const hair_collision_mesh* form, const double at[3], d
     return value;
 }
 
-double hair_distance_to_mesh(const hair_collision_mesh* form, const double point[3], double gradient[3])
+double hair_distance_to_mesh(const hair_collision_mesh* mesh, const double point[3], double gradient[3])
 {
-    HAIR_ASSERT(form && form->distance && form->voxel > 0);
+    HAIR_ASSERT(mesh && mesh->distance && mesh->voxel > 0);
     double own[3], inside[3], slope[3], beyond = 0;
     double* out = gradient ? gradient : own;
     for (int k = 0; k < 3; ++k) {
-        double first = (double)form->origin[k], last = first + (double)form->voxel * (form->size[k] - 1);
+        double first = (double)mesh->origin[k], last = first + (double)mesh->voxel * (mesh->size[k] - 1);
         inside[k] = clamp(point[k], first, last);
         beyond += (point[k] - inside[k]) * (point[k] - inside[k]);
     }
-    double distance = interpolate(form, inside, slope);
+    double distance = interpolate(mesh, inside, slope);
     direction(slope, up, out);
     if (beyond == 0) return distance;
     double away[3];

@@ -21,6 +21,6 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
 // Return the distance to a collision mesh in its own space, trilinear between the nodes. Outside
 // the grid, the distance is measured from the surface point nearest to the grid's edge, which is
 // slightly too far.
-double hair_distance_to_mesh(const hair_collision_mesh* form, const double point[3], double gradient[3]);
+double hair_distance_to_mesh(const hair_collision_mesh* mesh, const double point[3], double gradient[3]);
 
 #endif

@@ -13,12 +13,12 @@ static hair_vec3 corner(const struct hair_triangles* t, uint32_t place, int k)
     return hair_sub(hair_load3(t->positions + 3 * (size_t)t->indices[place][k]), t->center);
 }
 
-static hair_vec3 least(hair_vec3 a, hair_vec3 b)
+static hair_vec3 min(hair_vec3 a, hair_vec3 b)
 {
     return (hair_vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
 }
 
-static hair_vec3 most(hair_vec3 a, hair_vec3 b)
+static hair_vec3 max(hair_vec3 a, hair_vec3 b)
 {
     return (hair_vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
 }
@@ -114,8 +114,8 @@ static void make_leaf(struct hair_triangles* t, uint32_t node)
         hair_vec3 a = corner(t, i, 0), b = corner(t, i, 1), c = corner(t, i, 2);
         hair_vec3 own = hair_scale(hair_cross(hair_sub(b, a), hair_sub(c, a)), 0.5f);
         float size = hair_length(own);
-        box.lower = least(least(box.lower, a), least(b, c));
-        box.upper = most(most(box.upper, a), most(b, c));
+        box.lower = min(min(box.lower, a), min(b, c));
+        box.upper = max(max(box.upper, a), max(b, c));
         area = hair_add(area, own);
         center = hair_add(center, hair_scale(hair_add(a, hair_add(b, c)), size / 3));
         weight += size;
@@ -132,7 +132,7 @@ static void join(struct hair_triangles* t, uint32_t node)
     const struct hair_box *a = &t->box[2 * node + 1], *b = &t->box[2 * node + 2];
     const struct hair_dipole *x = &t->dipole[2 * node + 1], *y = &t->dipole[2 * node + 2];
     float weight = x->radius + y->radius;
-    t->box[node] = (struct hair_box){least(a->lower, b->lower), most(a->upper, b->upper)};
+    t->box[node] = (struct hair_box){min(a->lower, b->lower), max(a->upper, b->upper)};
     t->dipole[node].area = hair_add(x->area, y->area);
     t->dipole[node].radius = weight;
     t->dipole[node].center = weight > 0 ? hair_lerp(x->center, y->center, y->radius / weight) : x->center;
@@ -149,7 +149,7 @@ static void make_nodes(struct hair_triangles* t)
     for (uint32_t node = 0; node < nodes; ++node) {
         hair_vec3 center = t->dipole[node].center;
         t->dipole[node].radius =
-            hair_length(most(hair_sub(t->box[node].upper, center), hair_sub(center, t->box[node].lower)));
+            hair_length(max(hair_sub(t->box[node].upper, center), hair_sub(center, t->box[node].lower)));
     }
 }
 
@@ -159,8 +159,8 @@ static void find_bounds(struct hair_triangles* t)
     struct hair_box bounds = {corner(t, 0, 0), corner(t, 0, 0)};
     for (uint32_t i = 0; i < t->count; ++i)
         for (int k = 0; k < 3; ++k) {
-            bounds.lower = least(bounds.lower, corner(t, i, k));
-            bounds.upper = most(bounds.upper, corner(t, i, k));
+            bounds.lower = min(bounds.lower, corner(t, i, k));
+            bounds.upper = max(bounds.upper, corner(t, i, k));
         }
     hair_vec3 half = hair_scale(hair_sub(bounds.upper, bounds.lower), 0.5f);
     t->center = hair_add(bounds.lower, half);
@@ -236,7 +236,7 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
 static float squared_to_box(const struct hair_box* box, hair_vec3 p)
 {
     hair_vec3 zero = {0, 0, 0};
-    hair_vec3 out = most(most(hair_sub(box->lower, p), hair_sub(p, box->upper)), zero);
+    hair_vec3 out = max(max(hair_sub(box->lower, p), hair_sub(p, box->upper)), zero);
     return hair_dot(out, out);
 }
 

@@ -17,7 +17,7 @@ static float grey_speed(const hair_wind* wind)
     return speed > 0 ? speed : 1;
 }
 
-static void widen(struct hair_shown_params* params, int i)
+static void widen(struct hair_debug_params* params, int i)
 {
     float more = 0.5f * (AROUND - 1);
     hair_vec4 *corner = &params->corner, *side = &params->side[i];
@@ -27,7 +27,7 @@ static void widen(struct hair_shown_params* params, int i)
 }
 
 static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* wind, const hair_view* view,
-                             struct hair_shown_params* params)
+                             struct hair_debug_params* params)
 {
     const hair_slice slice = view->slice ? view->slice : HAIR_SLICE_Z;
     uint32_t longest = 0, along[2];
@@ -43,33 +43,33 @@ static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* 
     return along[0] * along[1];
 }
 
-hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, const hair_wind* wind,
+hair_result hair_draw_air(struct hair_draw* draw, const struct hair_wind_state* air, const hair_wind* wind,
                           const struct hair_fluid* fluid, const struct hair_field_box* box,
                           const struct hair_pose* head, const hair_view* view)
 {
     struct hair_gl* gl = draw->gl;
     GLuint buffer = 0; // Created for each draw, so that no memory stays when the wind is not drawn.
     hair_vec4 turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
-    struct hair_shown_params params = {.rotation = turn};
+    struct hair_debug_params params = {.rotation = turn};
     struct hair_draw_params own;
-    hair_result result = hair_gl_need(gl, HAIR_GL_AIR);
+    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_AIR);
     if (!result) result = hair_gl_uniform(gl, "hair shown", sizeof params, &buffer);
     if (result) return result;
     uint32_t arrows = write_arrows(box, wind, view, &params);
     hair_draw_write_params(draw, head, view, &own);
     hair_gl_write_uniform(gl, draw->params, sizeof own, &own);
     hair_gl_write_uniform(gl, buffer, sizeof params, &params);
-    hair_air_bind(air, gl, wind);
+    hair_wind_bind(air, gl, wind);
     if (fluid) hair_fluid_bind(fluid);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, &buffer);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE);
     hair_gl_begin(gl, HAIR_GL_AIR);
     gl->DrawArraysInstanced(GL_TRIANGLES, 0, 3, (GLsizei)arrows);
     hair_gl_end(gl, HAIR_GL_AIR);
     // Unbind the buffer before it is deleted. See state.c.
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, NULL);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, NULL);
     hair_gl_free_buffer(gl, &buffer);
     return HAIR_OK;
 }

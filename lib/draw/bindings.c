@@ -5,24 +5,29 @@
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth)
 {
     struct hair_gl* gl = draw->gl;
-    GLuint textures[] = {smooth->texture[0],     smooth->texture[1],       smooth->texture[2],
-                         draw->follower_texture, draw->patch_texture,      0,
-                         draw->hits.hit_texture, draw->hits.repair_texture};
+    GLuint textures[] = {smooth->texture[0],
+                         smooth->texture[1],
+                         smooth->texture[2],
+                         draw->follower_texture,
+                         draw->patch_texture,
+                         0,
+                         draw->follower_collision.hit_texture,
+                         draw->follower_collision.repair_texture};
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
 }
 
-void hair_draw_bind_expanded(struct hair_draw* draw)
+void hair_draw_bind_vertex_cache(struct hair_draw* draw)
 {
-    HAIR_ASSERT(draw->expanded.position_texture && draw->expanded.tangent_texture);
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED, draw->expanded.position_texture);
-    draw->gl->BindTextureUnit(HAIR_UNIT_EXPANDED_TANGENT, draw->expanded.tangent_texture);
+    HAIR_ASSERT(draw->vertex_cache.position_texture && draw->vertex_cache.tangent_texture);
+    draw->gl->BindTextureUnit(HAIR_UNIT_CACHED_POSITION, draw->vertex_cache.position_texture);
+    draw->gl->BindTextureUnit(HAIR_UNIT_CACHED_TANGENT, draw->vertex_cache.tangent_texture);
 }
 
 void hair_draw_bind_motion(struct hair_draw* draw)
 {
-    GLuint texture = draw->motion.still ? draw->expanded.position_texture : draw->motion.texture;
+    GLuint texture = draw->motion.still ? draw->vertex_cache.position_texture : draw->motion.texture;
     HAIR_ASSERT(texture);
     draw->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
 }

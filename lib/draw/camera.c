@@ -1,5 +1,5 @@
-// camera.c - matrices of a view, and the mapping from clip space to the viewport. The mapping depends
-// on the application's clip control and depth test.
+// camera.c - matrices of a view, and the mapping from clip space to the viewport. The mapping
+// depends on the application's clip control and depth test.
 #include "lib/draw/params.h"
 
 #include <string.h>
@@ -44,7 +44,7 @@ void hair_draw_project(const struct hair_draw* draw, const hair_view* view, floa
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];
 }
 
-void hair_draw_find_unit(struct hair_gl* gl, float to_unit[16])
+void hair_draw_clip_to_unit_matrix(struct hair_gl* gl, float to_unit[16])
 {
     GLint mode = GL_NEGATIVE_ONE_TO_ONE, origin = GL_LOWER_LEFT;
     gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
@@ -55,7 +55,7 @@ void hair_draw_find_unit(struct hair_gl* gl, float to_unit[16])
     memcpy(to_unit, half, sizeof half);
 }
 
-float hair_draw_find_sign(struct hair_gl* gl)
+float hair_draw_depth_direction(struct hair_gl* gl)
 {
     GLint function = GL_LESS;
     gl->GetIntegerv(GL_DEPTH_FUNC, &function);

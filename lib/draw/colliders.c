@@ -14,7 +14,7 @@ static hair_vec4 find_depth(struct hair_gl* gl)
 }
 
 void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, float place,
-                           struct hair_shown_params* params)
+                           struct hair_debug_params* params)
 {
     const float brick = HAIR_BRICK * box->voxel, lower[] = {box->lower.x, box->lower.y, box->lower.z};
     if (!slice) return;
@@ -33,7 +33,7 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
     params->side[1] = (hair_vec4){sides[1][0], sides[1][1], sides[1][2], 0};
 }
 
-static struct hair_shown_collider show(const struct hair_collider_field* field, const hair_collider* collider,
+static struct hair_debug_collider show(const struct hair_collider_field* field, const hair_collider* collider,
                                        uint32_t i, const struct hair_pose* head)
 {
     hair_vec3 lower, upper;
@@ -41,11 +41,11 @@ static struct hair_shown_collider show(const struct hair_collider_field* field, 
     hair_vec3 more = hair_scale(hair_sub(upper, lower), 0.01f); // Rays begin outside the box.
     lower = hair_sub(lower, more);
     upper = hair_add(upper, more);
-    return (struct hair_shown_collider){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
+    return (struct hair_debug_collider){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
 }
 
 static void draw_slice(struct hair_draw* draw, const struct hair_collider_field* field, const hair_view* view,
-                       GLuint buffer, const struct hair_shown_params* params)
+                       GLuint buffer, const struct hair_debug_params* params)
 {
     if (!view->slice || !hair_field_is_near(field)) return;
     struct hair_gl* gl = draw->gl;
@@ -58,12 +58,12 @@ static void draw_slice(struct hair_draw* draw, const struct hair_collider_field*
 
 static void draw_shapes(struct hair_draw* draw, const struct hair_collider_field* field,
                         const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
-                        GLuint buffer, struct hair_shown_params* params)
+                        GLuint buffer, struct hair_debug_params* params)
 {
     struct hair_gl* gl = draw->gl;
     hair_gl_begin(gl, HAIR_GL_COLLIDERS);
-    for (uint32_t first = 0; first < count; first += HAIR_SHOWN_COLLIDERS) {
-        uint32_t some = count - first < HAIR_SHOWN_COLLIDERS ? count - first : HAIR_SHOWN_COLLIDERS;
+    for (uint32_t first = 0; first < count; first += HAIR_DEBUG_COLLIDERS) {
+        uint32_t some = count - first < HAIR_DEBUG_COLLIDERS ? count - first : HAIR_DEBUG_COLLIDERS;
         HAIR_ASSERT(0 < some && first + some <= count);
         for (uint32_t i = 0; i < some; ++i)
             params->shown[i] = show(field, &colliders[first + i], first + i, head);
@@ -80,10 +80,10 @@ hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collid
     struct hair_gl* gl = draw->gl;
     // Created for each draw, so that no memory stays when colliders are not drawn.
     GLuint buffer = 0;
-    hair_result result = hair_gl_need(gl, HAIR_GL_COLLIDERS);
-    if (!result && view->slice) result = hair_gl_need(gl, HAIR_GL_SLICE);
+    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
+    if (!result && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
     if (result) return result;
-    struct hair_shown_params* params = hair_alloc(&gl->host, 1, sizeof *params);
+    struct hair_debug_params* params = hair_alloc(&gl->host, 1, sizeof *params);
     if (!params) return hair_fail_memory(&gl->host, "the colliders to draw");
     result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
     if (!result) {
@@ -95,13 +95,13 @@ hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collid
         params->depth = find_depth(gl);
         hair_draw_write_slice(&field->box, view->slice, view->slice_at, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1, &buffer);
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
         gl->BindVertexArray(gl->vertex_array);
         gl->Disable(GL_CULL_FACE);
         draw_slice(draw, field, view, buffer, params);
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
         draw_shapes(draw, field, colliders, count, head, buffer, params);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SHOWN, 1,
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1,
                             NULL); // Unbind the buffer before it is deleted. See state.c.
     }
     hair_gl_free_buffer(gl, &buffer);

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-#define GIVE 1.1f // Allowance for stretched hair, as in glsl/detail.glsl.
+#define GIVE 1.1f // Allowance for stretched hair, as in glsl/strands/lod.glsl.
 #define WIDEST 16.0 // Maximum factor by which maps and the groom widen a strand.
 #define EDGE 8.0 // Margin in pixels, because ribbons are widened to the pixels that they touch.
 
@@ -33,7 +33,7 @@ void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groo
 
 double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
 {
-    double width = (double)(draw->look.radius * hair_curve_most(&draw->look.taper));
+    double width = (double)(draw->look.radius * hair_curve_max(&draw->look.taper));
     if (!lod) return width;
     return width *
            pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
@@ -44,8 +44,8 @@ double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
 static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
 {
     const hair_look* look = &draw->look;
-    double reach = (double)(GIVE * fmaxf(hair_curve_most(&look->clump_width), 1) * draw->extent.reach);
-    return reach + (double)(hair_look_most_stray(look) * draw->extent.length + hair_look_most_aside(look)) +
+    double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump_width), 1) * draw->extent.reach);
+    return reach + (double)(hair_look_max_stray(look) * draw->extent.length + hair_look_max_offset(look)) +
            WIDEST * hair_draw_thickest(draw, lod);
 }
 

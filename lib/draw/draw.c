@@ -12,11 +12,11 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     draw->followers = groom->info.follower_count;
     draw->patches = groom->info.patch_count;
     draw->map_sets = groom->map_sets;
-    draw->skull = groom->skull;
-    draw->seats = hair_seats_hold(groom->seats);
+    draw->head_sphere = groom->head_sphere;
+    draw->root_bindings = hair_root_bindings_retain(groom->root_bindings);
     for (uint32_t i = 0; i < draw->patches; ++i)
-        if (groom->patches[i].count > draw->most_isolines) draw->most_isolines = groom->patches[i].count;
-    HAIR_ASSERT(0 < draw->most_isolines && draw->most_isolines <= HAIR_MAX_ISOLINES);
+        if (groom->patches[i].count > draw->max_isolines) draw->max_isolines = groom->patches[i].count;
+    HAIR_ASSERT(0 < draw->max_isolines && draw->max_isolines <= HAIR_MAX_ISOLINES);
     hair_draw_find_extent(draw, groom);
     hair_draw_find_fastest(draw);
     hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
@@ -28,12 +28,13 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, draw->follower,
                                         &draw->follower_texture);
-    if (!result && groom->paint)
+    if (!result && groom->colors)
         result = hair_gl_buffer(gl, "hair colours",
-                                draw->followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *groom->paint,
-                                groom->paint, &draw->paint);
-    if (!result && groom->paint)
-        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, draw->paint, &draw->paint_texture);
+                                draw->followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *groom->colors,
+                                groom->colors, &draw->groom_color);
+    if (!result && groom->colors)
+        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, draw->groom_color,
+                                        &draw->groom_color_texture);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, draw->patch, &draw->patch_texture);
     return result;
@@ -42,24 +43,24 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
 void hair_draw_destroy(struct hair_draw* draw)
 {
     if (!draw->gl) return;
-    hair_draw_free_hits(draw);
+    hair_draw_free_follower_collision(draw);
     hair_draw_free_fibres(draw);
-    hair_draw_free_listed(draw);
-    hair_draw_free_expanded(draw);
-    hair_draw_free_sorted(draw);
+    hair_draw_free_strand_list(draw);
+    hair_draw_free_vertex_cache(draw);
+    hair_draw_free_sorted_segments(draw);
     hair_draw_free_self_shadow(draw);
-    hair_draw_free_hidden(draw);
+    hair_draw_free_occlusion(draw);
     hair_draw_free_raster(draw);
-    hair_draw_free_staged(draw);
+    hair_draw_free_view_cache(draw);
     hair_draw_free_uvs(draw);
-    hair_seats_release(draw->seats);
-    draw->seats = NULL;
+    hair_root_bindings_release(draw->root_bindings);
+    draw->root_bindings = NULL;
     hair_gl_free_buffer_texture(draw->gl, &draw->follower_texture);
     hair_gl_free_buffer_texture(draw->gl, &draw->patch_texture);
     hair_gl_free_buffer(draw->gl, &draw->follower);
     hair_gl_free_buffer(draw->gl, &draw->patch);
-    hair_gl_free_buffer_texture(draw->gl, &draw->paint_texture);
-    hair_gl_free_buffer(draw->gl, &draw->paint);
+    hair_gl_free_buffer_texture(draw->gl, &draw->groom_color_texture);
+    hair_gl_free_buffer(draw->gl, &draw->groom_color);
     hair_gl_free_buffer(draw->gl, &draw->params);
 }
 
@@ -69,7 +70,8 @@ static void bind_light(struct hair_draw* draw, const hair_view* view)
     struct hair_gl* gl = draw->gl;
     if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
     gl->BindSampler(HAIR_UNIT_FIBRE, 0);
-    if (hair_draw_lit(draw, view)) gl->BindTextureUnit(HAIR_UNIT_LIGHT, draw->self_shadow.texture);
+    if (hair_draw_light_value_count(draw, view))
+        gl->BindTextureUnit(HAIR_UNIT_LIGHT, draw->self_shadow.texture);
     hair_draw_bind_shadows(draw, view);
 }
 
@@ -78,8 +80,8 @@ static void bind_light(struct hair_draw* draw, const hair_view* view)
 struct drawn {
     hair_gl_pass pass, shade_pass;
     GLuint program, shade;
-    int hides; // Nonzero if patches are tested for occlusion with `hide`.
-    struct hair_hide_params hide;
+    int occlusion; // Nonzero if patches are tested for occlusion with `hide`.
+    struct hair_occlusion_params occlusion_params;
     // Parameters of compute rasterisation.
     struct hair_raster_params raster;
     // Nonzero if compute rasterisation has no pixels to cover.
@@ -94,44 +96,46 @@ static hair_result find_program(struct hair_draw* draw, const hair_view* view, s
 {
     hair_result result = HAIR_OK;
     out->pass = hair_draw_choose(draw, hair_draw_find_passes(draw, view, shader, &out->shade_pass));
-    if (out->hides) out->pass = hair_gl_with(out->pass, HAIR_GL_WITH(HIDDEN));
+    if (out->occlusion) out->pass = hair_gl_add_features(out->pass, HAIR_GL_WITH(OCCLUSION));
     if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
-    if (out->shade_pass) result = hair_draw_need_program(draw, out->shade_pass, shader, &out->shade);
+    if (out->shade_pass) result = hair_draw_ensure_program(draw, out->shade_pass, shader, &out->shade);
     return result ? result
-                  : hair_draw_need_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
+                  : hair_draw_ensure_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
 }
 
-hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
-                                    struct hair_gl_shader* shader, int may_meet)
+hair_result hair_draw_ensure_programs(struct hair_draw* draw, const hair_view* view,
+                                      struct hair_gl_shader* shader, int may_meet)
 {
     struct hair_gl* gl = draw->gl;
     int meets = may_meet && draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE;
-    int lit = hair_draw_lit(draw, view) > 0;
-    hair_gl_pass hides = hair_draw_hides(view) ? HAIR_GL_WITH(HIDDEN) : 0;
+    int lit = hair_draw_light_value_count(draw, view) > 0;
+    hair_gl_pass occlusion = hair_draw_uses_occlusion(view) ? HAIR_GL_WITH(OCCLUSION) : 0;
     hair_gl_pass expand = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
     hair_gl_pass strands = hair_draw_styled(draw, hair_draw_find_passes(draw, view, shader, &shade));
     hair_result result = HAIR_OK;
     GLuint program;
     if (view->render_path != HAIR_RENDER_PATH_TESSELLATION)
-        result = hair_gl_need_rows(gl, HAIR_GL_COUNT, HAIR_GL_LIST, hides);
-    if (!result && hair_draw_is_shared(view))
-        result = hair_gl_need_rows(gl, HAIR_GL_BUCKET, HAIR_GL_PLACE, 0);
+        result = hair_gl_ensure_programs(gl, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, occlusion);
+    if (!result && hair_draw_uses_alpha(view))
+        result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
     if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE)
-        result = hair_gl_need_rows(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
-    if (!result && meets) result = hair_draw_need_hit_programs(draw);
+        result = hair_gl_ensure_programs(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
+    if (!result && meets) result = hair_draw_ensure_hit_programs(draw);
     // Compile the variants without follower collision, then those with it.
     for (int i = 0; i <= meets && !result; ++i) {
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS) : 0;
         if (shade)
-            result = hair_draw_need_program(draw, hair_gl_with(hair_draw_styled(draw, shade), with), shader,
-                                            &program);
+            result = hair_draw_ensure_program(draw, hair_gl_add_features(hair_draw_styled(draw, shade), with),
+                                              shader, &program);
         if (!result)
-            result = hair_draw_need_program(draw, hair_gl_with(strands, with | hides), shade ? NULL : shader,
-                                            &program);
-        if (!result && hides) result = hair_gl_need_rows(gl, HAIR_GL_HIDE_FIRST, HAIR_GL_HIDE_PATCHES, with);
-        if (!result && (lit || hair_draw_expands(view)))
-            result = hair_gl_need(gl, hair_gl_with(expand, with));
-        if (!result && lit) result = hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT, with);
+            result = hair_draw_ensure_program(draw, hair_gl_add_features(strands, with | occlusion),
+                                              shade ? NULL : shader, &program);
+        if (!result && occlusion)
+            result = hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, with);
+        if (!result && (lit || hair_draw_uses_vertex_cache(view)))
+            result = hair_gl_ensure_program(gl, hair_gl_add_features(expand, with));
+        if (!result && lit)
+            result = hair_gl_ensure_programs(gl, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, with);
     }
     return result;
 }
@@ -149,43 +153,43 @@ static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smo
                            const struct hair_draw_params* params, struct drawn* with)
 {
     struct hair_gl* gl = draw->gl;
-    int listed = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
+    int strand_list = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
     HAIR_ASSERT(with->program && (with->shade != 0) == (with->shade_pass != 0));
-    if (listed) hair_draw_list(draw, smooth, params, with->hides);
-    if (hair_draw_expands(view)) hair_draw_bind_expanded(draw);
-    if (hair_draw_stages(view))
-        hair_draw_stage(draw, with->shade_pass, with->shade);
+    if (strand_list) hair_draw_update_strand_list(draw, smooth, params, with->occlusion);
+    if (hair_draw_uses_vertex_cache(view)) hair_draw_bind_vertex_cache(draw);
+    if (hair_draw_uses_view_cache(view))
+        hair_draw_expand_view(draw, with->shade_pass, with->shade);
     else if (with->shade_pass)
         hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
     if (computed) hair_draw_rasterise(draw, with->pass & RASTER_FEATURES, &with->raster);
     if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
-    if (hair_draw_is_shared(view)) hair_draw_sort(draw);
+    if (hair_draw_uses_alpha(view)) hair_draw_sort(draw);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye with either side.
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
-    if (hair_draw_covers(view)) hair_draw_begin_blend(gl, &was);
-    if (hair_draw_is_shared(view))
-        hair_draw_sorted(draw);
+    if (hair_draw_uses_analytic_coverage(view)) hair_draw_begin_blend(gl, &was);
+    if (hair_draw_uses_alpha(view))
+        hair_draw_issue_sorted_segments(draw);
     else if (computed)
-        hair_draw_compose(draw, &with->raster);
-    else if (listed)
-        hair_draw_listed(draw, hair_draw_is_paired(view));
+        hair_draw_resolve_tiles(draw, &with->raster);
+    else if (strand_list)
+        hair_draw_issue_strand_list(draw, hair_draw_is_paired(view));
     else
         hair_draw_patches(draw);
-    if (hair_draw_covers(view)) hair_draw_end_blend(gl, &was);
+    if (hair_draw_uses_analytic_coverage(view)) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, with->pass);
 }
 
-static hair_result need_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                               struct drawn* out)
+static hair_result ensure_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
+                                 struct drawn* out)
 {
     hair_gl_pass with = out->pass & RASTER_FEATURES;
-    hair_result result = hair_gl_need_rows(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
+    hair_result result = hair_gl_ensure_programs(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
     out->nowhere = !hair_draw_find_raster(draw, head, view, &out->raster);
-    return result || out->nowhere ? result : hair_draw_need_raster(draw, with, &out->raster);
+    return result || out->nowhere ? result : hair_draw_ensure_raster(draw, with, &out->raster);
 }
 
 // Compile the programs and create or update the buffers that drawing followers needs.
@@ -194,25 +198,27 @@ static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* 
                               struct hair_gl_shader* shader, struct drawn* out)
 {
     int motion = view->pass == HAIR_PASS_MOTION;
-    out->hides = hair_draw_find_hiding(draw, head, view, &out->hide);
+    out->occlusion = hair_draw_find_occlusion(draw, head, view, &out->occlusion_params);
     hair_result result = find_program(draw, view, shader, out);
     if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
-        result = hair_draw_need_fibres(draw);
+        result = hair_draw_ensure_fibres(draw);
     if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION)
-        result = hair_draw_make_listed(draw, out->hides);
+        result = hair_draw_ensure_strand_list(draw, out->occlusion);
     if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION &&
         view->render_path != HAIR_RENDER_PATH_COMPUTE)
-        result = hair_draw_make_indices(draw, hair_draw_is_paired(view));
-    if (!result && out->hides) result = hair_draw_need_hidden(draw, &out->hide);
-    if (!result && hair_draw_expands(view)) result = hair_draw_need_expanded(draw, smooth, NULL);
-    if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE) result = need_raster(draw, head, view, out);
-    if (!result && hair_draw_stages(view))
-        result = hair_draw_need_staged(draw, view);
+        result = hair_draw_ensure_indices(draw, hair_draw_is_paired(view));
+    if (!result && out->occlusion) result = hair_draw_ensure_occlusion(draw, &out->occlusion_params);
+    if (!result && hair_draw_uses_vertex_cache(view))
+        result = hair_draw_ensure_vertex_cache(draw, smooth, NULL);
+    if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE)
+        result = ensure_raster(draw, head, view, out);
+    if (!result && hair_draw_uses_view_cache(view))
+        result = hair_draw_ensure_view_cache(draw, view);
     else if (!result && out->shade_pass)
-        result = hair_draw_need_shaded(draw);
-    if (!result && hair_draw_wants_uvs(draw, view, shader)) result = hair_draw_need_uvs(draw);
-    if (!result && hair_draw_is_shared(view)) result = hair_draw_need_sorted(draw);
-    if (!result && motion) result = hair_draw_need_motion(draw);
+        result = hair_draw_ensure_shaded(draw);
+    if (!result && hair_draw_wants_uvs(draw, view, shader)) result = hair_draw_ensure_uvs(draw);
+    if (!result && hair_draw_uses_alpha(view)) result = hair_draw_ensure_sorted_segments(draw);
+    if (!result && motion) result = hair_draw_ensure_motion(draw);
     if (!result && motion) hair_draw_begin_motion(draw, head, view->frame_index);
     return result;
 }
@@ -224,8 +230,8 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     HAIR_ASSERT(guides || view->render_path != HAIR_RENDER_PATH_AUTO);
     struct drawn with = {0};
     if (!guides && draw->look.density <= 0) return HAIR_OK;
-    hair_result result =
-        guides ? hair_gl_need(draw->gl, HAIR_GL_GUIDES) : make_ready(draw, smooth, head, view, shader, &with);
+    hair_result result = guides ? hair_gl_ensure_program(draw->gl, HAIR_GL_GUIDES)
+                                : make_ready(draw, smooth, head, view, shader, &with);
     if (!result && !guides) result = hair_draw_find_light(draw, smooth, head, view);
     if (result || with.nowhere) return result;
 
@@ -237,10 +243,11 @@ hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smoo
     params.drawn_only = with.shade_pass != 0;
     hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
-    if (with.hides) hair_draw_hide(draw, view, &with.hide);
+    if (with.occlusion) hair_draw_cull_occluded(draw, view, &with.occlusion_params);
     if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
     if (hair_draw_wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
-    if (hair_draw_is_painted(draw, view)) draw->gl->BindTextureUnit(HAIR_UNIT_PAINT, draw->paint_texture);
+    if (hair_draw_is_painted(draw, view))
+        draw->gl->BindTextureUnit(HAIR_UNIT_GROOM_COLOR, draw->groom_color_texture);
     if (params.textured) {
         draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
         // Use the sampler state of the application's texture.

@@ -3,15 +3,15 @@
 #define HAIR_DRAW_DRAW_H
 
 #include "lib/draw/fibre.h"
-#include "lib/draw/expanded.h"
-#include "lib/draw/hidden.h"
-#include "lib/draw/hits.h"
-#include "lib/draw/listed.h"
+#include "lib/draw/vertex_cache.h"
+#include "lib/draw/occlusion.h"
+#include "lib/draw/follower_collision.h"
+#include "lib/draw/strand_list.h"
 #include "lib/draw/motion.h"
 #include "lib/draw/raster.h"
 #include "lib/draw/self_shadow.h"
-#include "lib/draw/sorted.h"
-#include "lib/draw/staged.h"
+#include "lib/draw/sorted_segments.h"
+#include "lib/draw/view_cache.h"
 
 #include <stdbool.h>
 
@@ -21,8 +21,8 @@ struct hair_fibres {
     struct hair_fibre of;
 };
 
-// Apply the wetness of a look to its other settings. Defined in tint.c.
-void hair_look_soak(hair_look* look);
+// Apply the wetness of a look to its other settings. Defined in strand_color.c.
+void hair_look_apply_wetness(hair_look* look);
 
 // Maximum extent of the hair in the head's frame while roots are attached.
 struct hair_extent {
@@ -35,56 +35,56 @@ struct hair_extent {
 // Resources that only some views need. Each is created on demand, and freed once no view has used
 // it for long.
 enum {
-    HAIR_DRAW_LISTED,
-    HAIR_DRAW_EXPANDED,
+    HAIR_DRAW_STRAND_LIST,
+    HAIR_DRAW_VERTEX_CACHE,
     HAIR_DRAW_SHADED,
     HAIR_DRAW_MOTION,
-    HAIR_DRAW_SORTED,
+    HAIR_DRAW_SORTED_SEGMENTS,
     HAIR_DRAW_RASTER,
-    HAIR_DRAW_STAGED,
+    HAIR_DRAW_VIEW_CACHE,
     HAIR_DRAW_FIBRES,
     HAIR_DRAW_UVS,
     HAIR_DRAW_SELF_SHADOW,
-    HAIR_DRAW_HIDDEN,
+    HAIR_DRAW_OCCLUSION,
     HAIR_DRAW_PARTS
 };
 
 struct hair_draw {
     struct hair_gl* gl;
-    uint32_t frame; // Number of the current frame, set by hair_draw_tidy().
+    uint32_t frame; // Number of the current frame, set by hair_draw_free_unused().
     uint32_t used[HAIR_DRAW_PARTS]; // Frame in which each part was last used.
-    hair_look look; // Look after hair_look_soak().
+    hair_look look; // Look after hair_look_apply_wetness().
     GLuint follower, patch, params; // Buffers of followers, patches and draw parameters.
     // Buffer textures of the first two, for stages without storage buffers.
     GLuint follower_texture, patch_texture;
     uint32_t followers, patches, smooth_vertices, guides;
-    uint32_t most_isolines; // Maximum number of isolines in a patch.
+    uint32_t max_isolines; // Maximum number of isolines in a patch.
     uint32_t map_sets;
     uint32_t driver; // Row of paths.inl for this driver.
     // Sphere under the hair, from the groom. xyz is the centre, w the radius in metres.
-    hair_vec4 skull;
-    int bounded; // Nonzero if roots are attached, so that no strand leaves its patch's reach.
+    hair_vec4 head_sphere;
+    int is_cullable; // Nonzero if roots are attached, so that no strand leaves its patch's reach.
     // Nonzero if, besides, neither pins, a skinned scalp nor a stretching solver moves strands out
     // of `extent`.
-    int held;
+    int has_attached_roots;
     // Maximum pixels per metre of the hair in the view, for level of detail. 0 disables per-patch
     // level of detail. `led` is the displayed fraction of the displacement by follower collision.
-    float pixels, led;
-    uint32_t seated; // Run of smooth.comp for which roots of followers last moved with the scalp.
+    float pixels_per_metre, push_out_weight;
+    uint32_t bound_run; // Run of smooth.comp for which roots of followers last moved with the scalp.
     struct hair_extent extent;
-    struct hair_hits hits;
-    struct hair_listed listed;
-    struct hair_expanded expanded;
+    struct hair_follower_collision_state follower_collision;
+    struct hair_strand_list strand_list;
+    struct hair_vertex_cache vertex_cache;
     struct hair_fibres fibres;
     struct hair_motion motion;
-    struct hair_sorted sorted;
+    struct hair_sorted_segments sorted_segments;
     struct hair_raster raster;
-    struct hair_staged staged;
+    struct hair_view_cache view_cache;
     struct hair_self_shadow_state self_shadow;
-    struct hair_hidden hidden;
-    struct hair_seats* seats; // Root bindings to the scalp. NULL if there is no scalp.
+    struct hair_occlusion occlusion;
+    struct hair_root_bindings* root_bindings; // Root bindings to the scalp. NULL if there is no scalp.
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
-    GLuint paint, paint_texture; // Colours of the groom. 0 if there are none.
+    GLuint groom_color, groom_color_texture; // Colours of the groom. 0 if there are none.
     // Bounding sphere of the hair in the head's frame. xyz is the centre, w the radius in metres.
     hair_vec4 reach;
 };
@@ -93,22 +93,22 @@ hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const s
                              const struct hair_sim* sim);
 void hair_draw_destroy(struct hair_draw* draw);
 
-// Prepare followers for a skinned scalp. Defined in seats.c.
-hair_result hair_draw_make_seats(struct hair_draw* draw, struct hair_sim* sim);
+// Prepare followers for a skinned scalp. Defined in scalp_roots.c.
+hair_result hair_draw_create_scalp_roots(struct hair_draw* draw, struct hair_sim* sim);
 // Move the roots of followers with the skinned scalp, once the guides are smoothed. Defined in
-// seats.c.
-void hair_draw_seat(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
+// scalp_roots.c.
+void hair_draw_bind_followers(struct hair_draw* draw, const struct hair_smooth* smooth, struct hair_sim* sim);
 
 // Find the followers inside colliders and push them out. Call this before followers are drawn or
 // written. NULL `field` means that no collider is near. `margin` is the distance that guides keep
-// from colliders, in metres. Defined in hits.c.
-hair_result hair_draw_meet_colliders(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                     const struct hair_collider_field* field, float margin);
+// from colliders, in metres. Defined in follower_collision.c.
+hair_result hair_draw_update_follower_collision(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                                const struct hair_collider_field* field, float margin);
 // Compile the programs of follower collision.
-hair_result hair_draw_need_hit_programs(struct hair_draw* draw);
+hair_result hair_draw_ensure_hit_programs(struct hair_draw* draw);
 // Return whether follower collision is up to date with the guides and colliders.
-bool hair_draw_has_met_colliders(const struct hair_draw* draw, const struct hair_smooth* smooth);
-void hair_draw_free_hits(struct hair_draw* draw);
+bool hair_draw_has_follower_collision(const struct hair_draw* draw, const struct hair_smooth* smooth);
+void hair_draw_free_follower_collision(struct hair_draw* draw);
 // Create the image and the framebuffer of the prepass. Defined in prepass.c.
 hair_result hair_draw_make_prepass(struct hair_draw* draw);
 // Write the first vertex of each follower inside a collider to hits.image. The inputs of followers
@@ -116,17 +116,17 @@ hair_result hair_draw_make_prepass(struct hair_draw* draw);
 void hair_draw_run_prepass(struct hair_draw* draw);
 
 // Begin or continue frame number `frame`. Free the parts that recent frames did not use. Defined in
-// tidy.c.
-void hair_draw_tidy(struct hair_draw* draw, uint32_t frame);
+// resource_lru.c.
+void hair_draw_free_unused(struct hair_draw* draw, uint32_t frame);
 
-// Return whether the groom has root uvs. Defined in places.c.
+// Return whether the groom has root uvs. Defined in root_uvs.c.
 bool hair_draw_has_uvs(const struct hair_draw* draw);
 // Create the buffer and the texture of root uvs.
-hair_result hair_draw_need_uvs(struct hair_draw* draw);
+hair_result hair_draw_ensure_uvs(struct hair_draw* draw);
 void hair_draw_free_uvs(struct hair_draw* draw);
 
 // Create or update the fibre table for the current look. Defined in fibres.c.
-hair_result hair_draw_need_fibres(struct hair_draw* draw);
+hair_result hair_draw_ensure_fibres(struct hair_draw* draw);
 void hair_draw_free_fibres(struct hair_draw* draw);
 
 // Compute the light that reaches each vertex, if the look requests self-shadowing for `view`.
@@ -136,20 +136,20 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
 void hair_draw_free_self_shadow(struct hair_draw* draw);
 
 // Create the buffers of the strand list and compile its programs. Nonzero `hides` includes
-// occlusion culling. Defined in listed.c.
-hair_result hair_draw_make_listed(struct hair_draw* draw, int hides);
+// occlusion culling. Defined in strand_list.c.
+hair_result hair_draw_ensure_strand_list(struct hair_draw* draw, int occlusion);
 // Create the index buffer of an instance of strands. Nonzero `paired` selects two vertices per
 // strand point.
-hair_result hair_draw_make_indices(struct hair_draw* draw, int paired);
-void hair_draw_free_listed(struct hair_draw* draw);
+hair_result hair_draw_ensure_indices(struct hair_draw* draw, int paired);
+void hair_draw_free_strand_list(struct hair_draw* draw);
 // List the strands that are drawn, unless the list is up to date with `params` and the smoothed
 // guides. Nonzero `hides` leaves out occluded patches and always rebuilds the list. The inputs of
 // followers must be bound.
-void hair_draw_list(struct hair_draw* draw, const struct hair_smooth* smooth,
-                    const struct hair_draw_params* params, int hides);
+void hair_draw_update_strand_list(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                  const struct hair_draw_params* params, int occlusion);
 // Draw the listed strands with the current program. Nonzero `paired` draws triangles between two
 // vertices per strand point. Otherwise draw lines.
-void hair_draw_listed(struct hair_draw* draw, int paired);
+void hair_draw_issue_strand_list(struct hair_draw* draw, int paired);
 
 // Functions of plan.c, for what a view needs.
 
@@ -159,16 +159,16 @@ void hair_draw_find_fastest(struct hair_draw* draw);
 // other code reads the path from view->path.
 hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view);
 // Return whether the path reads the vertex cache of all followers.
-bool hair_draw_expands(const hair_view* view);
+bool hair_draw_uses_vertex_cache(const hair_view* view);
 // Return whether the path reads per-view vertices.
-bool hair_draw_stages(const hair_view* view);
+bool hair_draw_uses_view_cache(const hair_view* view);
 // Return whether per-view vertices are in clip space, ready to draw.
-bool hair_draw_stages_sides(const hair_view* view);
+bool hair_draw_caches_sides(const hair_view* view);
 // Return whether strands are blended by their coverage of pixels.
-bool hair_draw_is_shared(const hair_view* view);
+bool hair_draw_uses_alpha(const hair_view* view);
 // Return whether the pass draws coverage, either blended colour or the opacity seen from a
 // light.
-bool hair_draw_covers(const hair_view* view);
+bool hair_draw_uses_analytic_coverage(const hair_view* view);
 // Return whether ribbons are drawn without a geometry shader, from two vertices per strand
 // point.
 bool hair_draw_is_paired(const hair_view* view);
@@ -177,9 +177,9 @@ bool hair_draw_is_blocked(const hair_view* view);
 // Return whether vertices of `view` are shaded in a pass before drawing.
 bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
 // Return whether `view` has an occluder depth texture.
-bool hair_draw_hides(const hair_view* view);
+bool hair_draw_uses_occlusion(const hair_view* view);
 // Return the number of light values per vertex, or 0 without self-shadowing.
-uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view);
+uint32_t hair_draw_light_value_count(const struct hair_draw* draw, const hair_view* view);
 // Return the number of vertices of all followers, look.segments + 1 each.
 size_t hair_draw_count_vertices(const struct hair_draw* draw);
 
@@ -190,7 +190,7 @@ hair_gl_pass hair_draw_styled(const struct hair_draw* draw, hair_gl_pass pass);
 // Return `pass` with the features that the look and, near colliders, follower collision need.
 hair_gl_pass hair_draw_choose(const struct hair_draw* draw, hair_gl_pass pass);
 // Apply hair_draw_choose() to *pass and compile its program.
-hair_result hair_draw_need(struct hair_draw* draw, hair_gl_pass* pass);
+hair_result hair_draw_ensure(struct hair_draw* draw, hair_gl_pass* pass);
 // Return whether the application's texture colours the strands of `view`.
 bool hair_draw_is_textured(const struct hair_draw* draw, const hair_view* view);
 // Return whether the groom's colours colour the strands of `view`.
@@ -203,15 +203,15 @@ bool hair_draw_wants_uvs(const struct hair_draw* draw, const hair_view* view,
 hair_gl_pass hair_draw_find_passes(const struct hair_draw* draw, const hair_view* view,
                                    const struct hair_gl_shader* shader, hair_gl_pass* shade);
 // Compile the program of a pass, with the application's shading unless `shader` is NULL.
-hair_result hair_draw_need_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
-                                   GLuint* out);
+hair_result hair_draw_ensure_program(struct hair_draw* draw, hair_gl_pass pass, struct hair_gl_shader* shader,
+                                     GLuint* out);
 
 // Functions of bindings.c, for bindings that several passes read.
 
 // Bind the buffers, textures and parameters that the vertices of followers are computed from.
 void hair_draw_bind(struct hair_draw* draw, const struct hair_smooth* smooth);
 // Bind the vertex cache.
-void hair_draw_bind_expanded(struct hair_draw* draw);
+void hair_draw_bind_vertex_cache(struct hair_draw* draw);
 // Bind the previous frame's vertices.
 void hair_draw_bind_motion(struct hair_draw* draw);
 // Bind the application's shadow maps to their texture units.
@@ -222,10 +222,10 @@ void hair_draw_patches(struct hair_draw* draw);
 
 // Select the level of detail for `view`, which is drawn or lit next. NULL selects all followers in
 // full detail. Followers show their whole collision displacement where it covers two pixels. They
-// show none where it covers one pixel, and then need no collision. Defined in detail.c.
-void hair_draw_look(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view);
+// show none where it covers one pixel, and then need no collision. Defined in lod.c.
+void hair_draw_select_lod(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view);
 // Return the number of work groups per patch of a pass over the fraction `share` of all vertices.
-uint32_t hair_draw_chunks(const struct hair_draw* draw, double share);
+uint32_t hair_draw_chunks(const struct hair_draw* draw, double fraction);
 
 // Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom);
@@ -235,8 +235,8 @@ bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_po
 
 // Compile all programs that drawing `view` needs. Nonzero `may_meet` includes those for followers
 // that have met colliders.
-hair_result hair_draw_need_programs(struct hair_draw* draw, const hair_view* view,
-                                    struct hair_gl_shader* shader, int may_meet);
+hair_result hair_draw_ensure_programs(struct hair_draw* draw, const hair_view* view,
+                                      struct hair_gl_shader* shader, int may_meet);
 
 // Draw `view`, which must be validated, with the head's origin at `head`. `shader` is the
 // application's. NULL selects the built-in shading.
@@ -251,47 +251,48 @@ hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collid
 
 // Draw the wind as of the last step, in and around the field's box. NULL `fluid` means that there
 // is no fluid. Defined in air.c.
-hair_result hair_draw_air(struct hair_draw* draw, const struct hair_air* air, const hair_wind* wind,
+hair_result hair_draw_air(struct hair_draw* draw, const struct hair_wind_state* air, const hair_wind* wind,
                           const struct hair_fluid* fluid, const struct hair_field_box* box,
                           const struct hair_pose* head, const hair_view* view);
 
 // Write the vertex cache unless it is up to date. With parameters of a view in `drawn`, write only
-// the vertices that the view draws, on every call. Defined in expanded.c.
-hair_result hair_draw_need_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                    const struct hair_draw_params* drawn);
+// the vertices that the view draws, on every call. Defined in vertex_cache.c.
+hair_result hair_draw_ensure_vertex_cache(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                          const struct hair_draw_params* drawn);
 // Return whether the cache holds up-to-date vertices of all followers.
-bool hair_draw_is_expanded(const struct hair_draw* draw, const struct hair_smooth* smooth);
-void hair_draw_free_expanded(struct hair_draw* draw);
+bool hair_draw_has_vertex_cache(const struct hair_draw* draw, const struct hair_smooth* smooth);
+void hair_draw_free_vertex_cache(struct hair_draw* draw);
 
-// Create the buffer of shaded vertices. Defined in shaded.c.
-hair_result hair_draw_need_shaded(struct hair_draw* draw);
+// Create the buffer of shaded vertices. Defined in vertex_colors.c.
+hair_result hair_draw_ensure_shaded(struct hair_draw* draw);
 void hair_draw_free_shaded(struct hair_draw* draw);
 // Shade the vertices with `program`. The inputs of drawing must be bound.
 void hair_draw_shade(struct hair_draw* draw, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
 // Create the buffer of the previous frame's vertices. Defined in motion.c.
-hair_result hair_draw_need_motion(struct hair_draw* draw);
+hair_result hair_draw_ensure_motion(struct hair_draw* draw);
 void hair_draw_free_motion(struct hair_draw* draw);
 // Begin frame number `frame`, or continue it. The vertices must be up to date.
 void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame);
 // Keep the vertices that the previous frame displayed, before they are overwritten.
-void hair_draw_keep_shown(struct hair_draw* draw);
+void hair_draw_save_history(struct hair_draw* draw);
 // Move the previous frame's positions with a head that is teleported.
-void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to);
+void hair_draw_teleport_history(struct hair_draw* draw, const struct hair_pose* from,
+                                const struct hair_pose* to);
 
-// Create the buffers of sorted segments and compile their programs. Defined in sorted.c.
-hair_result hair_draw_need_sorted(struct hair_draw* draw);
-void hair_draw_free_sorted(struct hair_draw* draw);
+// Create the buffers of sorted segments and compile their programs. Defined in sorted_segments.c.
+hair_result hair_draw_ensure_sorted_segments(struct hair_draw* draw);
+void hair_draw_free_sorted_segments(struct hair_draw* draw);
 // Sort the segments of the listed strands from far to near.
 void hair_draw_sort(struct hair_draw* draw);
 // Draw the sorted segments with the current program. The caller enables blending.
-void hair_draw_sorted(struct hair_draw* draw);
+void hair_draw_issue_sorted_segments(struct hair_draw* draw);
 
-// Create the buffers of per-view vertices. Defined in staged.c.
-hair_result hair_draw_need_staged(struct hair_draw* draw, const hair_view* view);
-void hair_draw_free_staged(struct hair_draw* draw);
+// Create the buffers of per-view vertices. Defined in view_cache.c.
+hair_result hair_draw_ensure_view_cache(struct hair_draw* draw, const hair_view* view);
+void hair_draw_free_view_cache(struct hair_draw* draw);
 // Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
-void hair_draw_stage(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
+void hair_draw_expand_view(struct hair_draw* draw, hair_gl_pass pass, GLuint program);
 
 // Find the pixels of the window that hair may cover, and their sample positions. Return false if
 // there are none. Defined in raster.c.
@@ -299,23 +300,24 @@ bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose*
                            struct hair_raster_params* out);
 // Create the buffers of compute rasterisation. HAIR_GL_WITH(DEPTH) in `with` selects depth without
 // colour. HAIR_GL_WITH(WIDENED) selects per-view vertices.
-hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
-                                  const struct hair_raster_params* params);
+hair_result hair_draw_ensure_raster(struct hair_draw* draw, hair_gl_pass with,
+                                    const struct hair_raster_params* params);
 // Find the nearest segment at each sample. The inputs of drawing must be bound.
 void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params);
 // Draw the rasterised samples into the framebuffer with the current program.
-void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params);
+void hair_draw_resolve_tiles(struct hair_draw* draw, const struct hair_raster_params* params);
 void hair_draw_free_raster(struct hair_draw* draw);
 
 // Compute the parameters of occlusion culling. Return false if no patch can be tested. Defined in
-// hidden.c.
-bool hair_draw_find_hiding(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                           struct hair_hide_params* out);
+// occlusion.c.
+bool hair_draw_find_occlusion(const struct hair_draw* draw, const struct hair_pose* head,
+                              const hair_view* view, struct hair_occlusion_params* out);
 // Create the buffers and compile the programs of occlusion culling.
-hair_result hair_draw_need_hidden(struct hair_draw* draw, const struct hair_hide_params* params);
+hair_result hair_draw_ensure_occlusion(struct hair_draw* draw, const struct hair_occlusion_params* params);
 // Find the occluded patches. The inputs of followers must be bound.
-void hair_draw_hide(struct hair_draw* draw, const hair_view* view, struct hair_hide_params* params);
-void hair_draw_free_hidden(struct hair_draw* draw);
+void hair_draw_cull_occluded(struct hair_draw* draw, const hair_view* view,
+                             struct hair_occlusion_params* params);
+void hair_draw_free_occlusion(struct hair_draw* draw);
 
 // Blending state of the application. Functions of blend.c.
 struct hair_blend {
@@ -328,7 +330,7 @@ void hair_draw_end_blend(struct hair_gl* gl, const struct hair_blend* was);
 
 // Read back the vertices of all followers. xyz is the position from the head's origin, w the
 // radius. The caller frees *out, and has checked that there are at most UINT32_MAX vertices.
-hair_result hair_draw_read_expanded(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                    hair_vec4** out);
+hair_result hair_draw_read_vertex_cache(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                        hair_vec4** out);
 
 #endif

@@ -51,7 +51,7 @@ static double logistic(double x, double scale, double kept)
 // is the fraction of all incoming light that leaves in each lobe without absorption. `angle` is the
 // angle from the incoming direction, and `path` the distance inside in radii.
 struct ray {
-    double share[LOBES], angle[LOBES], path[LOBES];
+    double fraction[LOBES], angle[LOBES], path[LOBES];
 };
 
 static struct ray trace(double in, double cos_d, double index)
@@ -64,7 +64,7 @@ static struct ray trace(double in, double cos_d, double index)
     double leg = 2 * cos(inside) / cos_t;
     double through[LOBES] = {f, (1 - f) * (1 - f), (1 - f) * (1 - f) * f, (1 - f) * f * f};
     for (int p = 0; p < LOBES; ++p) {
-        ray.share[p] = through[p] * 0.5 * PI / RAYS * cos(in);
+        ray.fraction[p] = through[p] * 0.5 * PI / RAYS * cos(in);
         ray.angle[p] = 2 * p * inside - 2 * in + p * PI;
         ray.path[p] = p * leg;
     }
@@ -91,8 +91,8 @@ static void fill_lobes(const struct hair_fibre* fibre, hair_fibre_table table)
                 for (int p = 0; p < LOBES; ++p) {
                     // Light that was reflected inside twice or more has lost its direction.
                     double density = p < 3 ? logistic(phi - rays[i].angle[p], scale, kept) : 0.5 / PI;
-                    sum[p] += rays[i].share[p] * density;
-                    path[p] += rays[i].share[p] * density * rays[i].path[p];
+                    sum[p] += rays[i].fraction[p] * density;
+                    path[p] += rays[i].fraction[p] * density * rays[i].path[p];
                 }
             for (int p = 1; p < LOBES; ++p) path[p] = sum[p] > 1e-30 ? path[p] / sum[p] : 2 * p;
             table[0][row][column] = (hair_vec4){(float)sum[0], (float)sum[1], (float)sum[2], (float)sum[3]};
@@ -121,16 +121,16 @@ static hair_vec4 send(const hair_fibre_table table, int row, double mu, const fl
     double on = 0, back = 0, on_variance = 0, back_variance = 0;
     for (int column = 0; column < HAIR_FIBRE_COLUMNS; ++column) {
         const hair_vec4 *w = &table[0][row][column], *l = &table[1][row][column];
-        double share = (double)column / (HAIR_FIBRE_COLUMNS - 1);
+        double fraction = (double)column / (HAIR_FIBRE_COLUMNS - 1);
         double weight = weight_of(column);
         double lobe[4] = {(double)w->x, (double)w->y * exp(-mu * (double)l->x),
                           (double)w->z * exp(-mu * (double)l->y), (double)w->w * exp(-mu * (double)l->z)};
         for (int p = 0; p < LOBES; ++p) {
             double v = (double)variance[p < 2 ? p : 2];
-            on += weight * share * lobe[p];
-            back += weight * (1 - share) * lobe[p];
-            on_variance += weight * share * lobe[p] * v;
-            back_variance += weight * (1 - share) * lobe[p] * v;
+            on += weight * fraction * lobe[p];
+            back += weight * (1 - fraction) * lobe[p];
+            on_variance += weight * fraction * lobe[p] * v;
+            back_variance += weight * (1 - fraction) * lobe[p] * v;
         }
     }
     HAIR_ASSERT(on > 0 && back > 0);
@@ -149,7 +149,7 @@ static double log_bessel(double x)
     return x + log(sum);
 }
 
-// Return the longitudinal scattering for scales without tilt, as in fibre.glsl. Angles are measured
+// Return the longitudinal scattering for scales without tilt, as in light/fibre.glsl. Angles are measured
 // from the plane across the fibre.
 static double longitudinal(double light, double eye, double variance)
 {

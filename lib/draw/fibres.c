@@ -5,7 +5,7 @@
 
 #define REFRACTION 1.55f // Index of refraction of keratin.
 
-hair_result hair_draw_need_fibres(struct hair_draw* draw)
+hair_result hair_draw_ensure_fibres(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_FIBRES] = draw->frame;
     struct hair_fibres* fibres = &draw->fibres;

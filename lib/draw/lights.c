@@ -1,5 +1,5 @@
 // lights.c - lights and surroundings, transformed to the head's origin and to the sums that
-// lights.glsl evaluates.
+// light/lights.glsl evaluates.
 #include "lib/draw/params.h"
 
 #include <string.h>

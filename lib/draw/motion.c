@@ -5,18 +5,19 @@
 
 #include <string.h>
 
-hair_result hair_draw_need_motion(struct hair_draw* draw)
+hair_result hair_draw_ensure_motion(struct hair_draw* draw)
 {
     draw->used[HAIR_DRAW_MOTION] = draw->frame;
     struct hair_gl* gl = draw->gl;
     struct hair_motion* motion = &draw->motion;
     hair_result result = HAIR_OK;
-    HAIR_ASSERT(draw->expanded.vertices > 0);
-    size_t size = draw->expanded.vertices * sizeof(hair_vec4);
-    if (!motion->buffer) result = hair_gl_storage(gl, "hair expanded before", size, NULL, &motion->buffer);
+    HAIR_ASSERT(draw->vertex_cache.vertices > 0);
+    size_t size = draw->vertex_cache.vertices * sizeof(hair_vec4);
+    if (!motion->buffer)
+        result = hair_gl_storage(gl, "hair vertex cache before", size, NULL, &motion->buffer);
     if (!result && !motion->texture)
-        result =
-            hair_gl_buffer_texture(gl, "hair expanded before", GL_RGBA32F, motion->buffer, &motion->texture);
+        result = hair_gl_buffer_texture(gl, "hair vertex cache before", GL_RGBA32F, motion->buffer,
+                                        &motion->texture);
     return result;
 }
 
@@ -34,14 +35,15 @@ static void swap(GLuint* a, GLuint* b)
     *b = c;
 }
 
-void hair_draw_keep_shown(struct hair_draw* draw)
+void hair_draw_save_history(struct hair_draw* draw)
 {
     struct hair_motion* motion = &draw->motion;
-    struct hair_expanded* expanded = &draw->expanded;
-    if (!motion->buffer || !motion->shown || motion->shown != expanded->writes) return;
-    HAIR_ASSERT(motion->buffer != expanded->position && motion->texture != expanded->position_texture);
-    swap(&motion->buffer, &expanded->position);
-    swap(&motion->texture, &expanded->position_texture);
+    struct hair_vertex_cache* vertex_cache = &draw->vertex_cache;
+    if (!motion->buffer || !motion->shown || motion->shown != vertex_cache->writes) return;
+    HAIR_ASSERT(motion->buffer != vertex_cache->position &&
+                motion->texture != vertex_cache->position_texture);
+    swap(&motion->buffer, &vertex_cache->position);
+    swap(&motion->texture, &vertex_cache->position_texture);
 }
 
 void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head, uint32_t frame)
@@ -51,14 +53,15 @@ void hair_draw_begin_motion(struct hair_draw* draw, const struct hair_pose* head
     // This is another view of the same frame.
     if (motion->shown && frame && frame == motion->frame) return;
     memcpy(now.position, head->position, sizeof now.position);
-    motion->still = !motion->shown || motion->shown == draw->expanded.writes;
+    motion->still = !motion->shown || motion->shown == draw->vertex_cache.writes;
     motion->before = motion->shown ? motion->last : now;
     motion->last = now;
     motion->frame = frame;
-    motion->shown = draw->expanded.writes;
+    motion->shown = draw->vertex_cache.writes;
 }
 
-void hair_draw_take_along(struct hair_draw* draw, const struct hair_pose* from, const struct hair_pose* to)
+void hair_draw_teleport_history(struct hair_draw* draw, const struct hair_pose* from,
+                                const struct hair_pose* to)
 {
     struct hair_was* was = &draw->motion.last;
     if (!draw->motion.shown) return;

@@ -17,7 +17,7 @@ struct hair_was {
 struct hair_motion {
     GLuint buffer, texture; // Vertices of the previous frame. 0 until needed.
     uint32_t frame; // Number of the frame drawn last.
-    uint32_t shown; // Value of hair_expanded.writes in that frame. 0 if none was drawn.
+    uint32_t shown; // Value of hair_vertex_cache.writes in that frame. 0 if none was drawn.
     int still; // Nonzero if the vertices have not moved since the previous frame.
     struct hair_was last, before; // Transforms of the frame drawn last and of the frame before it.
 };

@@ -15,7 +15,7 @@ static void write_clip(const struct hair_draw* draw, const struct hair_pose* hea
     float projection[16];
     hair_draw_project(draw, view, projection);
     memcpy(&out->view_to_clip, projection, sizeof out->view_to_clip);
-    if (!hair_draw_covers(view)) return;
+    if (!hair_draw_uses_analytic_coverage(view)) return;
     draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     draw->gl->GetIntegerv(GL_SAMPLES, &samples);
     // With multisampling, the ribbon must contain whole pixels.
@@ -55,7 +55,7 @@ static void write_view(const struct hair_draw* draw, const struct hair_pose* hea
     out->origin = (hair_vec4){(float)head->position[0], (float)head->position[1], (float)head->position[2],
                               hair_draw_cell(draw, view)};
     out->head = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
-    out->lit = hair_draw_lit(draw, view);
+    out->light_values = hair_draw_light_value_count(draw, view);
     write_clip(draw, head, view, out);
     if (view->pass == HAIR_PASS_MOTION) write_motion(&draw->motion, view, out);
     hair_draw_write_lights(draw, head, view, out);
@@ -99,9 +99,9 @@ void hair_draw_write_params(const struct hair_draw* draw, const struct hair_pose
     out->smooth_vertices = draw->smooth_vertices;
     out->followers = draw->followers;
     out->follower_collision = look->follower_collision;
-    out->led = view ? draw->led : 1;
+    out->push_out_weight = view ? draw->push_out_weight : 1;
     out->map_weights = weigh_sets(look->map_set, draw->map_sets);
-    hair_draw_write_detail(draw, head, view, out);
+    hair_draw_write_lod(draw, head, view, out);
     hair_draw_write_tint(look, &out->tint);
     hair_draw_write_strand(look, &out->strand);
 }

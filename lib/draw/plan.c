@@ -7,8 +7,8 @@
 #include <string.h>
 
 // Maximum vertices, of 24 bytes each. Beyond it, memory costs more than time.
-#define MOST_EXPANDED 4194304u
-#define MOST_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
+#define MAX_CACHED 4194304u
+#define MAX_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
 
 static const struct {
     const char* renderer; // Part of the renderer's name.
@@ -31,19 +31,19 @@ void hair_draw_find_fastest(struct hair_draw* draw)
         ++draw->driver;
 }
 
-bool hair_draw_is_shared(const hair_view* view)
+bool hair_draw_uses_alpha(const hair_view* view)
 {
     return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA;
 }
 
-bool hair_draw_covers(const hair_view* view)
+bool hair_draw_uses_analytic_coverage(const hair_view* view)
 {
-    return view->pass == HAIR_PASS_OPACITY || hair_draw_is_shared(view);
+    return view->pass == HAIR_PASS_OPACITY || hair_draw_uses_alpha(view);
 }
 
 static bool is_of_lines(const hair_view* view)
 {
-    return view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_covers(view);
+    return view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_uses_analytic_coverage(view);
 }
 
 static bool has_few_samples(const struct hair_gl* gl)
@@ -52,8 +52,8 @@ static bool has_few_samples(const struct hair_gl* gl)
     GLint samples = 0;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetIntegerv(GL_SAMPLES, &samples);
-    double most = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1);
-    return samples <= HAIR_RASTER_SAMPLES && most <= MOST_SAMPLES;
+    double max = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1);
+    return samples <= HAIR_RASTER_SAMPLES && max <= MAX_SAMPLES;
 }
 
 // Return whether compute rasterisation supports the view. Its pixels are opaque, and hold only
@@ -75,7 +75,7 @@ static hair_render_path find_fastest_for(const struct hair_draw* draw, const hai
     HAIR_ASSERT(0 <= column && column < 5 && draw->driver < sizeof fastest / sizeof *fastest);
     hair_render_path path = fastest[draw->driver].path[column];
     size_t vertices = hair_draw_count_vertices(draw);
-    if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MOST_EXPANDED)
+    if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MAX_CACHED)
         return HAIR_RENDER_PATH_TESSELLATION;
     if (path != HAIR_RENDER_PATH_COMPUTE ||
         (is_computable(view) && !view->shader && has_few_samples(draw->gl)))
@@ -87,36 +87,36 @@ static hair_render_path find_fastest_for(const struct hair_draw* draw, const hai
 // sorted segments index them.
 static bool keeps_vertices(const hair_view* view)
 {
-    return view->pass == HAIR_PASS_MOTION || hair_draw_is_shared(view);
+    return view->pass == HAIR_PASS_MOTION || hair_draw_uses_alpha(view);
 }
 
 // A level of detail leaves out most vertices of the cache and places others differently, so it uses
 // per-view vertices.
-bool hair_draw_stages(const hair_view* view)
+bool hair_draw_uses_view_cache(const hair_view* view)
 {
     return view->lod && !keeps_vertices(view) &&
            (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE);
 }
 
-bool hair_draw_expands(const hair_view* view)
+bool hair_draw_uses_vertex_cache(const hair_view* view)
 {
     return (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE) &&
-           !hair_draw_stages(view);
+           !hair_draw_uses_view_cache(view);
 }
 
-bool hair_draw_stages_sides(const hair_view* view)
+bool hair_draw_caches_sides(const hair_view* view)
 {
-    return view->render_path == HAIR_RENDER_PATH_CACHED && hair_draw_stages(view);
+    return view->render_path == HAIR_RENDER_PATH_CACHED && hair_draw_uses_view_cache(view);
 }
 
 bool hair_draw_is_paired(const hair_view* view)
 {
-    return view->primitive == HAIR_PRIMITIVE_RIBBONS && !hair_draw_covers(view) &&
+    return view->primitive == HAIR_PRIMITIVE_RIBBONS && !hair_draw_uses_analytic_coverage(view) &&
            view->render_path == HAIR_RENDER_PATH_CACHED;
 }
 
 // Return whether per-view vertices suffice. They hold a position, a width and a colour.
-static bool is_stageable(const hair_view* view)
+static bool is_view_cacheable(const hair_view* view)
 {
     return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
 }
@@ -127,17 +127,18 @@ hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* v
     hair_render_path path =
         view->render_path == HAIR_RENDER_PATH_AUTO ? find_fastest_for(draw, view) : view->render_path;
     if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
-    return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_stageable(view) ? HAIR_RENDER_PATH_INSTANCED
-                                                                               : path;
+    return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_view_cacheable(view)
+               ? HAIR_RENDER_PATH_INSTANCED
+               : path;
 }
 
 bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
 {
     return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
-           hair_draw_expands(view);
+           hair_draw_uses_vertex_cache(view);
 }
 
-uint32_t hair_draw_lit(const struct hair_draw* draw, const hair_view* view)
+uint32_t hair_draw_light_value_count(const struct hair_draw* draw, const hair_view* view)
 {
     int wanted = view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
     return wanted ? 1 + view->light_count : 0;
@@ -152,7 +153,7 @@ bool hair_draw_is_blocked(const hair_view* view)
     return false;
 }
 
-bool hair_draw_hides(const hair_view* view)
+bool hair_draw_uses_occlusion(const hair_view* view)
 {
     return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
 }

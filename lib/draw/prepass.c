@@ -10,18 +10,22 @@
 hair_result hair_draw_make_prepass(struct hair_draw* draw)
 {
     struct hair_gl* gl = draw->gl;
-    struct hair_hits* hits = &draw->hits;
+    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
     GLsizei rows = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
     hair_result result = HAIR_OK;
-    if (!hits->image)
-        result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows, &hits->image);
+    if (!follower_collision->image)
+        result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows,
+                                    &follower_collision->image);
     if (result) return result;
-    if (!hits->frame) {
-        gl->CreateFramebuffers(1, &hits->frame);
-        if (hits->frame) gl->NamedFramebufferTexture(hits->frame, GL_COLOR_ATTACHMENT0, hits->image, 0);
+    if (!follower_collision->frame) {
+        gl->CreateFramebuffers(1, &follower_collision->frame);
+        if (follower_collision->frame)
+            gl->NamedFramebufferTexture(follower_collision->frame, GL_COLOR_ATTACHMENT0,
+                                        follower_collision->image, 0);
     }
-    GLenum status = hits->frame ? gl->CheckNamedFramebufferStatus(hits->frame, GL_DRAW_FRAMEBUFFER)
-                                : GL_FRAMEBUFFER_UNDEFINED;
+    GLenum status = follower_collision->frame
+                        ? gl->CheckNamedFramebufferStatus(follower_collision->frame, GL_DRAW_FRAMEBUFFER)
+                        : GL_FRAMEBUFFER_UNDEFINED;
     if (status != GL_FRAMEBUFFER_COMPLETE)
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
                          "the driver has no framebuffer of %u by %d for hair hits", HAIR_HIT_COLUMNS,
@@ -94,10 +98,10 @@ void hair_draw_run_prepass(struct hair_draw* draw)
     struct hair_gl* gl = draw->gl;
     struct saved saved;
     uint32_t rows = (draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
-    HAIR_ASSERT(draw->hits.image && draw->hits.frame);
+    HAIR_ASSERT(draw->follower_collision.image && draw->follower_collision.frame);
     enter(gl, &saved);
-    gl->ClearTexImage(draw->hits.image, 0, GL_RED, GL_FLOAT, &none);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->hits.frame);
+    gl->ClearTexImage(draw->follower_collision.image, 0, GL_RED, GL_FLOAT, &none);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->follower_collision.frame);
     gl->ViewportIndexedf(0, 0, 0, HAIR_HIT_COLUMNS, (GLfloat)rows);
     gl->BindVertexArray(gl->vertex_array);
     hair_gl_pass pass = hair_draw_styled(draw, HAIR_GL_PREPASS);
@@ -106,5 +110,5 @@ void hair_draw_run_prepass(struct hair_draw* draw)
     hair_gl_end(gl, pass);
     leave(gl, &saved);
     gl->BindSampler(HAIR_UNIT_SHADOW, 0);
-    gl->BindTextureUnit(HAIR_UNIT_SHADOW, draw->hits.image);
+    gl->BindTextureUnit(HAIR_UNIT_SHADOW, draw->follower_collision.image);
 }

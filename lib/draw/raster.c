@@ -32,8 +32,8 @@ static uint32_t find_pixels(float origin, float size, float lower, float upper, 
 }
 
 // Compute the matrix from the head's origin to the viewport, in the coordinates of
-// hair_draw_find_unit(). Set `window` to the lower and the upper corner of the part that hair can
-// cover.
+// hair_draw_clip_to_unit_matrix(). Set `window` to the lower and the upper corner of the part that
+// hair can cover.
 static void find_place(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
                        const float unit[16], float matrix[16], float window[4])
 {
@@ -46,7 +46,7 @@ static void find_place(const struct hair_draw* draw, const struct hair_pose* hea
     memcpy(&to_viewport, matrix, sizeof to_viewport);
     window[0] = window[1] = 0;
     window[2] = window[3] = 1;
-    if (draw->held) hair_draw_find_window(draw, head, view->lod, &to_viewport, window);
+    if (draw->has_attached_roots) hair_draw_find_window(draw, head, view->lod, &to_viewport, window);
 }
 
 // Write the clip-space part that the pixels cover, and the matrix from the head's origin to them.
@@ -75,7 +75,7 @@ bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose*
     memset(out, 0, sizeof *out);
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
-    hair_draw_find_unit(gl, unit);
+    hair_draw_clip_to_unit_matrix(gl, unit);
     find_place(draw, head, view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
     out->rows = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
@@ -84,7 +84,7 @@ bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose*
     out->depth_from = range[0];
     out->depth_by = range[1] - range[0];
     out->clamps = gl->IsEnabled(GL_DEPTH_CLAMP);
-    out->flips = hair_draw_find_sign(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
+    out->flips = hair_draw_depth_direction(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     find_samples(gl, out);
@@ -93,8 +93,8 @@ bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose*
 
 // Make a buffer that holds `count` numbers. Leave some slack, so that hair that comes nearer does
 // not reallocate the buffer each time.
-static hair_result need_room(struct hair_gl* gl, const char* label, size_t count, GLuint* buffer,
-                             size_t* room)
+static hair_result ensure_room(struct hair_gl* gl, const char* label, size_t count, GLuint* buffer,
+                               size_t* room)
 {
     if (count <= *room) return HAIR_OK;
     count = (count + count / 2 + 3) / 4 * 4;
@@ -105,11 +105,11 @@ static hair_result need_room(struct hair_gl* gl, const char* label, size_t count
     return result;
 }
 
-static hair_result need_tiles(struct hair_gl* gl, struct hair_raster* raster, size_t tiles)
+static hair_result ensure_tiles(struct hair_gl* gl, struct hair_raster* raster, size_t tiles)
 {
     if (tiles <= raster->tile_room) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &raster->tile_texture);
-    hair_result result = need_room(gl, "hair tiles", tiles, &raster->tile, &raster->tile_room);
+    hair_result result = ensure_room(gl, "hair tiles", tiles, &raster->tile, &raster->tile_room);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair tiles", GL_R32UI, raster->tile, &raster->tile_texture);
     if (result) raster->tile_room = 0;
@@ -122,8 +122,8 @@ static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pas
     return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);
 }
 
-hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
-                                  const struct hair_raster_params* params)
+hair_result hair_draw_ensure_raster(struct hair_draw* draw, hair_gl_pass with,
+                                    const struct hair_raster_params* params)
 {
     draw->used[HAIR_DRAW_RASTER] = draw->frame;
     struct hair_gl* gl = draw->gl;
@@ -134,9 +134,9 @@ hair_result hair_draw_need_raster(struct hair_draw* draw, hair_gl_pass with,
                          "HAIR_RENDER_PATH_COMPUTE draws into pixels of up to %d samples, not of %u",
                          HAIR_RASTER_SAMPLES, params->samples);
     if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
-    if (!result) result = need_tiles(gl, raster, params->tiles);
+    if (!result) result = ensure_tiles(gl, raster, params->tiles);
     if (result) return result;
-    return need_room(gl, "hair nearest", count_numbers(params, with), &raster->nearest, &raster->room);
+    return ensure_room(gl, "hair nearest", count_numbers(params, with), &raster->nearest, &raster->room);
 }
 
 void hair_draw_free_raster(struct hair_draw* draw)
@@ -163,13 +163,13 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
     uint64_t segments = (uint64_t)draw->followers * draw->look.segments;
     uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
     uint64_t fours = (count_numbers(params, with) + 3) / 4;
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->listed.strand_texture);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &draw->listed.command);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &draw->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_gl_run(gl, hair_gl_with(HAIR_GL_RASTER_CLEAR, with),
+    hair_gl_run(gl, hair_gl_add_features(HAIR_GL_RASTER_CLEAR, with),
                 groups_for(fours > params->tiles ? fours : params->tiles));
     hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
     if (with & HAIR_GL_WITH(DEPTH) || gl->long_atomics) return;
@@ -178,7 +178,7 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
     hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
 }
 
-void hair_draw_compose(struct hair_draw* draw, const struct hair_raster_params* params)
+void hair_draw_resolve_tiles(struct hair_draw* draw, const struct hair_raster_params* params)
 {
     struct hair_gl* gl = draw->gl;
     HAIR_ASSERT(params->tiles > 0);

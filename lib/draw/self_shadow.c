@@ -22,8 +22,8 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
 {
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
-    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && draw->expanded.vertices > 0);
-    size_t numbers = draw->expanded.vertices * each;
+    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && draw->vertex_cache.vertices > 0);
+    size_t numbers = draw->vertex_cache.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &own->texture);
     hair_gl_free_buffer(gl, &own->light);
@@ -39,7 +39,7 @@ static hair_result make_light(struct hair_draw* draw, uint32_t each)
 
 static hair_gl_pass past_colliders(const struct hair_draw* draw, hair_gl_pass pass)
 {
-    return draw->hits.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
+    return draw->follower_collision.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
 }
 
 static hair_result make(struct hair_draw* draw, uint32_t each)
@@ -54,8 +54,8 @@ static hair_result make(struct hair_draw* draw, uint32_t each)
         result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
     if (!result) result = make_light(draw, each);
     if (result) return result;
-    return hair_gl_need_rows(gl, HAIR_GL_LIGHT_BOX, HAIR_GL_LIGHT,
-                             draw->hits.field ? HAIR_GL_WITH(COLLIDERS) : 0);
+    return hair_gl_ensure_programs(gl, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE,
+                                   draw->follower_collision.field ? HAIR_GL_WITH(COLLIDERS) : 0);
 }
 
 static void fill(struct hair_draw* draw, uint32_t groups)
@@ -65,9 +65,9 @@ static void fill(struct hair_draw* draw, uint32_t groups)
     struct hair_self_shadow_state* own = &draw->self_shadow;
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
-    hair_gl_run(gl, HAIR_GL_LIGHT_BOX, groups);
-    hair_gl_run(gl, HAIR_GL_LIGHT_FILL, draw->patches);
-    own->filled = draw->expanded.writes;
+    hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
+    hair_gl_run(gl, HAIR_GL_DENSITY_SPLAT, draw->patches);
+    own->filled = draw->vertex_cache.writes;
     own->frame = 0;
 }
 
@@ -92,7 +92,7 @@ static bool is_found(struct hair_draw* draw, const hair_view* view, const struct
 static bool is_of_a_part(const struct hair_draw* draw, const struct hair_smooth* smooth,
                          const hair_view* view)
 {
-    return view->lod && !draw->motion.buffer && !hair_draw_is_expanded(draw, smooth);
+    return view->lod && !draw->motion.buffer && !hair_draw_has_vertex_cache(draw, smooth);
 }
 
 hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smooth* smooth,
@@ -101,7 +101,7 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     struct hair_gl* gl = draw->gl;
     struct hair_self_shadow_state* own = &draw->self_shadow;
     if (own->density && draw->look.self_shadow != HAIR_SELF_SHADOW_STRANDS) hair_draw_free_self_shadow(draw);
-    if (!hair_draw_lit(draw, view)) return HAIR_OK;
+    if (!hair_draw_light_value_count(draw, view)) return HAIR_OK;
     draw->used[HAIR_DRAW_SELF_SHADOW] = draw->frame;
     struct hair_draw_params params;
     int part = is_of_a_part(draw, smooth, view);
@@ -110,23 +110,23 @@ hair_result hair_draw_find_light(struct hair_draw* draw, const struct hair_smoot
     hair_draw_write_params(draw, head, part ? view : &whole, &params);
     params.drawn_only = (uint32_t)part;
     params.culls = 0; // Hair that is out of view or occluded casts shadows too.
-    params.skull.w = 0;
-    hair_result result = hair_draw_need_expanded(draw, smooth, part ? &params : NULL);
-    if (!result) result = make(draw, hair_draw_lit(draw, view));
+    params.head_sphere.w = 0;
+    hair_result result = hair_draw_ensure_vertex_cache(draw, smooth, part ? &params : NULL);
+    if (!result) result = make(draw, hair_draw_light_value_count(draw, view));
     if (result) return result;
     hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
     hair_draw_bind(draw, smooth);
     hair_draw_bind_shadows(draw, view);
     uint32_t groups = draw->patches * params.chunks;
     GLuint grid[] = {own->density, own->box};
-    GLuint strands[] = {own->nodes, draw->expanded.position, own->light};
+    GLuint strands[] = {own->nodes, draw->vertex_cache.position, own->light};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, strands);
-    if (own->filled != draw->expanded.writes) fill(draw, groups);
+    if (own->filled != draw->vertex_cache.writes) fill(draw, groups);
     if (is_found(draw, view, &params)) return HAIR_OK;
     if (part) own->frame = 0; // Another view draws other vertices.
-    if (draw->hits.field) hair_field_bind(draw->hits.field);
-    hair_gl_run(gl, past_colliders(draw, HAIR_GL_LIGHT_NODES), NODE_GROUPS);
-    hair_gl_run(gl, past_colliders(draw, HAIR_GL_LIGHT), groups);
+    if (draw->follower_collision.field) hair_field_bind(draw->follower_collision.field);
+    hair_gl_run(gl, past_colliders(draw, HAIR_GL_NODE_TRANSMITTANCE), NODE_GROUPS);
+    hair_gl_run(gl, past_colliders(draw, HAIR_GL_VERTEX_TRANSMITTANCE), groups);
     return HAIR_OK;
 }

@@ -10,7 +10,7 @@ struct hair_self_shadow_state {
     GLuint texture; // Buffer texture of `light`.
     uint32_t each; // Number of values of each node and of each vertex.
     size_t numbers; // Capacity of `light`, in values.
-    uint32_t filled; // Value of hair_expanded.writes that the grid is for.
+    uint32_t filled; // Value of hair_vertex_cache.writes that the grid is for.
     // Frame number of the view that light was last computed for, and its light count.
     uint32_t frame, count;
     hair_vec4 lights[HAIR_LIGHTS * HAIR_LIGHT_VECTORS]; // Lights of that view.

@@ -16,7 +16,7 @@ void hair_draw_patches(struct hair_draw* draw)
     struct hair_gl* gl = draw->gl;
     uint32_t batch = batch_size(draw);
     uint32_t parts = (draw->look.segments + HAIR_MAX_ISOLINE_SEGMENTS - 1) / HAIR_MAX_ISOLINE_SEGMENTS;
-    parts *= (draw->most_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
+    parts *= (draw->max_isolines + HAIR_MAX_ISOLINES - 1) / HAIR_MAX_ISOLINES;
     HAIR_ASSERT(batch > 0 && parts > 0);
     gl->PatchParameteri(GL_PATCH_VERTICES, 1);
     for (uint32_t first = 0; first < draw->patches; first += batch) {

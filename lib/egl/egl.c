@@ -207,7 +207,7 @@ static hair_result create(struct search* search, int device)
 
 hair_result hair_egl_create(const hair_host* host, int device, hair_egl** out)
 {
-    hair_host own = hair_host_take(host);
+    hair_host own = hair_host_or_default(host);
     if (!out) return hair_fail(&own, HAIR_ERROR_ARGUMENT, "hair_egl_create: out is NULL");
     hair_egl* egl = hair_alloc(&own, 1, sizeof *egl);
     if (!egl) return hair_fail_memory(&own, "an EGL context");

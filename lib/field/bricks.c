@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-#define MOST_PAIRS (1u << 18) // Maximum pairs in a dispatch, unless one brick has more.
+#define MAX_PAIRS (1u << 18) // Maximum pairs in a dispatch, unless one brick has more.
 
 static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
 {
@@ -21,7 +21,7 @@ struct range {
     uint32_t first[3], end[3];
 };
 
-static struct range overlap(const struct hair_placed* placed, const struct range* with)
+static struct range overlap(const struct hair_placed_collider* placed, const struct range* with)
 {
     struct range range;
     for (int i = 0; i < 3; ++i) {
@@ -44,7 +44,7 @@ static struct range all_of(const struct hair_field_box* box)
 
 // Mark the bricks that a collider changes. If others are nearer everywhere in a brick, the collider
 // does not change it. When those move, they mark the brick themselves.
-void hair_field_mark(struct hair_collider_field* field, const struct hair_placed* placed)
+void hair_field_mark_dirty(struct hair_collider_field* field, const struct hair_placed_collider* placed)
 {
     const struct hair_field_box* box = &field->box;
     struct range all = all_of(box);
@@ -53,7 +53,7 @@ void hair_field_mark(struct hair_collider_field* field, const struct hair_placed
     {
         uint32_t brick = brick_at(box, x, y, z);
         if (!field->dirty[brick])
-            field->dirty[brick] = hair_field_span_of(box, placed, x, y, z).least <= field->best[brick];
+            field->dirty[brick] = hair_field_find_span(box, placed, x, y, z).min <= field->best[brick];
     }
 }
 
@@ -84,10 +84,10 @@ void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* 
     memset(job, 0, sizeof *job);
     if (!find_dirty(field, &dirty)) return;
     // Compute an upper bound of each brick's member count.
-    memset(field->members, 0, hair_field_bricks(box) * sizeof *field->members);
+    memset(field->brick_colliders, 0, hair_field_bricks(box) * sizeof *field->brick_colliders);
     for (uint32_t i = 0; i < field->count; ++i) {
         struct range range = overlap(&field->placed[i], &dirty);
-        EACH_BRICK(range, x, y, z) field->members[brick_at(box, x, y, z)]++;
+        EACH_BRICK(range, x, y, z) field->brick_colliders[brick_at(box, x, y, z)]++;
     }
     job->end = hair_field_bricks(box);
 }
@@ -95,7 +95,7 @@ void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* 
 // Collider that may reach into a brick.
 struct pair {
     uint32_t brick, collider;
-    float least; // Lower bound of its distance to any voxel.
+    float min; // Lower bound of its distance to any voxel.
 };
 
 // Add marked bricks from job->next on, while their pairs fit. Return the first brick that is left.
@@ -106,8 +106,8 @@ static uint32_t take_bricks(const struct hair_collider_field* field, const struc
     uint32_t end = job->next;
     for (; end < job->end; ++end) {
         if (!field->dirty[end]) continue;
-        if (*bricks && *pairs + field->members[end] > MOST_PAIRS) break;
-        *pairs += field->members[end];
+        if (*bricks && *pairs + field->brick_colliders[end] > MAX_PAIRS) break;
+        *pairs += field->brick_colliders[end];
         ++*bricks;
     }
     return end;
@@ -131,16 +131,16 @@ static uint32_t find_pairs(struct hair_collider_field* field, const struct hair_
         {
             uint32_t brick = brick_at(box, x, y, z);
             if (brick < job->next || brick >= end || !field->dirty[brick]) continue;
-            struct hair_field_span span = hair_field_span_of(box, &field->placed[i], x, y, z);
-            if (!(span.least <= field->best[brick])) continue;
-            field->best[brick] = fminf(field->best[brick], span.most);
-            pairs[count++] = (struct pair){brick, i, span.least};
+            struct hair_field_span span = hair_field_find_span(box, &field->placed[i], x, y, z);
+            if (!(span.min <= field->best[brick])) continue;
+            field->best[brick] = fminf(field->best[brick], span.max);
+            pairs[count++] = (struct pair){brick, i, span.min};
         }
     }
     return count;
 }
 
-#define HAS_FORM 2 // Value of `dirty` for a brick that a collision mesh reaches into.
+#define HAS_MESH 2 // Value of `dirty` for a brick that a collision mesh reaches into.
 
 // Turn pairs into members, in the order of colliders in every brick. Bricks that collision meshes
 // reach into come last.
@@ -149,59 +149,60 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
 {
     const struct hair_field_box* box = &field->box;
     uint32_t first = 0, plain = 0, last = HAIR_NO_COLLIDER;
-    for (uint32_t b = job->next; b < end; ++b) field->members[b] = 0;
+    for (uint32_t b = job->next; b < end; ++b) field->brick_colliders[b] = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t b = pairs[i].brick;
-        if (!(pairs[i].least <= field->best[b])) continue;
-        field->members[b]++;
-        if (field->placed[pairs[i].collider].form) field->dirty[b] = HAS_FORM;
+        if (!(pairs[i].min <= field->best[b])) continue;
+        field->brick_colliders[b]++;
+        if (field->placed[pairs[i].collider].mesh) field->dirty[b] = HAS_MESH;
     }
-    job->with_forms = 0;
+    job->with_meshes = 0;
     for (uint32_t b = job->next; b < end; ++b) {
         if (!field->dirty[b]) continue;
         uint32_t x = b % box->bricks[0], y = b / box->bricks[0] % box->bricks[1],
-                 z = b / box->bricks[0] / box->bricks[1], members = field->members[b];
+                 z = b / box->bricks[0] / box->bricks[1], brick_colliders = field->brick_colliders[b];
         HAIR_ASSERT(x < 1024 && y < 1024 && z < 1024); // Ten bits each.
-        uint32_t at = field->dirty[b] == HAS_FORM ? job->bricks - ++job->with_forms : plain++;
+        uint32_t at = field->dirty[b] == HAS_MESH ? job->bricks - ++job->with_meshes : plain++;
         HAIR_ASSERT(at < job->bricks);
-        job->brick[at] =
-            (struct hair_field_brick){.at = x + (y << 10) + (z << 20), .first = first, .count = members};
-        field->members[b] = first; // Place of the brick's next member.
-        first += members;
+        job->brick[at] = (struct hair_field_brick){
+            .at = x + (y << 10) + (z << 20), .first = first, .count = brick_colliders};
+        field->brick_colliders[b] = first; // Place of the brick's next member.
+        first += brick_colliders;
         field->dirty[b] = 0;
     }
     for (uint32_t i = 0; i < count; ++i) {
-        const struct hair_placed* placed = &field->placed[pairs[i].collider];
-        if (!(pairs[i].least <= field->best[pairs[i].brick])) continue;
+        const struct hair_placed_collider* placed = &field->placed[pairs[i].collider];
+        if (!(pairs[i].min <= field->best[pairs[i].brick])) continue;
         if (pairs[i].collider != last) {
             HAIR_ASSERT(job->colliders < field->count);
             job->collider[job->colliders] = placed->collider;
-            if (placed->form) job->collider[job->colliders].first = field->forms->pooled[placed->place].first;
+            if (placed->mesh)
+                job->collider[job->colliders].first = field->sdf_pool->pooled[placed->place].first;
             ++job->colliders;
         }
         last = pairs[i].collider;
-        job->member[field->members[pairs[i].brick]++] = job->colliders - 1;
+        job->brick_collider[field->brick_colliders[pairs[i].brick]++] = job->colliders - 1;
     }
-    HAIR_ASSERT(plain + job->with_forms == job->bricks && first <= count);
-    job->members = first;
+    HAIR_ASSERT(plain + job->with_meshes == job->bricks && first <= count);
+    job->brick_colliders = first;
 }
 
 hair_result hair_field_next(struct hair_collider_field* field, struct hair_field_job* job)
 {
     const hair_host* host = &field->gl->host;
     uint32_t bricks = 0;
-    size_t most = 0;
+    size_t max = 0;
     hair_field_end(field, job);
-    job->bricks = job->members = job->colliders = 0;
-    uint32_t end = take_bricks(field, job, &bricks, &most);
+    job->bricks = job->brick_colliders = job->colliders = 0;
+    uint32_t end = take_bricks(field, job, &bricks, &max);
     if (!bricks) return HAIR_OK;
-    struct pair* pairs = hair_alloc(host, most, sizeof *pairs);
+    struct pair* pairs = hair_alloc(host, max, sizeof *pairs);
     uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
-    HAIR_ASSERT(count <= most);
+    HAIR_ASSERT(count <= max);
     job->brick = hair_alloc(host, bricks, sizeof *job->brick);
-    job->member = hair_alloc(host, count, sizeof *job->member);
+    job->brick_collider = hair_alloc(host, count, sizeof *job->brick_collider);
     job->collider = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->collider);
-    int failed = !pairs || !job->brick || !job->member || !job->collider;
+    int failed = !pairs || !job->brick || !job->brick_collider || !job->collider;
     job->bricks = bricks;
     if (!failed) sort_pairs(field, job, end, pairs, count);
     hair_free(host, pairs);
@@ -212,9 +213,9 @@ hair_result hair_field_next(struct hair_collider_field* field, struct hair_field
 void hair_field_end(struct hair_collider_field* field, struct hair_field_job* job)
 {
     hair_free(&field->gl->host, job->brick);
-    hair_free(&field->gl->host, job->member);
+    hair_free(&field->gl->host, job->brick_collider);
     hair_free(&field->gl->host, job->collider);
     job->brick = NULL;
-    job->member = NULL;
+    job->brick_collider = NULL;
     job->collider = NULL;
 }

@@ -8,16 +8,16 @@
 // Work of one dispatch, which is as many bricks as together have few enough colliders.
 struct hair_field_job {
     struct hair_field_brick* brick;
-    uint32_t* member;
+    uint32_t* brick_collider;
     struct hair_field_collider* collider;
-    uint32_t bricks, members, colliders;
-    uint32_t with_forms; // Number of bricks with collision meshes, which come last.
+    uint32_t bricks, brick_colliders, colliders;
+    uint32_t with_meshes; // Number of bricks with collision meshes, which come last.
     // First brick of the field that has not been examined, and the number of all bricks.
     uint32_t next, end;
 };
 
 // Mark the bricks that the band around a collider touches.
-void hair_field_mark(struct hair_collider_field* field, const struct hair_placed* placed);
+void hair_field_mark_dirty(struct hair_collider_field* field, const struct hair_placed_collider* placed);
 
 // Begin the dispatches for all marked bricks.
 void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* job);

@@ -6,12 +6,12 @@
 // Alignment of ranges in storage buffers, the maximum that a driver may require.
 #define ALIGNMENT 256
 
-void hair_field_create(struct hair_collider_field* field, struct hair_forms* forms,
+void hair_field_create(struct hair_collider_field* field, struct hair_sdf_pool* pool,
                        const struct hair_groom* groom, float voxel)
 {
     memset(field, 0, sizeof *field);
-    field->gl = forms->gl;
-    field->forms = forms;
+    field->gl = pool->gl;
+    field->sdf_pool = pool;
     field->box = hair_field_box_of(groom, voxel);
 }
 
@@ -20,7 +20,7 @@ static void clear(struct hair_collider_field* field)
 {
     struct hair_gl* gl = field->gl;
     for (uint32_t i = 0; i < field->count; ++i)
-        if (field->placed[i].form) hair_forms_drop(field->forms, field->placed[i].place);
+        if (field->placed[i].mesh) hair_sdf_pool_release(field->sdf_pool, field->placed[i].place);
     hair_gl_free_texture(gl, &field->distance);
     hair_gl_free_texture(gl, &field->number);
     hair_gl_free_buffer(gl, &field->params);
@@ -28,10 +28,10 @@ static void clear(struct hair_collider_field* field)
     hair_gl_free_buffer(gl, &field->work);
     hair_free(&gl->host, field->placed);
     hair_free(&gl->host, field->dirty);
-    hair_free(&gl->host, field->members);
+    hair_free(&gl->host, field->brick_colliders);
     hair_free(&gl->host, field->best);
     *field = (struct hair_collider_field){
-        .gl = gl, .forms = field->forms, .box = field->box, .writes = field->writes + 1};
+        .gl = gl, .sdf_pool = field->sdf_pool, .box = field->box, .writes = field->writes + 1};
 }
 
 void hair_field_destroy(struct hair_collider_field* field)
@@ -56,9 +56,10 @@ static hair_result make(struct hair_collider_field* field)
             hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture);
     if (result) return result;
     field->dirty = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
-    field->members = hair_alloc(&gl->host, bricks, sizeof *field->members);
+    field->brick_colliders = hair_alloc(&gl->host, bricks, sizeof *field->brick_colliders);
     field->best = hair_alloc(&gl->host, bricks, sizeof *field->best);
-    if (!field->dirty || !field->members || !field->best) return hair_fail_memory(&gl->host, "the field");
+    if (!field->dirty || !field->brick_colliders || !field->best)
+        return hair_fail_memory(&gl->host, "the field");
     memset(field->dirty, 1, bricks);
     return HAIR_OK;
 }
@@ -71,7 +72,7 @@ static hair_result make_room(struct hair_collider_field* field, uint32_t count)
     if (count <= field->room) return HAIR_OK;
     const hair_host* host = &field->gl->host;
     uint32_t room = count < 16 ? 16 : count + count / 2;
-    struct hair_placed* placed = hair_alloc(host, room, sizeof *placed);
+    struct hair_placed_collider* placed = hair_alloc(host, room, sizeof *placed);
     if (!placed) return hair_fail_memory(host, "colliders in the field");
     if (field->count) memcpy(placed, field->placed, field->count * sizeof *placed);
     hair_free(host, field->placed);
@@ -81,18 +82,18 @@ static hair_result make_room(struct hair_collider_field* field, uint32_t count)
 }
 
 // Replace a placed collider by `now`. Keep the reference if both have the same collision mesh.
-static hair_result replace(struct hair_collider_field* field, struct hair_placed* placed,
-                           struct hair_placed* now)
+static hair_result replace(struct hair_collider_field* field, struct hair_placed_collider* placed,
+                           struct hair_placed_collider* now)
 {
     hair_result result = HAIR_OK;
     now->place = placed->place;
-    if (now->form == placed->form) {
+    if (now->mesh == placed->mesh) {
         *placed = *now;
         return HAIR_OK;
     }
-    if (now->form) result = hair_forms_take(field->forms, now->form, &now->place);
+    if (now->mesh) result = hair_sdf_pool_acquire(field->sdf_pool, now->mesh, &now->place);
     if (result) return result;
-    if (placed->form) hair_forms_drop(field->forms, placed->place);
+    if (placed->mesh) hair_sdf_pool_release(field->sdf_pool, placed->place);
     *placed = *now;
     return HAIR_OK;
 }
@@ -103,22 +104,22 @@ static hair_result place_all(struct hair_collider_field* field, const hair_colli
                              uint32_t count, const struct hair_pose* head)
 {
     hair_result result = HAIR_OK;
-    uint32_t most = count > field->count ? count : field->count, near = 0;
-    HAIR_ASSERT(most <= field->room);
-    memset(field->placed + field->count, 0, (most - field->count) * sizeof *field->placed);
-    for (uint32_t i = 0; i < most && !result; ++i) {
-        struct hair_placed* placed = &field->placed[i];
+    uint32_t max = count > field->count ? count : field->count, near = 0;
+    HAIR_ASSERT(max <= field->room);
+    memset(field->placed + field->count, 0, (max - field->count) * sizeof *field->placed);
+    for (uint32_t i = 0; i < max && !result; ++i) {
+        struct hair_placed_collider* placed = &field->placed[i];
         int was = i < field->count, is = i < count;
-        struct hair_placed now = {0};
+        struct hair_placed_collider now = {0};
         if (is) now = hair_field_place(&field->box, &colliders[i], i, head);
         if (!was || !is || hair_field_has_moved(&field->box, placed, &now)) {
-            if (was && field->dirty) hair_field_mark(field, placed);
-            if (is && field->dirty) hair_field_mark(field, &now);
+            if (was && field->dirty) hair_field_mark_dirty(field, placed);
+            if (is && field->dirty) hair_field_mark_dirty(field, &now);
             result = replace(field, placed, &now);
         }
         near += is && hair_field_is_inside(placed);
     }
-    field->count = result ? most : count;
+    field->count = result ? max : count;
     field->near = near;
     return result;
 }
@@ -162,11 +163,12 @@ static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t b
 static hair_result dispatch(struct hair_collider_field* field, const struct hair_field_job* job)
 {
     struct hair_gl* gl = field->gl;
-    HAIR_ASSERT(job->with_forms <= job->bricks && field->work);
-    uint32_t plain = job->bricks - job->with_forms;
-    const size_t sizes[PARTS] = {job->colliders * sizeof *job->collider, job->members * sizeof *job->member,
-                                 plain * sizeof *job->brick, job->with_forms * sizeof *job->brick};
-    const void* parts[PARTS] = {job->collider, job->member, job->brick, job->brick + plain};
+    HAIR_ASSERT(job->with_meshes <= job->bricks && field->work);
+    uint32_t plain = job->bricks - job->with_meshes;
+    const size_t sizes[PARTS] = {job->colliders * sizeof *job->collider,
+                                 job->brick_colliders * sizeof *job->brick_collider,
+                                 plain * sizeof *job->brick, job->with_meshes * sizeof *job->brick};
+    const void* parts[PARTS] = {job->collider, job->brick_collider, job->brick, job->brick + plain};
     GLintptr at[PARTS];
     GLsizeiptr length[PARTS];
     size_t all = 0;
@@ -176,26 +178,26 @@ static hair_result dispatch(struct hair_collider_field* field, const struct hair
         all += aligned((size_t)length[i]);
         HAIR_ASSERT(at[i] % ALIGNMENT == 0 && all % ALIGNMENT == 0);
     }
-    GLint most = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (sizes[0] / 16 > (size_t)most)
+    GLint max = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
+    if (sizes[0] / 16 > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "the field's %u colliders at once take more than the driver's %d texels",
-                         job->colliders, most);
+                         job->colliders, max);
     unsigned char* bytes = hair_alloc(&gl->host, all, 1);
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
     for (int i = 0; i < PARTS; ++i)
         if (sizes[i]) memcpy(bytes + at[i], parts[i], sizes[i]);
     hair_result result = hair_gl_resize(gl, "hair field work", all, bytes, field->work);
     hair_free(&gl->host, bytes);
-    if (!result && plain) result = hair_gl_need(gl, HAIR_GL_VOXELISE);
-    if (!result && job->with_forms) result = hair_gl_need(gl, HAIR_GL_VOXELISE_FORMS);
+    if (!result && plain) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE);
+    if (!result && job->with_meshes) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES);
     if (result) return result;
     gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
     run(field, HAIR_GL_VOXELISE, plain, 2, at, length);
-    if (job->with_forms)
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->forms->nodes);
-    run(field, HAIR_GL_VOXELISE_FORMS, job->with_forms, 3, at, length);
+    if (job->with_meshes)
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
+    run(field, HAIR_GL_VOXELISE_MESHES, job->with_meshes, 3, at, length);
     return HAIR_OK;
 }
 
@@ -253,11 +255,11 @@ struct hair_field_collider hair_field_shown(const struct hair_collider_field* fi
                                             const hair_collider* collider, uint32_t i,
                                             const struct hair_pose* head, hair_vec3* lower, hair_vec3* upper)
 {
-    struct hair_placed placed = hair_field_place(&field->box, collider, i, head);
-    const struct hair_placed* known = i < field->count ? &field->placed[i] : NULL;
+    struct hair_placed_collider placed = hair_field_place(&field->box, collider, i, head);
+    const struct hair_placed_collider* known = i < field->count ? &field->placed[i] : NULL;
     hair_field_shown_extent(&placed, lower, upper);
-    if (known && placed.form && known->form == placed.form)
-        placed.collider.first = field->forms->pooled[known->place].first;
+    if (known && placed.mesh && known->mesh == placed.mesh)
+        placed.collider.first = field->sdf_pool->pooled[known->place].first;
     else if (collider->shape == HAIR_SHAPE_MESH)
         *lower = *upper = hair_v3(0, 0, 0); // The mesh has no distance grid to read.
     return placed.collider;

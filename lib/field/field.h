@@ -7,13 +7,13 @@
 #ifndef HAIR_FIELD_FIELD_H
 #define HAIR_FIELD_FIELD_H
 
-#include "lib/field/forms.h"
-#include "lib/field/place.h"
+#include "lib/field/sdf_pool.h"
+#include "lib/field/field_bounds.h"
 #include "lib/gl/gl.h"
 
 struct hair_collider_field {
     struct hair_gl* gl;
-    struct hair_forms* forms; // Pool of the context.
+    struct hair_sdf_pool* sdf_pool; // Pool of the context.
     struct hair_field_box box;
     GLuint distance; // 3D texture, R16F, in metres. 0 if there is none.
     GLuint number; // 3D texture, R32UI. HAIR_NO_COLLIDER where no collider is near.
@@ -21,18 +21,18 @@ struct hair_collider_field {
     GLuint work; // Inputs of the last dispatch.
     GLuint work_texture; // Buffer texture of `work`.
     hair_quat rotation; // Rotation of the head in `params`.
-    struct hair_placed* placed; // Colliders as written.
+    struct hair_placed_collider* placed; // Colliders as written.
     uint32_t count, room;
     uint32_t near; // Number of colliders that reach into the box.
     unsigned char* dirty; // Per brick, nonzero if it must be written.
-    uint32_t* members; // Member count or place, per brick.
+    uint32_t* brick_colliders; // Member count or place, per brick.
     uint32_t writes; // Number of times that the field was written or freed.
     // Per brick, maximum distance of any voxel to the nearest collider as written, in metres.
     float* best;
 };
 
 // Set up the field of a groom, without memory or OpenGL.
-void hair_field_create(struct hair_collider_field* field, struct hair_forms* forms,
+void hair_field_create(struct hair_collider_field* field, struct hair_sdf_pool* pool,
                        const struct hair_groom* groom, float voxel);
 void hair_field_destroy(struct hair_collider_field* field);
 

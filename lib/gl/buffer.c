@@ -20,7 +20,7 @@ static void count(struct hair_gl* gl, uint64_t size)
 {
     HAIR_ASSERT(gl->memory.bytes + size >= size);
     gl->memory.bytes += size;
-    if (gl->memory.bytes > gl->memory.most) gl->memory.most = gl->memory.bytes;
+    if (gl->memory.bytes > gl->memory.peak) gl->memory.peak = gl->memory.bytes;
 }
 
 uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer)
@@ -86,11 +86,11 @@ hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, c
 
 hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
 {
-    GLint most = 0;
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
-    if (size > (size_t)most)
+    GLint max = 0;
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
+    if (size > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
-                         size, most);
+                         size, max);
     return hair_gl_buffer(gl, label, size, data, out);
 }
 
@@ -171,11 +171,11 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
 {
     HAIR_ASSERT(buffer && !*out);
     uint64_t texels = hair_gl_buffer_bytes(gl, buffer) / texel_bytes(format);
-    GLint most = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (texels > (uint64_t)most)
+    GLint max = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
+    if (texels > (uint64_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %llu texels, more than the driver's %d",
-                         label, (unsigned long long)texels, most);
+                         label, (unsigned long long)texels, max);
     GLuint texture = 0;
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);
@@ -190,12 +190,12 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
 {
     HAIR_ASSERT(size[0] > 0 && size[1] > 0 && size[2] > 0 && !*out);
     GLuint texture = 0;
-    GLint most = 0, got = 0;
-    gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &most);
+    GLint max = 0, got = 0;
+    gl->GetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &max);
     for (int i = 0; i < 3; ++i)
-        if (size[i] > (uint32_t)most)
+        if (size[i] > (uint32_t)max)
             return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
-                             label, size[i], most);
+                             label, size[i], max);
     uint64_t bytes = texel_bytes(format) * size[0] * size[1] * size[2];
     hair_result result = ask(gl, label, bytes);
     if (result) return result;
@@ -262,7 +262,7 @@ void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;
     gl->memory.bytes -= hair_gl_buffer_bytes(gl, *buffer);
-    HAIR_ASSERT(gl->memory.bytes <= gl->memory.most);
+    HAIR_ASSERT(gl->memory.bytes <= gl->memory.peak);
     gl->DeleteBuffers(1, buffer);
     *buffer = 0;
 }
@@ -277,7 +277,7 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 {
     if (!*texture) return;
     gl->memory.bytes -= hair_gl_texture_bytes(gl, *texture);
-    HAIR_ASSERT(gl->memory.bytes <= gl->memory.most);
+    HAIR_ASSERT(gl->memory.bytes <= gl->memory.peak);
     gl->DeleteTextures(1, texture);
     *texture = 0;
 }

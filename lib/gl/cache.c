@@ -14,8 +14,8 @@
 #define MAGIC "hairprog"
 #define HEADER 20
 #define TRAILER 8
-#define MOST_BYTES (64u << 20) // Maximum bytes of one program.
-#define MOST_FORMATS 64
+#define MAX_BYTES (64u << 20) // Maximum bytes of one program.
+#define MAX_FORMATS 64
 #define OTHER_HASH 0x9e3779b97f4a7c15u // Initial value of the second hash.
 
 void hair_gl_key_add(struct hair_gl_key* key, const char* text)
@@ -37,9 +37,9 @@ struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl)
 // error flag.
 static bool is_known(struct hair_gl* gl, GLenum format)
 {
-    GLint formats[MOST_FORMATS], count = 0;
+    GLint formats[MAX_FORMATS], count = 0;
     gl->GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &count);
-    if (count <= 0 || count > MOST_FORMATS) return false;
+    if (count <= 0 || count > MAX_FORMATS) return false;
     gl->GetIntegerv(GL_PROGRAM_BINARY_FORMATS, formats);
     for (GLint i = 0; i < count; ++i)
         if ((GLenum)formats[i] == format) return true;
@@ -63,11 +63,11 @@ static bool load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GL
     return done != 0;
 }
 
-bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
+bool hair_gl_cache_load(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 {
     const hair_cache* cache = &gl->cache;
     size_t size = cache->get ? cache->get(key.hash, NULL, 0, cache->user) : 0;
-    if (size <= HEADER + TRAILER || size > MOST_BYTES) return false;
+    if (size <= HEADER + TRAILER || size > MAX_BYTES) return false;
     unsigned char* bytes = hair_alloc(&gl->host, size, 1);
     if (!bytes) return false; // The program can be compiled without the cache.
     int there = cache->get(key.hash, bytes, size, cache->user) == size && is_whole(bytes, size, key) &&
@@ -76,7 +76,7 @@ bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
     return there;
 }
 
-void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
+void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
 {
     const hair_cache* cache = &gl->cache;
     GLint length = 0;
@@ -84,7 +84,7 @@ void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program)
     GLenum format = 0;
     if (!cache->put) return;
     gl->GetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
-    if (length <= 0 || length > (GLint)(MOST_BYTES - HEADER - TRAILER)) return;
+    if (length <= 0 || length > (GLint)(MAX_BYTES - HEADER - TRAILER)) return;
     unsigned char* bytes = hair_alloc(&gl->host, (size_t)length + HEADER + TRAILER, 1);
     if (!bytes) return;
     gl->GetProgramBinary(program, length, &got, &format, bytes + HEADER);

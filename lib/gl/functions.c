@@ -25,7 +25,7 @@ static bool has_extension(const struct hair_gl* gl, const char* name)
 }
 
 // Return whether a work group of 32 threads is one subgroup with the operations of
-// glsl/sim/mapping.glsl. Mesa also reports 32, but may run the group as two or four.
+// glsl/sim/thread_mapping.glsl. Mesa also reports 32, but may run the group as two or four.
 static bool find_subgroup(const struct hair_gl* gl)
 {
     const char* vendor = (const char*)gl->GetString(GL_VENDOR);
@@ -91,9 +91,9 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 {
     memset(gl, 0, sizeof *gl);
     gl->host = *host;
-    gl->promise = desc->gl_state;
+    gl->state_policy = desc->gl_state;
     gl->timings = (int)desc->timings;
-    gl->made = 1;
+    gl->program_generation = 1;
     if (desc->cache) gl->cache = *desc->cache;
     if (desc->glsl_dir) {
         size_t size = strlen(desc->glsl_dir) + 1;
@@ -105,7 +105,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
     if (!result) {
         hair_gl_enter(gl);
         result = make_objects(gl);
-        if (!result) result = hair_gl_selftest(gl);
+        if (!result) result = hair_gl_find_driver_quirks(gl);
         hair_gl_leave(gl);
     }
     if (result) hair_gl_destroy(gl);

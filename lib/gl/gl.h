@@ -12,7 +12,7 @@
 
 // Rows of passes.inl. A row is also the pass without any feature.
 enum hair_gl_row {
-#define PASS(name, label, features, stages) HAIR_GL_##name,
+#define PASS(name, label, category, features, stages) HAIR_GL_##name,
 #include "lib/gl/passes.inl"
     HAIR_GL_ROWS
 };
@@ -22,6 +22,13 @@ enum hair_gl_feature {
 #include "lib/gl/passes.inl"
     HAIR_GL_FEATURES
 };
+
+// Category of a pass in reports.
+typedef enum hair_gl_category {
+#define CATEGORY(name, label) HAIR_GL_CATEGORY_##name,
+#include "lib/gl/passes.inl"
+    HAIR_GL_CATEGORIES
+} hair_gl_category;
 
 // Identifier of a pass. It holds the row in the lowest bits, the size of the work groups, and a bit
 // for each feature.
@@ -34,7 +41,7 @@ typedef uint64_t hair_gl_pass;
 #define HAIR_GL_BIT(feature) ((hair_gl_pass)1 << (HAIR_GL_ROW_BITS + 2 + (feature)))
 #define HAIR_GL_WITH(feature) HAIR_GL_BIT(HAIR_GL_FEATURE_##feature)
 
-#define HAIR_GL_UNITS (HAIR_UNIT_HIDDEN + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_OCCLUSION + 1)
 
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be in flight while the next is timed.
 
@@ -73,7 +80,7 @@ struct hair_gl_program {
 };
 
 // Program of a pass with the application's shading.
-struct hair_gl_own {
+struct hair_gl_user_program {
     hair_gl_pass pass;
     GLuint program;
 };
@@ -82,21 +89,21 @@ struct hair_gl_shader {
     char* label;
     char* text;
     int pixels; // Nonzero if it shades pixels instead of vertices.
-    uint32_t made; // Value of hair_gl.made at compilation.
-    struct hair_gl_own* own;
+    uint32_t program_generation; // Value of hair_gl.made at compilation.
+    struct hair_gl_user_program* programs;
     uint32_t count, room;
 };
 
-struct hair_gl_ledger;
+struct hair_gl_profiler;
 
 // Memory of buffers and textures, in bytes.
 struct hair_gl_memory {
-    uint64_t bytes, most, limit; // In use, peak, and limit. A limit of 0 allows any amount.
+    uint64_t bytes, peak, limit; // In use, peak, and limit. A limit of 0 allows any amount.
 };
 
 struct hair_gl {
     hair_host host;
-    hair_gl_state promise;
+    hair_gl_state state_policy;
     char* glsl_dir; // NULL selects the built-in sources.
     hair_cache cache; // NULL `get` disables the cache.
     struct hair_gl_memory memory;
@@ -105,13 +112,13 @@ struct hair_gl {
     int subgroup; // Nonzero if a work group of 32 threads is one subgroup.
     GLint units; // Number of multiprocessors of the GPU. 0 if unknown.
     int long_atomics; // Nonzero if storage buffers support 64-bit atomics.
-    uint32_t made; // Number of times that all programs have been compiled.
-    int ahead; // Nonzero if needed programs are compiled asynchronously.
-    uint32_t unready; // Number of asynchronous programs that are not ready.
+    uint32_t program_generation; // Number of times that all programs have been compiled.
+    int async; // Nonzero if needed programs are compiled asynchronously.
+    uint32_t pending; // Number of asynchronous programs that are not ready.
     int parallel; // Nonzero if the driver compiles in its own threads.
     struct hair_gl_program** program; // Programs of all passes needed so far.
     uint32_t programs, room;
-    struct hair_gl_ledger* ledger; // Profiler of the active instance. NULL disables it.
+    struct hair_gl_profiler* profiler; // Profiler of the active instance. NULL disables it.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
     GLuint shadow_sampler;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
@@ -125,7 +132,7 @@ struct hair_gl {
 #undef FUNCTION
 };
 
-// functions.c, program.c, selftest.c --------------------------------------------------------------
+// functions.c, program.c, driver_quirks.c --------------------------------------------------------------
 
 // Load the functions, check the version and test for driver bugs.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
@@ -133,16 +140,17 @@ void hair_gl_destroy(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // Compile the program of a pass unless it exists. Every pass needs this before it runs.
-hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass);
-// Apply hair_gl_need() to all rows from `first` to `last`, each with the `wanted` features that the
-// row supports.
-hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, hair_gl_pass wanted);
+hair_result hair_gl_ensure_program(struct hair_gl* gl, hair_gl_pass pass);
+// Apply hair_gl_ensure_program() to all rows from `first` to `last`, each with the `wanted`
+// features that the row supports.
+hair_result hair_gl_ensure_programs(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last,
+                                    hair_gl_pass wanted);
 
-// Make hair_gl_need() compile asynchronously until hair_gl_end_ahead(). All missing programs start
-// at once if the driver compiles in parallel, otherwise one does.
-void hair_gl_begin_ahead(struct hair_gl* gl);
+// Make hair_gl_ensure_program() compile asynchronously until hair_gl_end_async(). All missing
+// programs start at once if the driver compiles in parallel, otherwise one does.
+void hair_gl_begin_async(struct hair_gl* gl);
 // Stop asynchronous compilation. Return the number of programs that are not ready.
-uint32_t hair_gl_end_ahead(struct hair_gl* gl);
+uint32_t hair_gl_end_async(struct hair_gl* gl);
 
 // Compile all needed programs again. Programs that fail keep their old version. Return the first
 // failure.
@@ -155,24 +163,24 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
 // Link the program of a pass, with the application's shading unless `shader` is NULL.
 hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
                               GLuint* out);
-hair_result hair_gl_selftest(struct hair_gl* gl);
+hair_result hair_gl_find_driver_quirks(struct hair_gl* gl);
 
-// Initialize a shader of the application, whose members must be zero. Defined in shading.c.
-hair_result hair_gl_make_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
-                                struct hair_gl_shader* out);
+// Initialize a shader of the application, whose members must be zero. Defined in user_shader.c.
+hair_result hair_gl_create_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
+                                  struct hair_gl_shader* out);
 void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
 // Find or compile the program of a pass with the application's shading.
-hair_result hair_gl_need_own(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
-                             GLuint* out);
+hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
+                                        GLuint* out);
 
 // Return a cache key that identifies the driver. Defined in cache.c.
 struct hair_gl_key hair_gl_key_begin(struct hair_gl* gl);
 // Add a text to the key. NULL adds nothing.
 void hair_gl_key_add(struct hair_gl_key* key, const char* text);
 // Load a program from the cache. Return false if the program must be compiled.
-bool hair_gl_cached(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+bool hair_gl_cache_load(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 // Store a compiled program in the cache.
-void hair_gl_keep(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
+void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint program);
 
 // source.c ----------------------------------------------------------------------------------------
 
@@ -189,8 +197,9 @@ struct hair_gl_source {
 hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, const char* name,
                                 const char* prefix, struct hair_gl_source* out);
 // Name of the file that a shader of the application replaces.
-#define HAIR_GL_OWN "own.glsl"
-// Read like hair_gl_read_source(), but use `own` as the text of HAIR_GL_OWN unless it is NULL.
+#define HAIR_GL_USER_SHADER "light/user_shader.glsl"
+// Read like hair_gl_read_source(), but use `own` as the text of HAIR_GL_USER_SHADER unless it is
+// NULL.
 hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir, const char* name,
                                      const char* prefix, const char* own, struct hair_gl_source* out);
 
@@ -262,8 +271,9 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture);
 // Return the label of a pass's row, a static string. hair_gl_find() gives the full label.
 const char* hair_gl_row_label(hair_gl_pass pass);
 const char* hair_gl_row_stages(hair_gl_pass pass);
+hair_gl_category hair_gl_row_category(hair_gl_pass pass);
 // Return `pass` with those of `features` that its row supports.
-hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass features);
+hair_gl_pass hair_gl_add_features(hair_gl_pass pass, hair_gl_pass features);
 // Return `pass` with the smallest work groups that hold guides of up to `vertices`.
 hair_gl_pass hair_gl_pass_for(hair_gl_pass pass, uint32_t vertices);
 // Write the full label of a pass, such as "sim/direct_wind_curved_32".
@@ -275,7 +285,7 @@ void hair_gl_write_label(hair_gl_pass pass, char* out, size_t size);
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass);
 // Return the entry of a pass, and add one without a program if there is none. NULL means out of
 // memory, which is logged.
-struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass);
+struct hair_gl_program* hair_gl_get_or_add(struct hair_gl* gl, hair_gl_pass pass);
 void hair_gl_free_programs(struct hair_gl* gl);
 
 // Begin the commands of a pass: bind its program, open its debug group and start its timer.

@@ -1,5 +1,5 @@
 // pass.c - programs of passes, and running a pass with its debug group, timer and memory barrier.
-#include "lib/gl/ledger.h"
+#include "lib/gl/frame_profiler.h"
 
 #include <string.h>
 
@@ -29,7 +29,7 @@ static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
     return gl->program[gl->programs++] = own;
 }
 
-struct hair_gl_program* hair_gl_know(struct hair_gl* gl, hair_gl_pass pass)
+struct hair_gl_program* hair_gl_get_or_add(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* known = hair_gl_find(gl, pass);
     if (!known) known = add(gl, pass);
@@ -61,7 +61,7 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
         hair_gl_pass_ms(gl, own); // Read the results before the slot is reused.
         gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0], GL_TIMESTAMP);
     }
-    hair_gl_ledger_begin(gl, pass);
+    hair_gl_profiler_begin(gl, pass);
     gl->UseProgram(own->program);
 }
 
@@ -69,7 +69,7 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
 {
     HAIR_ASSERT(hair_gl_find(gl, pass));
     struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
-    hair_gl_ledger_end(gl, pass);
+    hair_gl_profiler_end(gl, pass);
     if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
     ++timer->begun;
     gl->PopDebugGroup();
@@ -83,8 +83,8 @@ static void wait_for_writes(struct hair_gl* gl)
 
 static void dispatch(struct hair_gl* gl, uint32_t groups)
 {
-    uint32_t count = (groups + HAIR_MOST_GROUPS - 1) / HAIR_MOST_GROUPS;
-    gl->DispatchCompute(count > 1 ? HAIR_MOST_GROUPS : groups, count, 1);
+    uint32_t count = (groups + HAIR_MAX_GROUPS - 1) / HAIR_MAX_GROUPS;
+    gl->DispatchCompute(count > 1 ? HAIR_MAX_GROUPS : groups, count, 1);
     wait_for_writes(gl);
 }
 

@@ -6,10 +6,11 @@
 
 static const struct {
     const char* label;
+    hair_gl_category category;
     hair_gl_pass features;
     const char* stages;
 } rows[] = {
-#define PASS(name, label, features, stages) {label, features, stages},
+#define PASS(name, label, category, features, stages) {label, HAIR_GL_CATEGORY_##category, features, stages},
 #include "lib/gl/passes.inl"
 };
 
@@ -32,12 +33,17 @@ const char* hair_gl_row_label(hair_gl_pass pass)
     return rows[row_of(pass)].label;
 }
 
+hair_gl_category hair_gl_row_category(hair_gl_pass pass)
+{
+    return rows[row_of(pass)].category;
+}
+
 const char* hair_gl_row_stages(hair_gl_pass pass)
 {
     return rows[row_of(pass)].stages;
 }
 
-hair_gl_pass hair_gl_with(hair_gl_pass pass, hair_gl_pass wanted)
+hair_gl_pass hair_gl_add_features(hair_gl_pass pass, hair_gl_pass wanted)
 {
     return pass | (wanted & rows[row_of(pass)].features);
 }

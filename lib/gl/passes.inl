@@ -6,135 +6,166 @@
 #define FEATURE(name, define)
 #endif
 #ifndef PASS
-#define PASS(name, label, features, stages)
+#define PASS(name, label, category, features, stages)
 #endif
+#ifndef CATEGORY
+#define CATEGORY(name, label)
+#endif
+
+// Categories of passes in reports, in their order: name in code, name in reports. Passes that draw
+// depth or opacity count as DEPTH or OPACITY, whatever their category.
+CATEGORY(RESET, "reset")
+CATEGORY(ROTATE_STATE, "rotate_state")
+CATEGORY(UNPACK_SCALP, "unpack_scalp")
+CATEGORY(ROOT_TRANSFORMS, "root_transforms")
+CATEGORY(WIND, "wind")
+CATEGORY(HAIR_GRID, "hair_grid")
+CATEGORY(ACTIVITY, "activity")
+CATEGORY(DIAGNOSE, "diagnose")
+CATEGORY(SOLVE, "solve")
+CATEGORY(SMOOTH, "smooth")
+CATEGORY(BIND_FOLLOWERS, "bind_followers")
+CATEGORY(FIELD, "field")
+CATEGORY(HIT, "hit")
+CATEGORY(REPAIR, "repair")
+CATEGORY(EXPAND, "expand")
+CATEGORY(SELF_SHADOW, "self_shadow")
+CATEGORY(OCCLUSION, "occlusion")
+CATEGORY(SCAN_STRANDS, "scan_strands")
+CATEGORY(COMPACT_STRANDS, "compact_strands")
+CATEGORY(GUIDES, "guides")
+CATEGORY(AIR, "air")
+CATEGORY(COLLIDERS, "colliders")
+CATEGORY(DEPTH, "depth")
+CATEGORY(OPACITY, "opacity")
+CATEGORY(COLOR, "color")
 
 // Optional features of programs. A program contains only the features that its scene needs.
 // Programs are made when first needed, with any combination of features.
-FEATURE(ROD, "HAIR_ROD")                 // Guides are rods, with frames.
+FEATURE(ROD, "HAIR_ROD") // Guides are rods, with frames.
 FEATURE(WIND, "HAIR_WIND") // Wind blows.
-FEATURE(PINNED, "HAIR_PINNED")               // Vertices are pinned.
-FEATURE(SKINNED, "HAIR_SKINNED")         // Roots move with a skinned scalp.
-FEATURE(CROWD, "HAIR_CROWD")             // The hair-hair grid acts on guides.
+FEATURE(PINNED, "HAIR_PINNED") // Vertices are pinned.
+FEATURE(SKINNED, "HAIR_SKINNED") // Roots move with a skinned scalp.
+FEATURE(HAIR_GRID, "HAIR_GRID") // The hair-hair grid acts on guides.
 // One thread per guide. Otherwise one work group per guide.
-FEATURE(THREAD, "HAIR_THREAD_PER_GUIDE")
-FEATURE(FIRST, "HAIR_FIRST")             // Only the solver's own method.
-FEATURE(LISTED, "HAIR_LISTED")           // Only guides at which FIRST failed.
+FEATURE(THREAD_PER_GUIDE, "HAIR_THREAD_PER_GUIDE")
+FEATURE(PASS1, "HAIR_PASS1") // Only the solver's own method.
+FEATURE(PASS2, "HAIR_PASS2") // Only guides at which PASS1 failed.
 FEATURE(MIXED, "HAIR_MIXED") // Rotations and forces of segments are the unknowns of guides.
-FEATURE(COLLIDERS, "HAIR_COLLIDERS")           // Colliders are near. Without ANY there are few.
-FEATURE(ANY, "HAIR_ANY")                 // Any number of colliders.
+FEATURE(COLLIDERS, "HAIR_COLLIDERS") // Colliders are near. Without COLLIDER_GRID there are few.
+FEATURE(COLLIDER_GRID, "HAIR_COLLIDER_GRID") // Any number of colliders.
 
 // Few guides, which have registers to cache what they read, since they wait for memory.
-FEATURE(FEW, "HAIR_FEW_GUIDES")
-FEATURE(BODIES, "HAIR_BODIES")           // Some colliders are not capsules.
-FEATURE(HITS, "HAIR_HITS")               // Some followers are inside colliders.
-FEATURE(DEPTH, "HAIR_DEPTH")             // Depth without colour.
-FEATURE(FIBRES, "HAIR_FIBRES")           // HAIR_SHADING_FIBRES. Otherwise HAIR_SHADING_LINES.
-FEATURE(LINES, "HAIR_LINES")             // Lines. Otherwise ribbons.
-FEATURE(STYLED, "HAIR_STYLED")           // The look kinks, curls or cuts followers.
-FEATURE(TINTED, "HAIR_TINTED") // Strands have colours or positions on the scalp of their own.
-FEATURE(PAINTED, "HAIR_PAINTED")         // Strands have the groom's colours.
-FEATURE(IDS, "HAIR_IDS")                 // Numbers in place of colour.
-FEATURE(MOTION, "HAIR_MOTION")           // Velocities in place of colour.
-FEATURE(SHARES, "HAIR_SHARES")           // Strands cover fractions of pixels.
-FEATURE(BLOCKED, "HAIR_BLOCKED")         // Opaque geometry blocks lights.
-FEATURE(SHADED, "HAIR_SHADED")           // A compute pass has shaded the vertices.
+FEATURE(FEW_GUIDES, "HAIR_FEW_GUIDES")
+FEATURE(BODIES, "HAIR_BODIES") // Some colliders are not capsules.
+FEATURE(HITS, "HAIR_HITS") // Some followers are inside colliders.
+FEATURE(DEPTH, "HAIR_DEPTH") // Depth without colour.
+FEATURE(FIBRES, "HAIR_FIBRES") // HAIR_SHADING_FIBRES. Otherwise HAIR_SHADING_LINES.
+FEATURE(LINES, "HAIR_LINES") // Lines. Otherwise ribbons.
+FEATURE(STYLED, "HAIR_STYLED") // The look kinks, curls or cuts followers.
+FEATURE(ROOT_UV, "HAIR_ROOT_UV") // Strands have colours or positions on the scalp of their own.
+FEATURE(GROOM_COLORS, "HAIR_GROOM_COLORS") // Strands have the groom's colours.
+FEATURE(IDS, "HAIR_IDS") // Numbers in place of colour.
+FEATURE(MOTION, "HAIR_MOTION") // Velocities in place of colour.
+FEATURE(ALPHA_COVERAGE, "HAIR_ALPHA_COVERAGE") // Strands cover fractions of pixels.
+FEATURE(OPAQUE_SHADOWS, "HAIR_OPAQUE_SHADOWS") // Opaque geometry blocks lights.
+FEATURE(SHADED, "HAIR_SHADED") // A compute pass has shaded the vertices.
 // Strands may be wider to compensate for strands that are left out.
 FEATURE(WIDENED, "HAIR_WIDENED")
-FEATURE(HIDDEN, "HAIR_HIDDEN")           // Occlusion culling may have hidden patches.
+FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patches.
 
 // Sizes of work groups with one work group per guide and one thread per vertex. In a group of 256
 // threads for a guide of 32 vertices most threads would be idle.
 #define SIZES HAIR_GL_SIZES
 #define WITH(name) HAIR_GL_WITH(name)
 #define STRAND_FEATURES \
-    SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(CROWD) | WITH(THREAD) | WITH(COLLIDERS) | WITH(ANY) | WITH(BODIES) | \
-        WITH(FEW)
+    SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | \
+        WITH(FEW_GUIDES)
 #define DRAW_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(IDS) | WITH(BLOCKED) | \
-        WITH(SHARES) | WITH(WIDENED)
+    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(IDS) | WITH(OPAQUE_SHADOWS) | \
+        WITH(ALPHA_COVERAGE) | WITH(WIDENED)
 #define STAGE_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(TINTED) | WITH(PAINTED) | WITH(BLOCKED) | WITH(WIDENED) | WITH(HITS)
+    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS) | WITH(WIDENED) | WITH(HITS)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
-PASS(VOXELISE, "field/voxelise", 0, "field/voxelise.comp")
-PASS(VOXELISE_FORMS, "field/voxelise_forms", 0, "HAIR_FORMS=1 field/voxelise.comp")
-PASS(FLUID_OPEN, "wind/open", 0, "HAIR_FLUID=1 wind/open.comp")
-PASS(FLUID_COARSEN, "wind/coarsen", 0, "HAIR_FLUID=1 wind/coarsen.comp")
-PASS(FLUID_CLEAR, "wind/clear", 0, "HAIR_FLUID=1 sim/crowd_clear.comp")
-PASS(FLUID_SPLAT, "wind/splat", 0, "HAIR_FLUID=1 sim/crowd_splat.comp")
-PASS(FLUID_POROUS, "wind/porous", 0, "HAIR_FLUID=1 wind/porous.comp")
-PASS(FLUID_ADVECT, "wind/advect", 0, "HAIR_FLUID=1 wind/advect.comp")
-PASS(FLUID_CORRECT, "wind/correct", 0, "HAIR_FLUID=1 wind/correct.comp")
-PASS(FLUID_DIVERGENCE, "wind/divergence", 0, "HAIR_FLUID=1 wind/divergence.comp")
-PASS(FLUID_SMOOTH, "wind/smooth", 0, "HAIR_FLUID=1 wind/smooth.comp")
-PASS(FLUID_JACOBI, "wind/jacobi", 0, "HAIR_FLUID=1 wind/jacobi.comp")
-PASS(FLUID_RESTRICT, "wind/restrict", 0, "HAIR_FLUID=1 wind/restrict.comp")
-PASS(FLUID_BOTTOM, "wind/bottom", 0, "HAIR_FLUID=1 wind/bottom.comp")
-PASS(FLUID_PROLONG, "wind/prolong", 0, "HAIR_FLUID=1 wind/prolong.comp")
-PASS(FLUID_PROJECT, "wind/project", 0, "HAIR_FLUID=1 wind/project.comp")
-PASS(FLUID_PUBLISH, "wind/publish", 0, "HAIR_FLUID=1 wind/publish.comp")
-PASS(RESET, "sim/reset", WITH(ROD) | WITH(SKINNED) | WITH(MIXED), "sim/reset.comp")
-PASS(TURN, "sim/turn", WITH(ROD) | WITH(MIXED), "sim/turn.comp")
-PASS(SCALP, "sim/scalp", 0, "HAIR_SKINNED=1 sim/scalp.comp")
-PASS(RIDE, "sim/ride", 0, "HAIR_SKINNED=1 sim/ride.comp")
-PASS(SEAT, "interpolate/seat", 0, "HAIR_SKINNED=1 interpolate/seat.comp")
-PASS(STIR, "sim/stir", 0, "sim/stir.comp")
-PASS(MOTION_OF_GUIDES, "sim/diagnose_motion", 0, "sim/motion.comp")
-PASS(ENERGY, "sim/diagnose_energy", WITH(MIXED), "sim/energy.comp")
-PASS(CROWD_CLEAR, "sim/crowd_clear", 0, "HAIR_CROWD=1 sim/crowd_clear.comp")
-PASS(CROWD_SPLAT, "sim/crowd_splat", 0, "HAIR_CROWD=1 sim/crowd_splat.comp")
-PASS(CROWD_GATHER, "sim/crowd_gather", 0, "HAIR_CROWD=1 sim/crowd_gather.comp")
-PASS(DIRECT, "sim/direct", STRAND_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=1 sim/rod.comp")
-PASS(ACCURATE, "sim/accurate", STRAND_FEATURES | WITH(FIRST) | WITH(LISTED), "HAIR_SOLVER=0 sim/rod.comp")
-PASS(ACCURATE_STIFF, "sim/accurate_stiff", STRAND_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
-PASS(MIXED_SOLVER, "sim/mixed", STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
-PASS(FOLLOW, "sim/follow", STRAND_FEATURES, "sim/follow.comp")
-PASS(REDBLACK, "sim/redblack", SIZES | WITH(SKINNED), "sim/redblack.comp")
+PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
+PASS(VOXELISE_MESHES, "field/voxelise_meshes", FIELD, 0, "HAIR_MESHES=1 field/voxelise.comp")
+PASS(FLUID_FACE_FRACTIONS, "wind/face_fractions", WIND, 0, "HAIR_FLUID=1 wind/face_fractions.comp")
+PASS(FLUID_COARSEN, "wind/coarsen", WIND, 0, "HAIR_FLUID=1 wind/coarsen.comp")
+PASS(FLUID_CLEAR, "wind/clear", WIND, 0, "HAIR_FLUID=1 sim/hair_grid_clear.comp")
+PASS(FLUID_SPLAT, "wind/splat", WIND, 0, "HAIR_FLUID=1 sim/hair_grid_splat.comp")
+PASS(FLUID_POROUS, "wind/porous", WIND, 0, "HAIR_FLUID=1 wind/porous.comp")
+PASS(FLUID_ADVECT, "wind/advect", WIND, 0, "HAIR_FLUID=1 wind/advect.comp")
+PASS(FLUID_MACCORMACK_CORRECT, "wind/maccormack_correct", WIND, 0, "HAIR_FLUID=1 wind/maccormack_correct.comp")
+PASS(FLUID_DIVERGENCE, "wind/divergence", WIND, 0, "HAIR_FLUID=1 wind/divergence.comp")
+PASS(FLUID_SMOOTH, "wind/smooth", WIND, 0, "HAIR_FLUID=1 wind/smooth.comp")
+PASS(FLUID_JACOBI, "wind/jacobi", WIND, 0, "HAIR_FLUID=1 wind/jacobi.comp")
+PASS(FLUID_RESTRICT, "wind/restrict", WIND, 0, "HAIR_FLUID=1 wind/restrict.comp")
+PASS(FLUID_COARSE_SOLVE, "wind/coarse_solve", WIND, 0, "HAIR_FLUID=1 wind/coarse_solve.comp")
+PASS(FLUID_PROLONG, "wind/prolong", WIND, 0, "HAIR_FLUID=1 wind/prolong.comp")
+PASS(FLUID_PROJECT, "wind/project", WIND, 0, "HAIR_FLUID=1 wind/project.comp")
+PASS(FLUID_EXPORT_VELOCITY, "wind/export_velocity", WIND, 0, "HAIR_FLUID=1 wind/export_velocity.comp")
+PASS(RESET, "sim/reset", RESET, WITH(ROD) | WITH(SKINNED) | WITH(MIXED), "sim/reset.comp")
+PASS(ROTATE_STATE, "sim/rotate_state", ROTATE_STATE, WITH(ROD) | WITH(MIXED), "sim/rotate_state.comp")
+PASS(UNPACK_SCALP, "sim/unpack_scalp", UNPACK_SCALP, 0, "HAIR_SKINNED=1 sim/unpack_scalp.comp")
+PASS(ROOT_TRANSFORMS, "sim/root_transforms", ROOT_TRANSFORMS, 0, "HAIR_SKINNED=1 sim/root_transforms.comp")
+PASS(BIND_FOLLOWERS, "strands/bind_followers", BIND_FOLLOWERS, 0, "HAIR_SKINNED=1 strands/bind_followers.comp")
+PASS(ACTIVITY, "sim/activity", ACTIVITY, 0, "sim/activity.comp")
+PASS(MOTION_OF_GUIDES, "sim/diagnose_motion", DIAGNOSE, 0, "sim/motion.comp")
+PASS(ENERGY, "sim/diagnose_energy", DIAGNOSE, WITH(MIXED), "sim/energy.comp")
+PASS(HAIR_GRID_CLEAR, "sim/hair_grid_clear", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_clear.comp")
+PASS(HAIR_GRID_SPLAT, "sim/hair_grid_splat", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_splat.comp")
+PASS(HAIR_GRID_GATHER, "sim/hair_grid_gather", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_gather.comp")
+PASS(DIRECT, "sim/direct", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
+PASS(ACCURATE, "sim/accurate", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=0 sim/rod.comp")
+PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
+PASS(MIXED_SOLVER, "sim/mixed", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
+PASS(FOLLOW, "sim/follow", SOLVE, STRAND_FEATURES, "sim/follow.comp")
+PASS(REDBLACK, "sim/redblack", SOLVE, SIZES | WITH(SKINNED), "sim/redblack.comp")
 // Redblack by transform feedback, in the order of HAIR_PHASE.
-PASS(FEEDBACK_INTEGRATE, "sim/feedback_integrate", 0, "HAIR_PHASE=0 sim/feedback.vert")
-PASS(FEEDBACK_ANGULAR, "sim/feedback_angular", 0, "HAIR_PHASE=1 sim/feedback.vert")
-PASS(FEEDBACK_RED, "sim/feedback_red", 0, "HAIR_PHASE=2 sim/feedback.vert")
-PASS(FEEDBACK_BLACK, "sim/feedback_black", 0, "HAIR_PHASE=3 sim/feedback.vert")
-PASS(FEEDBACK_BEND_RED, "sim/feedback_bend_red", 0, "HAIR_PHASE=4 sim/feedback.vert")
-PASS(FEEDBACK_BEND_BLACK, "sim/feedback_bend_black", 0, "HAIR_PHASE=5 sim/feedback.vert")
-PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", 0, "HAIR_PHASE=6 sim/feedback.vert")
-PASS(FEEDBACK_END, "sim/feedback_end", 0, "HAIR_PHASE=7 sim/feedback.vert")
-PASS(SMOOTH, "interpolate/smooth", SIZES | WITH(SKINNED), "interpolate/smooth.comp")
-PASS(EXPAND, "interpolate/expand", WITH(HITS) | WITH(STYLED), "HAIR_STORED=1 interpolate/expand.comp")
-PASS(HIT, "interpolate/hit", WITH(STYLED), "HAIR_FINDS_HITS=1 interpolate/hit.comp")
-PASS(HIT_GROUP, "interpolate/hit_group", WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 interpolate/hit.comp")
-PASS(PREPASS, "interpolate/hit_prepass", WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc interpolate/hit.tese interpolate/hit.frag")
-PASS(PREPASS_HIT, "interpolate/hit_gather", 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 interpolate/hit.comp")
-PASS(REPAIR, "interpolate/repair", WITH(STYLED), "HAIR_FINDS_HITS=1 interpolate/repair.comp")
-PASS(HIDE_FIRST, "draw/hide_first", 0, "draw/hide_first.comp")
-PASS(HIDE_NEXT, "draw/hide_next", 0, "draw/hide_next.comp")
-PASS(HIDE_GUIDES, "draw/hide_guides", 0, "draw/hide_guides.comp")
-PASS(HIDE_PATCHES, "draw/hide_patches", WITH(HITS), "draw/hide_patches.comp")
-PASS(TESSELLATED, "draw/tessellated", DRAW_FEATURES | WITH(HITS) | WITH(HIDDEN), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
-PASS(INSTANCED, "draw/instanced", DRAW_FEATURES | WITH(HITS), "HAIR_LISTED=1 draw/strand.vert" DRAW_STAGES)
-PASS(EXPANDED, "draw/expanded", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/strand.vert" DRAW_STAGES)
-PASS(PAIRED, "draw/expanded_paired", DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
-PASS(STAGE, "draw/stage", STAGE_FEATURES, "HAIR_LISTED=1 draw/stage.comp")
-PASS(STAGE_SIDES, "draw/stage_sides", STAGE_FEATURES | WITH(LINES), "HAIR_LISTED=1 HAIR_SIDES=1 draw/stage.comp")
-PASS(STAGED, "draw/staged", WITH(DEPTH) | WITH(LINES), "draw/staged.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
-PASS(RASTER_CLEAR, "draw/raster_clear", WITH(DEPTH), "draw/raster_clear.comp")
-PASS(RASTER, "draw/raster", WITH(DEPTH) | WITH(WIDENED), "HAIR_EXPANDED=1 draw/raster.comp")
-PASS(COMPOSE, "draw/compose", WITH(DEPTH) | WITH(WIDENED), "HAIR_EXPANDED=1 draw/compose.vert draw/compose.frag")
-PASS(SHADE, "draw/shade", WITH(FIBRES) | WITH(TINTED) | WITH(PAINTED) | WITH(BLOCKED), "HAIR_EXPANDED=1 draw/shade.comp")
-PASS(COUNT, "draw/count", WITH(HIDDEN), "HAIR_LISTED=1 draw/count.comp")
-PASS(LIST, "draw/list", WITH(HIDDEN), "HAIR_LISTED=1 draw/list.comp")
-PASS(BUCKET, "draw/bucket", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 draw/bucket.comp")
-PASS(BUCKETS, "draw/buckets", 0, "HAIR_LISTED=1 draw/buckets.comp")
-PASS(PLACE, "draw/place", 0, "HAIR_LISTED=1 HAIR_EXPANDED=1 HAIR_PLACES=1 draw/bucket.comp")
-PASS(LIGHT_BOX, "draw/light_box", 0, "draw/light_box.comp")
-PASS(LIGHT_FILL, "draw/light_fill", 0, "draw/light_fill.comp")
-PASS(LIGHT_NODES, "draw/light_nodes", WITH(COLLIDERS), "draw/light_nodes.comp")
-PASS(LIGHT, "draw/light", WITH(COLLIDERS), "draw/light.comp")
-PASS(COLLIDERS, "draw/colliders", 0, "HAIR_FORMS=1 draw/colliders.vert draw/colliders.frag")
-PASS(SLICE, "draw/colliders_slice", 0, "draw/slice.vert draw/slice.frag")
-PASS(AIR, "draw/air", 0, "draw/air.vert draw/guides.frag")
-PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
+PASS(FEEDBACK_INTEGRATE, "sim/feedback_integrate", SOLVE, 0, "HAIR_PHASE=0 sim/feedback.vert")
+PASS(FEEDBACK_ANGULAR, "sim/feedback_angular", SOLVE, 0, "HAIR_PHASE=1 sim/feedback.vert")
+PASS(FEEDBACK_RED, "sim/feedback_red", SOLVE, 0, "HAIR_PHASE=2 sim/feedback.vert")
+PASS(FEEDBACK_BLACK, "sim/feedback_black", SOLVE, 0, "HAIR_PHASE=3 sim/feedback.vert")
+PASS(FEEDBACK_BEND_RED, "sim/feedback_bend_red", SOLVE, 0, "HAIR_PHASE=4 sim/feedback.vert")
+PASS(FEEDBACK_BEND_BLACK, "sim/feedback_bend_black", SOLVE, 0, "HAIR_PHASE=5 sim/feedback.vert")
+PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", SOLVE, 0, "HAIR_PHASE=6 sim/feedback.vert")
+PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert")
+PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED), "strands/smooth.comp")
+PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED), "HAIR_STORED=1 strands/expand.comp")
+PASS(HIT, "strands/hit", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/hit.comp")
+PASS(HIT_GROUP, "strands/hit_group", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
+PASS(PREPASS, "strands/hit_prepass", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese strands/hit.frag")
+PASS(PREPASS_HIT, "strands/hit_gather", HIT, 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 strands/hit.comp")
+PASS(REPAIR, "strands/repair", REPAIR, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/repair.comp")
+PASS(HIZ_REDUCE_DEPTH, "draw/hiz_reduce_depth", OCCLUSION, 0, "draw/hiz_reduce_depth.comp")
+PASS(HIZ_DOWNSAMPLE, "draw/hiz_downsample", OCCLUSION, 0, "draw/hiz_downsample.comp")
+PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")
+PASS(CULL_PATCHES, "draw/cull_patches", OCCLUSION, WITH(HITS), "draw/cull_patches.comp")
+PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
+PASS(INSTANCED, "draw/instanced", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
+PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
+PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_VERTEX_CACHE=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
+PASS(EXPAND_VIEW, "draw/expand_view", COLOR, STAGE_FEATURES, "draw/expand_view.comp")
+PASS(EXPAND_VIEW_SIDES, "draw/expand_view_sides", COLOR, STAGE_FEATURES | WITH(LINES), "HAIR_SIDES=1 draw/expand_view.comp")
+PASS(VIEW_CACHED, "draw/view_cached", COLOR, WITH(DEPTH) | WITH(LINES), "draw/view_cache.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
+PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, WITH(DEPTH), "draw/raster_clear.comp")
+PASS(RASTER, "draw/raster", COLOR, WITH(DEPTH) | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
+PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, WITH(DEPTH) | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/resolve_tiles.vert draw/resolve_tiles.frag")
+PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS), "HAIR_VERTEX_CACHE=1 draw/shade.comp")
+PASS(SCAN_STRANDS, "draw/scan_strands", SCAN_STRANDS, WITH(OCCLUSION), "draw/scan_strands.comp")
+PASS(COMPACT_STRANDS, "draw/compact_strands", COMPACT_STRANDS, WITH(OCCLUSION), "draw/compact_strands.comp")
+PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "HAIR_VERTEX_CACHE=1 draw/histogram.comp")
+PASS(PREFIX_SUM, "draw/prefix_sum", COLOR, 0, "draw/prefix_sum.comp")
+PASS(SCATTER, "draw/scatter", COLOR, 0, "HAIR_VERTEX_CACHE=1 HAIR_SCATTER=1 draw/histogram.comp")
+PASS(DENSITY_BOUNDS, "light/density_bounds", SELF_SHADOW, 0, "light/density_bounds.comp")
+PASS(DENSITY_SPLAT, "light/density_splat", SELF_SHADOW, 0, "light/density_splat.comp")
+PASS(NODE_TRANSMITTANCE, "light/node_transmittance", SELF_SHADOW, WITH(COLLIDERS), "light/node_transmittance.comp")
+PASS(VERTEX_TRANSMITTANCE, "light/vertex_transmittance", SELF_SHADOW, WITH(COLLIDERS), "light/vertex_transmittance.comp")
+PASS(COLLIDERS, "draw/colliders", COLLIDERS, 0, "HAIR_MESHES=1 draw/colliders.vert draw/colliders.frag")
+PASS(SLICE, "draw/colliders_slice", COLLIDERS, 0, "draw/slice.vert draw/slice.frag")
+PASS(AIR, "draw/air", AIR, 0, "draw/air.vert draw/guides.frag")
+PASS(GUIDES, "draw/guides", GUIDES, 0, "draw/guides.vert draw/guides.frag")
 
 #undef DRAW_STAGES
 #undef STAGE_FEATURES
@@ -144,3 +175,4 @@ PASS(GUIDES, "draw/guides", 0, "draw/guides.vert draw/guides.frag")
 #undef SIZES
 #undef PASS
 #undef FEATURE
+#undef CATEGORY

@@ -58,7 +58,7 @@ static hair_result report(struct hair_gl* gl, const struct hair_gl_source* sourc
 }
 
 // Inputs of a program, which are its stages with their full texts.
-#define MOST_STAGES 5
+#define MAX_STAGES 5
 struct recipe {
     struct hair_gl* gl;
     const struct hair_gl_shader* shader; // NULL if there is no shader of the application.
@@ -73,7 +73,7 @@ struct recipe {
         char name[64];
         struct hair_gl_source source;
         GLuint shader;
-    } stage[MOST_STAGES];
+    } stage[MAX_STAGES];
 };
 
 static hair_result start_stage(const struct recipe* recipe, struct stage* stage, GLuint program)
@@ -131,7 +131,7 @@ static hair_result define_all(struct recipe* recipe)
             result = define(recipe, name);
         }
     if (!result && recipe->shader)
-        result = define(recipe, recipe->shader->pixels ? "HAIR_OWN_PIXELS 1" : "HAIR_OWN_VERTICES 1");
+        result = define(recipe, recipe->shader->pixels ? "HAIR_USER_PIXELS 1" : "HAIR_USER_VERTICES 1");
     return result;
 }
 
@@ -154,7 +154,7 @@ static hair_result read_stages(struct recipe* recipe, const char* stages)
 {
     struct hair_gl* gl = recipe->gl;
     hair_result result = define_all(recipe);
-    for (const char* at = stages; *at && recipe->stages < MOST_STAGES && !result;) {
+    for (const char* at = stages; *at && recipe->stages < MAX_STAGES && !result;) {
         struct stage* stage = &recipe->stage[recipe->stages];
         size_t length = strcspn(at, " ");
         char word[64];
@@ -233,7 +233,7 @@ static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* ke
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
     gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
     if (gl->cache.get) *key = key_of(recipe);
-    *kept = gl->cache.get && hair_gl_cached(gl, *key, program);
+    *kept = gl->cache.get && hair_gl_cache_load(gl, *key, program);
     hair_result result = *kept ? HAIR_OK : start(recipe, program);
     if (result)
         gl->DeleteProgram(program);
@@ -255,7 +255,7 @@ static hair_result make(struct recipe* recipe, GLuint* out)
         gl->DeleteProgram(program);
     }
     if (result) return result;
-    if (!kept) hair_gl_keep(gl, key, program);
+    if (!kept) hair_gl_cache_store(gl, key, program);
     *out = program;
     return HAIR_OK;
 }
@@ -299,7 +299,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
 hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* shader, hair_gl_pass pass,
                               GLuint* out)
 {
-    const struct hair_gl_program* known = hair_gl_know(gl, pass);
+    const struct hair_gl_program* known = hair_gl_get_or_add(gl, pass);
     if (!known) return HAIR_ERROR_MEMORY;
     struct recipe* recipe = open_recipe(gl, shader, pass, known->label, hair_gl_row_stages(pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
@@ -326,7 +326,7 @@ static void finish(struct hair_gl* gl, struct hair_gl_program* own)
 {
     HAIR_ASSERT(own->begun && !own->program);
     if (is_linked(gl, own->begun)) {
-        hair_gl_keep(gl, own->key, own->begun);
+        hair_gl_cache_store(gl, own->key, own->begun);
         own->program = own->begun;
     } else {
         gl->DeleteProgram(own->begun);
@@ -334,13 +334,13 @@ static void finish(struct hair_gl* gl, struct hair_gl_program* own)
     own->begun = 0;
 }
 
-static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
+static hair_result begin_async(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
     int kept = 0;
-    HAIR_ASSERT(gl->ahead && !own->begun && !own->program);
+    HAIR_ASSERT(gl->async && !own->begun && !own->program);
     // The first missing program is compiled now.
-    if (!gl->parallel && gl->unready++) return HAIR_OK;
+    if (!gl->parallel && gl->pending++) return HAIR_OK;
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
     hair_result result = recipe->result ? recipe->result : begin(recipe, &own->key, &kept, &program);
@@ -348,57 +348,58 @@ static hair_result begin_ahead(struct hair_gl* gl, struct hair_gl_program* own)
     if (result) return result;
     *(kept ? &own->program : &own->begun) = program;
     if (!kept && !gl->parallel) finish(gl, own);
-    if (!kept && gl->parallel) ++gl->unready;
+    if (!kept && gl->parallel) ++gl->pending;
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
 }
 
 static hair_result look_after(struct hair_gl* gl, struct hair_gl_program* own)
 {
-    HAIR_ASSERT(gl->ahead && own->begun);
+    HAIR_ASSERT(gl->async && own->begun);
     GLint there = 0;
     gl->GetProgramiv(own->begun, GL_COMPLETION_STATUS_KHR, &there);
-    gl->unready += !there;
+    gl->pending += !there;
     if (there) finish(gl, own);
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
 }
 
-hair_result hair_gl_need(struct hair_gl* gl, hair_gl_pass pass)
+hair_result hair_gl_ensure_program(struct hair_gl* gl, hair_gl_pass pass)
 {
-    struct hair_gl_program* own = hair_gl_know(gl, pass);
+    struct hair_gl_program* own = hair_gl_get_or_add(gl, pass);
     if (!own) return HAIR_ERROR_MEMORY;
     if (own->program) return HAIR_OK;
-    if (gl->ahead) return own->begun ? look_after(gl, own) : begin_ahead(gl, own);
+    if (gl->async) return own->begun ? look_after(gl, own) : begin_async(gl, own);
     if (own->begun) finish(gl, own);
     return own->program ? HAIR_OK : compile_again(gl, own);
 }
 
-hair_result hair_gl_need_rows(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last, hair_gl_pass wanted)
+hair_result hair_gl_ensure_programs(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last,
+                                    hair_gl_pass wanted)
 {
     HAIR_ASSERT(first <= last && last < HAIR_GL_ROWS);
     hair_result result = HAIR_OK;
     for (hair_gl_pass row = first; row <= last && !result; ++row)
-        result = hair_gl_need(gl, hair_gl_with(row, wanted));
+        result = hair_gl_ensure_program(gl, hair_gl_add_features(row, wanted));
     return result;
 }
 
-void hair_gl_begin_ahead(struct hair_gl* gl)
+void hair_gl_begin_async(struct hair_gl* gl)
 {
-    HAIR_ASSERT(!gl->ahead);
-    gl->ahead = 1;
-    gl->unready = 0;
+    HAIR_ASSERT(!gl->async);
+    gl->async = 1;
+    gl->pending = 0;
 }
 
-uint32_t hair_gl_end_ahead(struct hair_gl* gl)
+uint32_t hair_gl_end_async(struct hair_gl* gl)
 {
-    HAIR_ASSERT(gl->ahead);
-    gl->ahead = 0;
-    return gl->unready;
+    HAIR_ASSERT(gl->async);
+    gl->async = 0;
+    return gl->pending;
 }
 
 hair_result hair_gl_compile(struct hair_gl* gl)
 {
     hair_result first = HAIR_OK;
-    ++gl->made;
+    ++gl->program_generation;
     for (uint32_t i = 0; i < gl->programs; ++i) {
         if (gl->program[i]->begun) finish(gl, gl->program[i]);
         hair_result result = gl->program[i]->program ? compile_again(gl, gl->program[i]) : HAIR_OK;

@@ -95,7 +95,7 @@ static uint32_t called(const struct reader* reader, uint32_t number)
     HAIR_ASSERT(number < reader->out->files);
     if (!reader->own) return number;
     if (number == 0) return HAIR_GL_MAX_SOURCES;
-    return strcmp(reader->out->file[number], HAIR_GL_OWN) == 0 ? 0 : number;
+    return strcmp(reader->out->file[number], HAIR_GL_USER_SHADER) == 0 ? 0 : number;
 }
 
 static hair_result put_lines(struct reader* reader, const char* text, uint32_t number)
@@ -142,7 +142,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
     ++out->files;
 
     char* read = NULL;
-    const char* given = strcmp(own, HAIR_GL_OWN) == 0 ? reader->own : NULL;
+    const char* given = strcmp(own, HAIR_GL_USER_SHADER) == 0 ? reader->own : NULL;
     int in_file = reader->folder && !given;
     hair_result result = in_file ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
     if (result) return result;

@@ -32,7 +32,7 @@ static void restore_buffers(struct hair_gl* gl, GLenum target, GLsizei count, co
 static GLenum target_of(GLuint unit)
 {
     HAIR_ASSERT(unit < HAIR_GL_UNITS);
-    if (unit == HAIR_UNIT_PAINT || unit == HAIR_UNIT_LIGHT) return GL_TEXTURE_BUFFER;
+    if (unit == HAIR_UNIT_GROOM_COLOR || unit == HAIR_UNIT_LIGHT) return GL_TEXTURE_BUFFER;
     if (unit >= HAIR_UNIT_SHADOW) return GL_TEXTURE_2D;
     return unit >= HAIR_UNIT_FIELD ? GL_TEXTURE_3D : GL_TEXTURE_BUFFER;
 }
@@ -74,7 +74,7 @@ static void restore_units(struct hair_gl* gl)
 
 void hair_gl_enter(struct hair_gl* gl)
 {
-    if (gl->promise == HAIR_GL_STATE_CLOBBER) return;
+    if (gl->state_policy == HAIR_GL_STATE_CLOBBER) return;
     struct hair_gl_saved* saved = &gl->saved;
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
     gl->GetIntegerv(GL_VERTEX_ARRAY_BINDING, &saved->vertex_array);
@@ -107,8 +107,8 @@ static void unbind(struct hair_gl* gl)
 
 void hair_gl_leave(struct hair_gl* gl)
 {
-    gl->ledger = NULL;
-    if (gl->promise == HAIR_GL_STATE_CLOBBER) {
+    gl->profiler = NULL;
+    if (gl->state_policy == HAIR_GL_STATE_CLOBBER) {
         unbind(gl);
         return;
     }

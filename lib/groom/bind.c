@@ -2,13 +2,13 @@
 //
 // A follower is its guide plus a cubic Bezier curve in the guide's frame. The curve is fitted to
 // the strand at rest by least squares. The root is exact.
-#include "lib/groom/draft.h"
-#include "lib/groom/smoothed.h"
+#include "lib/groom/groom_builder.h"
+#include "lib/groom/guide_spline.h"
 
 #include <string.h>
 
 #define SAMPLES 16 // Samples of a strand besides its root. More samples hardly change the fit.
-#define AXES (3 * HAIR_MARKS)
+#define AXES (3 * HAIR_SHAPE_SAMPLES)
 
 static float distance_squared(const float* a, const float* b)
 {
@@ -17,59 +17,59 @@ static float distance_squared(const float* a, const float* b)
     return sum;
 }
 
-static void gather_marks(const struct hair_draft* draft, float* marks)
+static void gather_shape_samples(const struct hair_groom_builder* builder, float* shape_samples)
 {
-    for (uint32_t i = 0; i < draft->groom->info.guide_count; ++i)
-        memcpy(marks + AXES * (size_t)i, draft->marks + AXES * (size_t)draft->chosen[i],
-               AXES * sizeof *marks);
+    for (uint32_t i = 0; i < builder->groom->info.guide_count; ++i)
+        memcpy(shape_samples + AXES * (size_t)i, builder->shape_samples + AXES * (size_t)builder->chosen[i],
+               AXES * sizeof *shape_samples);
 }
 
-static hair_result find_owners(struct hair_draft* draft, const float* marks)
+static hair_result find_owners(struct hair_groom_builder* builder, const float* shape_samples)
 {
-    struct hair_tree tree;
-    hair_result result =
-        hair_tree_build(draft->host, (struct hair_cloud){marks, AXES}, draft->groom->info.guide_count, &tree);
+    struct hair_kd_tree tree;
+    hair_result result = hair_kd_tree_build(builder->host, (struct hair_point_set){shape_samples, AXES},
+                                            builder->groom->info.guide_count, &tree);
     if (result) return result;
-    for (uint32_t i = 0; i < draft->strands.strand_count; ++i) {
+    for (uint32_t i = 0; i < builder->strands.strand_count; ++i) {
         // The guide of the strand's cell is near, so the search only has to find a nearer one.
-        HAIR_ASSERT(draft->owner[i] < draft->groom->info.guide_count);
-        const float* own = draft->marks + AXES * (size_t)i;
-        struct hair_near near = {draft->owner[i],
-                                 distance_squared(own, marks + AXES * (size_t)draft->owner[i])};
-        hair_tree_nearest(&tree, own, &near, 1, 1);
-        draft->owner[i] = near.index;
+        HAIR_ASSERT(builder->owner[i] < builder->groom->info.guide_count);
+        const float* own = builder->shape_samples + AXES * (size_t)i;
+        struct hair_kd_neighbor near = {
+            builder->owner[i], distance_squared(own, shape_samples + AXES * (size_t)builder->owner[i])};
+        hair_kd_tree_nearest(&tree, own, &near, 1, 1);
+        builder->owner[i] = near.index;
     }
-    hair_tree_free(draft->host, &tree);
-    for (uint32_t i = 0; i < draft->groom->info.guide_count; ++i) draft->owner[draft->chosen[i]] = i;
+    hair_kd_tree_free(builder->host, &tree);
+    for (uint32_t i = 0; i < builder->groom->info.guide_count; ++i) builder->owner[builder->chosen[i]] = i;
     return HAIR_OK;
 }
 
 // Sort strands by guide with a counting sort.
-static void sort_strands(struct hair_draft* draft)
+static void sort_strands(struct hair_groom_builder* builder)
 {
-    uint32_t strands = draft->strands.strand_count;
-    for (uint32_t i = 0; i < strands; ++i) ++draft->plot_sprouts[draft->owner[i]];
-    hair_number_sprouts(draft);
-    HAIR_ASSERT(draft->sprout_count == strands);
-    for (uint32_t i = 0; i < strands; ++i) draft->strand_of[draft->plot_first[draft->owner[i]]++] = i;
-    for (uint32_t i = 0; i < draft->plot_count; ++i) draft->plot_first[i] -= draft->plot_sprouts[i];
+    uint32_t strands = builder->strands.strand_count;
+    for (uint32_t i = 0; i < strands; ++i) ++builder->bin_candidates[builder->owner[i]];
+    hair_number_candidates(builder);
+    HAIR_ASSERT(builder->candidate_count == strands);
+    for (uint32_t i = 0; i < strands; ++i) builder->strand_of[builder->bin_first[builder->owner[i]]++] = i;
+    for (uint32_t i = 0; i < builder->bin_count; ++i) builder->bin_first[i] -= builder->bin_candidates[i];
 }
 
-hair_result hair_strand_sprouts(struct hair_draft* draft)
+hair_result hair_strand_candidates(struct hair_groom_builder* builder)
 {
-    uint32_t strands = draft->strands.strand_count, guides = draft->groom->info.guide_count;
-    hair_result result = hair_guide_plots(draft);
+    uint32_t strands = builder->strands.strand_count, guides = builder->groom->info.guide_count;
+    hair_result result = hair_guide_bins(builder);
     if (result) return result;
-    float* marks = hair_alloc(draft->host, guides, AXES * sizeof *marks);
-    draft->strand_of = hair_alloc(draft->host, strands, sizeof *draft->strand_of);
-    if (!marks || !draft->strand_of) {
-        hair_free(draft->host, marks);
-        return hair_fail_memory(draft->host, "the binding of strands to guides");
+    float* shape_samples = hair_alloc(builder->host, guides, AXES * sizeof *shape_samples);
+    builder->strand_of = hair_alloc(builder->host, strands, sizeof *builder->strand_of);
+    if (!shape_samples || !builder->strand_of) {
+        hair_free(builder->host, shape_samples);
+        return hair_fail_memory(builder->host, "the binding of strands to guides");
     }
-    gather_marks(draft, marks);
-    result = find_owners(draft, marks);
-    hair_free(draft->host, marks);
-    if (!result) sort_strands(draft);
+    gather_shape_samples(builder, shape_samples);
+    result = find_owners(builder, shape_samples);
+    hair_free(builder->host, shape_samples);
+    if (!result) sort_strands(builder);
     return result;
 }
 
@@ -120,18 +120,18 @@ static struct fit prepare_fit(void)
     return fit;
 }
 
-static hair_vec3 in_frame(struct hair_smoothed_point guide, hair_vec3 p)
+static hair_vec3 in_frame(struct hair_guide_spline_point guide, hair_vec3 p)
 {
     return hair_rotate(hair_quat_conjugate(guide.frame), hair_sub(p, guide.position));
 }
 
-static void fit_offset(const struct fit* fit, const struct hair_smoothed* guide, const float* points,
+static void fit_offset(const struct fit* fit, const struct hair_guide_spline* guide, const float* points,
                        struct hair_follower* follower)
 {
-    hair_vec3 control[4] = {in_frame(hair_smoothed_at(guide, 0), hair_load3(points))};
+    hair_vec3 control[4] = {in_frame(hair_guide_spline_at(guide, 0), hair_load3(points))};
     for (int k = 0; k < SAMPLES; ++k) {
         float u = (float)(k + 1) / SAMPLES * follower->length_ratio;
-        hair_vec3 away = in_frame(hair_smoothed_at(guide, u), hair_load3(points + 3 * (k + 1)));
+        hair_vec3 away = in_frame(hair_guide_spline_at(guide, u), hair_load3(points + 3 * (k + 1)));
         away = hair_sub(away, hair_scale(control[0], fit->root[k]));
         for (int i = 0; i < 3; ++i)
             control[i + 1] = hair_add(control[i + 1], hair_scale(away, fit->weight[i][k]));
@@ -143,32 +143,33 @@ static void fit_offset(const struct fit* fit, const struct hair_smoothed* guide,
     }
 }
 
-static struct hair_follower bind(const struct hair_draft* draft, const struct fit* fit, uint32_t sprout,
-                                 uint32_t guide, const struct hair_smoothed* smoothed)
+static struct hair_follower bind(const struct hair_groom_builder* builder, const struct fit* fit,
+                                 uint32_t candidate, uint32_t guide, const struct hair_guide_spline* spline)
 {
-    uint32_t strand = draft->strand_of[sprout];
-    uint32_t random = hair_sprout_random(draft, strand);
+    uint32_t strand = builder->strand_of[candidate];
+    uint32_t random = hair_candidate_random(builder, strand);
     struct hair_follower follower = hair_own_follower(guide, &random);
-    if (strand == draft->chosen[guide]) return follower;
-    HAIR_ASSERT(smoothed->length > 0 && draft->length[strand] > 0);
-    follower.length_ratio = draft->length[strand] / smoothed->length;
+    if (strand == builder->chosen[guide]) return follower;
+    HAIR_ASSERT(spline->length > 0 && builder->length[strand] > 0);
+    follower.length_ratio = builder->length[strand] / spline->length;
     float points[3 * (SAMPLES + 1)];
-    hair_strand_resample(draft->strands.positions + 3 * (size_t)draft->first[strand],
-                         draft->strands.vertices[strand], points, SAMPLES + 1);
-    fit_offset(fit, smoothed, points, &follower);
+    hair_strand_resample(builder->strands.positions + 3 * (size_t)builder->first[strand],
+                         builder->strands.vertices[strand], points, SAMPLES + 1);
+    fit_offset(fit, spline, points, &follower);
     return follower;
 }
 
-hair_result hair_strand_followers(struct hair_draft* draft)
+hair_result hair_strand_followers(struct hair_groom_builder* builder)
 {
     struct fit fit = prepare_fit();
-    for (uint32_t guide = 0; guide < draft->plot_count; ++guide) {
-        struct hair_smoothed smoothed;
-        hair_smooth_guide(draft->groom, guide, &smoothed);
-        for (uint32_t i = 0; i < draft->plot_sprouts[guide]; ++i) {
-            uint32_t sprout = draft->plot_first[guide] + i;
-            HAIR_ASSERT(draft->place[sprout] < draft->groom->info.follower_count);
-            draft->groom->followers[draft->place[sprout]] = bind(draft, &fit, sprout, guide, &smoothed);
+    for (uint32_t guide = 0; guide < builder->bin_count; ++guide) {
+        struct hair_guide_spline spline;
+        hair_guide_spline_fit(builder->groom, guide, &spline);
+        for (uint32_t i = 0; i < builder->bin_candidates[guide]; ++i) {
+            uint32_t candidate = builder->bin_first[guide] + i;
+            HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
+            builder->groom->followers[builder->place[candidate]] =
+                bind(builder, &fit, candidate, guide, &spline);
         }
     }
     return HAIR_OK;

@@ -1,5 +1,5 @@
 // build.c - construction of a groom from strands, step by step.
-#include "lib/groom/draft.h"
+#include "lib/groom/groom_builder.h"
 
 #include <float.h>
 
@@ -12,42 +12,42 @@ static enum source find_source(const hair_groom_desc* desc)
     return desc->scalp_positions && desc->follower_count ? FROM_SCALP : FROM_GUIDES;
 }
 
-static hair_result count_sprouts(struct hair_draft* draft)
+static hair_result count_candidates(struct hair_groom_builder* builder)
 {
-    switch (find_source(draft->desc)) {
-    case FROM_STRANDS: return hair_strand_sprouts(draft);
-    case FROM_SCALP: return hair_scalp_sprouts(draft);
+    switch (find_source(builder->desc)) {
+    case FROM_STRANDS: return hair_strand_candidates(builder);
+    case FROM_SCALP: return hair_scalp_candidates(builder);
     case FROM_GUIDES: break;
     }
-    return hair_guide_sprouts(draft);
+    return hair_guide_candidates(builder);
 }
 
-static hair_result make_followers(struct hair_draft* draft)
+static hair_result make_followers(struct hair_groom_builder* builder)
 {
-    struct hair_groom* groom = draft->groom;
-    HAIR_ASSERT(draft->sprout_count > 0 && draft->place);
-    groom->info.follower_count = draft->sprout_count;
-    groom->followers = hair_alloc(draft->host, draft->sprout_count, sizeof *groom->followers);
-    if (!groom->followers) return hair_fail_memory(draft->host, "followers");
-    switch (find_source(draft->desc)) {
-    case FROM_STRANDS: return hair_strand_followers(draft);
-    case FROM_SCALP: return hair_scalp_followers(draft);
+    struct hair_groom* groom = builder->groom;
+    HAIR_ASSERT(builder->candidate_count > 0 && builder->place);
+    groom->info.follower_count = builder->candidate_count;
+    groom->followers = hair_alloc(builder->host, builder->candidate_count, sizeof *groom->followers);
+    if (!groom->followers) return hair_fail_memory(builder->host, "followers");
+    switch (find_source(builder->desc)) {
+    case FROM_STRANDS: return hair_strand_followers(builder);
+    case FROM_SCALP: return hair_scalp_followers(builder);
     case FROM_GUIDES: break;
     }
-    return hair_guide_followers(draft);
+    return hair_guide_followers(builder);
 }
 
-static void describe(struct hair_draft* draft)
+static void describe(struct hair_groom_builder* builder)
 {
-    hair_groom_info* info = &draft->groom->info;
-    const struct hair_strands* strands = &draft->strands;
+    hair_groom_info* info = &builder->groom->info;
+    const struct hair_strands* strands = &builder->strands;
     double sum = 0;
     info->strand_count = strands->strand_count;
     info->length[0] = FLT_MAX;
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        info->length[0] = fminf(info->length[0], draft->length[i]);
-        info->length[2] = fmaxf(info->length[2], draft->length[i]);
-        sum += (double)draft->length[i];
+        info->length[0] = fminf(info->length[0], builder->length[i]);
+        info->length[2] = fmaxf(info->length[2], builder->length[i]);
+        sum += (double)builder->length[i];
     }
     HAIR_ASSERT(0 < info->length[0] && info->length[0] <= info->length[2]);
     info->length[1] = (float)(sum / strands->strand_count);
@@ -60,46 +60,46 @@ static void describe(struct hair_draft* draft)
     }
 }
 
-static hair_result build(struct hair_draft* draft)
+static hair_result build(struct hair_groom_builder* builder)
 {
-    hair_result result = hair_draft_strands(draft);
-    if (!result) result = hair_draft_scalp(draft);
-    if (!result) result = hair_draft_guides(draft);
-    if (!result) result = hair_draft_rest(draft);
-    if (!result) result = count_sprouts(draft);
-    if (!result) result = hair_draft_spots(draft);
-    if (!result) result = hair_draft_maps(draft);
-    if (!result) result = hair_draft_patches(draft);
-    if (!result) result = make_followers(draft);
-    if (!result) result = hair_draft_paint(draft);
-    if (!result) result = hair_draft_seats(draft);
+    hair_result result = hair_build_strands(builder);
+    if (!result) result = hair_build_scalp(builder);
+    if (!result) result = hair_build_guides(builder);
+    if (!result) result = hair_build_rest(builder);
+    if (!result) result = count_candidates(builder);
+    if (!result) result = hair_build_scalp_points(builder);
+    if (!result) result = hair_build_maps(builder);
+    if (!result) result = hair_build_patches(builder);
+    if (!result) result = make_followers(builder);
+    if (!result) result = hair_build_strand_attributes(builder);
+    if (!result) result = hair_build_root_bindings(builder);
     if (result) return result;
-    hair_thicken(draft);
-    hair_measure_patches(draft->groom);
-    draft->groom->skull = hair_find_skull(draft->groom);
-    describe(draft);
+    hair_apply_thickness(builder);
+    hair_measure_patches(builder->groom);
+    builder->groom->head_sphere = hair_find_head_sphere(builder->groom);
+    describe(builder);
     return HAIR_OK;
 }
 
-static void free_draft(struct hair_draft* draft)
+static void free_builder(struct hair_groom_builder* builder)
 {
-    hair_strands_free(draft->host, &draft->strands);
-    hair_free(draft->host, draft->first);
-    hair_free(draft->host, draft->length);
-    hair_free(draft->host, draft->marks);
-    hair_free(draft->host, draft->scalp);
-    hair_free(draft->host, draft->density);
-    hair_free(draft->host, draft->chosen);
-    hair_free(draft->host, draft->owner);
-    hair_free(draft->host, draft->plot_sprouts);
-    hair_free(draft->host, draft->plot_first);
-    hair_free(draft->host, draft->plot_centres);
-    hair_free(draft->host, draft->strand_of);
-    hair_free(draft->host, draft->place);
-    hair_free(draft->host, draft->spots);
-    hair_free(draft->host, draft->map_density);
-    hair_free(draft->host, draft->map_thickness);
-    hair_free(draft->host, draft->map_share);
+    hair_strands_free(builder->host, &builder->strands);
+    hair_free(builder->host, builder->first);
+    hair_free(builder->host, builder->length);
+    hair_free(builder->host, builder->shape_samples);
+    hair_free(builder->host, builder->scalp);
+    hair_free(builder->host, builder->density);
+    hair_free(builder->host, builder->chosen);
+    hair_free(builder->host, builder->owner);
+    hair_free(builder->host, builder->bin_candidates);
+    hair_free(builder->host, builder->bin_first);
+    hair_free(builder->host, builder->bin_centres);
+    hair_free(builder->host, builder->strand_of);
+    hair_free(builder->host, builder->place);
+    hair_free(builder->host, builder->scalp_points);
+    hair_free(builder->host, builder->map_density);
+    hair_free(builder->host, builder->map_thickness);
+    hair_free(builder->host, builder->map_fraction);
 }
 
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
@@ -108,9 +108,10 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     struct hair_groom* groom = hair_alloc(host, 1, sizeof *groom);
     if (!groom) return hair_fail_memory(host, "a groom");
     groom->host = *host;
-    struct hair_draft draft = {.host = &groom->host, .desc = desc, .import = import, .groom = groom};
-    hair_result result = build(&draft);
-    free_draft(&draft);
+    struct hair_groom_builder builder = {
+        .host = &groom->host, .desc = desc, .import = import, .groom = groom};
+    hair_result result = build(&builder);
+    free_builder(&builder);
     if (result)
         hair_groom_free(groom);
     else
@@ -126,7 +127,7 @@ void hair_groom_free(hair_groom* groom)
     hair_free(&host, groom->rest);
     hair_free(&host, groom->followers);
     hair_free(&host, groom->patches);
-    hair_free(&host, groom->paint);
-    hair_seats_release(groom->seats);
+    hair_free(&host, groom->colors);
+    hair_root_bindings_release(groom->root_bindings);
     hair_free(&host, groom);
 }

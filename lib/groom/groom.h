@@ -3,7 +3,7 @@
 #define HAIR_GROOM_GROOM_H
 
 #include "lib/base/host.h"
-#include "lib/groom/seats.h"
+#include "lib/groom/scalp_binding.h"
 #include "glsl/shared.h"
 
 struct hair_groom {
@@ -15,14 +15,14 @@ struct hair_groom {
     struct hair_patch* patches; // info.patch_count
     // rgb and an unused value at HAIR_STRAND_COLORS points of each follower. 65535 stands for 1.
     // NULL disables.
-    uint16_t* paint;
+    uint16_t* colors;
     // A sphere inside the head. xyz is its centre and w its radius, m. A radius of 0 means no
     // sphere.
-    hair_vec4 skull;
-    uint32_t most_vertices; // maximum of all guides
+    hair_vec4 head_sphere;
+    uint32_t max_vertices; // maximum of all guides
     uint32_t map_sets;
     // NULL without a scalp that has a triangle with three different corners.
-    struct hair_seats* seats;
+    struct hair_root_bindings* root_bindings;
 };
 
 // Build a groom. `desc` is complete and checked, except the contents of its arrays. On failure *out
@@ -35,6 +35,6 @@ void hair_groom_free(hair_groom* groom);
 void hair_measure_patches(struct hair_groom* groom);
 // Return the sphere inside the head: xyz is its centre, w its radius, m. The radius is 0 if none
 // fits.
-hair_vec4 hair_find_skull(const struct hair_groom* groom);
+hair_vec4 hair_find_head_sphere(const struct hair_groom* groom);
 
 #endif

@@ -5,19 +5,19 @@
 // apart along their length. The set is split at the mean of the axis of largest variance. The
 // halves are split again, down to one guide per cell. The guide is the strand nearest to the mean
 // of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
-#include "lib/groom/draft.h"
+#include "lib/groom/groom_builder.h"
 
 #include <float.h>
 #include <string.h>
 
-#define AXES (3 * HAIR_MARKS)
+#define AXES (3 * HAIR_SHAPE_SAMPLES)
 // Number of cuts at the mean, after which sets are halved. It bounds the recursion on any input.
 #define DEEPEST 48
 
-_Static_assert(AXES <= HAIR_CLOUD_DIMENSIONS, "a strand's marks are one point");
+_Static_assert(AXES <= HAIR_KD_MAX_DIMENSIONS, "a strand's marks are one point");
 
 struct choice {
-    const float* marks;
+    const float* shape_samples;
     uint32_t* chosen;
     uint32_t* owner;
     uint32_t found;
@@ -35,12 +35,12 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
     struct cell cell = {.order = order, .count = count};
     for (uint32_t i = 0; i < count; ++i)
         for (int a = 0; a < AXES; ++a)
-            cell.mean[a] += (double)choice->marks[AXES * (size_t)order[i] + (size_t)a];
+            cell.mean[a] += (double)choice->shape_samples[AXES * (size_t)order[i] + (size_t)a];
     HAIR_ASSERT(count > 0);
     for (int a = 0; a < AXES; ++a) cell.mean[a] /= count;
     for (uint32_t i = 0; i < count; ++i)
         for (int a = 0; a < AXES; ++a) {
-            double d = (double)choice->marks[AXES * (size_t)order[i] + (size_t)a] - cell.mean[a];
+            double d = (double)choice->shape_samples[AXES * (size_t)order[i] + (size_t)a] - cell.mean[a];
             cell.squared[a] += d * d;
         }
     return cell;
@@ -64,16 +64,17 @@ static double weigh(const struct cell* cell)
 
 static void make_guide(struct choice* choice, const struct cell* cell)
 {
-    double least = DBL_MAX;
+    double min = DBL_MAX;
     uint32_t nearest = cell->order[0];
     for (uint32_t i = 0; i < cell->count; ++i) {
         double squared = 0;
         for (int a = 0; a < AXES; ++a) {
-            double d = (double)choice->marks[AXES * (size_t)cell->order[i] + (size_t)a] - cell->mean[a];
+            double d =
+                (double)choice->shape_samples[AXES * (size_t)cell->order[i] + (size_t)a] - cell->mean[a];
             squared += d * d;
         }
-        if (squared < least) {
-            least = squared;
+        if (squared < min) {
+            min = squared;
             nearest = cell->order[i];
         }
         choice->owner[cell->order[i]] = choice->found;
@@ -95,7 +96,7 @@ static uint32_t cut(const struct choice* choice, const struct cell* cell)
     uint32_t axis = widest(cell), front = 0;
     for (uint32_t i = 0; i < cell->count; ++i) {
         uint32_t strand = cell->order[i];
-        if ((double)choice->marks[AXES * (size_t)strand + axis] >= cell->mean[axis]) continue;
+        if ((double)choice->shape_samples[AXES * (size_t)strand + axis] >= cell->mean[axis]) continue;
         cell->order[i] = cell->order[front];
         cell->order[front++] = strand;
     }
@@ -109,10 +110,10 @@ static uint32_t share_out(const struct cell* front, const struct cell* back, uin
     double a = weigh(front), b = weigh(back);
     if (!(a + b > 0)) a = front->count, b = back->count;
     uint32_t wanted = (uint32_t)(guides * (a / (a + b)) + 0.5);
-    uint32_t least = guides > back->count ? guides - back->count : 1;
-    uint32_t most = guides - 1 < front->count ? guides - 1 : front->count;
-    HAIR_ASSERT(least <= most);
-    return wanted < least ? least : wanted > most ? most : wanted;
+    uint32_t min = guides > back->count ? guides - back->count : 1;
+    uint32_t max = guides - 1 < front->count ? guides - 1 : front->count;
+    HAIR_ASSERT(min <= max);
+    return wanted < min ? min : wanted > max ? max : wanted;
 }
 
 static void choose(struct choice* choice, const struct cell* cell, uint32_t guides, uint32_t depth)
@@ -127,48 +128,49 @@ static void choose(struct choice* choice, const struct cell* cell, uint32_t guid
     HAIR_ASSERT(0 < at && at < cell->count);
     struct cell front = measure(choice, cell->order, at);
     struct cell back = measure(choice, cell->order + at, cell->count - at);
-    uint32_t share = share_out(&front, &back, guides);
-    HAIR_ASSERT(1 <= share && share < guides);
-    choose(choice, &front, share, depth + 1);
-    choose(choice, &back, guides - share, depth + 1);
+    uint32_t fraction = share_out(&front, &back, guides);
+    HAIR_ASSERT(1 <= fraction && fraction < guides);
+    choose(choice, &front, fraction, depth + 1);
+    choose(choice, &back, guides - fraction, depth + 1);
 }
 
-static uint32_t count_guides(const struct hair_draft* draft)
+static uint32_t count_guides(const struct hair_groom_builder* builder)
 {
-    uint32_t strands = draft->strands.strand_count;
-    uint32_t wanted = draft->desc->guide_count;
-    if (draft->desc->strand_set == HAIR_STRAND_SET_GUIDES) return strands;
+    uint32_t strands = builder->strands.strand_count;
+    uint32_t wanted = builder->desc->guide_count;
+    if (builder->desc->strand_set == HAIR_STRAND_SET_GUIDES) return strands;
     if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
     if (wanted > HAIR_MAX_GUIDES) wanted = HAIR_MAX_GUIDES;
     return wanted < strands ? wanted : strands;
 }
 
-static hair_result choose_all(struct hair_draft* draft, uint32_t guides)
+static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guides)
 {
-    uint32_t count = draft->strands.strand_count;
-    uint32_t* order = hair_alloc(draft->host, count, sizeof *order);
-    draft->owner = hair_alloc(draft->host, count, sizeof *draft->owner);
-    if (!order || !draft->owner) {
-        hair_free(draft->host, order);
-        return hair_fail_memory(draft->host, "the choice of guides");
+    uint32_t count = builder->strands.strand_count;
+    uint32_t* order = hair_alloc(builder->host, count, sizeof *order);
+    builder->owner = hair_alloc(builder->host, count, sizeof *builder->owner);
+    if (!order || !builder->owner) {
+        hair_free(builder->host, order);
+        return hair_fail_memory(builder->host, "the choice of guides");
     }
     for (uint32_t i = 0; i < count; ++i) order[i] = i;
-    struct choice choice = {.marks = draft->marks, .chosen = draft->chosen, .owner = draft->owner};
+    struct choice choice = {
+        .shape_samples = builder->shape_samples, .chosen = builder->chosen, .owner = builder->owner};
     struct cell all = measure(&choice, order, count);
     choose(&choice, &all, guides, 0);
     HAIR_ASSERT(choice.found == guides);
-    hair_free(draft->host, order);
+    hair_free(builder->host, order);
     return HAIR_OK;
 }
 
-hair_result hair_draft_guides(struct hair_draft* draft)
+hair_result hair_build_guides(struct hair_groom_builder* builder)
 {
-    uint32_t guides = count_guides(draft);
+    uint32_t guides = count_guides(builder);
     HAIR_ASSERT(0 < guides && guides <= HAIR_MAX_GUIDES);
-    draft->groom->info.guide_count = guides;
-    draft->chosen = hair_alloc(draft->host, guides, sizeof *draft->chosen);
-    if (!draft->chosen) return hair_fail_memory(draft->host, "the choice of guides");
-    if (draft->desc->strand_set == HAIR_STRAND_SET_FULL) return choose_all(draft, guides);
-    for (uint32_t i = 0; i < guides; ++i) draft->chosen[i] = i;
+    builder->groom->info.guide_count = guides;
+    builder->chosen = hair_alloc(builder->host, guides, sizeof *builder->chosen);
+    if (!builder->chosen) return hair_fail_memory(builder->host, "the choice of guides");
+    if (builder->desc->strand_set == HAIR_STRAND_SET_FULL) return choose_all(builder, guides);
+    for (uint32_t i = 0; i < guides; ++i) builder->chosen[i] = i;
     return HAIR_OK;
 }

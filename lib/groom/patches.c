@@ -3,40 +3,40 @@
 // Root bins are split along the axis of largest extent, in proportion to the patches that each side
 // will fill. The halves are split again until each fits into one patch. This is the packing of an
 // R-tree (Leutenegger et al. 1997, "STR").
-#include "lib/groom/draft.h"
+#include "lib/groom/groom_builder.h"
 
 #define ALIKE (1.0f / 16) // Maximum difference of densities within a patch.
 
 struct layout {
-    struct hair_draft* draft;
-    struct hair_cloud centres;
+    struct hair_groom_builder* builder;
+    struct hair_point_set centres;
     uint32_t* queue; // candidates in the order of their followers
     uint32_t queued;
     struct hair_patch* patches;
     uint32_t patch_count;
 };
 
-static float density_of(const struct layout* layout, uint32_t plot)
+static float density_of(const struct layout* layout, uint32_t bin)
 {
-    return layout->draft->plot_density ? layout->draft->plot_density[plot] : 1;
+    return layout->builder->bin_density ? layout->builder->bin_density[bin] : 1;
 }
 
-static uint64_t count_sprouts(const struct layout* layout, const uint32_t* order, uint32_t count)
+static uint64_t count_candidates(const struct layout* layout, const uint32_t* order, uint32_t count)
 {
     uint64_t sum = 0;
-    for (uint32_t i = 0; i < count; ++i) sum += layout->draft->plot_sprouts[order[i]];
+    for (uint32_t i = 0; i < count; ++i) sum += layout->builder->bin_candidates[order[i]];
     return sum;
 }
 
 static bool are_alike(const struct layout* layout, const uint32_t* order, uint32_t count)
 {
-    float least = 1, most = 0;
+    float min = 1, max = 0;
     for (uint32_t i = 0; i < count; ++i) {
         float density = density_of(layout, order[i]);
-        if (density < least) least = density;
-        if (density > most) most = density;
+        if (density < min) min = density;
+        if (density > max) max = density;
     }
-    return most - least <= ALIKE;
+    return max - min <= ALIKE;
 }
 
 // Shuffle the candidates, because cutting off the end of a patch must thin it evenly.
@@ -56,34 +56,34 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 // Any run of candidates of a root bin is spread evenly over it, which thins a patch more evenly
 // than a random order. The candidates of one root bin therefore keep their order. Each root bin
 // contributes its candidates at even distances, from a random start.
-static void merge(const struct hair_draft* draft, uint32_t* queue, uint32_t count)
+static void merge(const struct hair_groom_builder* builder, uint32_t* queue, uint32_t count)
 {
     HAIR_ASSERT(count <= HAIR_MAX_ISOLINES);
     float from[HAIR_MAX_ISOLINES];
     for (uint32_t i = 0; i < count; ++i) {
-        uint32_t plot = draft->spots[queue[i]].triangle, random = hair_sprout_random(draft, plot);
-        float at = (float)(queue[i] - draft->plot_first[plot]) + hair_random(&random);
-        from[i] = at / (float)draft->plot_sprouts[plot];
+        uint32_t bin = builder->scalp_points[queue[i]].triangle, random = hair_candidate_random(builder, bin);
+        float at = (float)(queue[i] - builder->bin_first[bin]) + hair_random(&random);
+        from[i] = at / (float)builder->bin_candidates[bin];
     }
-    hair_sort_queue(queue, from, count);
+    hair_sort_by_density(queue, from, count);
 }
 
 // Make one patch, or the minimum number of patches of even size if one cannot hold all.
 static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
     HAIR_ASSERT(total > 0 && first + total <= layout->queued);
-    if (layout->draft->is_scattered && total <= HAIR_MAX_ISOLINES)
-        merge(layout->draft, layout->queue + first, total);
+    if (layout->builder->is_scattered && total <= HAIR_MAX_ISOLINES)
+        merge(layout->builder, layout->queue + first, total);
     // One root bin keeps its order.
-    else if (!layout->draft->is_scattered || layout->draft->map_density)
-        shuffle(layout->queue + first, total, layout->draft->desc->seed ^ hair_hash(first));
+    else if (!layout->builder->is_scattered || layout->builder->map_density)
+        shuffle(layout->queue + first, total, layout->builder->desc->seed ^ hair_hash(first));
     uint32_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
     for (uint32_t i = 0; i < parts; ++i) {
         uint32_t begin = (uint32_t)((uint64_t)total * i / parts);
         uint32_t end = (uint32_t)((uint64_t)total * (i + 1) / parts);
         struct hair_patch patch = {.first = first + begin, .count = end - begin, .density = density};
         HAIR_ASSERT(0 < patch.count && patch.count <= HAIR_MAX_ISOLINES);
-        hair_map_patch(layout->draft, layout->queue + patch.first, &patch);
+        hair_map_patch(layout->builder, layout->queue + patch.first, &patch);
         layout->patches[layout->patch_count++] = patch;
     }
 }
@@ -93,7 +93,7 @@ static void make_patches(struct layout* layout, uint32_t first, uint32_t total, 
 static void part(struct layout* layout, uint32_t first, uint32_t total, float density)
 {
     for (;;) {
-        uint32_t front = hair_map_split(layout->draft, layout->queue + first, total);
+        uint32_t front = hair_map_split(layout->builder, layout->queue + first, total);
         if (front == 0) break;
         HAIR_ASSERT(front < total);
         part(layout, first, front, density);
@@ -105,14 +105,14 @@ static void part(struct layout* layout, uint32_t first, uint32_t total, float de
 
 static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
 {
-    const struct hair_draft* draft = layout->draft;
+    const struct hair_groom_builder* builder = layout->builder;
     uint32_t first = layout->queued;
     double sum = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        uint32_t sprouts = draft->plot_sprouts[order[i]];
-        for (uint32_t j = 0; j < sprouts; ++j)
-            layout->queue[layout->queued++] = draft->plot_first[order[i]] + j;
-        sum += (double)density_of(layout, order[i]) * sprouts;
+        uint32_t candidates = builder->bin_candidates[order[i]];
+        for (uint32_t j = 0; j < candidates; ++j)
+            layout->queue[layout->queued++] = builder->bin_first[order[i]] + j;
+        sum += (double)density_of(layout, order[i]) * candidates;
     }
     uint32_t total = layout->queued - first;
     part(layout, first, total, (float)(sum / total));
@@ -122,16 +122,16 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
 {
     for (;;) {
         HAIR_ASSERT(count > 0);
-        uint64_t total = count_sprouts(layout, order, count);
+        uint64_t total = count_candidates(layout, order, count);
         if (count == 1 || (total <= HAIR_MAX_ISOLINES && are_alike(layout, order, count))) {
             fill(layout, order, count);
             return;
         }
         uint64_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
         uint64_t target = parts > 1 ? total * (parts / 2) / parts : total / 2;
-        uint32_t axis = hair_cloud_widest(layout->centres, order, count);
+        uint32_t axis = hair_kd_widest_axis(layout->centres, order, count);
         uint32_t front =
-            hair_cloud_split(layout->centres, order, count, axis, layout->draft->plot_sprouts, target);
+            hair_kd_split(layout->centres, order, count, axis, layout->builder->bin_candidates, target);
         HAIR_ASSERT(0 < front && front < count);
         lay_out(layout, order, front);
         order += front;
@@ -140,36 +140,36 @@ static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
 }
 
 // List the root bins that have candidates. Return their number.
-static uint32_t list_plots(const struct hair_draft* draft, uint32_t* order)
+static uint32_t list_bins(const struct hair_groom_builder* builder, uint32_t* order)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < draft->plot_count; ++i)
-        if (draft->plot_sprouts[i]) order[count++] = i;
+    for (uint32_t i = 0; i < builder->bin_count; ++i)
+        if (builder->bin_candidates[i]) order[count++] = i;
     return count;
 }
 
-hair_result hair_draft_patches(struct hair_draft* draft)
+hair_result hair_build_patches(struct hair_groom_builder* builder)
 {
     // There is at most one patch per root bin, plus the further patches of large root bins. With
     // maps, there is at most one patch per candidate.
-    uint32_t most = draft->plot_count + draft->sprout_count / HAIR_MAX_ISOLINES;
-    if (draft->map_density) most = draft->sprout_count;
-    struct hair_groom* groom = draft->groom;
-    uint32_t* order = hair_alloc(draft->host, draft->plot_count, sizeof *order);
-    uint32_t* queue = hair_alloc(draft->host, draft->sprout_count, sizeof *queue);
-    struct layout layout = {.draft = draft, .centres = {draft->plot_centres, 3}, .queue = queue};
-    draft->place = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->place);
-    layout.patches = groom->patches = hair_alloc(draft->host, most, sizeof *groom->patches);
+    uint32_t max = builder->bin_count + builder->candidate_count / HAIR_MAX_ISOLINES;
+    if (builder->map_density) max = builder->candidate_count;
+    struct hair_groom* groom = builder->groom;
+    uint32_t* order = hair_alloc(builder->host, builder->bin_count, sizeof *order);
+    uint32_t* queue = hair_alloc(builder->host, builder->candidate_count, sizeof *queue);
+    struct layout layout = {.builder = builder, .centres = {builder->bin_centres, 3}, .queue = queue};
+    builder->place = hair_alloc(builder->host, builder->candidate_count, sizeof *builder->place);
+    layout.patches = groom->patches = hair_alloc(builder->host, max, sizeof *groom->patches);
     hair_result result = HAIR_OK;
-    if (order && queue && draft->place && groom->patches) {
-        lay_out(&layout, order, list_plots(draft, order));
-        HAIR_ASSERT(layout.queued == draft->sprout_count && layout.patch_count <= most);
-        for (uint32_t i = 0; i < draft->sprout_count; ++i) draft->place[queue[i]] = i;
+    if (order && queue && builder->place && groom->patches) {
+        lay_out(&layout, order, list_bins(builder, order));
+        HAIR_ASSERT(layout.queued == builder->candidate_count && layout.patch_count <= max);
+        for (uint32_t i = 0; i < builder->candidate_count; ++i) builder->place[queue[i]] = i;
         groom->info.patch_count = layout.patch_count;
     } else {
-        result = hair_fail_memory(draft->host, "patches");
+        result = hair_fail_memory(builder->host, "patches");
     }
-    hair_free(draft->host, order);
-    hair_free(draft->host, queue);
+    hair_free(builder->host, order);
+    hair_free(builder->host, queue);
     return result;
 }

@@ -6,13 +6,13 @@
 //   direction_i = F_(i-1)^-1 d_i, where d_i is the unit direction of segment i
 //
 // No segment begins at the tip, so the tip has the frame of the last segment.
-#include "lib/groom/draft.h"
+#include "lib/groom/groom_builder.h"
 
 #include <string.h>
 
 // Minimum number of vertices, if guide_vertices allows it. The scalp pins two, and two free
 // vertices can bend.
-#define FEWEST 4
+#define MIN_VERTICES 4
 // Minimum distance of neighbouring vertices of a guide, as a fraction of the mean distance.
 #define CLOSEST 0.1
 #define Y_AXIS hair_v3(0, 1, 0)
@@ -27,12 +27,12 @@ static hair_vec3 segment(const float* p, size_t i)
     return hair_normalize(hair_sub(vertex(p, i + 1), vertex(p, i)), Y_AXIS);
 }
 
-static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
+static uint32_t count_vertices(const struct hair_groom_builder* builder, uint32_t guide)
 {
-    uint32_t vertices = draft->strands.vertices[draft->chosen[guide]];
-    uint32_t most = draft->desc->guide_vertices;
-    if (vertices < FEWEST) vertices = FEWEST;
-    return vertices < most ? vertices : most;
+    uint32_t vertices = builder->strands.vertices[builder->chosen[guide]];
+    uint32_t max = builder->desc->guide_vertices;
+    if (vertices < MIN_VERTICES) vertices = MIN_VERTICES;
+    return vertices < max ? vertices : max;
 }
 
 // Drop vertices closer to the previous one than a tenth of the mean distance. Keep the tip. Return
@@ -40,11 +40,11 @@ static uint32_t count_vertices(const struct hair_draft* draft, uint32_t guide)
 // much shorter.
 static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
 {
-    float least = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
+    float min = (float)(CLOSEST * hair_strand_length(positions, vertices) / (count - 1));
     uint32_t kept = 1;
     for (uint32_t i = 1; i < vertices; ++i) {
         hair_vec3 at = vertex(positions, i);
-        if (hair_distance(vertex(positions, kept - 1), at) >= least)
+        if (hair_distance(vertex(positions, kept - 1), at) >= min)
             hair_store3(positions + 3 * (size_t)kept++, at);
         else if (i + 1 == vertices && kept > 1)
             hair_store3(positions + 3 * (size_t)(kept - 1), at);
@@ -81,11 +81,11 @@ static void sample(const float* positions, uint32_t vertices, float* out, uint32
 // Return the mean direction of first segments. Root frames are turned from this direction, so they
 // vary smoothly over the scalp. Their only singularity is the opposite direction, in which no hair
 // grows.
-static hair_vec3 mean_direction(const struct hair_draft* draft)
+static hair_vec3 mean_direction(const struct hair_groom_builder* builder)
 {
     hair_vec3 sum = {0};
-    for (uint32_t i = 0; i < draft->groom->info.guide_count; ++i)
-        sum = hair_add(sum, segment(draft->strands.positions, draft->first[draft->chosen[i]]));
+    for (uint32_t i = 0; i < builder->groom->info.guide_count; ++i)
+        sum = hair_add(sum, segment(builder->strands.positions, builder->first[builder->chosen[i]]));
     return hair_normalize(sum, Y_AXIS);
 }
 
@@ -126,34 +126,34 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
     HAIR_ASSERT(guide->arc_length > 0);
 }
 
-static void write_guide(struct hair_draft* draft, uint32_t number, hair_vec3 mean)
+static void write_guide(struct hair_groom_builder* builder, uint32_t number, hair_vec3 mean)
 {
-    struct hair_guide* guide = &draft->groom->guides[number];
-    uint32_t strand = draft->chosen[number];
+    struct hair_guide* guide = &builder->groom->guides[number];
+    uint32_t strand = builder->chosen[number];
     HAIR_ASSERT(2 <= guide->count && guide->count <= HAIR_MAX_GUIDE_VERTICES);
     float p[3 * HAIR_MAX_GUIDE_VERTICES];
-    sample(draft->strands.positions + 3 * (size_t)draft->first[strand], draft->strands.vertices[strand], p,
-           guide->count);
+    sample(builder->strands.positions + 3 * (size_t)builder->first[strand], builder->strands.vertices[strand],
+           p, guide->count);
     hair_quat frame = find_root_frame(mean, segment(p, 0));
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
-    write_rest(p, guide->count, guide, draft->groom->rest + guide->first);
+    write_rest(p, guide->count, guide, builder->groom->rest + guide->first);
 }
 
-hair_result hair_draft_rest(struct hair_draft* draft)
+hair_result hair_build_rest(struct hair_groom_builder* builder)
 {
-    struct hair_groom* groom = draft->groom;
+    struct hair_groom* groom = builder->groom;
     hair_groom_info* info = &groom->info;
-    groom->guides = hair_alloc(draft->host, info->guide_count, sizeof *groom->guides);
-    if (!groom->guides) return hair_fail_memory(draft->host, "guides");
+    groom->guides = hair_alloc(builder->host, info->guide_count, sizeof *groom->guides);
+    if (!groom->guides) return hair_fail_memory(builder->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
-        uint32_t count = count_vertices(draft, i);
+        uint32_t count = count_vertices(builder, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
         info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
-        if (count > groom->most_vertices) groom->most_vertices = count;
+        if (count > groom->max_vertices) groom->max_vertices = count;
     }
-    groom->rest = hair_alloc(draft->host, info->guide_vertex_count, sizeof *groom->rest);
-    if (!groom->rest) return hair_fail_memory(draft->host, "guides");
-    hair_vec3 mean = mean_direction(draft);
-    for (uint32_t i = 0; i < info->guide_count; ++i) write_guide(draft, i, mean);
+    groom->rest = hair_alloc(builder->host, info->guide_vertex_count, sizeof *groom->rest);
+    if (!groom->rest) return hair_fail_memory(builder->host, "guides");
+    hair_vec3 mean = mean_direction(builder);
+    for (uint32_t i = 0; i < info->guide_count; ++i) write_guide(builder, i, mean);
     return HAIR_OK;
 }

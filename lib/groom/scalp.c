@@ -1,5 +1,5 @@
 // scalp.c - followers grown all over the scalp, each between three guides.
-#include "lib/groom/draft.h"
+#include "lib/groom/groom_builder.h"
 
 #define NONE UINT32_MAX
 // Maximum distance between a guide's root and the scalp vertex at which it is rooted, m.
@@ -8,12 +8,12 @@
 #define NEAR 8
 
 // Return the area of a triangle, m^2, or 0 if no hair grows on it.
-static double fertile_area(const struct hair_draft* draft, uint32_t triangle)
+static double fertile_area(const struct hair_groom_builder* builder, uint32_t triangle)
 {
-    if (draft->density[triangle] <= 0) return 0;
-    hair_vec3 a = hair_scalp_corner(draft, triangle, 0);
-    hair_vec3 b = hair_sub(hair_scalp_corner(draft, triangle, 1), a),
-              c = hair_sub(hair_scalp_corner(draft, triangle, 2), a);
+    if (builder->density[triangle] <= 0) return 0;
+    hair_vec3 a = hair_scalp_corner(builder, triangle, 0);
+    hair_vec3 b = hair_sub(hair_scalp_corner(builder, triangle, 1), a),
+              c = hair_sub(hair_scalp_corner(builder, triangle, 2), a);
     return 0.5 * (double)hair_length(hair_cross(b, c));
 }
 
@@ -28,18 +28,19 @@ static void scatter(uint32_t i, double start_u, double start_v, float out[3])
     out[0] = (float)(1 - u - v), out[1] = (float)u, out[2] = (float)v;
 }
 
-static hair_result scatter_sprouts(struct hair_draft* draft)
+static hair_result scatter_candidates(struct hair_groom_builder* builder)
 {
-    draft->spots = hair_alloc(draft->host, draft->sprout_count, sizeof *draft->spots);
-    if (!draft->spots) return hair_fail_memory(draft->host, "the roots of followers");
-    draft->is_scattered = true;
-    for (uint32_t triangle = 0; triangle < draft->plot_count; ++triangle) {
-        uint32_t starts = hair_sprout_random(draft, triangle);
+    builder->scalp_points =
+        hair_alloc(builder->host, builder->candidate_count, sizeof *builder->scalp_points);
+    if (!builder->scalp_points) return hair_fail_memory(builder->host, "the roots of followers");
+    builder->is_scattered = true;
+    for (uint32_t triangle = 0; triangle < builder->bin_count; ++triangle) {
+        uint32_t starts = hair_candidate_random(builder, triangle);
         double start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
-        for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
-            struct hair_spot* spot = &draft->spots[draft->plot_first[triangle] + i];
-            spot->triangle = triangle;
-            scatter(i, start_u, start_v, spot->weight);
+        for (uint32_t i = 0; i < builder->bin_candidates[triangle]; ++i) {
+            struct hair_scalp_point* scalp_point = &builder->scalp_points[builder->bin_first[triangle] + i];
+            scalp_point->triangle = triangle;
+            scatter(i, start_u, start_v, scalp_point->weight);
         }
     }
     return HAIR_OK;
@@ -47,34 +48,34 @@ static hair_result scatter_sprouts(struct hair_draft* draft)
 
 // Distribute the candidates over the triangles by the running sum of areas. Each triangle is at
 // most one candidate off its fraction. Small triangles are not all rounded down to none.
-hair_result hair_scalp_sprouts(struct hair_draft* draft)
+hair_result hair_scalp_candidates(struct hair_groom_builder* builder)
 {
-    uint32_t triangles = draft->desc->scalp_triangle_count;
-    hair_result result = hair_scalp_plots(draft);
+    uint32_t triangles = builder->desc->scalp_triangle_count;
+    hair_result result = hair_scalp_bins(builder);
     if (result) return result;
     double total = 0;
-    for (uint32_t i = 0; i < triangles; ++i) total += fertile_area(draft, i);
+    for (uint32_t i = 0; i < triangles; ++i) total += fertile_area(builder, i);
     if (!(total > 0))
         return hair_fail(
-            draft->host, HAIR_ERROR_ARGUMENT,
+            builder->host, HAIR_ERROR_ARGUMENT,
             "hair_groom_desc.scalp_triangles: none of %u has an area and a scalp_density above 0", triangles);
-    uint32_t random = hair_hash(draft->desc->seed);
+    uint32_t random = hair_hash(builder->desc->seed);
     double jitter = (double)hair_random(&random), sum = 0, before = 0;
     for (uint32_t i = 0; i < triangles; ++i) {
-        sum += fertile_area(draft, i);
-        double after = floor(sum / total * draft->desc->follower_count + jitter);
+        sum += fertile_area(builder, i);
+        double after = floor(sum / total * builder->desc->follower_count + jitter);
         HAIR_ASSERT(after >= before);
-        draft->plot_sprouts[i] = (uint32_t)(after - before);
+        builder->bin_candidates[i] = (uint32_t)(after - before);
         before = after;
     }
-    hair_number_sprouts(draft);
-    HAIR_ASSERT(draft->sprout_count == draft->desc->follower_count);
-    return scatter_sprouts(draft);
+    hair_number_candidates(builder);
+    HAIR_ASSERT(builder->candidate_count == builder->desc->follower_count);
+    return scatter_candidates(builder);
 }
 
 struct scalp {
-    struct hair_draft* draft;
-    struct hair_tree roots; // of the guides
+    struct hair_groom_builder* builder;
+    struct hair_kd_tree roots; // of the guides
     float* points; // positions of these roots
     uint32_t* guide_at; // guide rooted at each vertex of the scalp, or NONE
 };
@@ -89,13 +90,13 @@ struct trio {
 // priority, because several vertices of the scalp coincide along a parting.
 static uint32_t find_guide_at(const struct scalp* scalp, uint32_t vertex)
 {
-    const struct hair_groom* groom = scalp->draft->groom;
-    const float* p = scalp->draft->scalp + 3 * (size_t)vertex;
+    const struct hair_groom* groom = scalp->builder->groom;
+    const float* p = scalp->builder->scalp + 3 * (size_t)vertex;
     if (vertex < groom->info.guide_count &&
         hair_distance(hair_guide_root(groom, vertex), hair_load3(p)) <= COINCIDE)
         return vertex;
-    struct hair_near near;
-    hair_tree_nearest(&scalp->roots, p, &near, 0, 1);
+    struct hair_kd_neighbor near;
+    hair_kd_tree_nearest(&scalp->roots, p, &near, 0, 1);
     return near.squared <= COINCIDE * COINCIDE ? near.index : NONE;
 }
 
@@ -124,12 +125,12 @@ static bool find_barycentric(hair_vec3 a, hair_vec3 b, hair_vec3 c, hair_vec3 p,
 
 // Return the nearest guides, weighted by the inverse square of their distance. Used if no three
 // guides surround the root.
-static struct trio weigh_by_distance(const struct hair_near* near, uint32_t found)
+static struct trio weigh_by_distance(const struct hair_kd_neighbor* near, uint32_t found)
 {
     HAIR_ASSERT(found > 0);
     struct trio trio;
     for (uint32_t i = 0; i < 3; ++i) {
-        const struct hair_near* own = near + (i < found ? i : 0);
+        const struct hair_kd_neighbor* own = near + (i < found ? i : 0);
         trio.guide[i] = own->index;
         trio.weight[i] = i < found ? near[0].squared / fmaxf(own->squared, 1e-20f) : 0;
     }
@@ -141,10 +142,10 @@ static struct trio weigh_by_distance(const struct hair_near* near, uint32_t foun
 // Return the nearest three guides that surround the root.
 static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
 {
-    const struct hair_groom* groom = scalp->draft->groom;
+    const struct hair_groom* groom = scalp->builder->groom;
     float point[3] = {root.x, root.y, root.z};
-    struct hair_near near[NEAR];
-    uint32_t found = hair_tree_nearest(&scalp->roots, point, near, 0, NEAR);
+    struct hair_kd_neighbor near[NEAR];
+    uint32_t found = hair_kd_tree_nearest(&scalp->roots, point, near, 0, NEAR);
     for (uint32_t k = 2; k < found; ++k)
         for (uint32_t j = 1; j < k; ++j)
             for (uint32_t i = 0; i < j; ++i) {
@@ -233,19 +234,19 @@ static struct hair_follower grow(const struct hair_groom* groom, const struct tr
 
 static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
 {
-    struct hair_draft* draft = scalp->draft;
-    const uint32_t* vertex = draft->desc->scalp_triangles + 3 * (size_t)triangle;
+    struct hair_groom_builder* builder = scalp->builder;
+    const uint32_t* vertex = builder->desc->scalp_triangles + 3 * (size_t)triangle;
     struct trio corners = {
         .guide = {scalp->guide_at[vertex[0]], scalp->guide_at[vertex[1]], scalp->guide_at[vertex[2]]}};
     bool rooted = corners.guide[0] != NONE && corners.guide[1] != NONE && corners.guide[2] != NONE;
 
-    for (uint32_t i = 0; i < draft->plot_sprouts[triangle]; ++i) {
-        uint32_t sprout = draft->plot_first[triangle] + i;
-        uint32_t random = hair_sprout_random(draft, sprout);
-        const float* weight = draft->spots[sprout].weight;
+    for (uint32_t i = 0; i < builder->bin_candidates[triangle]; ++i) {
+        uint32_t candidate = builder->bin_first[triangle] + i;
+        uint32_t random = hair_candidate_random(builder, candidate);
+        const float* weight = builder->scalp_points[candidate].weight;
         hair_vec3 root = {0};
         for (uint32_t k = 0; k < 3; ++k)
-            root = hair_add(root, hair_scale(hair_scalp_corner(draft, triangle, k), weight[k]));
+            root = hair_add(root, hair_scale(hair_scalp_corner(builder, triangle, k), weight[k]));
 
         struct trio trio = corners;
         if (rooted)
@@ -253,36 +254,36 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
         else
             trio = find_trio(scalp, root);
         draw_first(&trio, &random);
-        respect_partings(draft->groom, &trio);
-        HAIR_ASSERT(draft->place[sprout] < draft->groom->info.follower_count);
-        draft->groom->followers[draft->place[sprout]] = grow(draft->groom, &trio, root, &random);
+        respect_partings(builder->groom, &trio);
+        HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
+        builder->groom->followers[builder->place[candidate]] = grow(builder->groom, &trio, root, &random);
     }
 }
 
 static hair_result plant(struct scalp* scalp)
 {
-    const struct hair_draft* draft = scalp->draft;
-    uint32_t guides = draft->groom->info.guide_count;
+    const struct hair_groom_builder* builder = scalp->builder;
+    uint32_t guides = builder->groom->info.guide_count;
     for (uint32_t i = 0; i < guides; ++i)
-        hair_store3(scalp->points + 3 * (size_t)i, hair_guide_root(draft->groom, i));
+        hair_store3(scalp->points + 3 * (size_t)i, hair_guide_root(builder->groom, i));
     hair_result result =
-        hair_tree_build(draft->host, (struct hair_cloud){scalp->points, 3}, guides, &scalp->roots);
+        hair_kd_tree_build(builder->host, (struct hair_point_set){scalp->points, 3}, guides, &scalp->roots);
     if (result) return result;
-    for (uint32_t i = 0; i < draft->desc->scalp_vertex_count; ++i)
+    for (uint32_t i = 0; i < builder->desc->scalp_vertex_count; ++i)
         scalp->guide_at[i] = find_guide_at(scalp, i);
-    for (uint32_t i = 0; i < draft->plot_count; ++i) grow_triangle(scalp, i);
-    hair_tree_free(draft->host, &scalp->roots);
+    for (uint32_t i = 0; i < builder->bin_count; ++i) grow_triangle(scalp, i);
+    hair_kd_tree_free(builder->host, &scalp->roots);
     return HAIR_OK;
 }
 
-hair_result hair_scalp_followers(struct hair_draft* draft)
+hair_result hair_scalp_followers(struct hair_groom_builder* builder)
 {
-    struct scalp scalp = {.draft = draft};
-    scalp.points = hair_alloc(draft->host, draft->groom->info.guide_count, 3 * sizeof *scalp.points);
-    scalp.guide_at = hair_alloc(draft->host, draft->desc->scalp_vertex_count, sizeof *scalp.guide_at);
+    struct scalp scalp = {.builder = builder};
+    scalp.points = hair_alloc(builder->host, builder->groom->info.guide_count, 3 * sizeof *scalp.points);
+    scalp.guide_at = hair_alloc(builder->host, builder->desc->scalp_vertex_count, sizeof *scalp.guide_at);
     hair_result result =
-        scalp.points && scalp.guide_at ? plant(&scalp) : hair_fail_memory(draft->host, "followers");
-    hair_free(draft->host, scalp.points);
-    hair_free(draft->host, scalp.guide_at);
+        scalp.points && scalp.guide_at ? plant(&scalp) : hair_fail_memory(builder->host, "followers");
+    hair_free(builder->host, scalp.points);
+    hair_free(builder->host, scalp.guide_at);
     return result;
 }

@@ -6,26 +6,26 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
 {
     uint32_t count = asset->scalp_vertex_count;
     uint32_t each = desc->strand_vertices ? desc->strand_vertices : hair_style_vertices(desc->style);
-    struct hair_course* course = hair_alloc(host, 1, sizeof *course);
+    struct hair_style_path* path = hair_alloc(host, 1, sizeof *path);
     asset->strands.positions = hair_alloc(host, (size_t)count * each, 3 * sizeof(float));
     asset->strands.vertices = hair_alloc(host, count, sizeof(uint32_t));
-    if (!course || !asset->strands.positions || !asset->strands.vertices) {
-        hair_free(host, course);
+    if (!path || !asset->strands.positions || !asset->strands.vertices) {
+        hair_free(host, path);
         return hair_fail_memory(host, "the guides of a haircut");
     }
     for (uint32_t i = 0; i < count; ++i) {
         hair_style_grow(desc->style, hair_load3(asset->scalp_positions + 3 * i), desc->length, desc->seed,
-                        course);
-        HAIR_ASSERT(2 <= course->count && course->count <= HAIR_COURSE_POINTS && each >= 2);
-        hair_strand_resample(&course->point[0].x, course->count,
-                             asset->strands.positions + 3 * (size_t)i * each, each);
+                        path);
+        HAIR_ASSERT(2 <= path->count && path->count <= HAIR_STYLE_PATH_POINTS && each >= 2);
+        hair_strand_resample(&path->point[0].x, path->count, asset->strands.positions + 3 * (size_t)i * each,
+                             each);
         asset->strands.vertices[i] = each;
     }
     asset->strands.strand_count = count;
     asset->strands.vertex_count = count * each;
     asset->file_strands = count;
     asset->file_vertices = count * each;
-    hair_free(host, course);
+    hair_free(host, path);
     return HAIR_OK;
 }
 

@@ -12,7 +12,8 @@ struct capsule {
     float radius;
 };
 
-static const struct ellipsoid skull = {{0, HAIR_SKULL_HEIGHT, 0}, {HAIR_SKULL_X, HAIR_SKULL_Y, HAIR_SKULL_Z}};
+static const struct ellipsoid head_sphere = {{0, HAIR_SKULL_HEIGHT, 0},
+                                             {HAIR_SKULL_X, HAIR_SKULL_Y, HAIR_SKULL_Z}};
 static const struct ellipsoid cheeks = {{0, 1.580f, 0.038f}, {0.060f, 0.063f, 0.053f}};
 static const struct ellipsoid jaw = {{0, 1.549f, 0.044f}, {0.046f, 0.040f, 0.046f}};
 static const struct ellipsoid chest = {{0, 1.270f, -0.015f}, {0.165f, 0.152f, 0.101f}};
@@ -79,7 +80,7 @@ float hair_body_distance(hair_vec3 p)
 {
     hair_vec3 m = {fabsf(p.x), p.y, p.z};
     // The other parts are far below.
-    if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&skull, m));
+    if (p.y > 1.62f) return fminf(face_distance(&m), ellipsoid_distance(&head_sphere, m));
     float d = ellipsoid_distance(&chest, m);
     d = blend(d, capsule_distance(&arm, m), 0.05f);
     d = blend(d, capsule_distance(&shoulder, m), 0.06f);
@@ -88,7 +89,7 @@ float hair_body_distance(hair_vec3 p)
     d = blend(d, capsule_distance(&neck, m), 0.05f);
     if (p.y < 1.42f) return d; // The head is far above.
     d = blend(d, face_distance(&m), 0.016f);
-    return fminf(d, ellipsoid_distance(&skull, m)); // Without a fillet, roots stay on the surface.
+    return fminf(d, ellipsoid_distance(&head_sphere, m)); // Without a fillet, roots stay on the surface.
 }
 
 static hair_vec3 gradient(float (*distance)(hair_vec3), hair_vec3 p)

@@ -11,7 +11,7 @@
 #define CUSHION 0.020f
 // Distance from a parting within which hair runs along it at first, m.
 #define BESIDE 0.025f
-#define STRIDE HAIR_COURSE_STRIDE
+#define STRIDE HAIR_STYLE_PATH_STRIDE
 
 // Path of the hair of one root.
 struct walk {
@@ -27,7 +27,7 @@ struct walk {
     float split; // turn rate to the front or the back of the shoulder, 1/m
     float floor; // height at which the hair is cut, m
     float face; // distance kept from the face, m
-    float most; // maximum length, m
+    float max; // maximum length, m
 };
 
 // Parted hair -------------------------------------------------------------------------------------
@@ -75,8 +75,8 @@ static float split_at_shoulder(hair_vec3 p)
 
 static hair_vec3 pull(const struct walk* walk, hair_vec3 p, float s)
 {
-    float share = 1 - expf(-s / walk->hold);
-    hair_vec3 v = hair_v3(0, -walk->gravity * share, 0);
+    float fraction = 1 - expf(-s / walk->hold);
+    hair_vec3 v = hair_v3(0, -walk->gravity * fraction, 0);
     v.z += walk->split * split_at_shoulder(p);
     if (p.y < walk->inward_below) {
         hair_vec3 in = hair_normalize(hair_v3(-p.x, 0, -0.02f - p.z), hair_v3(0, 0, -1));
@@ -113,37 +113,37 @@ static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_v
     return p;
 }
 
-static void run(const struct walk* walk, hair_vec3 root, struct hair_course* course)
+static void run(const struct walk* walk, hair_vec3 root, struct hair_style_path* path)
 {
     hair_vec3 p = root, normal = hair_skull_normal(root);
     hair_vec3 d = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
-    course->count = 0, course->length = 0;
-    hair_course_add(course, p);
-    while (course->length < walk->most && course->count < HAIR_COURSE_POINTS && p.y > walk->floor) {
+    path->count = 0, path->length = 0;
+    hair_style_path_add(path, p);
+    while (path->length < walk->max && path->count < HAIR_STYLE_PATH_POINTS && p.y > walk->floor) {
         hair_vec3 last = p;
-        d = hair_normalize(hair_add(d, hair_scale(pull(walk, p, course->length), STRIDE)), d);
-        p = step_clear_of_bust(walk, p, d, course->length);
+        d = hair_normalize(hair_add(d, hair_scale(pull(walk, p, path->length), STRIDE)), d);
+        p = step_clear_of_bust(walk, p, d, path->length);
         d = hair_normalize(hair_sub(p, last), d);
-        hair_course_add(course, p);
+        hair_style_path_add(path, p);
     }
 }
 
-static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_course* course)
+static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_style_path* path)
 {
-    walk->most = length;
+    walk->max = length;
     walk->floor = -INFINITY;
-    run(walk, root, course);
-    hair_course_trim(course, length);
+    run(walk, root, path);
+    hair_style_path_trim(path, length);
 }
 
 // Trace hair that is cut at a height, so that every root has its own length. `scale` then
 // multiplies that length.
-static void run_cut(struct walk* walk, hair_vec3 root, float scale, float least, struct hair_course* course)
+static void run_cut(struct walk* walk, hair_vec3 root, float scale, float min, struct hair_style_path* path)
 {
-    walk->most = 0.6f;
-    run(walk, root, course);
-    if (scale == 1 && course->length >= least) return;
-    run_to(walk, root, fmaxf(course->length, least) * scale, course);
+    walk->max = 0.6f;
+    run(walk, root, path);
+    if (scale == 1 && path->length >= min) return;
+    run_to(walk, root, fmaxf(path->length, min) * scale, path);
 }
 
 // Return the layer of a root: 0 at the hairline of nape and sides, 1 at the crown.
@@ -160,7 +160,7 @@ static float frontness(hair_vec3 root)
 
 // Styles ------------------------------------------------------------------------------------------
 
-static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float front = frontness(root), high = layer(root);
     struct walk walk = {
@@ -175,13 +175,13 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_co
         .face = 0.010f,
         .inward_below = 0,
     };
-    run_cut(&walk, root, scale, 0.03f, course);
+    run_cut(&walk, root, scale, 0.03f, path);
     struct hair_curl wave = {
         0.011f, 0.105f, 0.07f * scale, 0.38f * scale, 1.5f * PI * hair_noise(root, 0.06f, seed + 2), 0.5f};
-    hair_course_wind(course, &wave);
+    hair_style_path_add_curl(path, &wave);
 }
 
-static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float high = layer(root);
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
@@ -197,10 +197,10 @@ static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_cou
         .floor = cut + 0.003f * hair_noise(root, 0.02f, seed + 1),
         .face = 0.008f,
     };
-    run_cut(&walk, root, scale, 0.03f, course);
+    run_cut(&walk, root, scale, 0.03f, path);
 }
 
-static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float top = hair_smooth(1.625f, 1.705f, root.y);
     struct walk walk = {
@@ -213,10 +213,10 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_c
         .press = 0.03f,
     };
     float length = hair_mix(0.026f, 0.068f, top) * (1 + 0.12f * hair_noise(root, 0.02f, seed + 1));
-    run_to(&walk, root, scale * length, course);
+    run_to(&walk, root, scale * length, path);
 }
 
-static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     float high = layer(root);
     struct walk walk = {
@@ -230,18 +230,18 @@ static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_c
         .floor = 1.405f + 0.02f * hair_noise(root, 0.025f, seed + 1),
         .face = 0.018f,
     };
-    run_cut(&walk, root, scale, 0.04f, course);
+    run_cut(&walk, root, scale, 0.04f, path);
     struct hair_curl curl = {.radius = 0.0100f + 0.0025f * hair_noise(root, 0.04f, seed + 2),
                              .pitch = 0.028f * (1 + 0.12f * hair_noise(root, 0.05f, seed + 4)),
                              .start = 0.008f,
                              .full = 0.07f,
                              .phase = 2 * PI * hair_noise(root, 0.05f, seed + 3),
                              .flat = 1};
-    hair_course_wind(course, &curl);
+    hair_style_path_add_curl(path, &curl);
 }
 
 // Grow a tight helix from the root outwards to a sphere.
-static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
 {
     const hair_vec3 center = {0, 1.648f, -0.014f};
     const float radius = 0.163f;
@@ -252,14 +252,14 @@ static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_co
     tip = hair_lerp(root, tip, scale);
     hair_vec3 control = hair_add(root, hair_scale(normal, 0.4f * hair_distance(root, tip)));
     uint32_t count = 600;
-    course->count = 0, course->length = 0;
+    path->count = 0, path->length = 0;
     for (uint32_t i = 0; i <= count; ++i) {
         float t = (float)i / (float)count;
-        hair_course_add(course, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
+        hair_style_path_add(path, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
     }
     struct hair_curl curl = {0.0042f, 0.0125f, 0.002f, 0.025f, 2 * PI * hair_noise(root, 0.045f, seed + 1),
                              1};
-    hair_course_wind(course, &curl);
+    hair_style_path_add_curl(path, &curl);
 }
 
 // -------------------------------------------------------------------------------------------------
@@ -269,15 +269,16 @@ uint32_t hair_style_vertices(hair_style style)
     return style == HAIR_STYLE_CURLY || style == HAIR_STYLE_AFRO ? 64 : 32;
 }
 
-void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed, struct hair_course* course)
+void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
+                     struct hair_style_path* path)
 {
     seed = hair_hash(seed + 101u);
     switch (style) {
-    case HAIR_STYLE_LONG: grow_long(root, scale, seed, course); break;
-    case HAIR_STYLE_BOB: grow_bob(root, scale, seed, course); break;
-    case HAIR_STYLE_SHORT: grow_short(root, scale, seed, course); break;
-    case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, course); break;
-    case HAIR_STYLE_CURLY: grow_curly(root, scale, seed, course); break;
-    default: grow_afro(root, scale, seed, course); break;
+    case HAIR_STYLE_LONG: grow_long(root, scale, seed, path); break;
+    case HAIR_STYLE_BOB: grow_bob(root, scale, seed, path); break;
+    case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
+    case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;
+    case HAIR_STYLE_CURLY: grow_curly(root, scale, seed, path); break;
+    default: grow_afro(root, scale, seed, path); break;
     }
 }

@@ -3,7 +3,7 @@
 #define HAIR_GROOM_STYLE_GROW_H
 
 #include <hair/hair_asset.h>
-#include "lib/groom/style_course.h"
+#include "lib/groom/style_path.h"
 #include "lib/groom/style_scalp.h"
 
 struct hair_parting hair_style_parting(hair_style style);
@@ -13,9 +13,9 @@ uint32_t hair_style_vertices(hair_style style);
 
 // Grow a guide. `scale` multiplies the length of the style.
 void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
-                     struct hair_course* course);
+                     struct hair_style_path* path);
 
 // Grow a guide of the ponytail. Defined in style_ponytail.c.
-void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hair_course* course);
+void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path);
 
 #endif

@@ -90,10 +90,10 @@ static float parting_azimuth(const struct build* build, float side)
     return azimuth;
 }
 
-static uint32_t pieces(float length, float spacing, uint32_t least)
+static uint32_t pieces(float length, float spacing, uint32_t min)
 {
     uint32_t count = (uint32_t)(length / spacing + 0.5f);
-    return count > least ? count : least;
+    return count > min ? count : min;
 }
 
 // Add the hairline from one azimuth up to another, with the first end and without the last.
@@ -157,9 +157,9 @@ static void add_outline(struct build* build)
 
 // Draw candidates evenly by area: keep a direction in proportion to the area stretch of the skull
 // there. `share` receives the fraction of directions that were kept.
-static void draw_candidates(struct build* build, float* share)
+static void draw_candidates(struct build* build, float* fraction)
 {
-    const float most = HAIR_SKULL_Y * HAIR_SKULL_Z;
+    const float max = HAIR_SKULL_Y * HAIR_SKULL_Z;
     uint32_t seed = hair_hash(build->seed + 17u), tried = 0, kept = 0;
     while (kept < build->candidate_count) {
         float y = 2 * hair_random(&seed) - 1, azimuth = 2 * PI * hair_random(&seed);
@@ -168,10 +168,10 @@ static void draw_candidates(struct build* build, float* share)
         hair_vec3 stretch = {HAIR_SKULL_Y * HAIR_SKULL_Z * unit.x, HAIR_SKULL_X * HAIR_SKULL_Z * unit.y,
                              HAIR_SKULL_X * HAIR_SKULL_Y * unit.z};
         ++tried;
-        if (hair_random(&seed) * most > hair_length(stretch) || !bears_hair(unit)) continue;
+        if (hair_random(&seed) * max > hair_length(stretch) || !bears_hair(unit)) continue;
         build->candidates[kept++] = hair_skull_point(unit);
     }
-    *share = (float)kept / (float)tried;
+    *fraction = (float)kept / (float)tried;
 }
 
 static hair_vec3 vertex_at(const struct build* build, uint32_t i)
@@ -308,11 +308,11 @@ static void choose_spacing(struct build* build, float area, uint32_t vertex_coun
 
 static hair_result fill(struct build* build, uint32_t vertex_count)
 {
-    float share;
-    draw_candidates(build, &share);
+    float fraction;
+    draw_candidates(build, &fraction);
     // The area is the kept fraction of a sphere of directions, stretched everywhere as much as at
     // the maximum.
-    float area = share * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
+    float area = fraction * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
     choose_spacing(build, area, vertex_count);
     fill_gaps(build, vertex_count);
     hair_result result = triangulate(build);
@@ -341,15 +341,15 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
 {
     HAIR_ASSERT(vertex_count >= 16);
     struct build build = {.host = host, .parting = parting, .seed = seed};
-    size_t most = (size_t)vertex_count + 64; // The minimum outline may have more vertices.
+    size_t max = (size_t)vertex_count + 64; // The minimum outline may have more vertices.
     build.candidate_count = CANDIDATES * vertex_count + 2048;
-    build.scalp.positions = hair_alloc(host, most, 3 * sizeof(float));
-    build.scalp.triangles = hair_alloc(host, 2 * most, 3 * sizeof(uint32_t));
+    build.scalp.positions = hair_alloc(host, max, 3 * sizeof(float));
+    build.scalp.triangles = hair_alloc(host, 2 * max, 3 * sizeof(uint32_t));
     build.candidates = hair_alloc(host, build.candidate_count, sizeof(hair_vec3));
     build.gap = hair_alloc(host, build.candidate_count, sizeof(float));
-    build.sum = hair_alloc(host, most, sizeof(hair_vec3));
-    build.area = hair_alloc(host, most, sizeof(float));
-    build.plane = hair_alloc(host, 2 * most, sizeof(double));
+    build.sum = hair_alloc(host, max, sizeof(hair_vec3));
+    build.area = hair_alloc(host, max, sizeof(float));
+    build.plane = hair_alloc(host, 2 * max, sizeof(double));
 
     hair_result result = HAIR_OK;
     if (!build.scalp.positions || !build.scalp.triangles || !build.candidates || !build.gap || !build.sum ||
@@ -357,7 +357,7 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
         result = hair_fail_memory(host, "the scalp");
     else
         result = fill(&build, vertex_count);
-    HAIR_ASSERT(build.scalp.vertex_count <= most);
+    HAIR_ASSERT(build.scalp.vertex_count <= max);
     if (!result) lift(&build);
 
     hair_free(host, build.plane);

@@ -133,11 +133,11 @@ uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t 
 {
     // n points and three corners have 2 n + 1 triangles. A hole of k triangles has at most 3 k
     // edges while it is found.
-    size_t most = 2 * (size_t)count + 8;
+    size_t max = 2 * (size_t)count + 8;
     struct work work = {.points = hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
                         .order = hair_alloc(host, count, sizeof(struct place)),
-                        .faces = hair_alloc(host, most, sizeof(struct face)),
-                        .edges = hair_alloc(host, 3 * most, sizeof(struct edge)),
+                        .faces = hair_alloc(host, max, sizeof(struct face)),
+                        .edges = hair_alloc(host, 3 * max, sizeof(struct edge)),
                         .count = count,
                         .out = out};
     if (work.points && work.order && work.faces && work.edges) {

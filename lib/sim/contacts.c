@@ -3,49 +3,49 @@
 #include "lib/sim/sim.h"
 
 // Assumed maximum displacement by the fitting of lengths, beyond free motion, m. FIT of
-// glsl/sim/contact_lists.glsl has this value too.
+// glsl/sim/contact_grid_lists.glsl has this value too.
 #define FIT 0.02f
 // Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
 // colliders.
 #define FASTEST 5.0f
-#define MOST_GIVE 0.1f // Maximum of half the way of a vertex, m.
+#define MAX_SLACK 0.1f // Maximum of half the way of a vertex, m.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 #define FARTHEST 1e4f // m. FARTHEST of glsl/sim/rod.glsl.
 // Maximum iterations of sphere tracing in a list on a software rasteriser. See rounds_of_list() in
-// rounds.c.
-#define MOST_ROUNDS 630
+// loop_budget.c.
+#define MAX_ROUNDS 630
 
-static struct hair_cells_desc describe(const struct hair_sim* sim, double dt, float share_start)
+static struct hair_collider_grid_desc describe(const struct hair_sim* sim, double dt, float fraction_start)
 {
-    hair_vec3 moved = hair_pose_offset(&sim->head, &sim->at_step);
+    hair_vec3 moved = hair_pose_offset(&sim->head, &sim->head_at_last_step);
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = LOOSE * sim->reach;
     // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
-    int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_skin_is_on(sim);
-    return (struct hair_cells_desc){
+    int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim);
+    return (struct hair_collider_grid_desc){
         .reach = may ? FARTHEST : fminf(far, FARTHEST),
-        .give = FIT + fminf(half, MOST_GIVE),
+        .slack = FIT + fminf(half, MAX_SLACK),
         .margin = sim->physics.collision_margin,
-        .share_start = share_start,
-        .most_rounds = sim->gl->software ? MOST_ROUNDS : UINT32_MAX,
+        .fraction_start = fraction_start,
+        .max_rounds = sim->gl->software ? MAX_ROUNDS : UINT32_MAX,
     };
 }
 
 bool hair_contacts_are_any(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->colliders.forms || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
+    return sim->rods && (sim->colliders.meshes || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
 }
 
 static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
 {
-    for (uint32_t i = 0; i < count; ++i) hair_forms_drop(sim->contacts.forms, held[i]);
+    for (uint32_t i = 0; i < count; ++i) hair_sdf_pool_release(sim->contacts.sdf_pool, held[i]);
 }
 
 // Hold the collision meshes of this step's contacts. Release those of the last step's.
-static hair_result hold_forms(struct hair_sim* sim)
+static hair_result retain_meshes(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
-    struct hair_cells* cells = &contacts->cells;
+    struct hair_collider_grid* cells = &contacts->grid;
     uint32_t count = 0, taken = 0;
     hair_result result = HAIR_OK;
     for (uint32_t i = 0; i < cells->contacts; ++i) count += cells->contact[i].body.size.w == HAIR_SHAPE_MESH;
@@ -54,9 +54,9 @@ static hair_result hold_forms(struct hair_sim* sim)
     if (!held) return hair_fail_memory(&sim->gl->host, "the collision meshes of colliders");
     for (uint32_t i = 0; i < cells->contacts && !result; ++i) {
         if (cells->contact[i].body.size.w != HAIR_SHAPE_MESH) continue;
-        HAIR_ASSERT(taken < count && cells->collider[i] < sim->colliders.now.count);
-        result = hair_forms_take(contacts->forms, sim->colliders.now.collider[cells->collider[i]].mesh,
-                                 &held[taken]);
+        HAIR_ASSERT(taken < count && cells->collider[i] < sim->colliders.current.count);
+        result = hair_sdf_pool_acquire(
+            contacts->sdf_pool, sim->colliders.current.collider[cells->collider[i]].mesh, &held[taken]);
         if (!result) ++taken;
     }
     if (result) {
@@ -69,10 +69,10 @@ static hair_result hold_forms(struct hair_sim* sim)
     hair_free(&sim->gl->host, contacts->held);
     contacts->held = held;
     contacts->holds = taken;
-    if (taken) result = hair_forms_need_texture(contacts->forms);
-    for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // hair_forms_take() may move nodes.
+    if (taken) result = hair_sdf_pool_ensure_texture(contacts->sdf_pool);
+    for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // hair_sdf_pool_acquire() may move nodes.
         if (cells->contact[i].body.size.w == HAIR_SHAPE_MESH)
-            cells->contact[i].first = contacts->forms->pooled[held[k++]].first;
+            cells->contact[i].first = contacts->sdf_pool->pooled[held[k++]].first;
     return result;
 }
 
@@ -82,11 +82,11 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
     size_t texel = format == GL_R32UI ? 4 : 16;
     HAIR_ASSERT(size > 0 && size % texel == 0);
     hair_result result = HAIR_OK;
-    GLint most = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
-    if (size / texel > (size_t)most)
+    GLint max = 0;
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
+    if (size / texel > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
-                         label, size / texel, most);
+                         label, size / texel, max);
     if (!*buffer) result = hair_gl_uniform(gl, label, 16, buffer);
     if (!result && !*texture) result = hair_gl_buffer_texture(gl, label, format, *buffer, texture);
     return result ? result : hair_gl_resize(gl, label, size, data, *buffer);
@@ -95,7 +95,7 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
 static hair_result upload(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
-    const struct hair_cells* cells = &contacts->cells;
+    const struct hair_collider_grid* cells = &contacts->grid;
     const struct hair_contact none = {.grid = {0, 0, 0, 0}};
     hair_result result =
         put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
@@ -106,15 +106,16 @@ static hair_result upload(struct hair_sim* sim)
     return result;
 }
 
-hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start)
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start)
 {
     const hair_host* host = &sim->gl->host;
-    struct hair_cells* cells = &sim->contacts.cells;
-    struct hair_cells_desc desc = describe(sim, dt, share_start);
+    struct hair_collider_grid* cells = &sim->contacts.grid;
+    struct hair_collider_grid_desc desc = describe(sim, dt, fraction_start);
     int others = 0;
-    hair_result result = hair_cells_gather(host, cells, &sim->colliders, &sim->at_step, &sim->head, &desc);
-    if (!result) result = hold_forms(sim);
-    if (!result) result = hair_cells_list(host, cells, &desc, &others);
+    hair_result result =
+        hair_collider_grid_gather(host, cells, &sim->colliders, &sim->head_at_last_step, &sim->head, &desc);
+    if (!result) result = retain_meshes(sim);
+    if (!result) result = hair_collider_grid_build(host, cells, &desc, &others);
     if (!result && others) result = upload(sim);
     if (result) cells->entries = 0; // The lists on the GPU may be incomplete.
     return result;
@@ -122,14 +123,14 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_star
 
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
 {
-    const struct hair_cells* cells = &sim->contacts.cells;
+    const struct hair_collider_grid* cells = &sim->contacts.grid;
     HAIR_ASSERT(cells->size > 0 && cells->entries > 0);
     params->colliders = cells->contacts;
     params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
     params->cells_x = cells->cells[0];
     params->cells_y = cells->cells[1];
     params->cells_z = cells->cells[2];
-    params->cells_give = cells->made_for.give - FIT;
+    params->cells_slack = cells->made_for.slack - FIT;
 }
 
 void hair_contacts_bind(const struct hair_sim* sim)
@@ -138,7 +139,7 @@ void hair_contacts_bind(const struct hair_sim* sim)
     HAIR_ASSERT(contacts->collider_texture && contacts->cell_texture);
     sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
     sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
-    if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->forms->texture);
+    if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->sdf_pool->texture);
 }
 
 void hair_contacts_free(struct hair_sim* sim)
@@ -150,6 +151,6 @@ void hair_contacts_free(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &contacts->collider);
     hair_gl_free_buffer_texture(sim->gl, &contacts->cell_texture);
     hair_gl_free_buffer(sim->gl, &contacts->cell);
-    hair_cells_free(&sim->gl->host, &contacts->cells);
-    *contacts = (struct hair_contacts){.forms = contacts->forms};
+    hair_collider_grid_free(&sim->gl->host, &contacts->grid);
+    *contacts = (struct hair_contacts){.sdf_pool = contacts->sdf_pool};
 }

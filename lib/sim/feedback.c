@@ -22,7 +22,7 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
                                            &feedback->owner_texture);
 }
 
-hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides)
+hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* guides)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_feedback* feedback = &sim->feedback;
@@ -41,7 +41,7 @@ hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* gu
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair guides", GL_RGBA32UI, sim->guide, &feedback->guide_texture);
     feedback->framebuffer = hair_gl_blank_framebuffer(gl);
-    return result ? result : hair_gl_need_rows(gl, HAIR_GL_FEEDBACK_INTEGRATE, HAIR_GL_FEEDBACK_END, 0);
+    return result ? result : hair_gl_ensure_programs(gl, HAIR_GL_FEEDBACK_INTEGRATE, HAIR_GL_FEEDBACK_END, 0);
 }
 
 void hair_feedback_free(struct hair_sim* sim)

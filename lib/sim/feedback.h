@@ -20,7 +20,7 @@ struct hair_feedback {
     GLuint framebuffer;
 };
 
-hair_result hair_feedback_make(struct hair_sim* sim, const struct hair_guide* guides);
+hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* guides);
 void hair_feedback_free(struct hair_sim* sim);
 
 // Run all substeps of `params`, as redblack.comp does. Do not count the strands that are reset to

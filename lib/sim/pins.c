@@ -33,8 +33,8 @@ static hair_result check(const struct hair_sim* sim, const hair_pin* pin, uint32
 static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
 {
     const hair_host* host = &sim->gl->host;
-    if (count > HAIR_MOST_PINS)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pin count is %u, not in [0, %u]", count, HAIR_MOST_PINS);
+    if (count > HAIR_MAX_PINS)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pin count is %u, not in [0, %u]", count, HAIR_MAX_PINS);
     if (count && !from)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins is NULL but their count is %u", count);
     if (count && (stride < sizeof(hair_pin) || stride > 4096))
@@ -53,48 +53,50 @@ static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, u
 
 static int compare(const void* a, const void* b)
 {
-    const struct hair_knot *p = a, *q = b;
+    const struct hair_resolved_pin *p = a, *q = b;
     if (p->guide != q->guide) return p->guide < q->guide ? -1 : 1;
     return (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
-static uint32_t hash_of(const struct hair_knot* knot, uint32_t count)
+static uint32_t hash_of(const struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
-    uint32_t which = 0;
-    for (uint32_t i = 0; i < count; ++i) which = hair_hash(hair_hash(which + knot[i].guide) + knot[i].vertex);
-    return count ? which | 1 : 0;
+    uint32_t vertex_hash = 0;
+    for (uint32_t i = 0; i < count; ++i)
+        vertex_hash = hair_hash(hair_hash(vertex_hash + resolved_pin[i].guide) + resolved_pin[i].vertex);
+    return count ? vertex_hash | 1 : 0;
 }
 
-static uint32_t most_of_a_guide(const struct hair_knot* knot, uint32_t count)
+static uint32_t max_per_guide(const struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
-    uint32_t most = 0, in_row = 0;
+    uint32_t max = 0, in_row = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        in_row = i > 0 && knot[i - 1].guide == knot[i].guide ? in_row + 1 : 1;
-        if (in_row > most) most = in_row;
+        in_row = i > 0 && resolved_pin[i - 1].guide == resolved_pin[i].guide ? in_row + 1 : 1;
+        if (in_row > max) max = in_row;
     }
-    return most;
+    return max;
 }
 
-static bool are_alike(const struct hair_pins* pins, const struct hair_knot* knot, uint32_t count)
+static bool are_alike(const struct hair_pins* pins, const struct hair_resolved_pin* resolved_pin,
+                      uint32_t count)
 {
     int alike = pins->count == count;
     for (uint32_t i = 0; i < count && alike; ++i) {
-        const struct hair_knot* other = &pins->knot[i];
-        alike = compare(other, &knot[i]) == 0 && other->world == knot[i].world &&
-                memcmp(other->place, knot[i].place, sizeof other->place) == 0;
+        const struct hair_resolved_pin* other = &pins->resolved_pin[i];
+        alike = compare(other, &resolved_pin[i]) == 0 && other->world == resolved_pin[i].world &&
+                memcmp(other->place, resolved_pin[i].place, sizeof other->place) == 0;
     }
     return alike;
 }
 
-void hair_pins_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count)
+void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
-    HAIR_ASSERT(count <= HAIR_MOST_PINS && (knot || !count));
-    for (uint32_t i = 1; i < count; ++i) HAIR_ASSERT(compare(&knot[i - 1], &knot[i]) < 0);
-    hair_free(&sim->gl->host, sim->pins.knot);
-    sim->pins.knot = knot;
+    HAIR_ASSERT(count <= HAIR_MAX_PINS && (resolved_pin || !count));
+    for (uint32_t i = 1; i < count; ++i) HAIR_ASSERT(compare(&resolved_pin[i - 1], &resolved_pin[i]) < 0);
+    hair_free(&sim->gl->host, sim->pins.resolved_pin);
+    sim->pins.resolved_pin = resolved_pin;
     sim->pins.count = count;
-    sim->pins.most = most_of_a_guide(knot, count);
-    sim->pins.which = hash_of(knot, count);
+    sim->pins.max_per_guide = max_per_guide(resolved_pin, count);
+    sim->pins.vertex_hash = hash_of(resolved_pin, count);
 }
 
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
@@ -103,37 +105,40 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
     hair_result result = check_all(sim, from, count, stride);
     if (result) return result;
     const struct hair_guide* guides = hair_sim_guides(sim, NULL);
-    struct hair_knot* knot = hair_alloc(host, count, sizeof *knot);
-    if (!knot) return hair_fail_memory(host, "pins");
+    struct hair_resolved_pin* resolved_pin = hair_alloc(host, count, sizeof *resolved_pin);
+    if (!resolved_pin) return hair_fail_memory(host, "pins");
     for (uint32_t i = 0; i < count; ++i) {
         hair_pin pin = pin_at(from, i, stride);
         uint32_t tip = guides[pin.guide].count - 1;
         HAIR_ASSERT(tip >= 1);
-        knot[i] = (struct hair_knot){.guide = pin.guide, .vertex = pin.vertex < tip ? pin.vertex : tip};
-        knot[i].world = pin.to == HAIR_PIN_WORLD;
-        knot[i].given = i;
-        for (int k = 0; k < 3; ++k) knot[i].place[k] = (double)pin.position[k];
+        resolved_pin[i] =
+            (struct hair_resolved_pin){.guide = pin.guide, .vertex = pin.vertex < tip ? pin.vertex : tip};
+        resolved_pin[i].world = pin.to == HAIR_PIN_WORLD;
+        resolved_pin[i].given = i;
+        for (int k = 0; k < 3; ++k) resolved_pin[i].place[k] = (double)pin.position[k];
     }
-    if (count) qsort(knot, count, sizeof *knot, compare);
+    if (count) qsort(resolved_pin, count, sizeof *resolved_pin, compare);
     for (uint32_t i = 1; i < count && !result; ++i)
-        if (compare(&knot[i - 1], &knot[i]) == 0)
+        if (compare(&resolved_pin[i - 1], &resolved_pin[i]) == 0)
             result =
                 hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u] and pins[%u] both hold vertex %u of guide %u",
-                          knot[i - 1].given, knot[i].given, knot[i].vertex, knot[i].guide);
+                          resolved_pin[i - 1].given, resolved_pin[i].given, resolved_pin[i].vertex,
+                          resolved_pin[i].guide);
     if (result) {
-        hair_free(host, knot);
+        hair_free(host, resolved_pin);
     } else {
-        if (!are_alike(&sim->pins, knot, count)) hair_sleep_stir(sim);
-        hair_pins_take(sim, knot, count);
+        if (!are_alike(&sim->pins, resolved_pin, count)) hair_sleep_wake(sim);
+        hair_pins_adopt(sim, resolved_pin, count);
     }
     return result;
 }
 
-hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count)
+hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolved_pin* resolved_pin,
+                            uint32_t count)
 {
     const struct hair_guide* guides = hair_sim_guides(sim, NULL);
     for (uint32_t i = 0; i < count; ++i) {
-        const struct hair_knot* k = &knot[i];
+        const struct hair_resolved_pin* k = &resolved_pin[i];
         if (!guides || k->guide >= sim->guides || k->vertex == 0 || k->vertex >= guides[k->guide].count)
             return hair_fail(&sim->gl->host, HAIR_ERROR_FILE,
                              "pin %u of the saved state holds vertex %u of guide %u, which there is not", i,
@@ -147,7 +152,7 @@ hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_knot* 
 
 void hair_pins_free(struct hair_sim* sim)
 {
-    hair_pins_take(sim, NULL, 0);
+    hair_pins_adopt(sim, NULL, 0);
     hair_gl_free_buffer_texture(sim->gl, &sim->pins.texture);
     hair_gl_free_buffer(sim->gl, &sim->pins.buffer);
 }
@@ -157,19 +162,20 @@ static struct hair_held held_by(const struct hair_sim* sim, uint32_t i)
     const struct hair_rest* rest;
     const struct hair_guide* guides = hair_sim_guides(sim, &rest);
     const struct hair_pins* pins = &sim->pins;
-    const struct hair_knot* knot = &pins->knot[i];
-    uint32_t first = guides[knot->guide].first;
-    int second = i > 0 && knot[-1].guide == knot->guide;
-    int more = i + 1 < pins->count && knot[1].guide == knot->guide;
-    uint32_t from = second ? knot[-1].vertex : 0;
-    HAIR_ASSERT(from < knot->vertex && knot->vertex < guides[knot->guide].count);
+    const struct hair_resolved_pin* resolved_pin = &pins->resolved_pin[i];
+    uint32_t first = guides[resolved_pin->guide].first;
+    int second = i > 0 && resolved_pin[-1].guide == resolved_pin->guide;
+    int more = i + 1 < pins->count && resolved_pin[1].guide == resolved_pin->guide;
+    uint32_t from = second ? resolved_pin[-1].vertex : 0;
+    HAIR_ASSERT(from < resolved_pin->vertex && resolved_pin->vertex < guides[resolved_pin->guide].count);
     double at[3], length = 0;
     if (second || sim->physics.root != HAIR_ROOT_FREE)
-        for (uint32_t k = from; k < knot->vertex; ++k) length += (double)rest[first + k].position.w;
-    for (int k = 0; k < 3; ++k) at[k] = knot->place[k] - (knot->world ? sim->head.position[k] : 0);
+        for (uint32_t k = from; k < resolved_pin->vertex; ++k) length += (double)rest[first + k].position.w;
+    for (int k = 0; k < 3; ++k)
+        at[k] = resolved_pin->place[k] - (resolved_pin->world ? sim->head.position[k] : 0);
     return (struct hair_held){
-        .place = {(float)at[0], (float)at[1], (float)at[2], knot->world ? -1.0f : 0.0f},
-        .span = {(float)from, (float)knot->vertex, (float)length, (float)more},
+        .place = {(float)at[0], (float)at[1], (float)at[2], resolved_pin->world ? -1.0f : 0.0f},
+        .span = {(float)from, (float)resolved_pin->vertex, (float)length, (float)more},
     };
 }
 
@@ -200,12 +206,13 @@ void hair_pins_teleport(struct hair_sim* sim, const struct hair_pose* from, cons
 {
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
     for (uint32_t i = 0; i < sim->pins.count; ++i) {
-        struct hair_knot* knot = &sim->pins.knot[i];
-        struct hair_pose at = {.position = {knot->place[0], knot->place[1], knot->place[2]}};
+        struct hair_resolved_pin* resolved_pin = &sim->pins.resolved_pin[i];
+        struct hair_pose at = {
+            .position = {resolved_pin->place[0], resolved_pin->place[1], resolved_pin->place[2]}};
         hair_vec3 arm = hair_rotate(turn, hair_pose_offset(&at, from));
-        if (!knot->world) continue;
-        knot->place[0] = to->position[0] + (double)arm.x;
-        knot->place[1] = to->position[1] + (double)arm.y;
-        knot->place[2] = to->position[2] + (double)arm.z;
+        if (!resolved_pin->world) continue;
+        resolved_pin->place[0] = to->position[0] + (double)arm.x;
+        resolved_pin->place[1] = to->position[1] + (double)arm.y;
+        resolved_pin->place[2] = to->position[2] + (double)arm.z;
     }
 }

@@ -5,23 +5,16 @@
 
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
+#include "lib/rod/rod.h"
 
 // Maximum number of pins of an instance. Shaders count pins in floats.
-#define HAIR_MOST_PINS 1048576u
-
-// A pin whose vertex has been found.
-struct hair_knot {
-    uint32_t guide, vertex;
-    int world; // 1 if `place` is in the world, 0 if in the head's frame.
-    double place[3]; // Position of the vertex, m.
-    uint32_t given; // Index of the pin in the application's array.
-};
+#define HAIR_MAX_PINS 1048576u
 
 struct hair_pins {
-    struct hair_knot* knot; // Array in the order of guides and their vertices.
+    struct hair_resolved_pin* resolved_pin; // Array in the order of guides and their vertices.
     uint32_t count;
-    uint32_t most; // Maximum number of pins of one guide.
-    uint32_t which; // Hash of the pinned vertices. 0 if there are none.
+    uint32_t max_per_guide; // Maximum number of pins of one guide.
+    uint32_t vertex_hash; // Hash of the pinned vertices. 0 if there are none.
     GLuint buffer, texture; // hair_held[]. 0 until there are pins.
 };
 
@@ -31,9 +24,10 @@ struct hair_sim;
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride);
 
 // Check loaded pins. Fail if the vertex of a pin does not exist, or if the order is wrong.
-hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_knot* knot, uint32_t count);
+hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolved_pin* resolved_pin,
+                            uint32_t count);
 // Replace the pins by an allocated array, which the instance then owns.
-void hair_pins_take(struct hair_sim* sim, struct hair_knot* knot, uint32_t count);
+void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count);
 void hair_pins_free(struct hair_sim* sim);
 
 // Write the pins for the solver, for a step to sim->head.

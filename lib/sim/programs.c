@@ -3,14 +3,14 @@
 #include "lib/sim/sim.h"
 
 // Maximum number of guides that a GPU runs at once, however many registers they take.
-#define MOST_FEW 2048
-// Guides per work group with a thread per guide. GROUP_THREADS of glsl/sim/mapping.glsl.
+#define MAX_FEW 2048
+// Guides per work group with a thread per guide. GROUP_THREADS of glsl/sim/thread_mapping.glsl.
 #define GUIDES_PER_GROUP 8
-#define MOST_IN_THREAD 128 // Maximum vertices of a guide that fit into a GPU thread's memory.
-#define MOST_MIXED 64 // Maximum vertices of a guide that fit under the mixed scheme.
+#define MAX_IN_THREAD 128 // Maximum vertices of a guide that fit into a GPU thread's memory.
+#define MAX_MIXED 64 // Maximum vertices of a guide that fit under the mixed scheme.
 #define GROUPS_OF_LIST 16 // Work groups that a unit of a GPU runs at once.
-// Maximum loop iterations of a thread on a software rasteriser. See rounds.c.
-#define MOST_ROUNDS 65000
+// Maximum loop iterations of a thread on a software rasteriser. See loop_budget.c.
+#define MAX_ROUNDS 65000
 // Loop iterations for parts of a substep with a thread per guide. They suffice for 21 parts of a
 // guide of 32 vertices.
 #define PART_ROUNDS_OF_THREAD 30000
@@ -20,9 +20,9 @@
 // A work group solves a guide that would be too much for a thread.
 bool hair_sim_is_by_thread(const struct hair_sim* sim)
 {
-    uint32_t most = hair_sim_is_mixed(sim) ? MOST_MIXED : MOST_IN_THREAD;
-    if (!sim->gl->software && sim->most_vertices > most) return false;
-    return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MOST_ROUNDS);
+    uint32_t max = hair_sim_is_mixed(sim) ? MAX_MIXED : MAX_IN_THREAD;
+    if (!sim->gl->software && sim->max_vertices > max) return false;
+    return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MAX_ROUNDS);
 }
 
 // Return how many substeps of `rounds` loop iterations fit into a dispatch.
@@ -30,13 +30,13 @@ static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
 {
     if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
     HAIR_ASSERT(rounds > 0);
-    uint32_t most = MOST_ROUNDS / rounds;
-    return most < 1 ? 1 : most < HAIR_STEP_SUBSTEPS ? most : HAIR_STEP_SUBSTEPS;
+    uint32_t max = MAX_ROUNDS / rounds;
+    return max < 1 ? 1 : max < HAIR_STEP_SUBSTEPS ? max : HAIR_STEP_SUBSTEPS;
 }
 
 // Return whether guides go through two programs. The first only knows SHAKE, and the second solves
 // the guides that the first leaves.
-static bool goes_in_two_by_shake(const struct hair_sim* sim)
+static bool uses_two_passes_by_shake(const struct hair_sim* sim)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
 }
@@ -44,17 +44,17 @@ static bool goes_in_two_by_shake(const struct hair_sim* sim)
 // Return whether the second program may split substeps. See glsl/sim/parts.glsl.
 static bool has_parts(const struct hair_sim* sim)
 {
-    return goes_in_two_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
+    return uses_two_passes_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
 }
 
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
 {
     int by_thread = hair_sim_is_by_thread(sim);
-    uint32_t most = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
+    uint32_t max = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
     if (!has_parts(sim)) return 0;
-    if (!sim->gl->software) return most;
+    if (!sim->gl->software) return max;
     uint32_t whole = hair_sim_rounds_of_substep(sim, by_thread);
-    return whole >= MOST_ROUNDS ? 0 : most < MOST_ROUNDS - whole ? most : MOST_ROUNDS - whole;
+    return whole >= MAX_ROUNDS ? 0 : max < MAX_ROUNDS - whole ? max : MAX_ROUNDS - whole;
 }
 
 // Without parts, both programs run the same number of substeps per dispatch. With parts, the second
@@ -62,7 +62,7 @@ uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 {
     int by_thread = hair_sim_is_by_thread(sim);
-    return substeps_of(sim, has_parts(sim) ? hair_sim_rounds_of_first(sim, by_thread)
+    return substeps_of(sim, has_parts(sim) ? hair_sim_rounds_of_pass1(sim, by_thread)
                                            : hair_sim_rounds_of_substep(sim, by_thread));
 }
 
@@ -71,7 +71,7 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 // be slower, because the registers of the cache reduce the number of guides that run at once.
 static bool has_few_guides(const struct hair_sim* sim, int by_thread)
 {
-    return sim->guides <= MOST_FEW && !by_thread;
+    return sim->guides <= MAX_FEW && !by_thread;
 }
 
 // Return the solver's pass with only the features in use. `any` is 1 if colliders are looked up in
@@ -87,27 +87,27 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     HAIR_ASSERT((size_t)sim->solver < sizeof row / sizeof *row);
     hair_gl_pass features = 0;
     if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
-    if (any) features |= HAIR_GL_WITH(ANY);
-    if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW);
+    if (any) features |= HAIR_GL_WITH(COLLIDER_GRID);
+    if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW_GUIDES);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
-    if (by_thread) features |= HAIR_GL_WITH(THREAD);
-    if (hair_crowd_is_on(sim)) features |= HAIR_GL_WITH(CROWD);
+    if (by_thread) features |= HAIR_GL_WITH(THREAD_PER_GUIDE);
+    if (hair_grid_is_on(sim)) features |= HAIR_GL_WITH(HAIR_GRID);
     if (sim->pins.count > 0) features |= HAIR_GL_WITH(PINNED);
-    if (hair_skin_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
+    if (hair_scalp_motion_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
     if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
     hair_gl_pass pass = hair_sim_is_mixed(sim)   ? HAIR_GL_MIXED_SOLVER
                         : hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF
                                                  : row[sim->solver];
-    return hair_gl_pass_for(hair_gl_with(pass, features), sim->most_vertices);
+    return hair_gl_pass_for(hair_gl_add_features(pass, features), sim->max_vertices);
 }
 
 // The lists of two programs are allocated at creation, so this decision is made then. Direct takes
 // two programs only for more guides than twice what a GPU runs at once.
-bool hair_sim_may_go_in_two(const struct hair_sim* sim)
+bool hair_sim_may_use_two_passes(const struct hair_sim* sim)
 {
     if (sim->solver == HAIR_SOLVER_ACCURATE) return true;
-    return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->most_vertices <= 32 &&
-           sim->gl->units > 0 && sim->guides > 2 * HAIR_FIRST_GUIDES * (uint32_t)sim->gl->units;
+    return sim->solver == HAIR_SOLVER_DIRECT && !sim->by_thread && sim->max_vertices <= 32 &&
+           sim->gl->units > 0 && sim->guides > 2 * HAIR_PASS1_GUIDES * (uint32_t)sim->gl->units;
 }
 
 static bool has_bodies(const struct hair_sim* sim)
@@ -118,53 +118,53 @@ static bool has_bodies(const struct hair_sim* sim)
 static hair_gl_pass pass_now(const struct hair_sim* sim)
 {
     int any = sim->contacts.any;
-    int bodies = any ? sim->contacts.cells.bodies > 0 : has_bodies(sim);
+    int bodies = any ? sim->contacts.grid.bodies > 0 : has_bodies(sim);
     return solver_pass_for(sim, any, bodies, hair_sim_is_by_thread(sim));
 }
 
 // Return whether guides go through two programs now. Direct does so only for straight hair among
 // few capsules, where two programs are faster. Without capsules two programs are slower. With any
 // other feature, programs need more registers than that many guides leave them.
-static bool goes_in_two(const struct hair_sim* sim, hair_gl_pass pass)
+static bool uses_two_passes(const struct hair_sim* sim, hair_gl_pass pass)
 {
-    if (goes_in_two_by_shake(sim)) return true;
-    return sim->in_two && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
+    if (uses_two_passes_by_shake(sim)) return true;
+    return sim->two_pass && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
 }
 
 // Compile `pass`, or the two programs that replace it.
-static hair_result need_solver(const struct hair_sim* sim, hair_gl_pass pass)
+static hair_result ensure_solver(const struct hair_sim* sim, hair_gl_pass pass)
 {
-    if (!goes_in_two(sim, pass)) return hair_gl_need(sim->gl, pass);
-    hair_result result = hair_gl_need(sim->gl, pass | HAIR_GL_WITH(FIRST));
-    return result ? result : hair_gl_need(sim->gl, pass | HAIR_GL_WITH(LISTED));
+    if (!uses_two_passes(sim, pass)) return hair_gl_ensure_program(sim->gl, pass);
+    hair_result result = hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS1));
+    return result ? result : hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS2));
 }
 
-hair_result hair_sim_need_solver(struct hair_sim* sim)
+hair_result hair_sim_ensure_solver(struct hair_sim* sim)
 {
-    return need_solver(sim, pass_now(sim));
+    return ensure_solver(sim, pass_now(sim));
 }
 
-uint32_t hair_sim_next_list(struct hair_sim* sim)
+uint32_t hair_sim_flip_work_list(struct hair_sim* sim)
 {
-    if (goes_in_two(sim, pass_now(sim))) sim->list = !sim->list;
+    if (uses_two_passes(sim, pass_now(sim))) sim->list = !sim->list;
     return sim->list;
 }
 
 // Run the second program over its list, in as many dispatches as its loop iterations need.
-static void run_listed(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
+static void run_pass2(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_params* params)
 {
     HAIR_ASSERT(0 < params->substeps && params->substeps <= HAIR_STEP_SUBSTEPS && params->list < 2);
     uint32_t count = params->substeps;
     int by_thread = hair_sim_is_by_thread(sim);
     uint32_t rounds = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
-    uint32_t most = substeps_of(sim, rounds);
-    hair_gl_pass listed = pass | HAIR_GL_WITH(LISTED);
+    uint32_t max = substeps_of(sim, rounds);
+    hair_gl_pass listed = pass | HAIR_GL_WITH(PASS2);
     GLuint program = hair_gl_find(sim->gl, listed)->program;
     size_t at = (HAIR_SOLVER_STATS_COUNT + params->list * HAIR_SOLVER_STATS_LIST) * sizeof(uint32_t);
-    for (uint32_t done = 0; done < count; done += most) {
+    for (uint32_t done = 0; done < count; done += max) {
         params->substep_first = done;
-        params->substeps = count - done < most ? count : done + most;
-        if (count > most) hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
+        params->substeps = count - done < max ? count : done + max;
+        if (count > max) hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
         hair_gl_run_indirect(sim->gl, listed, program, sim->solver_stats, at);
     }
     params->substep_first = 0;
@@ -176,33 +176,34 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     hair_gl_pass pass = pass_now(sim);
     uint32_t by_thread = (sim->guides + GUIDES_PER_GROUP - 1) / GUIDES_PER_GROUP;
     uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
-    if (goes_in_two_by_shake(sim)) {
-        HAIR_ASSERT(sim->in_two);
-        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), groups);
-        run_listed(sim, pass, params);
+    if (uses_two_passes_by_shake(sim)) {
+        HAIR_ASSERT(sim->two_pass);
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(PASS1), groups);
+        run_pass2(sim, pass, params);
         return;
     }
-    if (goes_in_two(sim, pass)) {
+    if (uses_two_passes(sim, pass)) {
         HAIR_ASSERT(sim->gl->units > 0);
         uint32_t units = (uint32_t)sim->gl->units, listed = GROUPS_OF_LIST * units;
-        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(FIRST), units);
-        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(LISTED), sim->guides < listed ? sim->guides : listed);
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(PASS1), units);
+        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(PASS2), sim->guides < listed ? sim->guides : listed);
         return;
     }
     hair_gl_run(sim->gl, pass, groups);
 }
 
-hair_result hair_sim_need_programs(struct hair_sim* sim)
+hair_result hair_sim_ensure_programs(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
-    hair_gl_pass smooth = hair_skin_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
-    hair_result result = need_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
+    hair_gl_pass smooth =
+        hair_scalp_motion_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
+    hair_result result = ensure_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
     if (!result && any && sim->by_thread && gl->software) // The lists of a step decide which.
-        result = hair_gl_need(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
-    if (!result) result = hair_gl_need(gl, hair_gl_pass_for(smooth, sim->most_vertices));
-    if (!result && sim->physics.sleep_threshold > 0) result = hair_gl_need(gl, HAIR_GL_STIR);
-    if (!result && hair_crowd_is_on(sim))
-        result = hair_gl_need_rows(gl, HAIR_GL_CROWD_CLEAR, HAIR_GL_CROWD_GATHER, 0);
-    return result ? result : hair_blow_need_programs(sim);
+        result = hair_gl_ensure_program(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
+    if (!result) result = hair_gl_ensure_program(gl, hair_gl_pass_for(smooth, sim->max_vertices));
+    if (!result && sim->physics.sleep_threshold > 0) result = hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY);
+    if (!result && hair_grid_is_on(sim))
+        result = hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0);
+    return result ? result : hair_wind_coupling_ensure_programs(sim);
 }

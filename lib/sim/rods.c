@@ -37,13 +37,14 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     for (uint32_t i = 0; i < sim->guides && !there && !no_system; ++i)
         there = rod[sim->rods->guides[i].first].factor.x > 0;
     if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
-    uint32_t most = hair_rods_rounds(sim->most_vertices), vertices = sim->guide_vertices;
-    size_t count = (size_t)most * vertices;
+    uint32_t max = hair_rods_rounds(sim->max_vertices), vertices = sim->guide_vertices;
+    size_t count = (size_t)max * vertices;
     hair_vec4 *out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
     hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
     if (!result) {
-        *rounds = hair_rods_reduce(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
-        HAIR_ASSERT(*rounds < most);
+        *rounds =
+            hair_rods_write_reduction(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
+        HAIR_ASSERT(*rounds < max);
         count = (size_t)(*rounds + 1) * vertices;
         memset(out + count, 0, sizeof *out);
         result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
@@ -56,15 +57,15 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 // Return the multiple of the solver's own substep length for the current rate. Multiples are powers
 // of two, so that rods are seldom made again while a level of detail changes. They change by one
 // doubling at a time, so that the drawn hair does not leap.
-static uint32_t times_longer(const struct hair_sim* sim)
+static uint32_t find_substep_scale(const struct hair_sim* sim)
 {
     uint32_t longer = 1;
     float rate = sim->physics.substep_rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
     HAIR_ASSERT(rate > 0);
     while (2 * (float)longer * rate <= 1) longer *= 2;
-    if (sim->longer && longer < sim->longer) return sim->longer / 2;
-    if (sim->longer && longer > sim->longer) return sim->longer * 2;
+    if (sim->substep_scale && longer < sim->substep_scale) return sim->substep_scale / 2;
+    if (sim->substep_scale && longer > sim->substep_scale) return sim->substep_scale * 2;
     return longer;
 }
 
@@ -81,7 +82,7 @@ static bool are_mixed(const struct hair_sim* sim)
 // memory of a work group.
 static size_t bend_size(const struct hair_sim* sim)
 {
-    size_t each = sim->most_vertices > ROWS_IN_GROUP ? 3 + HAIR_MIXED_ROW_VECTORS : 3;
+    size_t each = sim->max_vertices > ROWS_IN_GROUP ? 3 + HAIR_MIXED_ROW_VECTORS : 3;
     return each * sim->guide_vertices * sizeof(hair_vec4);
 }
 
@@ -89,13 +90,14 @@ static void hold(struct hair_sim* sim)
 {
     struct hair_rods* rods = sim->rods;
     if (rods->held && !hair_rods_differ(&rods->borne_for, &sim->physics)) return;
-    hair_rods_hold(rods->guides, rods->rest, sim->guides, &sim->physics, rods->borne, &rods->report);
+    hair_rods_preload_gravity(rods->guides, rods->rest, sim->guides, &sim->physics, rods->borne,
+                              &rods->report);
     rods->borne_for = sim->physics;
     rods->held = 1;
 }
 
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
-static hair_result make(struct hair_sim* sim, int struck)
+static hair_result create(struct hair_sim* sim, int struck)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_rods* rods = sim->rods;
@@ -110,13 +112,13 @@ static hair_result make(struct hair_sim* sim, int struck)
         // Impacts can destabilise explicit bending that is near its limit.
         if (struck && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
-    uint32_t longer = times_longer(sim);
+    uint32_t longer = find_substep_scale(sim);
     if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
     HAIR_ASSERT(substep > 0);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
-    hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.knot, sim->pins.count, &sim->physics,
-                  sim->solver, mixed, substep, rod);
+    hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
+                  &sim->physics, sim->solver, mixed, substep, rod);
     GLuint buffer = 0, reduction = 0, bend = sim->bend;
     uint32_t rounds = 0;
     hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
@@ -139,9 +141,9 @@ static hair_result make(struct hair_sim* sim, int struck)
         rods->made_for = sim->physics;
         rods->report.softened = softened;
         rods->struck = struck;
-        rods->pinned = sim->pins.which;
+        rods->pinned = sim->pins.vertex_hash;
         rods->longer = longer;
-        sim->longer = longer;
+        sim->substep_scale = longer;
         rods->stiff = is_stiff(sim, rod);
         sim->substep = substep;
     }
@@ -160,7 +162,7 @@ static hair_result make_buffers(struct hair_sim* sim)
     return result;
 }
 
-hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom)
+hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom)
 {
     const hair_host* host = &sim->gl->host;
     HAIR_ASSERT(!sim->rods);
@@ -174,12 +176,12 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* gr
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
     hair_result result = make_buffers(sim);
-    if (!result) result = make(sim, 0);
-    return result ? result : hair_sim_need_crowd(sim);
+    if (!result) result = create(sim, 0);
+    return result ? result : hair_sim_ensure_hair_grid(sim);
 }
 
 // Return whether the presence of colliders has changed the accurate solver's own substep.
-static bool is_struck_anew(const struct hair_sim* sim, int struck)
+static bool is_first_contact(const struct hair_sim* sim, int struck)
 {
     return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;
 }
@@ -187,21 +189,21 @@ static bool is_struck_anew(const struct hair_sim* sim, int struck)
 bool hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (!rods || rods->longer == times_longer(sim)) return false;
-    return sim->pins.which == rods->pinned &&
-           !is_struck_anew(sim, sim->struck || hair_sim_contacts(sim) > 0) &&
+    if (!rods || rods->longer == find_substep_scale(sim)) return false;
+    return sim->pins.vertex_hash == rods->pinned &&
+           !is_first_contact(sim, sim->had_contact || hair_sim_contacts(sim) > 0) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);
 }
 
-hair_result hair_sim_renew_rods(struct hair_sim* sim)
+hair_result hair_sim_rebuild_rods(struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
-    int struck = sim->struck || hair_sim_contacts(sim) > 0;
-    int other = rods->longer != times_longer(sim) || is_struck_anew(sim, struck) ||
-                sim->pins.which != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
-    hair_result result = other ? make(sim, struck) : HAIR_OK;
-    if (!result) sim->struck = struck;
+    int struck = sim->had_contact || hair_sim_contacts(sim) > 0;
+    int other = rods->longer != find_substep_scale(sim) || is_first_contact(sim, struck) ||
+                sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
+    hair_result result = other ? create(sim, struck) : HAIR_OK;
+    if (!result) sim->had_contact = struck;
     return result;
 }
 
@@ -214,7 +216,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->material);
     hair_gl_free_buffer(sim->gl, &sim->reduction);
     hair_gl_free_buffer(sim->gl, &sim->bend);
-    hair_crowd_free(sim);
+    hair_grid_free(sim);
     hair_free(host, sim->rods->guides);
     hair_free(host, sim->rods->rest);
     hair_free(host, sim->rods->borne);
@@ -238,7 +240,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->part_rounds = hair_sim_part_rounds(sim);
 }
 
-struct hair_rods_report hair_sim_held(const struct hair_sim* sim)
+struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim)
 {
     return sim->rods ? sim->rods->report : hair_rods_report_none();
 }

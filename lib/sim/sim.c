@@ -8,7 +8,7 @@
 #define EARLY 1e-6 // Tolerance of the end of a substep, as a fraction of a substep.
 // Maximum vertices of a guide for a thread per guide. NVIDIA's driver fails to link programs with
 // more private memory.
-#define MOST_OF_THREAD 128
+#define MAX_OF_THREAD 128
 // Maximum displacement in a substep, m. Beyond it redblack.comp resets strands to their rest pose.
 #define FARTHEST 1e4f
 
@@ -24,21 +24,21 @@ static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
 {
-    HAIR_ASSERT(!sim->gl && 2 <= groom->most_vertices && groom->most_vertices <= HAIR_MAX_GUIDE_VERTICES);
+    HAIR_ASSERT(!sim->gl && 2 <= groom->max_vertices && groom->max_vertices <= HAIR_MAX_GUIDE_VERTICES);
     sim->gl = gl;
     sim->guides = groom->info.guide_count;
     sim->guide_vertices = groom->info.guide_vertex_count;
-    sim->most_vertices = groom->most_vertices;
-    sim->smooth_vertices = 2 * (groom->most_vertices - 1) + 1;
-    if (sim->most_vertices > MOST_OF_THREAD && !gl->software) sim->by_thread = 0;
-    sim->in_two = hair_sim_may_go_in_two(sim);
+    sim->max_vertices = groom->max_vertices;
+    sim->smooth_vertices = 2 * (groom->max_vertices - 1) + 1;
+    if (sim->max_vertices > MAX_OF_THREAD && !gl->software) sim->by_thread = 0;
+    sim->two_pass = hair_sim_may_use_two_passes(sim);
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
-    sim->air.ball = groom->skull;
-    sim->skin.seats = hair_seats_hold(groom->seats);
+    sim->wind_state.ball = groom->head_sphere;
+    sim->scalp_motion.root_bindings = hair_root_bindings_retain(groom->root_bindings);
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     size_t solver_stats =
-        sim->in_two ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
+        sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
     hair_result result = HAIR_OK;
     if (!result)
         result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
@@ -48,18 +48,18 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
                                  &sim->rest);
     if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
     if (!result)
-        result =
-            hair_gl_storage(gl, "hair health", solver_stats * sizeof(uint32_t), NULL, &sim->solver_stats);
+        result = hair_gl_storage(gl, "hair solver stats", solver_stats * sizeof(uint32_t), NULL,
+                                 &sim->solver_stats);
     if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
     } else if (!result) {
-        result = hair_sim_make_rods(sim, groom);
+        result = hair_sim_create_rods(sim, groom);
     }
     sim->last_substep = sim->substep;
-    if (!result) result = hair_gl_need(gl, hair_sim_reset_pass(sim, 0));
-    if (!result && sim->feedback.wanted) result = hair_feedback_make(sim, groom->guides);
-    return result ? result : hair_sim_need_solver(sim);
+    if (!result) result = hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 0));
+    if (!result && sim->feedback.wanted) result = hair_feedback_create(sim, groom->guides);
+    return result ? result : hair_sim_ensure_solver(sim);
 }
 
 void hair_sim_destroy(struct hair_sim* sim)
@@ -74,10 +74,10 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->step);
     hair_pins_free(sim);
     hair_contacts_free(sim);
-    hair_air_free(&sim->air, sim->gl);
-    hair_blow_free(sim);
+    hair_wind_free_state(&sim->wind_state, sim->gl);
+    hair_wind_coupling_free(sim);
     hair_sim_free_rods(sim);
-    hair_skin_free(sim);
+    hair_scalp_motion_free(sim);
     hair_sleep_free(sim);
     hair_diagnosis_free(sim);
 }
@@ -121,8 +121,8 @@ static void write_now(const struct hair_sim* sim, struct hair_step_params* param
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Too far to interpolate.
     double span = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
-    HAIR_ASSERT(span > 0 && sim->left >= 0);
-    params->alpha = far ? 1 : (float)fmin(sim->left / span, 1);
+    HAIR_ASSERT(span > 0 && sim->accumulator >= 0);
+    params->alpha = far ? 1 : (float)fmin(sim->accumulator / span, 1);
     params->rotation_before = vec4_of_quat(sim->last_before.rotation);
     params->rotation_after = vec4_of_quat(sim->last_after.rotation);
     params->rotation_now = vec4_of_quat(sim->head.rotation);
@@ -134,18 +134,18 @@ static void upload(struct hair_sim* sim, const struct hair_step_params* params)
     hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
 }
 
-void hair_sim_show(struct hair_sim* sim)
+void hair_sim_upload_render_state(struct hair_sim* sim)
 {
     struct hair_step_params params = {0};
     write_physics(sim, &params);
     write_now(sim, &params);
-    params.rotation_now = vec4_of_quat(sim->at_step.rotation); // The head may have moved.
+    params.rotation_now = vec4_of_quat(sim->head_at_last_step.rotation); // The head may have moved.
     upload(sim, &params);
 }
 
 // Return the fraction of a step of dt that is done at the end of substep `i`. The first substep
 // begins `from` seconds into the step, which may be negative.
-static double share_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
+static double fraction_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
 {
     return fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
 }
@@ -157,12 +157,12 @@ static void write_substeps(struct hair_sim* sim, struct hair_step_params* params
 {
     HAIR_ASSERT(0 < count && count <= HAIR_STEP_SUBSTEPS);
     for (uint32_t i = 0; i < count; ++i) {
-        double share = share_at_end(sim, i, from, dt);
+        double fraction = fraction_at_end(sim, i, from, dt);
         sim->last_before = sim->last_after;
-        sim->last_after = hair_pose_between(&sim->at_step, &sim->head, share);
+        sim->last_after = hair_pose_between(&sim->head_at_last_step, &sim->head, fraction);
         params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
         params->substep[i].displacement =
-            vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)share);
+            vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)fraction);
     }
     params->substeps = count;
 }
@@ -175,45 +175,45 @@ static void write_colliders(const struct hair_sim* sim, struct hair_step_params*
     }
     if (!sim->rods) {
         params->colliders =
-            hair_colliders_capsules(&sim->colliders, &sim->at_step, &sim->head, params->collider);
+            hair_colliders_capsules(&sim->colliders, &sim->head_at_last_step, &sim->head, params->collider);
         return;
     }
-    params->colliders =
-        hair_colliders_bodies(&sim->colliders, &sim->at_step, &sim->head, params->collider, params->body);
+    params->colliders = hair_colliders_bodies(&sim->colliders, &sim->head_at_last_step, &sim->head,
+                                              params->collider, params->body);
     HAIR_ASSERT(params->colliders <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
     for (uint32_t i = 0; i < params->colliders; ++i)
         if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
 }
 
-static float share_of(double from, double dt)
+static float fraction_of(double from, double dt)
 {
     return (float)fmin(fmax(from / dt, -1), 1);
 }
 
-static hair_result need(struct hair_sim* sim, double from, double dt)
+static hair_result prepare(struct hair_sim* sim, double from, double dt)
 {
     sim->contacts.any = hair_contacts_are_any(sim);
     hair_result result = hair_pins_write(sim);
-    if (!result) result = hair_sim_need_crowd(sim);
-    if (!result && sim->rods) result = hair_air_need(&sim->air, sim->gl, &sim->wind);
-    if (!result) result = hair_blow_need(sim);
-    if (!result && !hair_blow_is_on(sim)) sim->air.box = (hair_vec4){0, 0, 0, 0};
-    if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, share_of(from, dt));
-    return result ? result : hair_sim_need_solver(sim);
+    if (!result) result = hair_sim_ensure_hair_grid(sim);
+    if (!result && sim->rods) result = hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind);
+    if (!result) result = hair_wind_coupling_ensure(sim);
+    if (!result && !hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
+    if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, fraction_of(from, dt));
+    return result ? result : hair_sim_ensure_solver(sim);
 }
 
 // Write the wind for `count` substeps of the parameters.
 static void write_air(struct hair_sim* sim, const struct hair_step_params* params, uint32_t count)
 {
     HAIR_ASSERT(params->substeps == count);
-    const struct hair_air_now now = {.wind = &sim->wind,
-                                     .physics = &sim->physics,
-                                     .colliders = &sim->colliders,
-                                     .step = params,
-                                     .head = sim->last_after,
-                                     .substeps = count,
-                                     .substep = sim->substep};
-    hair_air_blow(&sim->air, sim->gl, &now);
+    const struct hair_wind_step now = {.wind = &sim->wind,
+                                       .physics = &sim->physics,
+                                       .colliders = &sim->colliders,
+                                       .step = params,
+                                       .head = sim->last_after,
+                                       .substeps = count,
+                                       .substep = sim->substep};
+    hair_wind_write(&sim->wind_state, sim->gl, &now);
 }
 
 // Run `total` substeps. sim->left is already the time that remains after them. `again` is 1 if the
@@ -221,53 +221,53 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
-    int crowd = hair_crowd_is_on(sim), blown = hair_blow_is_on(sim);
+    int hair_grid = hair_grid_is_on(sim), blown = hair_wind_coupling_is_on(sim);
     sim->next_substep = sim->substep;
     write_physics(sim, &params);
     write_colliders(sim, &params);
-    if (hair_skin_is_on(sim)) {
-        float before = (float)share_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
-        hair_skin_ride(sim, again, total, before,
-                       (float)share_at_end(sim, total > 0 ? total - 1 : 0, from, dt));
+    if (hair_scalp_motion_is_on(sim)) {
+        float before = (float)fraction_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
+        hair_scalp_motion_run(sim, again, total, before,
+                              (float)fraction_at_end(sim, total > 0 ? total - 1 : 0, from, dt));
     }
     if (sim->contacts.any) hair_contacts_bind(sim);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
-    params.share_start = share_of(from, dt);
+    params.fraction_start = fraction_of(from, dt);
     for (uint32_t done = 0; done < total;) {
-        uint32_t most = hair_sim_substeps_at_once(sim);
-        uint32_t block = crowd ? hair_crowd_left(sim) : most;
-        uint32_t count = total - done < most ? total - done : most;
+        uint32_t max = hair_sim_substeps_at_once(sim);
+        uint32_t block = hair_grid ? hair_grid_substeps_left(sim) : max;
+        uint32_t count = total - done < max ? total - done : max;
         if (block < count) count = block;
-        if (blown) block = hair_blow_left(sim, dt);
+        if (blown) block = hair_wind_coupling_substeps_left(sim, dt);
         if (block < count) count = block;
         HAIR_ASSERT(0 < count && count <= total - done);
         params.rotation_start = vec4_of_quat(sim->last_after.rotation);
         sim->last_substep = sim->substep;
         write_substeps(sim, &params, count, from + done * sim->substep, dt);
         write_now(sim, &params);
-        params.list = hair_sim_next_list(sim);
+        params.list = hair_sim_flip_work_list(sim);
         upload(sim, &params);
-        if (crowd) hair_crowd_bind(sim);
+        if (hair_grid) hair_grid_bind(sim);
         if (sim->pins.count) hair_pins_bind(sim);
-        if (blown) hair_fluid_bind(&sim->blow.fluid);
-        if (blown) sim->air.box = hair_blow_box(sim);
-        if (sim->air.params) write_air(sim, &params, count);
-        if (sim->feedback.wanted && !hair_skin_is_on(sim))
+        if (blown) hair_fluid_bind(&sim->wind_coupling.fluid);
+        if (blown) sim->wind_state.box = hair_wind_coupling_box(sim);
+        if (sim->wind_state.params) write_air(sim, &params, count);
+        if (sim->feedback.wanted && !hair_scalp_motion_is_on(sim))
             hair_feedback_run(sim, &params);
         else
             hair_sim_run_solver(sim, &params);
-        if (crowd) hair_crowd_count(sim, count);
-        if (blown) hair_blow_count(sim, count);
+        if (hair_grid) hair_grid_count(sim, count);
+        if (blown) hair_wind_coupling_count(sim, count);
         done += count;
-        params.share_start = params.substep[count - 1].displacement.w;
+        params.fraction_start = params.substep[count - 1].displacement.w;
         params.rescale = 1;
     }
     if (total == 0) {
         write_now(sim, &params);
         upload(sim, &params);
     }
-    if (!crowd) sim->crowd.beat = 0;
+    if (!hair_grid) sim->hair_grid.substeps_done = 0;
 }
 
 // Return the number of substeps that fit into a time. The tolerance EARLY makes 2/120 s hold two
@@ -281,8 +281,8 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
 // Free what is no longer used.
 static void tidy_up(struct hair_sim* sim)
 {
-    if (!sim->colliders.now.count && sim->contacts.collider) hair_contacts_free(sim);
-    if (!hair_crowd_is_on(sim) && sim->crowd.texture) hair_crowd_free(sim);
+    if (!sim->colliders.current.count && sim->contacts.collider) hair_contacts_free(sim);
+    if (!hair_grid_is_on(sim) && sim->hair_grid.texture) hair_grid_free(sim);
 }
 
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
@@ -290,54 +290,55 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     // If only the rate has changed, finish the current substep at its old length first. The drawn
     // hair then does not jump.
     HAIR_ASSERT(dt > 0);
-    int waits = hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->left > EARLY * sim->substep;
+    int waits =
+        hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->accumulator > EARLY * sim->substep;
     int again = 0;
-    double from = -sim->left;
-    int stirred = hair_sleep_is_stirred(sim);
-    hair_result result = waits ? HAIR_OK : hair_sim_renew_rods(sim);
-    if (!result) result = need(sim, from, dt);
-    if (!result) result = hair_sleep_need(sim, stirred, dt);
-    if (!result) result = hair_diagnosis_need(sim, stirred);
+    double from = -sim->accumulator;
+    int disturbed = hair_sleep_is_disturbed(sim);
+    hair_result result = waits ? HAIR_OK : hair_sim_rebuild_rods(sim);
+    if (!result) result = prepare(sim, from, dt);
+    if (!result) result = hair_sleep_ensure(sim, disturbed, dt);
+    if (!result) result = hair_diagnosis_ensure(sim, disturbed);
     if (result) return result;
     if (waits && count_substeps(sim, dt - from) > 0) {
         double end = from + sim->substep;
-        sim->left = fmax(dt - end, 0);
+        sim->accumulator = fmax(dt - end, 0);
         advance(sim, 0, 1, from, dt);
         from = end;
         again = 1;
-        result = hair_sim_renew_rods(sim);
-        if (!result) result = need(sim, from, dt);
+        result = hair_sim_rebuild_rods(sim);
+        if (!result) result = prepare(sim, from, dt);
         if (result) return result;
     }
     uint32_t total = count_substeps(sim, dt - from);
-    sim->left = fmax(dt - from - total * sim->substep, 0);
-    HAIR_ASSERT(sim->left < (1 + EARLY) * sim->substep);
+    sim->accumulator = fmax(dt - from - total * sim->substep, 0);
+    HAIR_ASSERT(sim->accumulator < (1 + EARLY) * sim->substep);
     advance(sim, again, total, from, dt);
     hair_diagnosis_watch(sim, total);
-    sim->at_step = sim->head;
-    hair_colliders_settle(&sim->colliders);
-    hair_sleep_watch(sim, stirred, dt);
+    sim->head_at_last_step = sim->head;
+    hair_colliders_end_step(&sim->colliders);
+    hair_sleep_submit_query(sim, disturbed, dt);
     tidy_up(sim);
     return HAIR_OK;
 }
 
 void hair_sim_pass_time(struct hair_sim* sim, double dt)
 {
-    uint32_t total = count_substeps(sim, dt + sim->left);
-    sim->left = fmax(dt + sim->left - total * sim->substep, 0);
-    if (hair_crowd_is_on(sim)) hair_crowd_count(sim, total);
-    hair_colliders_settle(&sim->colliders);
+    uint32_t total = count_substeps(sim, dt + sim->accumulator);
+    sim->accumulator = fmax(dt + sim->accumulator - total * sim->substep, 0);
+    if (hair_grid_is_on(sim)) hair_grid_count(sim, total);
+    hair_colliders_end_step(&sim->colliders);
 }
 
 // Discard the past of the head, the colliders and the fluid, as if all had always been at rest.
-static void settle(struct hair_sim* sim)
+static void reset_history(struct hair_sim* sim)
 {
-    sim->last_before = sim->last_after = sim->at_step = sim->head;
-    sim->left = 0;
+    sim->last_before = sim->last_after = sim->head_at_last_step = sim->head;
+    sim->accumulator = 0;
     sim->last_substep = sim->next_substep = sim->substep;
-    sim->crowd.beat = 0;
-    hair_blow_forget(sim);
-    hair_colliders_settle(&sim->colliders);
+    sim->hair_grid.substeps_done = 0;
+    hair_wind_coupling_reset(sim);
+    hair_colliders_end_step(&sim->colliders);
 }
 
 static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
@@ -351,24 +352,24 @@ static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const str
 void hair_sim_reset(struct hair_sim* sim)
 {
     struct hair_step_params params = {0};
-    settle(sim);
-    hair_sleep_stir(sim);
-    sim->struck = 0;
-    for (int k = 0; k < 3; ++k) sim->air.moved[k] = 0;
+    reset_history(sim);
+    hair_sleep_wake(sim);
+    sim->had_contact = 0;
+    for (int k = 0; k < 3; ++k) sim->wind_state.moved[k] = 0;
     write_physics(sim, &params);
     write_now(sim, &params);
-    if (hair_skin_is_on(sim)) hair_skin_reset(sim);
-    run_over_vertices(sim, hair_sim_reset_pass(sim, hair_skin_is_on(sim)), &params);
+    if (hair_scalp_motion_is_on(sim)) hair_scalp_motion_reset(sim);
+    run_over_vertices(sim, hair_sim_reset_pass(sim, hair_scalp_motion_is_on(sim)), &params);
 }
 
 // Move all past poses by the rigid motion that moves the head, so that the hair does not swing.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
-    hair_result result = hair_gl_need(sim->gl, hair_sim_turn_pass(sim));
+    hair_result result = hair_gl_ensure_program(sim->gl, hair_sim_rotate_pass(sim));
     if (result) return result;
     struct hair_step_params params = {0};
     struct hair_pose from = sim->head;
-    struct hair_pose* moved[] = {&sim->last_before, &sim->last_after, &sim->at_step, &sim->head};
+    struct hair_pose* moved[] = {&sim->last_before, &sim->last_after, &sim->head_at_last_step, &sim->head};
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from.rotation));
     for (int i = 0; i < 4; ++i) {
         hair_vec3 arm = hair_rotate(turn, hair_pose_offset(moved[i], &from));
@@ -378,13 +379,13 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
         moved[i]->position[2] = to->position[2] + (double)arm.z;
     }
     hair_pins_teleport(sim, &from, to);
-    hair_sleep_stir(sim);
-    sim->crowd.beat = 0; // The grid's accelerations are for the old rotation of the head.
-    hair_colliders_forget(&sim->colliders); // Old positions imply no velocities.
+    hair_sleep_wake(sim);
+    sim->hair_grid.substeps_done = 0; // The grid's accelerations are for the old rotation of the head.
+    hair_colliders_reset(&sim->colliders); // Old positions imply no velocities.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);
     params.rotation_now = vec4_of_quat(to->rotation);
-    run_over_vertices(sim, hair_sim_turn_pass(sim), &params);
-    hair_sim_show(sim);
+    run_over_vertices(sim, hair_sim_rotate_pass(sim), &params);
+    hair_sim_upload_render_state(sim);
     return HAIR_OK;
 }

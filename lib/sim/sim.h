@@ -4,19 +4,19 @@
 #define HAIR_SIM_SIM_H
 
 #include "lib/base/pose.h"
-#include "lib/collide/cells.h"
-#include "lib/field/forms.h"
+#include "lib/collide/grid.h"
+#include "lib/field/sdf_pool.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/groom.h"
-#include "lib/sim/blow.h"
-#include "lib/sim/crowd.h"
+#include "lib/sim/wind_coupling.h"
+#include "lib/sim/hair_grid.h"
 #include "lib/sim/feedback.h"
 #include "lib/sim/solver_stats.h"
-#include "lib/sim/rod.h"
-#include "lib/sim/skin.h"
+#include "lib/rod/rod.h"
+#include "lib/sim/scalp_motion.h"
 #include "lib/sim/sleep.h"
 #include "lib/sim/pins.h"
-#include "lib/wind/air.h"
+#include "lib/wind/wind_params.h"
 
 #include <stdbool.h>
 
@@ -24,8 +24,8 @@
 // All 0 until an instance first has them.
 struct hair_contacts {
     int any; // 1 if the current step uses this data.
-    struct hair_forms* forms; // Collision meshes of the context.
-    struct hair_cells cells;
+    struct hair_sdf_pool* sdf_pool; // Collision meshes of the context.
+    struct hair_collider_grid grid;
     // Buffers of the colliders and of the grid's cells, and their textures for shaders.
     GLuint collider, collider_texture, cell, cell_texture;
     uint32_t* held; // Places in `forms` of the collision meshes in use.
@@ -61,30 +61,30 @@ struct hair_sim {
     uint32_t rounds; // Rounds of the cyclic reduction before its last.
     struct hair_rods* rods; // NULL under redblack.
     int by_thread; // 1 prefers a thread per guide to a work group per guide.
-    int in_two; // 1 if guides may go through two programs. See main() of glsl/sim/rod.comp.
+    int two_pass; // 1 if guides may go through two programs. See main() of glsl/sim/rod.comp.
     uint32_t list; // Guide list of the last dispatch, 0 or 1. Dispatches alternate between them.
-    int struck; // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    int had_contact; // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
     double last_substep; // Length of the last substep done, s. Displacements are over this time.
     double next_substep; // Length of the current substep, s. 0 if unknown, as after loading.
-    uint32_t longer; // Multiple of the solver's own substep length. 0 until rods are first made.
+    uint32_t substep_scale; // Multiple of the solver's own substep length. 0 until rods are first made.
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
-    uint32_t most_vertices; // Maximum number of vertices of a guide.
+    uint32_t max_vertices; // Maximum number of vertices of a guide.
     uint32_t layout; // Hash of the vertex counts of all guides.
-    double left; // Time since the end of the last substep, s. Shorter than a substep.
+    double accumulator; // Time since the end of the last substep, s. Shorter than a substep.
     struct hair_pose last_before; // Head at the start of the last substep.
     struct hair_pose last_after; // Head at the end of the last substep.
-    struct hair_pose at_step; // Head at the end of the last step.
+    struct hair_pose head_at_last_step; // Head at the end of the last step.
     struct hair_pose head; // Head at the end of the next step.
     float reach; // Upper bound on the distance of guides from the head's origin, m.
     struct hair_colliders colliders;
     struct hair_contacts contacts;
-    struct hair_crowd crowd;
+    struct hair_grid hair_grid;
     struct hair_pins pins;
-    struct hair_air air;
-    struct hair_skin skin;
+    struct hair_wind_state wind_state;
+    struct hair_scalp_motion scalp_motion;
     struct hair_sleep sleep;
-    struct hair_blow blow;
+    struct hair_wind_coupling wind_coupling;
     struct hair_feedback feedback;
     struct hair_diagnosis diagnosis;
 };
@@ -102,7 +102,7 @@ void hair_sim_reset(struct hair_sim* sim);
 // Move sim->head to a pose, and the hair rigidly with it.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
 // Write the step buffer for smooth.comp, with the head where the last step left it.
-void hair_sim_show(struct hair_sim* sim);
+void hair_sim_upload_render_state(struct hair_sim* sim);
 
 // Functions of state.c, which every file of this folder may use.
 
@@ -122,13 +122,13 @@ bool hair_sim_is_stiff(const struct hair_sim* sim);
 // Return the pass that resets the guides. `skinned` is 1 if roots move with a skinned scalp.
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 // Return the pass that turns the guides with a teleported head.
-hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim);
+hair_gl_pass hair_sim_rotate_pass(const struct hair_sim* sim);
 // Return whether roots move with a skinned scalp.
-bool hair_skin_is_on(const struct hair_sim* sim);
+bool hair_scalp_motion_is_on(const struct hair_sim* sim);
 // Bind the scalp motion for the passes that read it.
-void hair_skin_bind(struct hair_sim* sim);
+void hair_scalp_motion_bind(struct hair_sim* sim);
 // Return whether the physics have cohesion or volume, and the solver supports them.
-bool hair_crowd_is_on(const struct hair_sim* sim);
+bool hair_grid_is_on(const struct hair_sim* sim);
 
 // Functions of contacts.c, for collision meshes and for more than HAIR_FEW_COLLIDERS colliders.
 
@@ -136,36 +136,36 @@ bool hair_crowd_is_on(const struct hair_sim* sim);
 bool hair_contacts_are_any(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
 // has been done, and may be negative.
-hair_result hair_contacts_find(struct hair_sim* sim, double dt, float share_start);
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start);
 // Write the parameters that hair_contacts_find() found.
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params);
 void hair_contacts_bind(const struct hair_sim* sim);
 void hair_contacts_free(struct hair_sim* sim);
 
 // Functions of rods.c, for what the solvers of rods need beside the state.
-hair_result hair_sim_make_rods(struct hair_sim* sim, const struct hair_groom* groom);
+hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom);
 // Make the rods again if the physics, the pinned vertices or the substep length need other rods.
-hair_result hair_sim_renew_rods(struct hair_sim* sim);
+hair_result hair_sim_rebuild_rods(struct hair_sim* sim);
 // Return whether the rods must be made again for a changed rate, and for nothing else.
 bool hair_sim_is_other_rate(const struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);
 // Write the parameters of the solvers of rods.
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
 // Return the report on the gravity preload of the guides.
-struct hair_rods_report hair_sim_held(const struct hair_sim* sim);
+struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim);
 
 // Functions of programs.c, which selects the programs and the number of substeps of a dispatch.
 
 // Return whether guides may go through two programs. See main() of glsl/sim/rod.comp.
-bool hair_sim_may_go_in_two(const struct hair_sim* sim);
+bool hair_sim_may_use_two_passes(const struct hair_sim* sim);
 // Compile the solver for the current settings.
-hair_result hair_sim_need_solver(struct hair_sim* sim);
+hair_result hair_sim_ensure_solver(struct hair_sim* sim);
 // Return the guide list of the next dispatch, which empties the other list.
-uint32_t hair_sim_next_list(struct hair_sim* sim);
+uint32_t hair_sim_flip_work_list(struct hair_sim* sim);
 // Run the solver with parameters that have been uploaded.
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params);
 // Compile all programs that a step with the current settings runs.
-hair_result hair_sim_need_programs(struct hair_sim* sim);
+hair_result hair_sim_ensure_programs(struct hair_sim* sim);
 // Return whether a thread solves a guide, and not a work group.
 bool hair_sim_is_by_thread(const struct hair_sim* sim);
 // Return the maximum number of substeps of a dispatch.
@@ -173,14 +173,14 @@ uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim);
 // Return the maximum number of loop iterations for the parts of a substep.
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim);
 
-// Functions of rounds.c.
+// Functions of loop_budget.c.
 
 // Return an upper bound on the loop iterations of a substep on a software rasteriser. `by_thread`
 // is 1 for a thread per guide, and 0 for a work group per guide.
 uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread);
 // Return the bound for a program that tries only the solver's own method, and leaves the rest to
 // another program.
-uint32_t hair_sim_rounds_of_first(const struct hair_sim* sim, int by_thread);
+uint32_t hair_sim_rounds_of_pass1(const struct hair_sim* sim, int by_thread);
 
 // Functions of save.c, for the bytes of the state that the coming motion depends on.
 

@@ -15,24 +15,24 @@
 #define ROUND 3 // Number of measurements in a round.
 // Minimum number of steps from a measurement to the use of its answer. A GPU is at most three
 // frames behind.
-#define LEAST_STEPS 4
+#define MIN_STEPS 4
 // Minimum time from a measurement to the use of its answer, s. A frame may have several steps.
-#define LEAST_TIME 0.1
+#define MIN_TIME 0.1
 #define NEARLY_ALL 0.95 // Maximum of q. 19 times d is then still to go.
 // Minimum duration of a round, relative to the round before, for which the two can be compared.
 // Answers may be late.
 #define LIKE 0.75
 // Time in which hair at the measured speed may not exceed the allowed distance, s.
 #define SPEED_SPAN 0.03
-// Fraction of hair_physics.sleep_threshold that the distance still to go may have. The head may move a
-// quarter. The rest is for motion between measurements.
-#define SHARE 0.5f
-#define HEAD_SHARE 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
+// Fraction of hair_physics.sleep_threshold that the distance still to go may have. The head may
+// move a quarter. The rest is for motion between measurements.
+#define FRACTION 0.5f
+#define HEAD_FRACTION 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 // Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
-// for FIT and MOST_GIVE of contacts.c.
+// for FIT and MAX_SLACK of contacts.c.
 #define AROUND 0.1f
-#define MOST_GROUPS 256
+#define MAX_GROUPS 256
 #define LONGEST_WAIT 1000000000u // Maximum wait of a save, ns. Steps never wait.
 
 #define FIRST 0.2 // Time until the first measurement, s.
@@ -53,15 +53,15 @@ void hair_sleep_free(struct hair_sim* sim)
     struct hair_sleep* sleep = &sim->sleep;
     drop_answer(sim);
     hair_gl_free_buffer(sim->gl, &sleep->anchor);
-    hair_gl_free_buffer(sim->gl, &sleep->stir);
-    hair_gl_free_buffer(sim->gl, &sleep->seen); // Deletion unmaps the buffer.
+    hair_gl_free_buffer(sim->gl, &sleep->activity);
+    hair_gl_free_buffer(sim->gl, &sleep->readback); // Deletion unmaps the buffer.
     hair_gl_free_buffer(sim->gl, &sleep->params);
     sleep->mapped = NULL;
 }
 
-void hair_sleep_stir(struct hair_sim* sim)
+void hair_sleep_wake(struct hair_sim* sim)
 {
-    sim->sleep.stirred = 1;
+    sim->sleep.disturbed = 1;
 }
 
 // Events that disturb hair ------------------------------------------------------------------------
@@ -89,11 +89,11 @@ static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const
         for (int k = 0; k < 3; ++k) at[i].position[k] = (double)ends[i]->position[k];
     }
     hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
-    float most =
+    float max =
         LOOSE * sim->reach + AROUND + sim->physics.collision_margin + radius + 0.5f * hair_length(way);
     hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
-    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_skin_is_on(sim);
-    return !bound || !(hair_length(mid) > most);
+    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_scalp_motion_is_on(sim);
+    return !bound || !(hair_length(mid) > max);
 }
 
 static bool are_alike(const hair_collider* a, const hair_collider* b)
@@ -104,10 +104,10 @@ static bool are_alike(const hair_collider* a, const hair_collider* b)
 static bool has_collider_near(const struct hair_sim* sim)
 {
     const struct hair_colliders* colliders = &sim->colliders;
-    const struct hair_collider_list *now = &colliders->now, *before = &colliders->before;
+    const struct hair_collider_list *now = &colliders->current, *before = &colliders->previous;
     if (!colliders->changed) return false;
     for (uint32_t i = 0; i < now->count; ++i) {
-        const hair_collider* was = hair_colliders_before(colliders, i);
+        const hair_collider* was = hair_colliders_previous(colliders, i);
         int is = was != &now->collider[i] && are_alike(was, &now->collider[i]);
         if (!is && comes_near(sim, was, &now->collider[i])) return true;
     }
@@ -118,52 +118,54 @@ static bool has_collider_near(const struct hair_sim* sim)
     return false;
 }
 
-bool hair_sleep_is_stirred(const struct hair_sim* sim)
+bool hair_sleep_is_disturbed(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    if (sleep->stirred || sim->skin.fresh || sleep->made != sim->gl->made) return true;
+    if (sleep->disturbed || sim->scalp_motion.changed ||
+        sleep->program_generation != sim->gl->program_generation)
+        return true;
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return true;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return true;
     if (hair_wind_is_unsteady(&sim->wind)) return true;
     // Colliders deflect the wind at any distance.
-    if (sim->colliders.changed && sim->air.params &&
-        sim->colliders.now.count + sim->colliders.before.count > 0)
+    if (sim->colliders.changed && sim->wind_state.params &&
+        sim->colliders.current.count + sim->colliders.previous.count > 0)
         return true;
     float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
-    return !(far <= HEAD_SHARE * sim->physics.sleep_threshold) || has_collider_near(sim);
+    return !(far <= HEAD_FRACTION * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
 
 // Restart the calm period under the current conditions.
-static void calm_down(struct hair_sim* sim)
+static void reset_quiet_time(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;
     drop_answer(sim);
     sleep->asleep = 0;
-    sleep->stirred = 0;
-    sleep->calm = 0;
+    sleep->disturbed = 0;
+    sleep->quiet_time = 0;
     sleep->due = FIRST;
-    sleep->looks = 0;
+    sleep->samples = 0;
     sleep->head = sim->head;
     sleep->physics = sim->physics;
     sleep->wind = sim->wind;
-    sleep->made = sim->gl->made;
+    sleep->program_generation = sim->gl->program_generation;
 }
 
 // Measurements ------------------------------------------------------------------------------------
 
-hair_result hair_sleep_make(struct hair_sim* sim)
+hair_result hair_sleep_create(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
     size_t size = sim->guide_vertices * sizeof(hair_vec4);
-    hair_result result = hair_gl_need(gl, HAIR_GL_STIR);
+    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY);
     if (!result && !sleep->anchor) result = hair_gl_storage(gl, "hair anchors", size, NULL, &sleep->anchor);
-    if (!result && !sleep->stir)
-        result = hair_gl_storage(gl, "hair stirring", 4 * sizeof(uint32_t), NULL, &sleep->stir);
+    if (!result && !sleep->activity)
+        result = hair_gl_storage(gl, "hair activity", 4 * sizeof(uint32_t), NULL, &sleep->activity);
     if (!result && !sleep->params)
-        result = hair_gl_uniform(gl, "hair stirring", sizeof(struct hair_stir_params), &sleep->params);
+        result = hair_gl_uniform(gl, "hair activity", sizeof(struct hair_activity_params), &sleep->params);
     if (!result && !sleep->mapped)
-        result = hair_gl_mapped(gl, "hair stirring seen", 4 * sizeof(uint32_t), &sleep->seen,
+        result = hair_gl_mapped(gl, "hair activity readback", 4 * sizeof(uint32_t), &sleep->readback,
                                 (const void**)&sleep->mapped);
     if (result) hair_sleep_free(sim);
     return result;
@@ -173,35 +175,35 @@ static void look(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
-    HAIR_ASSERT(!sleep->fence && !sleep->waits && sleep->turn < 2);
+    HAIR_ASSERT(!sleep->fence && !sleep->waits && sleep->parity < 2);
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
-    struct hair_stir_params params = {.vertices = sim->guide_vertices,
-                                      .turn = sleep->turn,
-                                      .anchors = sleep->looks % ROUND == 0,
-                                      .rate = (float)(1 / sim->last_substep)};
-    GLuint storage[] = {sim->state, sleep->anchor, sleep->stir};
-    GLintptr at = (GLintptr)(2 * sizeof(uint32_t) * sleep->turn);
+    struct hair_activity_params params = {.vertices = sim->guide_vertices,
+                                          .parity = sleep->parity,
+                                          .anchors = sleep->samples % ROUND == 0,
+                                          .rate = (float)(1 / sim->last_substep)};
+    GLuint storage[] = {sim->state, sleep->anchor, sleep->activity};
+    GLintptr at = (GLintptr)(2 * sizeof(uint32_t) * sleep->parity);
     hair_gl_write_uniform(gl, sleep->params, sizeof params, &params);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STIR_PARAMS, 1, &sleep->params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_ACTIVITY_PARAMS, 1, &sleep->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 3, storage);
-    hair_gl_run(gl, HAIR_GL_STIR, groups < MOST_GROUPS ? groups : MOST_GROUPS);
-    gl->CopyNamedBufferSubData(sleep->stir, sleep->seen, at, at, 2 * sizeof(uint32_t));
+    hair_gl_run(gl, HAIR_GL_ACTIVITY, groups < MAX_GROUPS ? groups : MAX_GROUPS);
+    gl->CopyNamedBufferSubData(sleep->activity, sleep->readback, at, at, 2 * sizeof(uint32_t));
     sleep->fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    sleep->due = sleep->calm + gaps[sleep->looks % ROUND];
-    sleep->waits = sleep->looks > 0; // The first has no anchors.
+    sleep->due = sleep->quiet_time + gaps[sleep->samples % ROUND];
+    sleep->waits = sleep->samples > 0; // The first has no anchors.
     sleep->steps = 0;
     sleep->time = 0;
-    ++sleep->looks;
+    ++sleep->samples;
     if (!sleep->waits) {
-        sleep->now = (struct hair_stirring){0, 0};
+        sleep->now = (struct hair_activity){0, 0};
         sleep->before = -1;
-        sleep->since = sleep->calm;
+        sleep->since = sleep->quiet_time;
         drop_answer(sim);
     }
     if (params.anchors) {
         sleep->span_before = sleep->span;
-        sleep->span = sleep->calm - sleep->since;
-        sleep->since = sleep->calm;
+        sleep->span = sleep->quiet_time - sleep->since;
+        sleep->since = sleep->quiet_time;
     }
 }
 
@@ -216,9 +218,9 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
     if (status == GL_TIMEOUT_EXPIRED && wait > 0)
         status = sim->gl->ClientWaitSync(sleep->fence, GL_SYNC_FLUSH_COMMANDS_BIT, wait);
     if (status == GL_TIMEOUT_EXPIRED && wait == 0) return;
-    const float* seen = sleep->mapped + 2 * sleep->turn;
+    const float* seen = sleep->mapped + 2 * sleep->parity;
     int came = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
-    sleep->answer = came ? (struct hair_stirring){seen[0], seen[1]} : (struct hair_stirring){1e9f, 1e9f};
+    sleep->answer = came ? (struct hair_activity){seen[0], seen[1]} : (struct hair_activity){1e9f, 1e9f};
     drop_answer(sim);
     sleep->waits = sleep->known = 1;
 }
@@ -226,7 +228,7 @@ static void read_answer(struct hair_sim* sim, GLuint64 wait)
 static bool has_come_to_rest(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    float may = SHARE * sim->physics.sleep_threshold;
+    float may = FRACTION * sim->physics.sleep_threshold;
     if (sleep->before < 0 || sleep->span < LIKE * sleep->span_before) return false;
     double way = (double)sleep->now.far, q = way > 0 ? fmin(way / (double)sleep->before, NEARLY_ALL) : 0;
     return way * fmax(1, q / (1 - q)) <= (double)may && sleep->now.speed * (float)SPEED_SPAN <= may;
@@ -239,54 +241,54 @@ static void use_answer(struct hair_sim* sim)
     sleep->waits = sleep->known = 0;
     sleep->now.far = fmaxf(sleep->now.far, sleep->answer.far);
     sleep->now.speed = fmaxf(sleep->now.speed, sleep->answer.speed);
-    if ((sleep->looks - 1) % ROUND) return;
+    if ((sleep->samples - 1) % ROUND) return;
     sleep->asleep = has_come_to_rest(sim);
     sleep->before = sleep->now.far;
-    sleep->now = (struct hair_stirring){0, 0};
+    sleep->now = (struct hair_activity){0, 0};
 }
 
 static bool looks_after(const struct hair_sim* sim, double dt)
 {
-    return sim->physics.sleep_threshold > 0 && sim->sleep.calm + dt >= sim->sleep.due;
+    return sim->physics.sleep_threshold > 0 && sim->sleep.quiet_time + dt >= sim->sleep.due;
 }
 
-hair_result hair_sleep_need(struct hair_sim* sim, int stirred, double dt)
+hair_result hair_sleep_ensure(struct hair_sim* sim, int disturbed, double dt)
 {
-    return !stirred && looks_after(sim, dt) ? hair_sleep_make(sim) : HAIR_OK;
+    return !disturbed && looks_after(sim, dt) ? hair_sleep_create(sim) : HAIR_OK;
 }
 
-void hair_sleep_watch(struct hair_sim* sim, int stirred, double dt)
+void hair_sleep_submit_query(struct hair_sim* sim, int disturbed, double dt)
 {
     struct hair_sleep* sleep = &sim->sleep;
-    int looks = looks_after(sim, dt);
-    if (stirred) {
-        calm_down(sim);
+    int samples = looks_after(sim, dt);
+    if (disturbed) {
+        reset_quiet_time(sim);
         return;
     }
-    sleep->calm += dt;
+    sleep->quiet_time += dt;
     ++sleep->steps;
     sleep->time += dt;
-    if (sleep->waits && sleep->steps >= LEAST_STEPS && sleep->time >= LEAST_TIME) {
+    if (sleep->waits && sleep->steps >= MIN_STEPS && sleep->time >= MIN_TIME) {
         read_answer(sim, 0);
         if (sleep->known) use_answer(sim);
     }
-    if (!looks || sleep->waits || sleep->asleep) return;
-    sleep->turn = 1 - sleep->turn;
+    if (!samples || sleep->waits || sleep->asleep) return;
+    sleep->parity = 1 - sleep->parity;
     look(sim);
 }
 
 bool hair_sleep_through(const struct hair_sim* sim)
 {
-    return sim->sleep.asleep && !hair_sleep_is_stirred(sim);
+    return sim->sleep.asleep && !hair_sleep_is_disturbed(sim);
 }
 
 // Saved states ------------------------------------------------------------------------------------
 
-void hair_sleep_settle(struct hair_sim* sim)
+void hair_sleep_resolve_query(struct hair_sim* sim)
 {
-    if (hair_sleep_is_stirred(sim)) {
-        calm_down(sim);
-        hair_sleep_stir(sim);
+    if (hair_sleep_is_disturbed(sim)) {
+        reset_quiet_time(sim);
+        hair_sleep_wake(sim);
     }
     if (sim->sleep.waits) read_answer(sim, LONGEST_WAIT);
 }
@@ -299,5 +301,5 @@ void hair_sleep_load(struct hair_sim* sim, const struct hair_sleep* was)
     sleep->known = sleep->waits;
     sleep->physics = sim->physics;
     sleep->wind = sim->wind;
-    sleep->made = sim->gl->made;
+    sleep->program_generation = sim->gl->program_generation;
 }

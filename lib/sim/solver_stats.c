@@ -1,8 +1,8 @@
 // solver_stats.c - what went wrong in the simulation, and what goes wrong now.
 //
-// Two passes examine the guides. motion.comp runs when hair_get_solver_stats is called, and measures the
-// speed and stretch of guides. energy.comp runs after steps in which nothing does work on the
-// guides, if hair_desc.diagnose is set.
+// Two passes examine the guides. motion.comp runs when hair_get_solver_stats is called, and
+// measures the speed and stretch of guides. energy.comp runs after steps in which nothing does work
+// on the guides, if hair_desc.diagnose is set.
 //
 // A guide is restless if it still moves at the speed v when damping must have calmed it. Let c be
 // the damping, t the time, and L the length of the guide. An oscillation decays at least as exp(-c
@@ -29,7 +29,7 @@ void hair_diagnosis_free(struct hair_sim* sim)
     for (int i = 0; i < 4; ++i) hair_gl_free_buffer(sim->gl, buffers[i]);
 }
 
-void hair_diagnosis_forget(struct hair_sim* sim)
+void hair_diagnosis_reset(struct hair_sim* sim)
 {
     sim->diagnosis.goes_on = 0;
 }
@@ -43,10 +43,10 @@ static hair_gl_pass energy_pass(const struct hair_sim* sim)
 
 // Return whether work can be done on a guide from outside. A skinned scalp and other hair may do
 // work.
-static bool is_driven(const struct hair_sim* sim, int stirred)
+static bool is_driven(const struct hair_sim* sim, int disturbed)
 {
-    return stirred || memcmp(&sim->at_step, &sim->head, sizeof sim->head) != 0 ||
-           hair_wind_is_on(&sim->wind) || hair_crowd_is_on(sim) || hair_skin_is_on(sim);
+    return disturbed || memcmp(&sim->head_at_last_step, &sim->head, sizeof sim->head) != 0 ||
+           hair_wind_is_on(&sim->wind) || hair_grid_is_on(sim) || hair_scalp_motion_is_on(sim);
 }
 
 // Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules
@@ -56,14 +56,14 @@ static bool has_energy(const struct hair_sim* sim)
     return sim->solver == HAIR_SOLVER_DIRECT || sim->solver == HAIR_SOLVER_ACCURATE;
 }
 
-hair_result hair_diagnosis_need(struct hair_sim* sim, int stirred)
+hair_result hair_diagnosis_ensure(struct hair_sim* sim, int disturbed)
 {
     struct hair_diagnosis* d = &sim->diagnosis;
     struct hair_gl* gl = sim->gl;
-    d->watches = d->wanted && has_energy(sim) && !is_driven(sim, stirred);
+    d->watches = d->wanted && has_energy(sim) && !is_driven(sim, disturbed);
     if (!d->watches) d->goes_on = 0;
     if (!d->watches) return HAIR_OK;
-    hair_result result = hair_gl_need(gl, energy_pass(sim));
+    hair_result result = hair_gl_ensure_program(gl, energy_pass(sim));
     if (!result && !d->energy_params)
         result = hair_gl_uniform(gl, "hair energy", sizeof(struct hair_energy_params), &d->energy_params);
     if (!result && !d->energy)
@@ -103,7 +103,7 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
 static float calm_of(const struct hair_sim* sim)
 {
     int rests = sim->physics.root != HAIR_ROOT_FREE && !hair_wind_is_on(&sim->wind);
-    return rests && !sim->sleep.asleep ? (float)sim->sleep.calm : -1;
+    return rests && !sim->sleep.asleep ? (float)sim->sleep.quiet_time : -1;
 }
 
 static struct hair_motion_params motion_params(const struct hair_sim* sim)
@@ -127,7 +127,7 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     struct hair_diagnosis* d = &sim->diagnosis;
     struct hair_gl* gl = sim->gl;
     struct hair_motion_params params = motion_params(sim);
-    hair_result result = hair_gl_need(gl, HAIR_GL_MOTION_OF_GUIDES);
+    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_MOTION_OF_GUIDES);
     if (!result && !d->motion_params)
         result = hair_gl_uniform(gl, "hair motion", sizeof params, &d->motion_params);
     if (!result && !d->found)
@@ -155,7 +155,7 @@ static float float_of(uint32_t bits)
 hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solver_stats)
 {
     uint32_t count[HAIR_SOLVER_STATS_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
-    struct hair_rods_report held = hair_sim_held(sim);
+    struct hair_rods_report held = hair_sim_preload_report(sim);
     hair_result result = find_motion(sim, found);
     if (result) return result;
     sim->gl->GetNamedBufferSubData(sim->solver_stats, 0, sizeof count, count);

@@ -2,9 +2,10 @@
 // file of this folder may use these functions.
 #include "lib/sim/sim.h"
 
-void hair_skin_bind(struct hair_sim* sim)
+void hair_scalp_motion_bind(struct hair_sim* sim)
 {
-    if (hair_skin_is_on(sim)) sim->gl->BindTextureUnit(HAIR_UNIT_RIDE, sim->skin.texture);
+    if (hair_scalp_motion_is_on(sim))
+        sim->gl->BindTextureUnit(HAIR_UNIT_ROOT_TRANSFORM, sim->scalp_motion.texture);
 }
 
 void hair_sim_bind(struct hair_sim* sim)
@@ -13,7 +14,7 @@ void hair_sim_bind(struct hair_sim* sim)
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE, 3, storage);
     sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SOLVER_STATS, 1, &sim->solver_stats);
     sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_STEP, 1, &sim->step);
-    hair_skin_bind(sim);
+    hair_scalp_motion_bind(sim);
 }
 
 void hair_sim_bind_rods(struct hair_sim* sim)
@@ -53,18 +54,18 @@ hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned)
     return pass;
 }
 
-hair_gl_pass hair_sim_turn_pass(const struct hair_sim* sim)
+hair_gl_pass hair_sim_rotate_pass(const struct hair_sim* sim)
 {
-    hair_gl_pass pass = sim->rods ? HAIR_GL_TURN | HAIR_GL_WITH(ROD) : HAIR_GL_TURN;
+    hair_gl_pass pass = sim->rods ? HAIR_GL_ROTATE_STATE | HAIR_GL_WITH(ROD) : HAIR_GL_ROTATE_STATE;
     return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
 }
 
-bool hair_skin_is_on(const struct hair_sim* sim)
+bool hair_scalp_motion_is_on(const struct hair_sim* sim)
 {
-    return sim->skin.ride != 0;
+    return sim->scalp_motion.root_transform != 0;
 }
 
-bool hair_crowd_is_on(const struct hair_sim* sim)
+bool hair_grid_is_on(const struct hair_sim* sim)
 {
     return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 // Maximum number of colliders with a velocity. Colliders with higher numbers count as resting.
-#define MOST_MOVING 65536u
+#define MAX_MOVING 65536u
 #define FASTEST 1000.0f // Maximum speed of a collider, in m/s.
 
 // Making ------------------------------------------------------------------------------------------
@@ -16,11 +16,11 @@ static uint32_t find_levels(struct hair_fluid* fluid)
     struct hair_fluid_level_at at = {.cells = fluid->desc.cells};
     for (fluid->levels = 0;; at.cells /= 2) {
         HAIR_ASSERT(fluid->levels < HAIR_FLUID_LEVELS);
-        HAIR_ASSERT(at.cells % 2 == 0 || at.cells <= HAIR_FLUID_BOTTOM);
+        HAIR_ASSERT(at.cells % 2 == 0 || at.cells <= HAIR_FLUID_COARSEST);
         fluid->level[fluid->levels++] = at;
         at.slot += (at.cells + 1) * (at.cells + 1) * (at.cells + 1);
         at.cell += at.cells * at.cells * at.cells;
-        if (at.cells <= HAIR_FLUID_BOTTOM) break;
+        if (at.cells <= HAIR_FLUID_COARSEST) break;
     }
     fluid->level[fluid->levels] = at;
     return at.slot;
@@ -61,16 +61,17 @@ static hair_result make_all(struct hair_fluid* fluid)
     hair_fluid_method method = fluid->desc.method;
     uint32_t n = fluid->desc.cells, slots, cells;
     const uint32_t size[3] = {n, n, n};
-    hair_result result = hair_fluid_need_programs(gl, method, 0);
+    hair_result result = hair_fluid_ensure_programs(gl, method, 0);
     slots = find_levels(fluid);
     cells = fluid->level[fluid->levels].cell;
     size_t faces = 3 * hair_fluid_slots(fluid);
     for (int i = 0; i < 3 && !result; ++i)
         result = hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
-    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall);
-    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->open);
     if (!result)
-        result = hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->right);
+        result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall_velocity);
+    if (!result)
+        result = hair_fluid_make_buffer(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->face_fraction);
+    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->rhs);
     for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1) && !result; ++i)
         result = hair_fluid_make_buffer(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
     if (!result) result = hair_gl_uniform(gl, "hair fluid", sizeof(struct hair_fluid_params), &fluid->params);
@@ -89,7 +90,7 @@ hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
     if (result)
         hair_fluid_destroy(fluid);
     else
-        hair_fluid_forget(fluid);
+        hair_fluid_reset(fluid);
     return result;
 }
 
@@ -98,9 +99,9 @@ void hair_fluid_destroy(struct hair_fluid* fluid)
     if (!fluid->gl) return;
     for (int i = 0; i < 3; ++i) hair_fluid_free_buffer(fluid, &fluid->velocity[i]);
     for (int i = 0; i < 2; ++i) hair_fluid_free_buffer(fluid, &fluid->pressure[i]);
-    hair_fluid_free_buffer(fluid, &fluid->wall);
-    hair_fluid_free_buffer(fluid, &fluid->open);
-    hair_fluid_free_buffer(fluid, &fluid->right);
+    hair_fluid_free_buffer(fluid, &fluid->wall_velocity);
+    hair_fluid_free_buffer(fluid, &fluid->face_fraction);
+    hair_fluid_free_buffer(fluid, &fluid->rhs);
     hair_fluid_free_hair(fluid);
     hair_gl_free_buffer(fluid->gl, &fluid->params);
     hair_gl_free_buffer(fluid->gl, &fluid->level_params);
@@ -110,11 +111,11 @@ void hair_fluid_destroy(struct hair_fluid* fluid)
     *fluid = (struct hair_fluid){0};
 }
 
-void hair_fluid_forget(struct hair_fluid* fluid)
+void hair_fluid_reset(struct hair_fluid* fluid)
 {
     static const float still[4];
     if (fluid->gl) fluid->gl->ClearTexImage(fluid->air, 0, GL_RGBA, GL_FLOAT, still);
-    fluid->fresh = 1;
+    fluid->is_reset = 1;
 }
 
 // A step ------------------------------------------------------------------------------------------
@@ -139,8 +140,8 @@ static hair_vec3 turn_between(const float before[4], const float now[4])
 
 static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint32_t i)
 {
-    const hair_collider *to = &now->colliders->now.collider[i],
-                        *from = hair_colliders_before(now->colliders, i);
+    const hair_collider *to = &now->colliders->current.collider[i],
+                        *from = hair_colliders_previous(now->colliders, i);
     HAIR_ASSERT(now->colliders_dt > 0);
     float rate = (float)(1 / now->colliders_dt);
     hair_vec3 moved = hair_sub(hair_load3(to->position), hair_load3(from->position));
@@ -156,7 +157,7 @@ static struct hair_fluid_motion motion_of(const struct hair_fluid_now* now, uint
 hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t colliders)
 {
     const hair_host* host = &fluid->gl->host;
-    if (colliders > MOST_MOVING) colliders = MOST_MOVING;
+    if (colliders > MAX_MOVING) colliders = MAX_MOVING;
     if (colliders <= fluid->room) return HAIR_OK;
     struct hair_fluid_motion* motion = hair_alloc(host, colliders, sizeof *motion);
     if (!motion) return hair_fail_memory(host, "the velocities of colliders");
@@ -177,7 +178,7 @@ hair_result hair_fluid_make_room(struct hair_fluid* fluid, uint32_t colliders)
 static void write_motion(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     static const struct hair_fluid_motion still;
-    uint32_t count = now->colliders_dt > 0 ? now->colliders->now.count : 0;
+    uint32_t count = now->colliders_dt > 0 ? now->colliders->current.count : 0;
     int moved = fluid->moving;
     fluid->moving = 0;
     if (count > fluid->room) count = fluid->room;
@@ -199,9 +200,9 @@ static void place_box(struct hair_fluid* fluid, const struct hair_fluid_now* now
     for (int k = 0; k < 3; ++k) {
         double middle = now->head.position[k] + (double)from[k];
         double origin = floor(middle / cell + 0.5) - fluid->desc.cells / 2;
-        double most = 8.0 * fluid->desc.cells; // Farther off, nothing of the old box is left.
-        shift[k] = (float)fmin(fmax(origin - fluid->origin[k], -most), most);
-        if (fluid->fresh) shift[k] = (float)most;
+        double max = 8.0 * fluid->desc.cells; // Farther off, nothing of the old box is left.
+        shift[k] = (float)fmin(fmax(origin - fluid->origin[k], -max), max);
+        if (fluid->is_reset) shift[k] = (float)max;
         fluid->origin[k] = origin;
         lower[k] = (float)(origin * cell - now->head.position[k]);
     }
@@ -232,7 +233,7 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
     write_motion(fluid, now);
     place_box(fluid, now, shift);
     hair_vec3 wind = limited(now->wind);
-    hair_vec3 gain = fluid->fresh ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
+    hair_vec3 gain = fluid->is_reset ? hair_v3(0, 0, 0) : hair_sub(wind, fluid->wind);
     hair_quat q = now->head.rotation;
     struct hair_fluid_params params = {
         .lower = {fluid->lower.x, fluid->lower.y, fluid->lower.z, cell},
@@ -253,23 +254,23 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
     hair_gl_write_uniform(fluid->gl, fluid->params, sizeof params, &params);
     fluid->wind = wind;
     fluid->gusts = now->gusts.texture;
-    fluid->fresh = 0;
+    fluid->is_reset = 0;
     if (moved || !is_as_made(fluid, &params, now->field)) fluid->made_for.cells = 0;
     if (!fluid->made_for.cells) {
-        hair_fluid_open(fluid, now);
+        hair_fluid_find_face_fractions(fluid, now);
         fluid->made_for = params;
         fluid->writes = params.colliders ? now->field->writes : 0;
     }
 }
 
-void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now)
+void hair_fluid_find_face_fractions(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 {
     if (now->field && hair_field_is_near(now->field)) hair_field_bind(now->field);
-    hair_fluid_run(fluid, HAIR_GL_FLUID_OPEN, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    hair_fluid_run(fluid, HAIR_GL_FLUID_FACE_FRACTIONS, 0, 0, (uint32_t)hair_fluid_slots(fluid));
     if (!fluid->hair.grid.buffer) hair_fluid_coarsen(fluid);
 }
 
-void hair_fluid_carry(struct hair_fluid* fluid)
+void hair_fluid_advect(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     hair_fluid_bind(fluid);
@@ -278,7 +279,7 @@ void hair_fluid_carry(struct hair_fluid* fluid)
         gl->BindSampler(HAIR_UNIT_GUST, 0);
     }
     hair_fluid_run(fluid, HAIR_GL_FLUID_ADVECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
-    hair_fluid_run(fluid, HAIR_GL_FLUID_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
+    hair_fluid_run(fluid, HAIR_GL_FLUID_MACCORMACK_CORRECT, 0, 0, (uint32_t)hair_fluid_slots(fluid));
 }
 
 // Publish the next velocities and make them current.
@@ -287,7 +288,7 @@ static void show_next(struct hair_fluid* fluid)
     struct hair_gl* gl = fluid->gl;
     uint32_t n = fluid->desc.cells;
     gl->BindImageTexture(HAIR_IMAGE_AIR, fluid->air, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_RGBA16F);
-    hair_fluid_run(fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, n * n * n);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_EXPORT_VELOCITY, 0, 0, n * n * n);
     // Order these writes before later writes or clears of the texture.
     gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
     fluid->now = (fluid->now + 2) % 3;
@@ -299,7 +300,7 @@ void hair_fluid_project(struct hair_fluid* fluid)
     show_next(fluid);
 }
 
-void hair_fluid_show(struct hair_fluid* fluid)
+void hair_fluid_publish(struct hair_fluid* fluid)
 {
     // The fluid may not have made a step.
     struct hair_fluid_params params = {.cells = fluid->desc.cells};
@@ -316,8 +317,8 @@ void hair_fluid_step(struct hair_fluid* fluid, const struct hair_fluid_now* now)
 
 void hair_fluid_move(struct hair_fluid* fluid)
 {
-    hair_fluid_carry(fluid);
-    if (fluid->hair.grid.buffer) hair_fluid_let_through(fluid);
+    hair_fluid_advect(fluid);
+    if (fluid->hair.grid.buffer) hair_fluid_apply_porosity(fluid);
     hair_fluid_solve(fluid);
     hair_fluid_project(fluid);
 }

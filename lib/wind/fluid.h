@@ -13,7 +13,7 @@
 #include "lib/collide/collider.h"
 #include "lib/field/field.h"
 #include "lib/gl/gl.h"
-#include "lib/wind/air.h"
+#include "lib/wind/wind_params.h"
 
 #define HAIR_FLUID_LEVELS 5 // From 128 cells along an axis to 8.
 // Alignment of ranges in uniform buffers, the maximum that a driver may require.
@@ -48,7 +48,7 @@ struct hair_fluid_buffer {
 struct hair_fluid_hair {
     struct hair_fluid_buffer grid; // Mass and momentum of hair, as in the hair-hair grid.
     // Walls and openness with hair. The fluid's own buffers hold those without hair.
-    struct hair_fluid_buffer wall, open;
+    struct hair_fluid_buffer wall_velocity, face_fraction;
 };
 
 struct hair_fluid_level_at {
@@ -63,13 +63,13 @@ struct hair_fluid {
     // Current, advected and next velocities, in rotating order.
     struct hair_fluid_buffer velocity[3];
     uint32_t now; // Index of the velocities after the last step.
-    struct hair_fluid_buffer wall, open, right;
+    struct hair_fluid_buffer wall_velocity, face_fraction, rhs;
     struct hair_fluid_buffer pressure[2]; // The second exists only for Jacobi.
-    uint32_t pressed; // Index of the newer pressures.
+    uint32_t current_pressure; // Index of the newer pressures.
     struct hair_fluid_hair hair;
     GLuint params, level_params, motion;
     GLuint air; // 3D texture, RGBA16F. Velocity at the centres of cells, in m/s.
-    int fresh; // Nonzero if there is no past. The first step starts with the wind everywhere.
+    int is_reset; // Nonzero if there is no past. The first step starts with the wind everywhere.
     double origin[3]; // Corner of the box, in whole cells from the world's origin.
     hair_vec3 wind; // Wind in the last step.
     GLuint gusts; // Texture of gusts in the last step.
@@ -93,7 +93,7 @@ struct hair_fluid_now {
     struct hair_pose head; // Head at the end of the step.
     hair_vec3 middle; // Centre of the box, in the head's frame.
     hair_vec3 wind; // Velocity of the wind, in m/s.
-    struct hair_air_gusts gusts; // Gusts at the start of the step.
+    struct hair_wind_gusts gusts; // Gusts at the start of the step.
     struct hair_fluid_strands strands;
     double dt; // Duration of the step, in s.
     const struct hair_collider_field* field;
@@ -101,7 +101,7 @@ struct hair_fluid_now {
     double colliders_dt; // Duration of their motion, in s.
 };
 
-hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous);
+hair_result hair_fluid_ensure_programs(struct hair_gl* gl, hair_fluid_method method, int porous);
 
 // Create a fluid. On failure nothing is left.
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
@@ -119,9 +119,9 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
 void hair_fluid_move(struct hair_fluid* fluid);
 
 // Forget the past. The next step is the first.
-void hair_fluid_forget(struct hair_fluid* fluid);
+void hair_fluid_reset(struct hair_fluid* fluid);
 // Publish the current velocities, after other code has written them.
-void hair_fluid_show(struct hair_fluid* fluid);
+void hair_fluid_publish(struct hair_fluid* fluid);
 // Bind the air's velocities at HAIR_UNIT_AIR.
 void hair_fluid_bind(const struct hair_fluid* fluid);
 
@@ -142,17 +142,17 @@ static inline uint32_t hair_fluid_nodes(const struct hair_fluid* fluid)
 
 // Compute how open faces are. hair_fluid_place() writes the inputs of all parts of a step, and
 // calls this if the openness changes.
-void hair_fluid_open(struct hair_fluid* fluid, const struct hair_fluid_now* now);
+void hair_fluid_find_face_fractions(struct hair_fluid* fluid, const struct hair_fluid_now* now);
 // Advect the velocities.
-void hair_fluid_carry(struct hair_fluid* fluid);
+void hair_fluid_advect(struct hair_fluid* fluid);
 // Subtract the pressure gradient and publish the velocities.
 void hair_fluid_project(struct hair_fluid* fluid);
 
 // Create the buffers of hair coupling, or free them if `wanted` is 0. Defined in porous.c.
-hair_result hair_fluid_need_hair(struct hair_fluid* fluid, int wanted);
+hair_result hair_fluid_ensure_hair(struct hair_fluid* fluid, int wanted);
 void hair_fluid_free_hair(struct hair_fluid* fluid);
 // Reduce the openness of faces by hair.
-void hair_fluid_let_through(struct hair_fluid* fluid);
+void hair_fluid_apply_porosity(struct hair_fluid* fluid);
 
 // Compute the pressures that cancel the divergence of cells. Defined in solve.c.
 void hair_fluid_solve(struct hair_fluid* fluid);

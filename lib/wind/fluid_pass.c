@@ -18,35 +18,35 @@ void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* 
 static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
 {
     struct hair_gl* gl = fluid->gl;
-    HAIR_ASSERT(fluid->now < 3 && fluid->pressed < 2);
+    HAIR_ASSERT(fluid->now < 3 && fluid->current_pressure < 2);
     // Advection writes the next velocity buffer, and correction the one after it.
     const struct hair_fluid_buffer *was = &fluid->velocity[fluid->now], *carried, *next;
     carried = &fluid->velocity[(fluid->now + 1) % 3];
     next = &fluid->velocity[(fluid->now + 2) % 3];
     // The first pass computes how open colliders leave faces. All later passes use the openness
     // that hair leaves.
-    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_OPEN;
-    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall : &fluid->wall;
-    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.open : &fluid->open;
-    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_CORRECT;
+    int hairy = fluid->hair.grid.buffer && pass != HAIR_GL_FLUID_FACE_FRACTIONS;
+    const struct hair_fluid_buffer* wall = hairy ? &fluid->hair.wall_velocity : &fluid->wall_velocity;
+    const struct hair_fluid_buffer* open = hairy ? &fluid->hair.face_fraction : &fluid->face_fraction;
+    int early = pass == HAIR_GL_FLUID_ADVECT || pass == HAIR_GL_FLUID_MACCORMACK_CORRECT;
     int jacobi = pass == HAIR_GL_FLUID_JACOBI;
     GLuint write[] = {pass == HAIR_GL_FLUID_ADVECT ? carried->buffer : next->buffer,
                       wall->buffer,
                       open->buffer,
-                      fluid->pressure[jacobi ? 1 - fluid->pressed : fluid->pressed].buffer,
-                      fluid->right.buffer,
+                      fluid->pressure[jacobi ? 1 - fluid->current_pressure : fluid->current_pressure].buffer,
+                      fluid->rhs.buffer,
                       fluid->motion};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_VELOCITY, 6, write);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FLUID, 1, &fluid->params);
     gl->BindTextureUnit(HAIR_UNIT_VELOCITY, early ? was->texture : next->texture);
-    gl->BindTextureUnit(HAIR_UNIT_CARRIED, carried->texture);
-    gl->BindTextureUnit(HAIR_UNIT_OPEN, open->texture);
-    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->pressed].texture);
-    gl->BindTextureUnit(HAIR_UNIT_RIGHT, fluid->right.texture);
-    gl->BindTextureUnit(HAIR_UNIT_WALL, wall->texture);
+    gl->BindTextureUnit(HAIR_UNIT_ADVECTED, carried->texture);
+    gl->BindTextureUnit(HAIR_UNIT_FACE_FRACTION, open->texture);
+    gl->BindTextureUnit(HAIR_UNIT_PRESSURE, fluid->pressure[fluid->current_pressure].texture);
+    gl->BindTextureUnit(HAIR_UNIT_RHS, fluid->rhs.texture);
+    gl->BindTextureUnit(HAIR_UNIT_WALL_VELOCITY, wall->texture);
     if (!hairy) return;
-    gl->BindTextureUnit(HAIR_UNIT_BARE_OPEN, fluid->open.texture);
-    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL, fluid->wall.texture);
+    gl->BindTextureUnit(HAIR_UNIT_BARE_FACE_FRACTION, fluid->face_fraction.texture);
+    gl->BindTextureUnit(HAIR_UNIT_BARE_WALL_VELOCITY, fluid->wall_velocity.texture);
     if (pass == HAIR_GL_FLUID_POROUS) gl->BindTextureUnit(HAIR_UNIT_THICKET, fluid->hair.grid.texture);
 }
 
@@ -59,7 +59,7 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
     bind(fluid, pass);
     fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    if (pass == HAIR_GL_FLUID_JACOBI) fluid->pressed = 1 - fluid->pressed;
+    if (pass == HAIR_GL_FLUID_JACOBI) fluid->current_pressure = 1 - fluid->current_pressure;
 }
 
 void hair_fluid_coarsen(struct hair_fluid* fluid)

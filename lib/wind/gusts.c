@@ -78,14 +78,15 @@ static void transform(struct wave* field)
 // products of each texel with itself and with its neighbours.
 static double mean_square(const struct wave* field)
 {
-    static const double share[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    static const double fraction[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
     double sum = 0;
     for (int i = 0; i < COUNT; ++i) {
         int x = i % N, y = i / N % N, z = i / N / N;
         double near = 0;
         for (int k = 0; k < 27; ++k) {
             int a = (x + k % 3 + N - 1) % N, b = (y + k / 3 % 3 + N - 1) % N, c = (z + k / 9 + N - 1) % N;
-            near += share[k % 3] * share[k / 3 % 3] * share[k / 9] * (double)field[a + N * (b + N * c)].re;
+            near += fraction[k % 3] * fraction[k / 3 % 3] * fraction[k / 9] *
+                    (double)field[a + N * (b + N * c)].re;
         }
         sum += near * (double)field[i].re;
     }

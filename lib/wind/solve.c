@@ -3,7 +3,7 @@
 
 static bool takes(hair_fluid_method method, hair_gl_pass pass)
 {
-    int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_BOTTOM ||
+    int coarse = pass == HAIR_GL_FLUID_RESTRICT || pass == HAIR_GL_FLUID_COARSE_SOLVE ||
                  pass == HAIR_GL_FLUID_PROLONG || pass == HAIR_GL_FLUID_COARSEN;
     if (coarse) return method == HAIR_FLUID_MULTIGRID;
     if (pass >= HAIR_GL_FLUID_CLEAR && pass <= HAIR_GL_FLUID_POROUS) return false;
@@ -11,12 +11,13 @@ static bool takes(hair_fluid_method method, hair_gl_pass pass)
     return pass != HAIR_GL_FLUID_JACOBI || method == HAIR_FLUID_JACOBI;
 }
 
-hair_result hair_fluid_need_programs(struct hair_gl* gl, hair_fluid_method method, int porous)
+hair_result hair_fluid_ensure_programs(struct hair_gl* gl, hair_fluid_method method, int porous)
 {
     hair_result result = HAIR_OK;
-    for (hair_gl_pass pass = HAIR_GL_FLUID_OPEN; pass <= HAIR_GL_FLUID_PUBLISH && !result; ++pass)
-        if (takes(method, pass)) result = hair_gl_need(gl, pass);
-    if (!result && porous) result = hair_gl_need_rows(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
+    for (hair_gl_pass pass = HAIR_GL_FLUID_FACE_FRACTIONS; pass <= HAIR_GL_FLUID_EXPORT_VELOCITY && !result;
+         ++pass)
+        if (takes(method, pass)) result = hair_gl_ensure_program(gl, pass);
+    if (!result && porous) result = hair_gl_ensure_programs(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
     return result;
 }
 
@@ -40,13 +41,13 @@ static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 static void cycle(struct hair_fluid* fluid)
 {
     uint32_t last = fluid->levels - 1;
-    HAIR_ASSERT(fluid->level[last].cells <= HAIR_FLUID_BOTTOM);
+    HAIR_ASSERT(fluid->level[last].cells <= HAIR_FLUID_COARSEST);
     for (uint32_t i = 0; i < last; ++i) {
         sweep(fluid, i, 0);
         hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));
     }
     // One group, whatever its size.
-    hair_fluid_run(fluid, HAIR_GL_FLUID_BOTTOM, last, 0, HAIR_GROUP_SIZE);
+    hair_fluid_run(fluid, HAIR_GL_FLUID_COARSE_SOLVE, last, 0, HAIR_GROUP_SIZE);
     for (uint32_t i = last; i-- > 0;) {
         hair_fluid_run(fluid, HAIR_GL_FLUID_PROLONG, i, 0, cubed(fluid->level[i].cells));
         for (int k = 0; k < 3; ++k) sweep(fluid, i, 1);
@@ -55,7 +56,7 @@ static void cycle(struct hair_fluid* fluid)
 
 void hair_fluid_solve(struct hair_fluid* fluid)
 {
-    fluid->pressed = 0;
+    fluid->current_pressure = 0;
     hair_fluid_run(fluid, HAIR_GL_FLUID_DIVERGENCE, 0, 0, cubed(fluid->desc.cells));
     for (uint32_t i = 0; i < fluid->desc.cycles; ++i) {
         if (fluid->desc.method == HAIR_FLUID_MULTIGRID)

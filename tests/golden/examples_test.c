@@ -24,12 +24,12 @@ static const char* const names[] = {
 
 static void read_ppm(const char* path, uint8_t* pixels)
 {
-    int width = 0, height = 0, most = 0;
+    int width = 0, height = 0, max = 0;
     FILE* file = fopen(path, "rb");
     assert_non_null(file);
-    assert_int_equal(fscanf(file, "P6 %d %d %d", &width, &height, &most), 3);
+    assert_int_equal(fscanf(file, "P6 %d %d %d", &width, &height, &max), 3);
     assert_int_equal(fgetc(file), '\n');
-    assert_true(width == WIDTH && height == HEIGHT && most == 255);
+    assert_true(width == WIDTH && height == HEIGHT && max == 255);
     assert_int_equal(fread(pixels, 3, WIDTH * HEIGHT, file), WIDTH * HEIGHT);
     assert_int_equal(fgetc(file), EOF);
     fclose(file);

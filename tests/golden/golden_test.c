@@ -18,7 +18,7 @@ struct golden {
     const char* name;
     const char* arguments;
     // Range of the fraction of pixels that change when hair is added to the picture.
-    double least_lit, most_lit;
+    double min_lit, max_lit;
 };
 
 // Fewer and wider strands than in the scenes. All strands would take a CPU half a minute, and use
@@ -46,7 +46,7 @@ static void capture(const struct golden* golden, const char* more, const char* o
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-static double lit_share(const uint8_t* with, const uint8_t* without)
+static double lit_fraction(const uint8_t* with, const uint8_t* without)
 {
     size_t lit = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i)
@@ -67,10 +67,10 @@ static void the_picture_is_the_same_as_last_time_and_shows_hair(void** state)
     hair_test_read_png(actual, with, WIDTH, HEIGHT);
     hair_test_read_png(bald, without, WIDTH, HEIGHT);
 
-    double lit = lit_share(with, without);
+    double lit = lit_fraction(with, without);
     print_message("%s: lit %.3f, colours %zu\n", golden->name, lit,
                   hair_test_distinct_colors(with, WIDTH, HEIGHT));
-    assert_true(lit >= golden->least_lit && lit <= golden->most_lit);
+    assert_true(lit >= golden->min_lit && lit <= golden->max_lit);
     assert_true(hair_test_distinct_colors(with, WIDTH, HEIGHT) >= 30);
 
     hair_test_golden(golden->name, with, WIDTH, HEIGHT);

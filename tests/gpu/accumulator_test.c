@@ -10,10 +10,10 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-#define MOST 1024
+#define MAX 1024
 
 struct strands {
-    float guides[3 * MOST], smooth[3 * 2 * MOST];
+    float guides[3 * MAX], smooth[3 * 2 * MAX];
     uint32_t guide_vertices, smooth_vertices;
 };
 
@@ -27,11 +27,11 @@ static hair_instance* make(struct hair_test* test, hair_groom* groom, int way)
 
 static void read(struct hair_test* test, hair_instance* hair, struct strands* out)
 {
-    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, out->guides, MOST, &out->guide_vertices));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, out->guides, MAX, &out->guide_vertices));
     hair_test_ok(test,
-                 hair_read_positions(hair, HAIR_READ_SMOOTH, out->smooth, 2 * MOST, &out->smooth_vertices));
-    assert_in_range(out->guide_vertices, 1, MOST);
-    assert_in_range(out->smooth_vertices, 1, 2 * MOST);
+                 hair_read_positions(hair, HAIR_READ_SMOOTH, out->smooth, 2 * MAX, &out->smooth_vertices));
+    assert_in_range(out->guide_vertices, 1, MAX);
+    assert_in_range(out->smooth_vertices, 1, 2 * MAX);
 }
 
 // Step a new instance from rest under gravity for `time`, and read its strands. The last portion is

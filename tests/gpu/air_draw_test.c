@@ -1,6 +1,6 @@
 // air_draw_test.c - wind drawn by hair_draw: arrows whose length and colour show the speed.
 #include "tests/support/frame.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -78,16 +78,16 @@ static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
     struct hair_test_living living = start(state);
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = SPEED, wind.shelter = 0;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     hair_test_wait(&living, 1);
     for (hair_slice slice = HAIR_SLICE_NONE; slice <= HAIR_SLICE_Z; ++slice) {
         look(&living, slice, &picture);
         struct seen seen = count(&picture, 0, 1, 0, 1);
-        double share = (double)seen.covered / (SIDE * SIDE);
-        print_message("    slice %d: %.3f covered\n", (int)slice, share);
+        double fraction = (double)seen.covered / (SIDE * SIDE);
+        print_message("    slice %d: %.3f covered\n", (int)slice, fraction);
         assert_true(seen.slow == 0 && seen.fast == 0);
         if (slice == HAIR_SLICE_X) continue; // The wind is perpendicular to this slice.
-        assert_true(fabs(share - 0.125) < 0.03);
+        assert_true(fabs(fraction - 0.125) < 0.03);
     }
     hair_test_die(&living);
 }
@@ -102,7 +102,7 @@ static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
         ball.size[0] = 0.03f;
         wind.model = (hair_wind_model)model, wind.velocity[0] = SPEED;
         hair_test_set_colliders(&living, &ball, 1);
-        hair_test_blow(&living, &wind);
+        hair_test_wind_coupling(&living, &wind);
         hair_test_wait(&living, model ? 12 : 1);
         look(&living, HAIR_SLICE_Z, &picture);
         struct seen before = count(&picture, 0, 0.2, 0.45, 0.55),
@@ -124,13 +124,13 @@ static void nothing_is_seen_where_no_step_had_wind(void** state)
     wind.velocity[0] = SPEED;
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);
-    hair_test_blow(&living, &wind); // The wind is drawn only after a step has used it.
+    hair_test_wind_coupling(&living, &wind); // The wind is drawn only after a step has used it.
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);
     hair_test_wait(&living, 1);
     look(&living, HAIR_SLICE_Z, &picture);
     assert_true(count(&picture, 0, 1, 0, 1).covered > 0);
-    hair_test_blow(&living, NULL);
+    hair_test_wind_coupling(&living, NULL);
     hair_test_wait(&living, 1);
     look(&living, HAIR_SLICE_Z, &picture);
     assert_int_equal(count(&picture, 0, 1, 0, 1).covered, 0);

@@ -1,13 +1,13 @@
 // air_test.c - the motion of the wind: gusts, shelter, sources, and the application's texture.
 // Short light strands that move with the wind measure it.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "lib/api/api.h"
-#include "lib/reference/air.h"
+#include "tests/reference/air.h"
 #include "tests/support/motion.h"
 
 #define STEP (1.0 / 270) // Four substeps.
@@ -26,7 +26,7 @@ static struct hair_test_living tracers(struct hair_test* test, const hair_vec3* 
     hair_test_live(test, &strands, &desc, &living);
     hair_test_strands_free(&strands);
     // A radius of 0 removes the sphere of the head, which roots determine.
-    living.hair->sim.air.ball.w = 0;
+    living.hair->sim.wind_state.ball.w = 0;
     return living;
 }
 
@@ -67,7 +67,7 @@ static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
             i % 2 ? hair_add(at[i - 1], hair_v3(0.05f, 0, 0))
                   : hair_v3(10 * hair_random(&random), 10 * hair_random(&random), 10 * hair_random(&random));
     struct hair_test_living living = tracers(*state, at, COUNT);
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     measure(&living);
     double square = 0, alike = 0, far = 0;
     for (uint32_t i = 0; i < COUNT; ++i) {
@@ -89,7 +89,7 @@ static void place_in_gusts(const struct hair_test_living* living, const double w
 {
     struct hair_wind_params params;
     const struct hair_sim* sim = &living->hair->sim;
-    glGetNamedBufferSubData(sim->air.params, 0, sizeof params, &params);
+    glGetNamedBufferSubData(sim->wind_state.params, 0, sizeof params, &params);
     hair_quat turn = {params.gust_turn.x, params.gust_turn.y, params.gust_turn.z, params.gust_turn.w};
     hair_vec3 from = hair_v3((float)(world[0] - sim->last_after.position[0]),
                              (float)(world[1] - sim->last_after.position[1]),
@@ -109,14 +109,14 @@ static void gusts_go_with_the_wind(void** state)
     double start[3], end[3], world[3] = {0.3, 0.1, -0.2};
     wind.turbulence_intensity = 0.2f;
     wind.velocity[0] = 2, wind.velocity[1] = -1;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     hair_test_advance(&living, NULL, STEP);
     place_in_gusts(&living, world, start);
     for (int k = 0; k < 30; ++k) {
         struct hair_reference_rod_pose head =
             hair_test_pose_of(hair_v3(0.1f * (float)k, 0, 0), hair_v3(0, 1, 0), 0.1 * k);
         if (k == 15) wind.velocity[0] = 0, wind.velocity[2] = 5;
-        hair_test_blow(&living, &wind);
+        hair_test_wind_coupling(&living, &wind);
         hair_test_advance(&living, &head, k % 2 ? STEP : 3 * STEP);
         for (int c = 0; c < 3; ++c) world[c] += (double)wind.velocity[c] * (k % 2 ? STEP : 3 * STEP);
     }
@@ -132,32 +132,32 @@ static void a_ball_shelters_what_is_behind_it(void** state)
     struct hair_test_living living = tracers(*state, at, 8);
     hair_wind wind = hair_wind_default();
     hair_collider ball = hair_test_body(HAIR_SHAPE_SPHERE, 0, 0, 0);
-    double share[8];
+    double fraction[8];
     ball.size[0] = 0.1f;
     wind.velocity[2] = 1;
     hair_test_set_colliders(&living, &ball, 1);
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     measure(&living);
     for (uint32_t i = 0; i < 8; ++i) {
         hair_vec3 middle = hair_add(hair_test_at(&living, i, 0), hair_load3(living.before + 6 * (size_t)i));
         const double one[3] = {0, 0, 1},
                      place[3] = {5 * (double)middle.x, 5 * (double)middle.y, 5 * (double)middle.z};
         double twin[3];
-        share[i] = (double)speed_of(&living, i).z;
+        fraction[i] = (double)speed_of(&living, i).z;
         hair_reference_around_ball(one, place, twin);
         if (i > 0)
             expect(speed_of(&living, i), twin[0], twin[1], twin[2],
                    0.02); // The first point is at the ball's margin.
         print_message("    at (%g, %g, %g) m: %.3f of the wind\n", (double)at[i].x, (double)at[i].y,
-                      (double)at[i].z, share[i]);
+                      (double)at[i].z, fraction[i]);
     }
     // At the ball's margin, and before the ball.
-    assert_true(fabs(share[0]) < 0.05 && share[1] > 0.97);
-    assert_true(share[2] > 1.1 && share[3] > 1); // Beside the ball.
-    assert_true(share[4] < 0.1 && share[5] < 0.4 && share[6] < 0.9 && share[6] > share[5]);
-    assert_true(share[7] > 0.9);
+    assert_true(fabs(fraction[0]) < 0.05 && fraction[1] > 0.97);
+    assert_true(fraction[2] > 1.1 && fraction[3] > 1); // Beside the ball.
+    assert_true(fraction[4] < 0.1 && fraction[5] < 0.4 && fraction[6] < 0.9 && fraction[6] > fraction[5]);
+    assert_true(fraction[7] > 0.9);
     wind.shelter = 0;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     measure(&living);
     for (uint32_t i = 1; i < 8; ++i) assert_true(fabs((double)speed_of(&living, i).z - 1) < 0.02);
     hair_test_die(&living);
@@ -174,7 +174,7 @@ static void sources_blow_as_they_say(void** state)
     sources[1].direction[2] = 7;
     wind.sources = sources;
     wind.source_count = 2;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     sources[0].speed = 1000; // The library has copied the sources.
     measure(&living);
     expect(speed_of(&living, 0), 0, 0, 4 * 0.04, 0.01);
@@ -207,17 +207,17 @@ static void the_applications_own_wind_blows_where_it_is_finite(void** state)
     hair_wind wind = hair_wind_default();
     for (int k = 0; k < 3; ++k) wind.texture_transform[5 * k] = 0.5f; // Maps a box from 0 to 2 m.
     wind.texture = sound;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     measure(&living);
     expect(speed_of(&living, 0), 1, -2, 3, 0.01);
     expect(speed_of(&living, 1), 0, 0, 0, 0.01);
     wind.texture = broken;
     wind.velocity[0] = 1;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     measure(&living);
     expect(speed_of(&living, 0), 1, 0, 0, 0.01);
     wind.texture = sound;
-    hair_test_blow(&living, &wind);
+    hair_test_wind_coupling(&living, &wind);
     glDeleteTextures(1, &sound);
     // The flag must hold no OpenGL error afterwards, which the end of every test checks.
     measure(&living);
@@ -259,12 +259,12 @@ static void gusts_go_on_from_a_saved_state(void** state)
     struct hair_test_living first = tracers(*state, at, 2), second = tracers(*state, at, 2);
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 3, wind.turbulence_intensity = 0.5f;
-    hair_test_blow(&first, &wind);
+    hair_test_wind_coupling(&first, &wind);
     hair_test_wait(&first, 7);
     struct hair_test_blob blob = hair_test_save(*state, first.hair);
     hair_test_wait(&first, 5);
     hair_test_wait(&second, 2);
-    hair_test_blow(&second, &wind);
+    hair_test_wind_coupling(&second, &wind);
     hair_test_ok(*state, hair_load(second.hair, blob.bytes, blob.size));
     hair_test_wait(&second, 5);
     hair_test_read_guides(&first);

@@ -169,7 +169,7 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
         struct fixture* f = start(state);
-        double sum[2] = {0}, most = 0, least = 1;
+        double sum[2] = {0}, max = 0, min = 1;
         uint32_t count[2] = {0};
         shade_by(f, through_glsl);
         set_look(f, (hair_self_shadow)shadow, HAIR_SHADING_FIBRES);
@@ -183,15 +183,15 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
                 double behind = (double)PLATE - ((double)pixel[3] - 1), through = (double)pixel[0];
                 if (pixel[3] <= 0) continue;
                 if (behind > 0.004 + 1e-4 && behind < 0.006) sum[body] += through, ++count[body];
-                if (body && behind > (double)BIAS + 1e-4) most = fmax(most, through);
-                if (body && behind < (double)BIAS - 1e-4 && behind > 0) least = fmin(least, through);
+                if (body && behind > (double)BIAS + 1e-4) max = fmax(max, through);
+                if (body && behind < (double)BIAS - 1e-4 && behind > 0) min = fmin(min, through);
             }
         }
         print_message("    5 mm behind a plate: %.4f by the map of hair, %.4f by that of bodies\n",
                       sum[0] / count[0], sum[1] / count[1]);
         assert_true(count[0] > 20 && count[1] > 20);
-        hair_test_near("beyond the bias", 0, most, 0, 0);
-        assert_true(least > 0.5); // Within the bias, all light that hair lets through remains.
+        hair_test_near("beyond the bias", 0, max, 0, 0);
+        assert_true(min > 0.5); // Within the bias, all light that hair lets through remains.
         if (shadow == HAIR_SELF_SHADOW_DEPTH) hair_test_near("as hair", 0, sum[0] / count[0], exp(-1), 0.06);
         finish(f);
     }
@@ -296,19 +296,19 @@ static void without_bodies_no_program_knows_of_them(void** state)
 {
     struct fixture* f = start(state);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
-    uint32_t known = count_passes(f, "blocked");
+    uint32_t known = count_passes(f, "opaque_shadows");
     f->view.render_path = HAIR_RENDER_PATH_CACHED;
     draw(f, 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
-    assert_int_equal(count_passes(f, "blocked"), known);
+    assert_int_equal(count_passes(f, "opaque_shadows"), known);
     f->light[0].opaque_shadow_map = f->map[0];
     draw(f, 1);
-    assert_int_equal(count_passes(f, "blocked"), known + 1);
+    assert_int_equal(count_passes(f, "opaque_shadows"), known + 1);
     hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
     assert_int_equal(before.bytes, after.bytes);
     f->view.pass = HAIR_PASS_DEPTH; // This pass has no light.
     draw(f, 1);
-    assert_int_equal(count_passes(f, "blocked"), known + 1);
+    assert_int_equal(count_passes(f, "opaque_shadows"), known + 1);
     finish(f);
 }
 

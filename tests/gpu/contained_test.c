@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST 256 // Maximum number of guide vertices.
+#define MAX 256 // Maximum number of guide vertices.
 
 // A number in the state to overwrite with an invalid value.
 struct wound {
@@ -64,7 +64,7 @@ static void step(struct hair_test* test, hair_instance* hair, int number)
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
 }
 
-static void read(hair_instance* hair, struct hair_state state[MOST])
+static void read(hair_instance* hair, struct hair_state state[MAX])
 {
     glGetNamedBufferSubData(hair->sim.state, 0, (GLsizeiptr)(hair->sim.guide_vertices * sizeof *state),
                             state);
@@ -79,7 +79,7 @@ static hair_solver_stats solver_stats_of(struct hair_test* test, hair_instance* 
 
 static void check_finite(GLuint buffer, const struct wound* wound)
 {
-    static float number[8 * MOST];
+    static float number[8 * MAX];
     GLint64 size = 0;
     if (!buffer) return;
     glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
@@ -94,7 +94,7 @@ static void check_finite(GLuint buffer, const struct wound* wound)
 static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, uint32_t colliders,
                      const struct wound* wound, float value)
 {
-    static struct hair_state sound[MOST], hurt[MOST];
+    static struct hair_state sound[MAX], hurt[MAX];
     const struct hair_guide* guide = &groom->guides[HURT];
     hair_instance* hair[2];
     for (int i = 0; i < 2; ++i) {

@@ -11,7 +11,7 @@
 #include "tests/support/handmade.h"
 #include "tests/support/trace.h"
 
-enum { SIZE = 48, MOST = 4096 };
+enum { SIZE = 48, MAX = 4096 };
 
 struct fixture {
     struct hair_test* test;
@@ -111,14 +111,14 @@ static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
 // and mostly culled if it is wholly out of view.
 static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void** state)
 {
-    static float at[3 * MOST];
+    static float at[3 * MAX];
     struct fixture f = start(state);
     uint32_t random = 3, count, unseen = 0, culled = 0, wrong = 0;
     hair_view view = hair_view_default();
     const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
     hair_test_ok(f.test, hair_teleport(f.hair, head));
-    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, at, MOST, &count));
-    assert_in_range(count, 100, MOST);
+    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, at, MAX, &count));
+    assert_in_range(count, 100, MAX);
     for (int i = 0; i < 800; ++i) {
         float away = i % 5 ? 1.5f : 0.2f;
         hair_vec3 eye, way;
@@ -186,9 +186,9 @@ static void read(struct fixture* f, const hair_view* view, float* pixels)
 
 static float differ(const float* a, const float* b)
 {
-    float most = 0;
-    for (int i = 0; i < 4 * SIZE * SIZE; ++i) most = fmaxf(most, fabsf(a[i] - b[i]));
-    return most;
+    float max = 0;
+    for (int i = 0; i < 4 * SIZE * SIZE; ++i) max = fmaxf(max, fabsf(a[i] - b[i]));
+    return max;
 }
 
 // Compare the picture with one for which everything is computed anew.
@@ -214,8 +214,8 @@ static void what_has_not_changed_is_not_listed_again(void** state)
         hair_test_trace_clear();
         read(&f, &view, kept);
         if (i != 0 && i != 7) assert_int_equal(hair_test_trace_count("glDispatch"), dispatches[i]);
-        if (f.hair->draw.listed.of) f.hair->draw.listed.of->made = 0;
-        ++f.hair->draw.hits.met;
+        if (f.hair->draw.strand_list.key) f.hair->draw.strand_list.key->program_generation = 0;
+        ++f.hair->draw.follower_collision.generation;
         read(&f, &view, anew);
         assert_true(differ(kept, anew) == 0);
     }

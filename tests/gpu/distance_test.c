@@ -35,8 +35,8 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
                                "    found[i] = vec4(gradient, distance);\n"
                                "}\n";
     struct hair_gl_source source;
-    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "collider_distance.glsl", "", &source),
-                     HAIR_OK);
+    assert_int_equal(
+        hair_gl_read_source(&test->host.host, NULL, "collide/collider_distance.glsl", "", &source), HAIR_OK);
     const char* text[] = {"#version 450 core\n", source.text, rest};
     GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text), buffer[2];
     hair_free(&test->host.host, source.text);
@@ -62,7 +62,7 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
     static float points[POINTS][4], found[POINTS][4];
     uint32_t seed = 7;
     for (uint32_t shape = 0; shape < SHAPES; ++shape) {
-        double most = 0, turned = 0;
+        double max = 0, turned = 0;
         for (int i = 0; i < POINTS; ++i) any_point(&seed, points[i]);
         // One point is in the middle, and one on the axis.
         for (int k = 0; k < 4; ++k) points[0][k] = 0;
@@ -71,7 +71,7 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
         for (int i = 0; i < POINTS; ++i) {
             double p[3] = {(double)points[i][0], (double)points[i][1], (double)points[i][2]}, n[3], off = 0;
             double distance = hair_distance_to_shape((hair_shape)shape, size, p, n);
-            most = fmax(most, fabs(distance - (double)found[i][3]));
+            max = fmax(max, fabs(distance - (double)found[i][3]));
             for (int k = 0; k < 3; ++k) off += pow(n[k] - (double)found[i][k], 2);
             if (off < 1e-6) continue;
             ++turned;
@@ -79,9 +79,9 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
             double grown = hair_distance_to_shape((hair_shape)shape, size, p, NULL) - distance;
             hair_test_near(names[shape], (size_t)i, grown, 1e-4, 2e-6);
         }
-        print_message("    %s: off by up to %.2g, %g of %d gradients are others\n", names[shape], most,
-                      turned, POINTS);
-        assert_true(most < 5e-7);
+        print_message("    %s: off by up to %.2g, %g of %d gradients are others\n", names[shape], max, turned,
+                      POINTS);
+        assert_true(max < 5e-7);
         assert_true(turned < 0.01 * POINTS);
     }
 }

@@ -178,7 +178,7 @@ struct subject {
     const char* name;
     hair_result (*use)(struct user*, void*);
     void (*init)(void*);
-    struct hair_fields fields;
+    struct hair_schema fields;
 };
 
 #define SUBJECT(S)                                                                                           \
@@ -199,7 +199,7 @@ SUBJECT(hair_style_desc)
 
 #define SUBJECT(S)                                                                                           \
     {                                                                                                        \
-#S, use_##S, init_##S, hair_fields_of_##S()                                                          \
+#S, use_##S, init_##S, hair_schema_of_##S()                                                          \
     }
 
 // Return whether the test replaces 0 by a valid value. Only strand_count is replaced.
@@ -213,7 +213,7 @@ static void check_field(struct user* user, const struct subject* subject, const 
     _Alignas(16) unsigned char desc[1024];
     double wrong[6] = {NAN};
     int count = 0;
-    if (field->type == HAIR_FIELD_FLOAT) {
+    if (field->type == HAIR_SCHEMA_FLOAT) {
         wrong[count++] = NAN;
         wrong[count++] = INFINITY;
         wrong[count++] = -INFINITY;
@@ -226,7 +226,7 @@ static void check_field(struct user* user, const struct subject* subject, const 
     }
     for (int i = 0; i < count; ++i) {
         subject->init(desc);
-        if (field->type == HAIR_FIELD_FLOAT) {
+        if (field->type == HAIR_SCHEMA_FLOAT) {
             float value = (float)wrong[i];
             memcpy(desc + field->offset, &value, sizeof value);
         } else {
@@ -273,14 +273,14 @@ static void check_ends(struct user* user, const struct subject* subject)
     for (uint32_t i = 0; i < subject->fields.count; ++i) {
         const struct hair_field* field = &subject->fields.field[i];
         if (strchr(field->name, '[') && field->max > 1e30) continue;
-        if (field->type == HAIR_FIELD_UINT && field->max > 4096)
+        if (field->type == HAIR_SCHEMA_UINT && field->max > 4096)
             continue; // These fields are counts of arrays, which the desc does not have.
         for (int end = 0; end < 2; ++end) {
             subject->init(desc);
             double value = end ? field->max : field->min;
             float real = (float)value;
             uint32_t whole = (uint32_t)value;
-            memcpy(desc + field->offset, field->type == HAIR_FIELD_FLOAT ? (void*)&real : (void*)&whole, 4);
+            memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
             if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
                 whole == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
                 ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
@@ -415,8 +415,8 @@ static void wrong_colliders_are_named_and_change_nothing(void** state)
         hair_collider two[2] = {good, wrong[i].collider};
         two[0].size[0] = 0.3f;
         refused(test, hair_set_colliders(hair, two, 2, sizeof good), HAIR_ERROR_ARGUMENT, wrong[i].words);
-        assert_int_equal(hair->sim.colliders.now.count, 1);
-        assert_memory_equal(&hair->sim.colliders.now.collider[0], &good, sizeof good);
+        assert_int_equal(hair->sim.colliders.current.count, 1);
+        assert_memory_equal(&hair->sim.colliders.current.collider[0], &good, sizeof good);
     }
     drop(hair, groom);
 }

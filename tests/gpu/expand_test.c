@@ -8,7 +8,7 @@
 #include "lib/api/api.h"
 #include "lib/base/math.h"
 #include "lib/draw/params.h"
-#include "lib/reference/reference.h"
+#include "tests/reference/reference.h"
 #include "tests/support/handmade.h"
 
 #define STATES 1024
@@ -29,7 +29,7 @@ static struct fixture start(void** state)
     hair_desc desc = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
     uint32_t random = 99;
-    wanted.fewest = 5, wanted.most = 30, wanted.guides = 26, wanted.followers = 200;
+    wanted.fewest = 5, wanted.max = 30, wanted.guides = 26, wanted.followers = 200;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     hair_test_scatter(f.groom, 0.001f, 0, &random, vertices);
@@ -41,7 +41,7 @@ static struct fixture start(void** state)
     hair_smooth_run(&f.hair->smooth, &f.hair->sim);
     hair_gl_leave(gl);
 
-    uint32_t each = 2 * f.groom->most_vertices - 1;
+    uint32_t each = 2 * f.groom->max_vertices - 1;
     struct hair_step_params params = {.smooth_vertices = each,
                                       .rotation_before = {0, 0, 0, 1},
                                       .rotation_after = {0, 0, 0, 1},
@@ -81,14 +81,14 @@ static void compare(struct fixture* f, const hair_look* look)
     double worst = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
-    hair_result result = hair_draw_read_expanded(&f->hair->draw, &f->hair->smooth, &vertices);
+    hair_result result = hair_draw_read_vertex_cache(&f->hair->draw, &f->hair->smooth, &vertices);
     hair_gl_leave(gl);
     hair_test_ok(f->test, result);
     for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
         struct hair_reference_point expected;
         double t = (double)(i % (look->segments + 1)) / look->segments;
         hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
-                                2 * f->groom->most_vertices - 1, f->samples, t, NULL, &expected);
+                                2 * f->groom->max_vertices - 1, f->samples, t, NULL, &expected);
         hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
         hair_test_near("y", i, vertices[i].y, expected.position[1], TOLERANCE);
         hair_test_near("z", i, vertices[i].z, expected.position[2], TOLERANCE);
@@ -112,15 +112,15 @@ static void followers_are_where_the_reference_has_them(void** state)
     finish(&f);
 }
 
-static float between(uint32_t* random, float least, float most)
+static float between(uint32_t* random, float min, float max)
 {
-    return least + (most - least) * hair_random(random);
+    return min + (max - min) * hair_random(random);
 }
 
-static hair_curve any_curve(uint32_t* random, float most)
+static hair_curve any_curve(uint32_t* random, float max)
 {
     hair_curve curve;
-    for (int i = 0; i < 8; ++i) curve.at[i] = between(random, 0, most);
+    for (int i = 0; i < 8; ++i) curve.at[i] = between(random, 0, max);
     return curve;
 }
 
@@ -168,7 +168,7 @@ static void any_look_is_as_in_the_reference(void** state)
     finish(&f);
 }
 
-// Link a program that computes the tangents of evaluate.glsl, which draws use.
+// Link a program that computes the tangents of strands/evaluate.glsl, which draws use.
 static GLuint link_tangents(const struct fixture* f)
 {
     static const char main[] =
@@ -183,7 +183,8 @@ static GLuint link_tangents(const struct fixture* f)
         "}\n";
     struct hair_gl_source source;
     GLint linked = 0;
-    assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "evaluate.glsl", "", &source), HAIR_OK);
+    assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "strands/evaluate.glsl", "", &source),
+                     HAIR_OK);
     const char* text[] = {"#version 450 core\n#define HAIR_STYLED 1\n", source.text, main};
     GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
@@ -217,7 +218,7 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_reference_point expected;
         hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
-                                2 * f->groom->most_vertices - 1, f->samples,
+                                2 * f->groom->max_vertices - 1, f->samples,
                                 (double)(i % (look->segments + 1)) / look->segments, NULL, &expected);
         double off[3] = {(double)got[i].x - expected.tangent[0], (double)got[i].y - expected.tangent[1],
                          (double)got[i].z - expected.tangent[2]};

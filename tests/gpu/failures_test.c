@@ -165,7 +165,7 @@ static void a_reload_finds_it(struct hair_test* test, struct broken* b)
     assert_int_equal(hair_context_reload(b->context), HAIR_ERROR_OPENGL);
     hair_test_forgive(test);
     hair_test_ok(test, hair_step(b->hair, 1.0f / 60));
-    wanted.fewest = wanted.most = 33;
+    wanted.fewest = wanted.max = 33;
     hair_groom* longer = hair_test_groom(&test->host.host, wanted);
     assert_int_equal(hair_create(b->context, longer, &b->desc, &other), HAIR_ERROR_OPENGL);
     assert_null(other);

@@ -20,7 +20,7 @@ static struct fixture start(void** state, const hair_physics* physics)
 {
     struct fixture f = {.test = *state};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.fewest = 2, wanted.most = 41, wanted.guides = 40;
+    wanted.fewest = 2, wanted.max = 41, wanted.guides = 40;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     f.vertices = f.groom->info.guide_vertex_count;
     for (uint32_t i = 0; i < wanted.guides; ++i)

@@ -45,7 +45,7 @@ static void light_everywhere(struct hair_test* test, const struct hair_fibre* fi
     hair_fibre_fill(fibre, table);
     hair_fibre_variances(fibre->along, variance);
     params.fibre = (hair_vec4){variance[0], 0, tilt, 0};
-    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "fibre.glsl", "", &source), HAIR_OK);
+    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "light/fibre.glsl", "", &source), HAIR_OK);
     const char* text[] = {"#version 450 core\n", source.text, text_of_sums};
     GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     hair_free(&test->host.host, source.text);
@@ -85,13 +85,13 @@ static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
     for (int r = 0; r < 4; ++r) {
         struct hair_fibre fibre = {0.3f, along[r], 1.55f};
         float found[EYES][4];
-        double most = 0;
+        double max = 0;
         light_everywhere(*state, &fibre, 0, found);
         for (int i = 0; i < EYES; ++i) {
-            most = fmax(most, fabs((double)found[i][0] - 1));
+            max = fmax(max, fabs((double)found[i][0] - 1));
             hair_test_near("radiance", (size_t)i, (double)found[i][0], 1, 0.01);
         }
-        print_message("    roughness %g: off by up to %.2g\n", (double)along[r], most);
+        print_message("    roughness %g: off by up to %.2g\n", (double)along[r], max);
     }
 }
 

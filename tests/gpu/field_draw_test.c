@@ -88,18 +88,18 @@ static void find_ray(int i, double way[3])
 // at z = *meets.
 static double march(const double way[3], double from, double* meets)
 {
-    double least = INFINITY;
+    double min = INFINITY;
     for (double t = from; t < 1.5; t += 0.0005) {
         const double p[3] = {way[0] * t, way[1] * t, way[2] * t};
         uint32_t number;
         double distance = hair_test_nearest(f.colliders, COLLIDERS, p, &number);
-        if (distance < least) least = distance;
+        if (distance < min) min = distance;
         if (distance < 0) {
             *meets = -t;
             return distance;
         }
     }
-    return least;
+    return min;
 }
 
 static double depth_at(double z)

@@ -24,9 +24,9 @@ struct fixture {
     uint32_t random;
 };
 
-static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mesh mesh)
+static hair_collision_mesh* mesh_of(struct hair_test* test, struct hair_test_mesh mesh)
 {
-    hair_collision_mesh* form = NULL;
+    hair_collision_mesh* collision_mesh = NULL;
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &test->host.host;
     desc.positions = mesh.positions;
@@ -34,9 +34,9 @@ static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mes
     desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution = 40;
-    hair_test_ok(test, hair_collision_mesh_create(&desc, &form));
+    hair_test_ok(test, hair_collision_mesh_create(&desc, &collision_mesh));
     hair_test_mesh_free(&mesh);
-    return form;
+    return collision_mesh;
 }
 
 // Make overlapping colliders. Every other collider is a collision mesh.
@@ -45,9 +45,9 @@ static void begin(struct hair_test* test, struct fixture* out)
     static const float half[] = {0.05f, 0.08f, 0.03f};
     *out = (struct fixture){.test = test, .random = 3};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    out->forms[0] = form_of(test, hair_test_ball_mesh(0.1f, 24, 48));
-    out->forms[1] = form_of(test, hair_test_box_mesh(half));
-    hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
+    out->forms[0] = mesh_of(test, hair_test_ball_mesh(0.1f, 24, 48));
+    out->forms[1] = mesh_of(test, hair_test_box_mesh(half));
+    hair_field_create(&out->field, &test->context->sdf_pool, out->groom, VOXEL);
     for (int i = 0; i < COLLIDERS; ++i) {
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
         if (i % 2) continue;
@@ -60,8 +60,8 @@ static void begin(struct hair_test* test, struct fixture* out)
 static void end(struct fixture* f)
 {
     hair_field_destroy(&f->field);
-    assert_null(f->test->context->forms.pooled);
-    assert_int_equal(f->test->context->forms.nodes, 0);
+    assert_null(f->test->context->sdf_pool.pooled);
+    assert_int_equal(f->test->context->sdf_pool.nodes, 0);
     hair_collision_mesh_destroy(f->forms[0]);
     hair_collision_mesh_destroy(f->forms[1]);
     hair_groom_destroy(f->groom);
@@ -75,8 +75,8 @@ static void update(struct fixture* f)
 static void check_voxels(struct fixture* f)
 {
     struct hair_test_field read = hair_test_field_read(&f->field);
-    double most = 0, voxel = (double)f->field.box.voxel;
-    size_t of_forms = 0;
+    double max = 0, voxel = (double)f->field.box.voxel;
+    size_t of_meshes = 0;
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
         double point[3];
         uint32_t number;
@@ -84,11 +84,11 @@ static void check_voxels(struct fixture* f)
         double right =
             fmin(hair_test_nearest(f->colliders, COLLIDERS, point, &number), (double)f->field.box.far);
         hair_test_near("voxel", i, (double)read.distance[i], right, 0.05 * voxel);
-        most = fmax(most, fabs((double)read.distance[i] - right));
-        of_forms += read.number[i] < COLLIDERS && read.number[i] % 2 == 0;
+        max = fmax(max, fabs((double)read.distance[i] - right));
+        of_meshes += read.number[i] < COLLIDERS && read.number[i] % 2 == 0;
     }
-    print_message("    %zu voxels of meshes, off by at most %.4f of one\n", of_forms, most / voxel);
-    assert_true(of_forms > 1000);
+    print_message("    %zu voxels of meshes, off by at most %.4f of one\n", of_meshes, max / voxel);
+    assert_true(of_meshes > 1000);
     hair_test_field_free(&read);
 }
 
@@ -120,7 +120,7 @@ static void a_form_of_a_ball_is_a_ball(void** state)
     ball.mesh = f.forms[0];
     sphere.shape = HAIR_SHAPE_SPHERE;
     sphere.size[0] = 0.1f * ball.scale;
-    double voxel = (double)f.field.box.voxel, most = 0;
+    double voxel = (double)f.field.box.voxel, max = 0;
     hair_test_ok(f.test, hair_field_update(&f.field, &ball, 1, &head));
     read = hair_test_field_read(&f.field);
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
@@ -128,10 +128,10 @@ static void a_form_of_a_ball_is_a_ball(void** state)
         hair_test_voxel(&f.field.box, &head, i, point);
         double right = hair_distance_to_collider(&sphere, point, NULL);
         if (fabs(right) > 3 * voxel) continue;
-        most = fmax(most, fabs((double)read.distance[i] - right));
+        max = fmax(max, fabs((double)read.distance[i] - right));
     }
-    print_message("    off by at most %.4f voxels\n", most / voxel);
-    assert_true(most < 0.1 * voxel);
+    print_message("    off by at most %.4f voxels\n", max / voxel);
+    assert_true(max < 0.1 * voxel);
     hair_test_field_free(&read);
     end(&f);
 }
@@ -141,20 +141,20 @@ static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state
     struct fixture f;
     struct hair_collider_field other;
     begin(*state, &f);
-    const struct hair_forms* forms = &f.test->context->forms;
-    hair_field_create(&other, &f.test->context->forms, f.groom, VOXEL);
+    const struct hair_sdf_pool* collision_meshes = &f.test->context->sdf_pool;
+    hair_field_create(&other, &f.test->context->sdf_pool, f.groom, VOXEL);
     update(&f);
-    size_t used = forms->used;
-    assert_int_equal(forms->count, 2);
+    size_t used = collision_meshes->used;
+    assert_int_equal(collision_meshes->count, 2);
     hair_test_ok(f.test, hair_field_update(&other, f.colliders, COLLIDERS, &head));
-    assert_int_equal(forms->used, used);
+    assert_int_equal(collision_meshes->used, used);
     hair_field_destroy(&other);
-    assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
+    assert_int_equal(collision_meshes->pooled[0].users + collision_meshes->pooled[1].users, 3);
     // The first mesh is released, and another takes its place.
     for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[1];
     update(&f);
-    assert_int_equal(forms->pooled[0].users + forms->pooled[1].users, 3);
-    assert_true(!forms->pooled[0].form || !forms->pooled[1].form);
+    assert_int_equal(collision_meshes->pooled[0].users + collision_meshes->pooled[1].users, 3);
+    assert_true(!collision_meshes->pooled[0].mesh || !collision_meshes->pooled[1].mesh);
     check_voxels(&f);
     end(&f);
 }
@@ -164,16 +164,16 @@ static void forms_that_come_and_go_take_no_more_memory_than_a_few(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    size_t most = 0;
+    size_t max = 0;
     for (int round = 0; round < 40; ++round) {
         for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[round % 2];
         update(&f);
-        most = f.test->context->forms.room > most ? f.test->context->forms.room : most;
+        max = f.test->context->sdf_pool.room > max ? f.test->context->sdf_pool.room : max;
     }
     size_t nodes = 0;
     for (int i = 0; i < 2; ++i)
         nodes += (size_t)f.forms[i]->size[0] * f.forms[i]->size[1] * f.forms[i]->size[2];
-    assert_true(most <= 3 * nodes + 65536);
+    assert_true(max <= 3 * nodes + 65536);
     check_voxels(&f);
     end(&f);
 }

@@ -31,7 +31,7 @@ static void begin(struct hair_test* test, struct hair_pose head, struct fixture*
 {
     *out = (struct fixture){.test = test, .head = head, .random = 7};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_field_create(&out->field, &test->context->forms, out->groom, VOXEL);
+    hair_field_create(&out->field, &test->context->sdf_pool, out->groom, VOXEL);
     for (int i = 0; i < MANY; ++i)
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
 }
@@ -58,7 +58,7 @@ static void check_voxels(struct fixture* f, uint32_t count)
 {
     const struct hair_field_box* box = &f->field.box;
     struct hair_test_field read = hair_test_field_read(&f->field);
-    double most = 0, voxel = (double)box->voxel;
+    double max = 0, voxel = (double)box->voxel;
     size_t near = 0;
     for (size_t i = 0; i < hair_test_field_count(&read); ++i) {
         double point[3];
@@ -66,7 +66,7 @@ static void check_voxels(struct fixture* f, uint32_t count)
         hair_test_voxel(box, &f->head, i, point);
         double right = fmin(hair_test_nearest(f->colliders, count, point, &number), (double)box->far);
         double off = fabs((double)read.distance[i] - right);
-        most = fmax(most, off);
+        max = fmax(max, off);
         if (!(off <= 0.05 * voxel))
             fail_msg("voxel %zu holds %g, not %g", i, (double)read.distance[i], right);
         near += own != HAIR_NO_COLLIDER;
@@ -77,7 +77,7 @@ static void check_voxels(struct fixture* f, uint32_t count)
                         hair_distance_to_collider(&f->colliders[own], point, NULL) < right + 0.01 * voxel);
     }
     print_message("    %zu voxels, %zu near, off by at most %.4f of one\n", hair_test_field_count(&read),
-                  near, most / voxel);
+                  near, max / voxel);
     assert_true(near > 1000 && near < hair_test_field_count(&read));
     hair_test_field_free(&read);
 }
@@ -102,10 +102,10 @@ static void the_box_has_from_32_to_256_voxels_along_its_longest_side(void** stat
     begin(*state, origin, &f);
     for (size_t i = 0; i < sizeof asked / sizeof *asked; ++i) {
         struct hair_field_box box = hair_field_box_of(f.groom, asked[i]);
-        uint32_t most = 0;
-        for (int k = 0; k < 3; ++k) most = box.bricks[k] > most ? box.bricks[k] : most;
-        assert_in_range(most, 32 / HAIR_BRICK, 256 / HAIR_BRICK);
-        if (most > 32 / HAIR_BRICK && most < 256 / HAIR_BRICK) assert_true(box.voxel == asked[i]);
+        uint32_t max = 0;
+        for (int k = 0; k < 3; ++k) max = box.bricks[k] > max ? box.bricks[k] : max;
+        assert_in_range(max, 32 / HAIR_BRICK, 256 / HAIR_BRICK);
+        if (max > 32 / HAIR_BRICK && max < 256 / HAIR_BRICK) assert_true(box.voxel == asked[i]);
     }
     end(&f);
 }
@@ -191,7 +191,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
     for (int i = 0; i < POINTS; ++i)
         for (int k = 0; k < 3; ++k) points[i][k] = 0.4f * hair_random(&f.random) - 0.2f;
     sample(&f, points, found, numbers);
-    double voxel = (double)f.field.box.voxel, most[2] = {0}, turned = 0;
+    double voxel = (double)f.field.box.voxel, max[2] = {0}, turned = 0;
     int near = 0, far = 0, compared = 0;
     for (int i = 0; i < POINTS; ++i) {
         double point[3], gradient[3], dot = 0;
@@ -212,7 +212,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
         others[number] = others[number ? 0 : 1];
         int round = f.colliders[number].shape <= HAIR_SHAPE_CAPSULE &&
                     hair_test_nearest(others, MANY, point, &second) > right + 2 * voxel;
-        most[!round] = fmax(most[!round], fabs(own - right));
+        max[!round] = fmax(max[!round], fabs(own - right));
         if (!(fabs(own - right) <= (round ? 0.5 : 0.9) * voxel))
             fail_msg("point %d: %g, not %g, of collider %u", i, own, right, number);
         assert_true(numbers[i] < MANY);
@@ -226,7 +226,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
     print_message("    %d points near, off by at most %.3f voxels, %.3f where there are edges; 1 - gradient "
                   "at %d by at "
                   "most %.3f\n",
-                  near, most[0] / voxel, most[1] / voxel, compared, turned);
+                  near, max[0] / voxel, max[1] / voxel, compared, turned);
     assert_true(near > 1000 && far > 1000 && compared > 100);
     assert_true(turned < 0.2);
     end(&f);
@@ -237,7 +237,7 @@ static void between_voxels_distance_sign_gradient_and_number_are_right(void** st
 static void assert_as_made_at_once(struct fixture* f, uint32_t count)
 {
     struct hair_collider_field fresh;
-    hair_field_create(&fresh, &f->test->context->forms, f->groom, VOXEL);
+    hair_field_create(&fresh, &f->test->context->sdf_pool, f->groom, VOXEL);
     hair_test_ok(f->test, hair_field_update(&fresh, f->colliders, count, &f->head));
     struct hair_test_field a = hair_test_field_read(&f->field), b = hair_test_field_read(&fresh);
     size_t voxels = hair_test_field_count(&a);

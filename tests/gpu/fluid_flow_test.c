@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "lib/base/math.h"
-#include "lib/reference/fluid.h"
+#include "tests/reference/fluid.h"
 #include "lib/wind/gusts.h"
 
 #define WIND 5.0
@@ -25,13 +25,13 @@ static void advance(struct hair_test_fluid* f, int steps)
 
 static double fastest(const struct hair_test_fluid* f)
 {
-    double *velocity = hair_test_fluid_velocity(f), most = 0;
+    double *velocity = hair_test_fluid_velocity(f), max = 0;
     for (size_t i = 0; i < f->faces; ++i) {
         if (!isfinite(velocity[i])) fail_msg("velocity %zu is not finite", i);
-        most = fmax(most, fabs(velocity[i]));
+        max = fmax(max, fabs(velocity[i]));
     }
     free(velocity);
-    return most;
+    return max;
 }
 
 // Projection --------------------------------------------------------------------------------------
@@ -52,10 +52,10 @@ static void nothing_is_left_to_be_driven_out_of_cells(void** state)
         desc.cycles = ways[i].cycles;
         hair_test_fluid_begin(*state, &desc, 1, &f);
         advance(&f, 3);
-        double* right = hair_test_floats(f.fluid.right.buffer, f.count);
-        double share = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
-        print_message("    %s, %u: %.1e is left\n", ways[i].name, ways[i].cycles, share);
-        assert_true(share <= 1e-3);
+        double* right = hair_test_floats(f.fluid.rhs.buffer, f.count);
+        double fraction = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
+        print_message("    %s, %u: %.1e is left\n", ways[i].name, ways[i].cycles, fraction);
+        assert_true(fraction <= 1e-3);
         free(right);
         hair_test_fluid_end(&f);
     }
@@ -176,20 +176,20 @@ static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(voi
 static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
 {
     struct hair_test_fluid f;
-    struct hair_air air = {0};
+    struct hair_wind_state air = {0};
     hair_wind wind = hair_wind_default();
     begin(*state, 32, 0, &f);
     wind.velocity[0] = (float)WIND, wind.turbulence_intensity = 0.2f, wind.turbulence_length = 0.5f;
-    hair_test_ok(f.test, hair_air_need(&air, &f.test->context->gl, &wind));
+    hair_test_ok(f.test, hair_wind_ensure(&air, &f.test->context->gl, &wind));
     float* texel = hair_gusts_make(&f.test->host.host, wind.seed);
     assert_non_null(texel);
     double alike = 0, there = 0, all = 0;
     for (int i = 0; i < 60; ++i) { // After 0.16 s the air in the box has been replaced.
-        f.now.gusts = hair_air_gusts_from(&air, &wind, &f.now.head);
+        f.now.gusts = hair_wind_find_gusts(&air, &wind, &f.now.head);
         advance(&f, 1);
         air.moved[0] += WIND * f.now.dt;
         if (i < 15 || i % 5) continue;
-        struct hair_air_gusts now = hair_air_gusts_from(&air, &wind, &f.now.head);
+        struct hair_wind_gusts now = hair_wind_find_gusts(&air, &wind, &f.now.head);
         double* velocity = hair_test_fluid_velocity(&f);
         for (int k = 0; k < 6 * 6 * 6; ++k) {
             double place[3] = {7 + 3.5 * (k % 6), 7 + 3.5 * (k / 6 % 6), 7 + 3.5 * (k / 36)}, gust[3];
@@ -205,7 +205,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
                   alike / sqrt(there * all), there / all);
     assert_true(alike > 0.8 * sqrt(there * all) && fabs(there / all - 1) < 0.3);
     hair_free(&f.test->host.host, texel);
-    hair_air_free(&air, &f.test->context->gl);
+    hair_wind_free_state(&air, &f.test->context->gl);
     hair_test_fluid_end(&f);
 }
 
@@ -219,8 +219,8 @@ static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
     f.now.wind = hair_v3(0, 0, 0);
     // The collider moves with the head, and the box follows the head by whole cells.
     for (int i = 0; i < 6; ++i) {
-        ball = f.colliders.now.collider[0];
-        hair_colliders_settle(&f.colliders);
+        ball = f.colliders.current.collider[0];
+        hair_colliders_end_step(&f.colliders);
         f.now.head.position[0] += WIND / 60;
         ball.position[0] = (float)f.now.head.position[0];
         hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
@@ -275,7 +275,7 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
         if (i / side / side == f.cells) velocity[i] = velocity[i + slots] = 0;
     }
     for (int k = 0; k < 3; ++k) hair_test_put_floats(f.fluid.velocity[k].buffer, velocity, f.faces);
-    hair_fluid_run(&f.fluid, HAIR_GL_FLUID_PUBLISH, 0, 0, (uint32_t)f.count);
+    hair_fluid_run(&f.fluid, HAIR_GL_FLUID_EXPORT_VELOCITY, 0, 0, (uint32_t)f.count);
     double first = energy(velocity, f.faces), last = first;
     free(velocity);
     for (int i = 0; i < 20; ++i) {
@@ -312,23 +312,23 @@ static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
         if (i % 5 == 0) f.now.head.position[1] = 1e9;
         if (i % 7 == 0) f.now.head.rotation = (hair_quat){0, 1, 0, 0};
         if (i % 8 == 0) f.now.wind = hair_v3(NAN, INFINITY, 1);
-        hair_collider ball = f.colliders.now.collider[0];
-        hair_colliders_settle(&f.colliders);
+        hair_collider ball = f.colliders.current.collider[0];
+        hair_colliders_end_step(&f.colliders);
         ball.position[2] = i % 11 == 0 ? 1e6f : 0.01f * (float)(i % 3);
         ball.rotation[0] = i % 2 ? 1.0f : 0.0f, ball.rotation[3] = i % 2 ? 0.0f : 1.0f;
         hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
         advance(&f, 1);
         assert_true(fastest(&f) <= 1e4);
     }
-    hair_collider ball = f.colliders.now.collider[0];
+    hair_collider ball = f.colliders.current.collider[0];
     memset(ball.position, 0, sizeof ball.position);
     hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
-    hair_colliders_settle(&f.colliders);
+    hair_colliders_end_step(&f.colliders);
     f.now = kept;
     advance(&f, 60);
-    double most = fastest(&f);
-    print_message("    %.2f of the wind is the fastest a second later\n", most / WIND);
-    assert_true(most < 2 * WIND && fabs(flux(&f)) < 0.05);
+    double max = fastest(&f);
+    print_message("    %.2f of the wind is the fastest a second later\n", max / WIND);
+    assert_true(max < 2 * WIND && fabs(flux(&f)) < 0.05);
     hair_test_fluid_end(&f);
 }
 

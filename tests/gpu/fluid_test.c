@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "lib/base/math.h"
-#include "lib/reference/fluid.h"
+#include "tests/reference/fluid.h"
 
 #define CELLS 16
 
@@ -15,11 +15,10 @@ static uint32_t cubed(uint32_t n)
     return n * n * n;
 }
 
-static double* any_numbers(size_t count, double most, uint32_t seed)
+static double* any_numbers(size_t count, double max, uint32_t seed)
 {
     double* out = malloc(count * sizeof *out);
-    for (size_t i = 0; i < count; ++i)
-        out[i] = (double)(float)(most * 2 * ((double)hair_random(&seed) - 0.5));
+    for (size_t i = 0; i < count; ++i) out[i] = (double)(float)(max * 2 * ((double)hair_random(&seed) - 0.5));
     return out;
 }
 
@@ -29,7 +28,7 @@ static void check(const char* what, const double* got, const double* expected, s
 }
 
 // Check that faces are between `least` and `most`. Slots without a face hold nothing.
-static void check_faces(const char* what, const double* got, const double* least, const double* most,
+static void check_faces(const char* what, const double* got, const double* min, const double* max,
                         double tolerance)
 {
     uint32_t side = CELLS + 1, slots = cubed(side);
@@ -37,7 +36,7 @@ static void check_faces(const char* what, const double* got, const double* least
         uint32_t at[3] = {i % slots % side, i % slots / side % side, i % slots / (side * side)};
         int there = 1;
         for (uint32_t k = 0; k < 3; ++k) there &= at[k] < CELLS || k == i / slots;
-        if (there) hair_test_near(what, i, got[i], fmin(fmax(got[i], least[i]), most[i]), tolerance);
+        if (there) hair_test_near(what, i, got[i], fmin(fmax(got[i], min[i]), max[i]), tolerance);
     }
 }
 
@@ -63,7 +62,7 @@ static double from_ball(const double place[3], const void* user)
 static void faces_are_as_open_as_the_ball_leaves_them(void** state)
 {
     struct hair_test_fluid f;
-    double middle[3], most = 0, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
+    double middle[3], max = 0, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
     begin(*state, &f);
     f.now.head = (struct hair_pose){{3.013, -1.5, 0.022}, {0.36f, 0.48f, 0, 0.8f}};
     hair_fluid_place(&f.fluid, &f.now);
@@ -82,9 +81,9 @@ static void faces_are_as_open_as_the_ball_leaves_them(void** state)
         // The error of the field is the rounding of half floats and the chord of 5 mm. Together
         // they are at most 1/40 of a cell, all along a face.
         hair_test_near("share", i, open[i], expected, 0.1);
-        most = fmax(most, fabs(open[i] - expected));
+        max = fmax(max, fabs(open[i] - expected));
     }
-    print_message("    off by at most %.4f\n", most);
+    print_message("    off by at most %.4f\n", max);
     free(open);
     hair_test_fluid_end(&f);
 }
@@ -107,13 +106,14 @@ static void walls_move_as_the_collider_does(void** state)
     struct hair_test_fluid f;
     const double spin = 0.1 * 60, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
     begin(*state, &f);
-    hair_collider ball = f.colliders.now.collider[0];
-    hair_colliders_settle(&f.colliders);
+    hair_collider ball = f.colliders.current.collider[0];
+    hair_colliders_end_step(&f.colliders);
     ball.position[1] = 0.01f;
     ball.rotation[2] = sinf(0.05f), ball.rotation[3] = cosf(0.05f);
     hair_test_ok(f.test, hair_colliders_set(&f.test->host.host, &f.colliders, &ball, 1, sizeof ball));
     hair_fluid_place(&f.fluid, &f.now);
-    double *open = hair_test_fluid_open(&f, 0), *wall = hair_test_floats(f.fluid.wall.buffer, f.faces);
+    double *open = hair_test_fluid_open(&f, 0),
+           *wall = hair_test_floats(f.fluid.wall_velocity.buffer, f.faces);
     size_t closed = 0, slots = f.faces / 3, side = CELLS + 1;
     for (size_t i = 0; i < 2 * slots; ++i) {
         size_t slot = i % slots;
@@ -132,9 +132,9 @@ static void walls_move_as_the_collider_does(void** state)
 // Advection ---------------------------------------------------------------------------------------
 
 // Fill the texture, whose format is half floats. Multiples of 1/16 are exact up to 64.
-static double* put_air(struct hair_test_fluid* f, double most)
+static double* put_air(struct hair_test_fluid* f, double max)
 {
-    double* air = any_numbers(3 * f->count, most, 5);
+    double* air = any_numbers(3 * f->count, max, 5);
     float* texel = calloc(4 * f->count, sizeof *texel);
     for (size_t i = 0; i < 3 * f->count; ++i) {
         air[i] = round(air[i] * 16) / 16;
@@ -160,22 +160,22 @@ static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
     f.now.wind = hair_v3(4, 1, -2);
     hair_fluid_place(&f.fluid, &f.now);
     hair_test_put_floats(f.fluid.velocity[0].buffer, before, f.faces);
-    hair_fluid_carry(&f.fluid);
+    hair_fluid_advect(&f.fluid);
     struct hair_reference_flow flow = {CELLS,      {2, 0, 0},   CELLS / (60 * (double)HAIR_TEST_FLUID_SIDE),
                                        {4, 1, -2}, {-1, 1, -2}, before,
                                        air,        BLUR};
-    double *least = calloc(f.faces, sizeof *least), *most = calloc(f.faces, sizeof *most);
+    double *min = calloc(f.faces, sizeof *min), *max = calloc(f.faces, sizeof *max);
     double* got[2] = {hair_test_floats(f.fluid.velocity[1].buffer, f.faces),
                       hair_test_floats(f.fluid.velocity[2].buffer, f.faces)};
-    hair_reference_carry(&flow, least, most);
-    check_faces("carried", got[0], least, most, 0.02);
-    hair_reference_correct(&flow, got[0], least, most);
-    check_faces("corrected", got[1], least, most, 0.02);
+    hair_reference_carry(&flow, min, max);
+    check_faces("carried", got[0], min, max, 0.02);
+    hair_reference_correct(&flow, got[0], min, max);
+    check_faces("corrected", got[1], min, max, 0.02);
     for (size_t i = 0; i < f.faces; ++i) gone += fabs(got[1][i] - got[0][i]) / (double)f.faces;
-    for (size_t i = 0; i < f.faces; ++i) between += (most[i] - least[i]) / (double)f.faces;
+    for (size_t i = 0; i < f.faces; ++i) between += (max[i] - min[i]) / (double)f.faces;
     print_message("    corrected by %.3f m/s in the mean, known to %.3f\n", gone, between);
     assert_true(gone > 5 * between);
-    free(before), free(air), free(least), free(most), free(got[0]), free(got[1]);
+    free(before), free(air), free(min), free(max), free(got[0]), free(got[1]);
     hair_test_fluid_end(&f);
 }
 
@@ -194,14 +194,14 @@ static void begin_pressed(struct hair_test* test, hair_fluid_method method, stru
     struct hair_test_fluid* f = &p->f;
     hair_fluid_place(&f->fluid, &f->now);
     p->wall = any_numbers(f->faces, 1, 2);
-    hair_test_put_floats(f->fluid.wall.buffer, p->wall, f->faces);
+    hair_test_put_floats(f->fluid.wall_velocity.buffer, p->wall, f->faces);
     for (uint32_t i = 0; i < 2; ++i)
         p->open[i] = method == HAIR_FLUID_MULTIGRID || !i ? hair_test_fluid_open(f, i) : NULL;
     p->velocity = any_numbers(f->faces, 3, 3);
     hair_test_put_floats(f->fluid.velocity[2].buffer, p->velocity, f->faces);
     p->right = any_numbers(f->count + f->count / 8, 1, 4);
     p->pressure = any_numbers(f->count + f->count / 8, 1, 5);
-    hair_test_put_floats(f->fluid.right.buffer, p->right, f->count + f->count / 8);
+    hair_test_put_floats(f->fluid.rhs.buffer, p->right, f->count + f->count / 8);
     hair_test_put_floats(f->fluid.pressure[0].buffer, p->pressure, f->count + f->count / 8);
 }
 
@@ -226,7 +226,7 @@ static void what_flows_into_cells_is_to_be_driven_out(void** state)
     struct hair_fluid* fluid = &p.f.fluid;
     hair_fluid_run(fluid, HAIR_GL_FLUID_DIVERGENCE, 0, 0, (uint32_t)p.f.count);
     hair_reference_inflow(CELLS, p.open[0], p.wall, p.velocity, p.right);
-    check_buffer("right side", fluid->right.buffer, 0, p.right, p.f.count, 1e-5);
+    check_buffer("right side", fluid->rhs.buffer, 0, p.right, p.f.count, 1e-5);
     double* none = calloc(p.f.count, sizeof *none);
     check_buffer("pressure", fluid->pressure[0].buffer, 0, none, p.f.count, 0);
     free(none);
@@ -247,7 +247,8 @@ static void sweeps_fit_the_pressures_of_one_color_or_of_all(void** state)
     for (int i = 0; i < 2; ++i) {
         hair_fluid_run(&p.f.fluid, HAIR_GL_FLUID_JACOBI, 0, 0, (uint32_t)p.f.count);
         hair_reference_relax(CELLS, p.open[0], p.right, 2, 1, p.pressure);
-        check_buffer("all", p.f.fluid.pressure[p.f.fluid.pressed].buffer, 0, p.pressure, p.f.count, 2e-6);
+        check_buffer("all", p.f.fluid.pressure[p.f.fluid.current_pressure].buffer, 0, p.pressure, p.f.count,
+                     2e-6);
     }
     end_pressed(&p);
 }
@@ -265,7 +266,7 @@ static void coarser_cells_take_what_is_left_and_give_their_pressure_back(void** 
     hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, 0, 0, (uint32_t)coarse);
     hair_reference_residual(CELLS, p.open[0], p.right, p.pressure, left);
     hair_reference_restrict(CELLS, left, right);
-    check_buffer("right side", fluid->right.buffer, p.f.count, right, coarse, 3e-5);
+    check_buffer("right side", fluid->rhs.buffer, p.f.count, right, coarse, 3e-5);
     free(left), free(right);
     end_pressed(&p);
 }
@@ -278,13 +279,13 @@ static void the_coarsest_level_is_solved_at_once(void** state)
     size_t count = p.f.count / 8;
     double *own = calloc(count, sizeof *own), *left = calloc(count, sizeof *left);
     double* right = p.right + p.f.count;
-    hair_fluid_run(&p.f.fluid, HAIR_GL_FLUID_BOTTOM, 1, 0, 1);
+    hair_fluid_run(&p.f.fluid, HAIR_GL_FLUID_COARSE_SOLVE, 1, 0, 1);
     for (uint32_t i = 0; i < 32; ++i) hair_reference_relax(CELLS / 2, p.open[1], right, i % 2, 1.4, own);
     check_buffer("pressure", p.f.fluid.pressure[0].buffer, p.f.count, own, count, 1e-4);
     hair_reference_residual(CELLS / 2, p.open[1], right, own, left);
-    double share = hair_test_rms(left, count) / hair_test_rms(right, count);
-    print_message("    %.1e of the right side is left\n", share);
-    assert_true(share < 1e-3);
+    double fraction = hair_test_rms(left, count) / hair_test_rms(right, count);
+    print_message("    %.1e of the right side is left\n", fraction);
+    assert_true(fraction < 1e-3);
     free(own), free(left);
     end_pressed(&p);
 }

@@ -1,7 +1,7 @@
 // follow_rest_test.c - the solvers follow and redblack come to rest: built-in haircuts after a head
 // shake, alone and among colliders that touch them.
 #include "tests/support/haircut.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -12,12 +12,12 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-#define MOST 4096
+#define MAX 4096
 
 static int way; // Solver and mapping. main runs all tests for each.
 
 struct strands {
-    float positions[3 * MOST];
+    float positions[3 * MAX];
     uint32_t vertices;
 };
 
@@ -50,8 +50,8 @@ static hair_instance* make(struct hair_test* test, const hair_groom* groom)
 
 static void read(struct hair_test* test, hair_instance* hair, hair_read_source what, struct strands* out)
 {
-    hair_test_ok(test, hair_read_positions(hair, what, out->positions, MOST, &out->vertices));
-    assert_in_range(out->vertices, 1, MOST);
+    hair_test_ok(test, hair_read_positions(hair, what, out->positions, MAX, &out->vertices));
+    assert_in_range(out->vertices, 1, MAX);
 }
 
 // Swing the head to and fro around x, for `steps` steps of 1/60 s.
@@ -232,7 +232,7 @@ static void strands_rest_on_a_collider_that_moves_into_them(void** state)
 // state, because floats of the world are spaced by millimetres out there.
 static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
 {
-    static struct hair_state state[MOST];
+    static struct hair_state state[MAX];
     double worst = 0;
     glGetNamedBufferSubData(hair->sim.state, 0, groom->info.guide_vertex_count * sizeof *state, state);
     for (uint32_t g = 0; g < groom->info.guide_count; ++g)
@@ -269,7 +269,7 @@ static void far_from_the_origin_nothing_stretches_more(void** state)
 // relative to the head.
 static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
 {
-    static struct hair_state near[MOST], far[MOST];
+    static struct hair_state near[MAX], far[MAX];
     struct hair_test* test = *state;
     hair_groom* groom = make_groom(test);
     size_t size = groom->info.guide_vertex_count * sizeof *near;

@@ -97,8 +97,9 @@ static const struct {
     [HAIR_RENDER_PATH_INSTANCED] = {{HAIR_GL_INSTANCED | FIBRES_LINES,
                                      HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
                                     {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_RENDER_PATH_CACHED] = {{HAIR_GL_EXPANDED | SHADED_LINES, HAIR_GL_EXPANDED | SHADED_LINES},
-                                 {"HAIR_EXPANDED=1 draw/strand.vert", "HAIR_EXPANDED=1 draw/strand.vert"}},
+    [HAIR_RENDER_PATH_CACHED] = {{HAIR_GL_CACHED | SHADED_LINES, HAIR_GL_CACHED | SHADED_LINES},
+                                 {"HAIR_VERTEX_CACHE=1 draw/strand.vert",
+                                  "HAIR_VERTEX_CACHE=1 draw/strand.vert"}},
 };
 
 #define PATHS (sizeof paths / sizeof *paths)
@@ -106,11 +107,11 @@ static const struct {
 // Draw lines by hair_draw, and return the captured vertices instead of pixels. `hits` is 1 if
 // colliders are in reach. The caller frees the vertices.
 static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_render_path path,
-                             size_t most_segments, int hits, const hair_lod* lod)
+                             size_t max_segments, int hits, const hair_lod* lod)
 {
     struct hair_gl* gl = &test->context->gl;
     hair_gl_pass pass = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
-    struct hair_gl_program* own = hair_gl_know(gl, pass);
+    struct hair_gl_program* own = hair_gl_get_or_add(gl, pass);
     GLuint whole = own->program, program = 0;
     char stages[128];
     snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[path].stages[hits]);
@@ -121,7 +122,7 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_r
     glCreateTransformFeedbacks(1, &capture.feedback);
     glCreateBuffers(1, &capture.buffer);
     // The buffer has room for more than the right number of vertices, to detect too many.
-    glNamedBufferStorage(capture.buffer, (GLsizeiptr)((most_segments + 64) * 2 * sizeof(struct vertex)), NULL,
+    glNamedBufferStorage(capture.buffer, (GLsizeiptr)((max_segments + 64) * 2 * sizeof(struct vertex)), NULL,
                          0);
 
     struct hair_test_frame frame; // Without a framebuffer every draw fails.
@@ -152,9 +153,9 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_r
 }
 
 static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_render_path path,
-                         size_t most_segments, int hits)
+                         size_t max_segments, int hits)
 {
-    return draw_lod(test, hair, path, most_segments, hits, NULL);
+    return draw_lod(test, hair, path, max_segments, hits, NULL);
 }
 
 // Return a look without taper. The radius of a follower then identifies it (grooms.c).
@@ -443,7 +444,7 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
 // length.
 static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
 {
-    static const float shares[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};
+    static const float fractions[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};
     struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers = 200;
@@ -455,10 +456,10 @@ static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
     desc.look = &look;
     lod.per_patch = 0;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    for (size_t i = 0; i < sizeof shares / sizeof *shares; ++i) {
-        lod.segment_fraction = shares[i];
+    for (size_t i = 0; i < sizeof fractions / sizeof *fractions; ++i) {
+        lod.segment_fraction = fractions[i];
         struct drawn tessellated = draw_lod(test, hair, HAIR_RENDER_PATH_TESSELLATION, 200 * 32, 0, &lod);
-        assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * shares[i]));
+        assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * fractions[i]));
         sort_strands(&tessellated);
         struct drawn drawn = draw_lod(test, hair, HAIR_RENDER_PATH_INSTANCED, 200 * 64, 0, &lod);
         double worst = 0;
@@ -476,7 +477,7 @@ static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
                 hair_test_near("radius", k, a[end].radius, b[end].radius, 1e-8);
             }
         }
-        print_message("    %.2f of the segments: off by %.2g m\n", (double)shares[i], worst);
+        print_message("    %.2f of the segments: off by %.2g m\n", (double)fractions[i], worst);
         assert_int_equal(at, 2 * tessellated.segments);
         assert_true(worst <= TOLERANCE);
         free(drawn.vertices);

@@ -93,7 +93,7 @@ static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
         float* p;
-        assert_int_equal(f.groom->most_vertices, lengths[i]);
+        assert_int_equal(f.groom->max_vertices, lengths[i]);
         assert_int_equal(read(&f, HAIR_READ_SMOOTH, &p), f.groom->info.guide_count * (2 * lengths[i] - 1));
         free(p);
         assert_int_equal(read(&f, HAIR_READ_GUIDES, &p), f.groom->info.guide_vertex_count);
@@ -124,7 +124,7 @@ static void followers_at_rest_are_where_they_were_fitted(void** state)
     }
 }
 
-#define THREAD HAIR_GL_WITH(THREAD)
+#define THREAD HAIR_GL_WITH(THREAD_PER_GUIDE)
 
 // Check that the solver and smoothing compile and run only the size for the longest guide. Guides
 // that would be too much work for a thread use a work group.
@@ -193,10 +193,10 @@ static void one_size_of_work_group_runs(void** state)
 
 static double farthest(const float* a, const float* b, uint32_t count)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < count; ++i)
-        most = fmax(most, (double)hair_distance(hair_load3(a + 3 * i), hair_load3(b + 3 * i)));
-    return most;
+        max = fmax(max, (double)hair_distance(hair_load3(a + 3 * i), hair_load3(b + 3 * i)));
+    return max;
 }
 
 // Return the maximum relative stretch or compression of a segment.
@@ -229,11 +229,11 @@ static void check_motion(struct fixture* f, uint32_t vertices)
     double moved = farthest(before, after, count), stretch = greatest_stretch(f, after);
     print_message("    %u vertices: moved by up to %.2g m, stretched by %.2g\n", vertices, moved, stretch);
     int redblack = f->hair->sim.solver == HAIR_SOLVER_REDBLACK;
-    double most = f->hair->sim.solver == HAIR_SOLVER_FOLLOW ? 0.8 : 0.3;
+    double max = f->hair->sim.solver == HAIR_SOLVER_FOLLOW ? 0.8 : 0.3;
     if (vertices == 2 && redblack)
         assert_true(moved < 1e-6);
     else
-        assert_true(moved > 1e-3 && moved < most);
+        assert_true(moved > 1e-3 && moved < max);
     if (!redblack) assert_true(stretch < 0.01);
     hair_test_ok(f->test, hair_reset(f->hair));
     free(after);

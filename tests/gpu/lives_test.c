@@ -10,7 +10,7 @@
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
-#define MOST 4096
+#define MAX 4096
 
 // Count the OpenGL objects that exist, by trying all names.
 static uint32_t count_objects(void)
@@ -25,7 +25,7 @@ static uint32_t count_objects(void)
 
 static void live_once(struct hair_test* test, const hair_groom* groom, int way, int reads)
 {
-    static float positions[3 * MOST];
+    static float positions[3 * MAX];
     hair_instance* hair = NULL;
     hair_desc desc = hair_test_way(way);
     hair_collider collider = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
@@ -43,7 +43,7 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_test_ok(test, hair_set_colliders(hair, &collider, 1, sizeof collider));
     hair_test_ok(test, hair_step(hair, 1.0f / 60));
     hair_test_ok(test, hair_draw(hair, &view));
-    if (reads) hair_test_ok(test, hair_read_positions(hair, HAIR_READ_FOLLOWERS, positions, MOST, &count));
+    if (reads) hair_test_ok(test, hair_read_positions(hair, HAIR_READ_FOLLOWERS, positions, MAX, &count));
     hair_destroy(hair);
 }
 
@@ -114,7 +114,7 @@ static void timings_count_the_runs_of_every_pass(void** state)
     for (uint32_t i = 0; i < count; ++i) {
         int solves = !strcmp(timings[i].pass, "sim/mixed_32");
         // Nothing has read the guides.
-        int smooth = !strcmp(timings[i].pass, "interpolate/smooth_32");
+        int smooth = !strcmp(timings[i].pass, "strands/smooth_32");
         if (solves || smooth) assert_int_equal(timings[i].runs, solves ? 9 : 0);
         assert_null(strstr(timings[i].pass, "draw/"));
         assert_true(timings[i].ms >= 0 && timings[i].ms < 1000);
@@ -129,8 +129,8 @@ static void timings_count_the_runs_of_every_pass(void** state)
 static uint32_t read_smooth(struct hair_test* test, hair_instance* hair, float* out)
 {
     uint32_t count = 0;
-    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_SMOOTH, out, MOST, &count));
-    assert_true(count <= MOST);
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_SMOOTH, out, MAX, &count));
+    assert_true(count <= MAX);
     return count;
 }
 
@@ -154,7 +154,7 @@ static void move(struct hair_test* test, hair_instance* hair, int how)
 // read after the draw.
 static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(void** state)
 {
-    static float often[3 * MOST], once[3 * MOST];
+    static float often[3 * MAX], once[3 * MAX];
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
@@ -195,7 +195,7 @@ static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(voi
     hair_groom_destroy(groom);
 }
 
-#define THREAD HAIR_GL_WITH(THREAD)
+#define THREAD HAIR_GL_WITH(THREAD_PER_GUIDE)
 
 static uint32_t count_solvers(const hair_context* context)
 {
@@ -239,7 +239,7 @@ static void check_compiled(struct hair_test* test, int way)
             pass = HAIR_GL_MIXED_SOLVER | (hair->sim.by_thread ? THREAD : 0);
         else if (hair_sim_is_stiff(&hair->sim))
             pass += HAIR_GL_ACCURATE_STIFF - HAIR_GL_ACCURATE;
-        pass = hair_gl_with(pass, colliders ? HAIR_GL_WITH(COLLIDERS) : 0);
+        pass = hair_gl_add_features(pass, colliders ? HAIR_GL_WITH(COLLIDERS) : 0);
         int anew = 1;
         for (int k = 0; k < kind; ++k) anew = anew && passes[k] != pass;
         passes[kind] = pass;

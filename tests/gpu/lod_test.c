@@ -104,11 +104,11 @@ static void fewer_strands_cover_as_much(void** state)
         assert_true(full > 0.03);
         lod.per_patch = 0;
         for (int k = 0; k < 4; ++k) {
-            static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
-            lod.strand_fraction = shares[k];
+            static const float fractions[] = {0.5f, 0.2f, 0.1f, 0.05f};
+            lod.strand_fraction = fractions[k];
             double covered = coverage_of(&f, 1.4f, &lod);
             print_message("    %s, %2.0f %% of the strands: %.4f of the coverage\n", hair_style_name(style),
-                          100.0 * (double)shares[k], covered / full);
+                          100.0 * (double)fractions[k], covered / full);
             hair_test_near("coverage", (size_t)k, covered / full, 1, 0.02);
         }
         finish(&f);
@@ -156,7 +156,7 @@ static void walking_away_shows_no_step(void** state)
     static struct picture full[2], low[2];
     struct fixture f = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
     hair_lod lod = hair_lod_default();
-    double most = -1, far = 0;
+    double max = -1, far = 0;
     uint64_t first = 0;
     for (int i = 0; i < FRAMES; i += EVERY) {
         for (int k = 0; k < 2; ++k) {
@@ -167,12 +167,12 @@ static void walking_away_shows_no_step(void** state)
         }
         if (i == 0) first = low[0].primitives;
         double more = flip_between(&low[0], &low[1]) - flip_between(&full[0], &full[1]);
-        if (more > most) most = more;
+        if (more > max) max = more;
         far = flip_between(&full[1], &low[1]);
     }
     print_message("    %u segments become %u, a frame's FLIP at most %.4f more, the last one's %.4f\n",
-                  (unsigned)(first / 2), (unsigned)(low[1].primitives / 2), most, far);
-    assert_true(most <= 0.005);
+                  (unsigned)(first / 2), (unsigned)(low[1].primitives / 2), max, far);
+    assert_true(max <= 0.005);
     assert_true(10 * low[1].primitives <= first);
     assert_true(far <= 0.03);
     finish(&f);
@@ -189,9 +189,9 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
     lod.per_patch = 0;
     for (int k = 0; k < 2; ++k)
         for (int i = 0; i < 2; ++i) {
-            float share = 0.5f + (i ? 1e-6f : -1e-6f);
-            if (k == 0) lod.segment_fraction = share;
-            if (k == 1) lod.segment_fraction = 1, lod.strand_fraction = share;
+            float fraction = 0.5f + (i ? 1e-6f : -1e-6f);
+            if (k == 0) lod.segment_fraction = fraction;
+            if (k == 1) lod.segment_fraction = 1, lod.strand_fraction = fraction;
             draw(&f, &view, NULL, &picture[i]);
             if (i == 0) continue;
             assert_true(picture[0].primitives != picture[1].primitives);
@@ -217,9 +217,10 @@ static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** 
     hair_view view = view_from(0.9f, 0.5f);
     hair_lod lod = hair_lod_default();
     hair_collider collider = hair_collider_default();
-    hair_vec4 skull = f.groom->skull;
-    collider.position[0] = skull.x, collider.position[1] = skull.y, collider.position[2] = skull.z;
-    collider.size[0] = 1.3f * skull.w;
+    hair_vec4 head_sphere = f.groom->head_sphere;
+    collider.position[0] = head_sphere.x, collider.position[1] = head_sphere.y,
+    collider.position[2] = head_sphere.z;
+    collider.size[0] = 1.3f * head_sphere.w;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     lod.strand_pixels = 0.01f; // Draws all strands.
     lod.segment_pixels = 0.1f; // Draws all segments.
@@ -227,12 +228,12 @@ static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** 
     for (int i = 0; i < 4; ++i) {
         lod.importance = 1;
         draw(&f, &view, NULL, &picture[i]); // Computes the number of pixels per metre.
-        lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels);
+        lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels_per_metre);
         hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
         hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-        uint32_t met = f.hair->draw.hits.met;
+        uint32_t met = f.hair->draw.follower_collision.generation;
         draw(&f, &view, NULL, &picture[i]);
-        assert_int_equal(f.hair->draw.hits.met - met, i > 0);
+        assert_int_equal(f.hair->draw.follower_collision.generation - met, i > 0);
     }
     for (int i = 0; i < 3; ++i) {
         double sum = 0;
@@ -313,13 +314,14 @@ static void what_the_head_hides_is_not_drawn(void** state)
     struct fixture f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
     hair_lod lod = only_culling();
     hair_collider collider = hair_collider_default();
-    hair_vec4 skull = f.groom->skull;
-    double least = 1;
-    print_message("    a skull of %.3f m at (%.3f, %.3f, %.3f)\n", (double)skull.w, (double)skull.x,
-                  (double)skull.y, (double)skull.z);
-    assert_true(skull.w > 0.05f && skull.w < 0.1f);
-    collider.position[0] = skull.x, collider.position[1] = skull.y, collider.position[2] = skull.z;
-    collider.size[0] = skull.w;
+    hair_vec4 head_sphere = f.groom->head_sphere;
+    double min = 1;
+    print_message("    a skull of %.3f m at (%.3f, %.3f, %.3f)\n", (double)head_sphere.w,
+                  (double)head_sphere.x, (double)head_sphere.y, (double)head_sphere.z);
+    assert_true(head_sphere.w > 0.05f && head_sphere.w < 0.1f);
+    collider.position[0] = head_sphere.x, collider.position[1] = head_sphere.y,
+    collider.position[2] = head_sphere.z;
+    collider.size[0] = head_sphere.w;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     for (int i = 0; i < 4; ++i) {
         hair_view view = view_from(0.9f, 1.5f * (float)i), before = view;
@@ -333,9 +335,9 @@ static void what_the_head_hides_is_not_drawn(void** state)
                left = (double)culled.primitives / (double)full.primitives;
         print_message("    %.2f of the segments left, FLIP %.4f\n", left, error);
         assert_true(error < 0.01);
-        if (left < least) least = left;
+        if (left < min) min = left;
     }
-    assert_true(least < 0.85); // In the view from behind, nothing is occluded.
+    assert_true(min < 0.85); // In the view from behind, nothing is occluded.
     finish(&f);
 }
 

@@ -65,13 +65,13 @@ static double distance_at(const float* a, const float* b, size_t i)
 }
 
 // Return the fraction of strands that have a moved vertex between `first` and `last`.
-static double share_moved(const float* a, const float* b, size_t first, size_t last)
+static double fraction_moved(const float* a, const float* b, size_t first, size_t last)
 {
     uint32_t moved = 0;
     for (size_t n = 0; n < FOLLOWERS; ++n) {
-        double most = 0;
-        for (size_t k = first; k <= last; ++k) most = fmax(most, distance_at(a, b, n * EACH + k));
-        moved += most > 1e-6;
+        double max = 0;
+        for (size_t k = first; k <= last; ++k) max = fmax(max, distance_at(a, b, n * EACH + k));
+        moved += max > 1e-6;
     }
     return (double)moved / FOLLOWERS;
 }
@@ -87,16 +87,17 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
     float* whole = read_with(&f, &look);
     look.tip_stray_fraction = look.stray_fraction = 1;
     float* all = read_with(&f, &look);
-    print_message("    %.3f stray at their tips, %.3f all along\n", share_moved(plain, tips, 0, SEGMENTS),
-                  share_moved(plain, whole, 0, SEGMENTS));
+    print_message("    %.3f stray at their tips, %.3f all along\n", fraction_moved(plain, tips, 0, SEGMENTS),
+                  fraction_moved(plain, whole, 0, SEGMENTS));
     // Tolerances are three standard deviations. For 4,000 strands they are 2.2 % at a fraction of
     // 30 %, and 1.4 % at 10 %.
-    hair_test_near("tips", 0, share_moved(plain, tips, 0, SEGMENTS), 0.3, 0.022);
-    hair_test_near("tips, in the first two fifths", 0, share_moved(plain, tips, 0, 2 * SEGMENTS / 5), 0, 0);
-    hair_test_near("whole", 0, share_moved(plain, whole, 0, SEGMENTS), 0.1, 0.014);
-    hair_test_near("whole, in the first half", 0, share_moved(plain, whole, 0, SEGMENTS / 2), 0.1, 0.014);
-    hair_test_near("all", 0, share_moved(plain, all, 0, SEGMENTS), 1, 0);
-    hair_test_near("roots", 0, share_moved(plain, all, 0, 0), 0, 0);
+    hair_test_near("tips", 0, fraction_moved(plain, tips, 0, SEGMENTS), 0.3, 0.022);
+    hair_test_near("tips, in the first two fifths", 0, fraction_moved(plain, tips, 0, 2 * SEGMENTS / 5), 0,
+                   0);
+    hair_test_near("whole", 0, fraction_moved(plain, whole, 0, SEGMENTS), 0.1, 0.014);
+    hair_test_near("whole, in the first half", 0, fraction_moved(plain, whole, 0, SEGMENTS / 2), 0.1, 0.014);
+    hair_test_near("all", 0, fraction_moved(plain, all, 0, SEGMENTS), 1, 0);
+    hair_test_near("roots", 0, fraction_moved(plain, all, 0, 0), 0, 0);
     free(plain), free(tips), free(whole), free(all);
     finish(&f);
 }
@@ -116,7 +117,7 @@ static void curls_are_as_far_from_the_way_as_their_radius(void** state)
         hair_test_near("radius", i, distance_at(plain, curled, i), 0.004, 1e-6);
     look.curl_profile.at[0] = 0;
     float* rooted = read_with(&f, &look);
-    hair_test_near("roots", 0, share_moved(plain, rooted, 0, 0), 0, 0);
+    hair_test_near("roots", 0, fraction_moved(plain, rooted, 0, 0), 0, 0);
     free(plain), free(curled), free(rooted);
     finish(&f);
 }
@@ -161,7 +162,7 @@ static void single_strands_without_offsets_are_their_guide(void** state)
     look.interpolation = HAIR_INTERPOLATION_SINGLE;
     look.clump_width = hair_curve_line(0, 0);
     float* positions = read_with(&f, &look);
-    uint32_t count, each = 2 * f.groom->most_vertices - 1;
+    uint32_t count, each = 2 * f.groom->max_vertices - 1;
     float* smooth = malloc(3 * sizeof *smooth * each * f.groom->info.guide_count);
     hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_SMOOTH, smooth,
                                              each * f.groom->info.guide_count, &count));

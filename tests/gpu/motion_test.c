@@ -147,7 +147,7 @@ static void strand_at(const float* positions, uint32_t strand, double t, double 
 static double check(const char* what, const hair_view* view, const struct picture* picture, const float* now,
                     const float* before)
 {
-    double worst = 0, most = 0;
+    double worst = 0, max = 0;
     uint32_t covered = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         if (picture->motion[4 * i + 3] == 9) continue;
@@ -161,16 +161,16 @@ static double check(const char* what, const hair_view* view, const struct pictur
         project(view->prev_view, view->prev_projection, p, b);
         for (int k = 0; k < 2; ++k) {
             off = fmax(off, fabs((double)picture->motion[4 * i + k] - 0.5 * (a[k] - b[k])) * SIDE);
-            most = fmax(most, fabs((double)picture->motion[4 * i + k]) * SIDE);
+            max = fmax(max, fabs((double)picture->motion[4 * i + k]) * SIDE);
         }
         worst = fmax(worst, off);
         assert_true(picture->motion[4 * i + 2] == 0 && picture->motion[4 * i + 3] == 1);
     }
-    print_message("    %s: %u pixels, up to %.3f pixels a frame, off by up to %.4f\n", what, covered, most,
+    print_message("    %s: %u pixels, up to %.3f pixels a frame, off by up to %.4f\n", what, covered, max,
                   worst);
     assert_true(covered > 200);
     assert_true(worst < 0.02);
-    return most;
+    return max;
 }
 
 static void step(struct fixture* f, float x)
@@ -292,15 +292,15 @@ static void teleports_take_along_and_resets_forget(void** state)
     view.view[14] = -0.8f - (seen[2] * 500 + seen[6] * 3 + seen[10] * -200);
     memcpy(view.prev_view, view.view, sizeof view.view);
     draw(&f, &view, &picture);
-    double most = 0;
+    double max = 0;
     uint32_t covered = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         if (picture.motion[4 * i + 3] == 9) continue;
         ++covered;
-        for (int k = 0; k < 2; ++k) most = fmax(most, fabs((double)picture.motion[4 * i + k]) * SIDE);
+        for (int k = 0; k < 2; ++k) max = fmax(max, fabs((double)picture.motion[4 * i + k]) * SIDE);
     }
-    print_message("    teleported: %u pixels, up to %.5f pixels a frame\n", covered, most);
-    assert_true(covered > 200 && most < 0.01);
+    print_message("    teleported: %u pixels, up to %.5f pixels a frame\n", covered, max);
+    assert_true(covered > 200 && max < 0.01);
     hair_test_ok(f.test, hair_reset(f.hair));
     draw(&f, &view, &picture);
     for (int i = 0; i < SIDE * SIDE; ++i)

@@ -8,13 +8,13 @@
 #include <string.h>
 
 #include "lib/api/api.h"
-#include "lib/reference/self_shadow.h"
+#include "tests/reference/self_shadow.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 
 #define HALF 0.2f // Half of the side of the visible square, in metres.
 #define RAYS 4096
-#define MOST 1024 // Maximum number of texels per side.
+#define MAX 1024 // Maximum number of texels per side.
 
 struct fixture {
     struct hair_test* test;
@@ -24,7 +24,7 @@ struct fixture {
     struct hair_reference_rays rays;
     GLuint framebuffer, opacity, depth;
     GLsizei texels;
-    float pixels[MOST * MOST];
+    float pixels[MAX * MAX];
 };
 
 static struct fixture* start(void** state, uint32_t followers, float radius)
@@ -96,7 +96,7 @@ static void count_rays(struct fixture* f, double behind)
     make_map(f, 16);
     draw(f, 1);
     hair_vec4* vertices = malloc(count * sizeof *vertices);
-    glGetNamedBufferSubData(f->hair->draw.expanded.position, 0, (GLsizeiptr)(count * sizeof *vertices),
+    glGetNamedBufferSubData(f->hair->draw.vertex_cache.position, 0, (GLsizeiptr)(count * sizeof *vertices),
                             vertices);
     free(f->rays.stopped);
     f->rays = (struct hair_reference_rays){.lower = {-(double)HALF, -(double)HALF},
@@ -122,15 +122,15 @@ struct found {
 static struct found compare(const struct fixture* f)
 {
     struct found found = {0};
-    double share = 1.0 / f->texels, square = 0;
+    double fraction = 1.0 / f->texels, square = 0;
     uint32_t count = 0;
     for (int i = 0; i < f->texels * f->texels; ++i) {
         double taken = (double)f->pixels[i];
         double expected =
-            hair_reference_stopped(&f->rays, i % f->texels * share, i / f->texels * share, share);
+            hair_reference_stopped(&f->rays, i % f->texels * fraction, i / f->texels * fraction, fraction);
         assert_true(taken >= 0 && taken <= 1);
-        found.mean += taken * share * share;
-        found.expected += expected * share * share;
+        found.mean += taken * fraction * fraction;
+        found.expected += expected * fraction * fraction;
         if (expected <= 0 && taken <= 0) continue;
         square += pow(taken - expected, 2);
         ++count;
@@ -174,8 +174,8 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
     make_map(f, 256);
     for (int path = 0; path <= HAIR_RENDER_PATH_CACHED; ++path)
         for (int k = 0; k < 4; ++k) {
-            static const float shares[] = {1, 0.5f, 0.2f, 0.1f};
-            part.strand_fraction = shares[k], part.segment_fraction = k ? 0.5f : 1.0f;
+            static const float fractions[] = {1, 0.5f, 0.2f, 0.1f};
+            part.strand_fraction = fractions[k], part.segment_fraction = k ? 0.5f : 1.0f;
             f->view.render_path = (hair_render_path)path;
             f->view.lod = k ? &part : NULL;
             // The pass draws ribbons with both settings.
@@ -183,7 +183,8 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
             draw(f, 1);
             struct found found = compare(f);
             double error = found.mean / found.expected - 1;
-            print_message("    path %d, %g of the strands: %+.1f %%\n", path, (double)shares[k], 100 * error);
+            print_message("    path %d, %g of the strands: %+.1f %%\n", path, (double)fractions[k],
+                          100 * error);
             hair_test_near("opacity", (size_t)(4 * path + k), error, 0, k ? 0.05 : 0.01);
             if (!path && !k) all = found.mean;
             if (!k) hair_test_near("path", (size_t)path, found.mean, all, 1e-4 * all);
@@ -205,11 +206,11 @@ static void only_hair_before_the_first_body_counts(void** state)
     make_map(f, 128);
     draw(f, 0.5f);
     struct found found = {0};
-    double all = 0, share = 1.0 / 128;
+    double all = 0, fraction = 1.0 / 128;
     for (int i = 0; i < 128 * 128; ++i) {
         if (i % 128 >= 64) continue;
         found.mean += (double)f->pixels[i];
-        found.expected += hair_reference_stopped(&f->rays, i % 128 * share, i / 128 * share, share);
+        found.expected += hair_reference_stopped(&f->rays, i % 128 * fraction, i / 128 * fraction, fraction);
     }
     print_message("    %+.2f %% off where a body is\n", 100 * (found.mean / found.expected - 1));
     hair_test_near("before the body", 0, found.mean / found.expected, 1, 0.02);

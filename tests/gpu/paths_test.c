@@ -15,7 +15,7 @@
 
 enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_RENDER_PATH_AUTO };
 
-static const char* const names[PATHS] = {"tessellated", "instanced", "expanded", "compose"};
+static const char* const names[PATHS] = {"tessellated", "instanced", "draw/cached", "resolve_tiles"};
 
 struct fixture {
     struct hair_test* test;
@@ -115,15 +115,15 @@ static const char* name_of(hair_render_path path, const hair_view* view)
 {
     if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
         path = HAIR_RENDER_PATH_CACHED;
-    return path == HAIR_RENDER_PATH_CACHED && view->lod ? "staged" : names[path];
+    return path == HAIR_RENDER_PATH_CACHED && view->lod ? "view_cached" : names[path];
 }
 
 static uint32_t count_hits(struct fixture* f)
 {
     uint32_t count = 0;
     float* hits = malloc(f->hair->draw.followers * sizeof *hits);
-    glGetNamedBufferSubData(f->hair->draw.hits.hit, 0, (GLsizeiptr)(f->hair->draw.followers * sizeof *hits),
-                            hits);
+    glGetNamedBufferSubData(f->hair->draw.follower_collision.hit, 0,
+                            (GLsizeiptr)(f->hair->draw.followers * sizeof *hits), hits);
     for (uint32_t i = 0; i < f->hair->draw.followers; ++i) count += hits[i] < (float)HAIR_NO_HIT;
     free(hits);
     return count;
@@ -191,11 +191,11 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
     uint32_t count = f.groom->info.follower_count;
     hair_view view = front(HAIR_RENDER_PATH_TESSELLATION, HAIR_PRIMITIVE_RIBBONS);
     draw(&f, &view, &picture[PATHS]);
-    f.groom->paint = hair_alloc(&f.test->host.host, count, 8 * 4 * sizeof *f.groom->paint);
+    f.groom->colors = hair_alloc(&f.test->host.host, count, 8 * 4 * sizeof *f.groom->colors);
     for (uint32_t i = 0; i < count; ++i)
         for (int k = 0; k < 8; ++k) {
             hair_vec4 root = f.groom->rest[f.groom->guides[f.groom->followers[i].guide0].first].position;
-            f.groom->paint[32 * i + 4 * (uint32_t)k + (root.x > 0)] = 40000;
+            f.groom->colors[32 * i + 4 * (uint32_t)k + (root.x > 0)] = 40000;
         }
     hair_destroy(f.hair);
     hair_desc how = hair_desc_default();

@@ -8,10 +8,10 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "lib/reference/drag.h"
-#include "lib/reference/fluid.h"
-#include "lib/sim/crowd.h"
-#include "tests/support/living.h"
+#include "tests/reference/drag.h"
+#include "tests/reference/fluid.h"
+#include "lib/sim/hair_grid.h"
+#include "tests/support/live_hair.h"
 
 #define WIND 5.0
 #define NU (1.82e-5 / 1.204)
@@ -24,7 +24,7 @@ static void begin(struct hair_test* test, uint32_t cells, int ball, double densi
     struct hair_fluid_desc desc = hair_test_fluid_desc(cells);
     double node = (double)HAIR_TEST_FLUID_SIDE / (cells < 32 ? cells : 32);
     hair_test_fluid_begin(test, &desc, ball, f);
-    hair_test_ok(test, hair_fluid_need_hair(&f->fluid, 1));
+    hair_test_ok(test, hair_fluid_ensure_hair(&f->fluid, 1));
     f->now.strands = (struct hair_fluid_strands){density * node * node * node / 1048576,
                                                  (float)(DIAMETER / NU), (float)NU};
 }
@@ -82,15 +82,16 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
         density[i] = grid[4 * i] * (5e5 / 1048576);
         for (int k = 0; k < 3; ++k) {
             grid[4 * i + 1 + k] = (int32_t)((hair_random(&random) - 0.5f) * (float)grid[4 * i]);
-            flux[3 * i + k] = (double)HAIR_CROWD_SPEED * grid[4 * i + 1 + k] * (5e5 / 1048576);
+            flux[3 * i + k] = (double)HAIR_GRID_SPEED * grid[4 * i + 1 + k] * (5e5 / 1048576);
         }
     }
     put_hair(&f, grid);
     f.now.head.position[0] += 2.2 * (double)HAIR_TEST_FLUID_SIDE / 16;
     hair_fluid_place(&f.fluid, &f.now);
-    double *open = hair_test_fluid_open(&f, 0), *wall = hair_test_floats(f.fluid.wall.buffer, f.faces);
+    double *open = hair_test_fluid_open(&f, 0),
+           *wall = hair_test_floats(f.fluid.wall_velocity.buffer, f.faces);
     hair_fluid_bind(&f.fluid);
-    hair_fluid_let_through(&f.fluid);
+    hair_fluid_apply_porosity(&f.fluid);
     struct hair_reference_flow flow = {.cells = 16,
                                        .shift = {2, 0, 0},
                                        .cells_per = 16 / (60 * (double)HAIR_TEST_FLUID_SIDE),
@@ -98,11 +99,11 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
                                        .air = air};
     struct hair_reference_thicket hair = {16, density, flux, DIAMETER / NU, NU / 60};
     hair_reference_hold(&flow, &hair, open, wall);
-    struct hair_fluid_buffer bare = f.fluid.open;
-    f.fluid.open = f.fluid.hair.open;
-    double *got = hair_test_fluid_open(&f, 0), least = 1;
-    double* closing = hair_test_floats(f.fluid.hair.wall.buffer, f.faces);
-    f.fluid.open = bare;
+    struct hair_fluid_buffer bare = f.fluid.face_fraction;
+    f.fluid.face_fraction = f.fluid.hair.face_fraction;
+    double *got = hair_test_fluid_open(&f, 0), min = 1;
+    double* closing = hair_test_floats(f.fluid.hair.wall_velocity.buffer, f.faces);
+    f.fluid.face_fraction = bare;
     for (uint32_t i = 0; i < f.faces; ++i) {
         uint32_t slot = i % (uint32_t)(f.faces / 3), axis = i / (uint32_t)(f.faces / 3);
         uint32_t at[3] = {slot % 17, slot / 17 % 17, slot / 289};
@@ -113,10 +114,10 @@ static void faces_are_as_open_as_hair_leaves_them(void** state)
         hair_test_near("open", i, got[i], open[i],
                        1.1 / 1023 + (open[i] > 0 && open[i] < 1.0 / 1023 ? 1.0 : 0) / 1023);
         if (got[i] < 0.95) hair_test_near("wall", i, closing[i], wall[i], 0.15);
-        least = fmin(least, got[i] > 0 ? got[i] : 1);
+        min = fmin(min, got[i] > 0 ? got[i] : 1);
     }
-    print_message("    as little as %.3f is open\n", least);
-    assert_true(least < 0.3);
+    print_message("    as little as %.3f is open\n", min);
+    assert_true(min < 0.3);
     free(texel), free(grid), free(air), free(density), free(flux), free(open), free(wall), free(got),
         free(closing);
     hair_test_fluid_end(&f);
@@ -192,7 +193,7 @@ static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(voi
         double* velocity = hair_test_fluid_velocity(&f);
         double through = 1 / (1 + densities[i] * rate(WIND) / 60), expected = 3 * through / (2 + through);
         double in = hair_test_fluid_at(&f, velocity, 0, place) / WIND;
-        double* right = hair_test_floats(f.fluid.right.buffer, f.count);
+        double* right = hair_test_floats(f.fluid.rhs.buffer, f.count);
         double left = hair_test_fluid_left(&f) / hair_test_rms(right, f.count);
         print_message(
             "    %.3f let through: %.3f of the wind inside, %.3f expected; %.1e of divergence left\n",
@@ -256,18 +257,19 @@ static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         wind.drag_strand_count = k ? 50000 : 0;
-        hair_test_blow(&living, &wind);
+        hair_test_wind_coupling(&living, &wind);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
         way[k] = (double)(hair_test_tip(&living, 64).x - 0.12f);
         hair_test_healthy(&living);
         if (k) {
-            GLuint grid = living.hair->sim.blow.fluid.hair.grid.buffer, share = living.hair->sim.blow.share;
-            assert_true(glIsBuffer(grid) && glIsBuffer(share));
+            GLuint grid = living.hair->sim.wind_coupling.fluid.hair.grid.buffer,
+                   fraction = living.hair->sim.wind_coupling.splat;
+            assert_true(glIsBuffer(grid) && glIsBuffer(fraction));
             wind.drag_strand_count = 0;
-            hair_test_blow(&living, &wind);
+            hair_test_wind_coupling(&living, &wind);
             hair_test_wait(&living, 1);
-            assert_false(glIsBuffer(grid) || glIsBuffer(share));
+            assert_false(glIsBuffer(grid) || glIsBuffer(fraction));
         }
         hair_test_die(&living);
     }

@@ -6,7 +6,7 @@
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 
-#define MOST_CALLS 200
+#define MAX_CALLS 200
 
 struct fixture {
     struct hair_test* test;
@@ -56,7 +56,7 @@ static hair_view view_of(hair_render_path path)
 static uint32_t prepare(struct fixture* f, const hair_view* view)
 {
     uint32_t ready = 0, calls = 0;
-    for (; !ready && calls < MOST_CALLS; ++calls)
+    for (; !ready && calls < MAX_CALLS; ++calls)
         hair_test_ok(f->test, hair_precompile(f->hair, view, &ready));
     assert_int_equal(ready, 1);
     return calls;
@@ -89,7 +89,7 @@ static void put_boxes_into(struct fixture* f, hair_view* view)
     hair_test_ok(f->test, hair_set_colliders(f->hair, box, 40, sizeof *box));
 }
 
-static void blow_at(struct fixture* f, hair_view* view)
+static void wind_coupling_at(struct fixture* f, hair_view* view)
 {
     (void)view;
     hair_wind wind = hair_wind_default();
@@ -100,7 +100,7 @@ static void blow_at(struct fixture* f, hair_view* view)
     hair_test_ok(f->test, hair_set_wind(f->hair, &wind));
 }
 
-static void crowd(struct fixture* f, hair_view* view)
+static void hair_grid(struct fixture* f, hair_view* view)
 {
     (void)view;
     hair_physics physics = f->hair->sim.physics;
@@ -117,7 +117,7 @@ static void shade_strands(struct fixture* f, hair_view* view)
     put_a_ball_into(f, view);
 }
 
-static void share_pixels(struct fixture* f, hair_view* view)
+static void fraction_pixels(struct fixture* f, hair_view* view)
 {
     (void)f;
     view->coverage = HAIR_COVERAGE_ALPHA;
@@ -168,10 +168,10 @@ static const struct {
     {"a ball, expanded", HAIR_RENDER_PATH_CACHED, put_a_ball_into},
     {"a ball, computed", HAIR_RENDER_PATH_COMPUTE, put_a_ball_into},
     {"boxes", HAIR_RENDER_PATH_TESSELLATION, put_boxes_into},
-    {"a fluid", HAIR_RENDER_PATH_TESSELLATION, blow_at},
-    {"a crowd", HAIR_RENDER_PATH_TESSELLATION, crowd},
+    {"a fluid", HAIR_RENDER_PATH_TESSELLATION, wind_coupling_at},
+    {"a crowd", HAIR_RENDER_PATH_TESSELLATION, hair_grid},
     {"shadows by strands", HAIR_RENDER_PATH_TESSELLATION, shade_strands},
-    {"shares of pixels", HAIR_RENDER_PATH_CACHED, share_pixels},
+    {"shares of pixels", HAIR_RENDER_PATH_CACHED, fraction_pixels},
     {"curls", HAIR_RENDER_PATH_TESSELLATION, curl},
     {"depth", HAIR_RENDER_PATH_TESSELLATION, lend_depth},
     {"depth, expanded", HAIR_RENDER_PATH_CACHED, lend_depth},
@@ -242,7 +242,7 @@ static void nulls_and_wrong_views_are_refused(void** state)
     hair_test_refused(f.test, hair_precompile(f.hair, &view, &ready), HAIR_ERROR_ARGUMENT,
                       "hair_view.opacity");
     assert_int_equal(ready, 7);
-    assert_int_equal(prepare(&f, NULL) <= MOST_CALLS, 1);
+    assert_int_equal(prepare(&f, NULL) <= MAX_CALLS, 1);
     finish(&f);
 }
 

@@ -155,11 +155,11 @@ static struct difference compare(const struct picture* a, const struct picture* 
     struct difference d = {0};
     for (int i = 0; i < PIXELS; ++i) {
         int by_a = a->pixels[4 * i + 3] > 0, by_b = b->pixels[4 * i + 3] > 0;
-        float most = 0;
+        float max = 0;
         d.covered += (uint32_t)(by_a && by_b);
         d.alone += (uint32_t)(by_a != by_b);
-        for (int k = 0; k < 3; ++k) most = fmaxf(most, fabsf(a->pixels[4 * i + k] - b->pixels[4 * i + k]));
-        d.apart += by_a && by_b && (most > 0.005f || fabsf(a->depth[i] - b->depth[i]) > 1e-4f);
+        for (int k = 0; k < 3; ++k) max = fmaxf(max, fabsf(a->pixels[4 * i + k] - b->pixels[4 * i + k]));
+        d.apart += by_a && by_b && (max > 0.005f || fabsf(a->depth[i] - b->depth[i]) > 1e-4f);
     }
     return d;
 }
@@ -205,7 +205,7 @@ static void depth_made_by_compute_is_that_which_is_drawn(void** state)
     }
     print_message("    %u pixels, %u are farther apart\n", there, apart);
     assert_true(there > 1000 && apart <= there / 50);
-    assert_int_equal(f.hair->draw.expanded.shaded, 0);
+    assert_int_equal(f.hair->draw.vertex_cache.shaded, 0);
     finish(&f);
 }
 
@@ -231,7 +231,7 @@ static void levels_of_detail_are_those_that_are_drawn(void** state)
         for (int k = 0; k < PIXELS; ++k) apart += drawn.depth[k] != made.depth[k];
         assert_int_equal(apart, 0);
     }
-    assert_int_equal(f.hair->draw.expanded.vertices, 0);
+    assert_int_equal(f.hair->draw.vertex_cache.vertices, 0);
     finish(&f);
 }
 

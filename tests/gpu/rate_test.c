@@ -10,7 +10,7 @@
 #include "lib/api/api.h"
 #include "tests/support/handmade.h"
 
-enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MOST = 1024 };
+enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MAX = 1024 };
 
 // Positions of the drawn tips in every frame, relative to the head.
 struct run {
@@ -64,9 +64,9 @@ static uint32_t count_runs(hair_context* context)
 
 static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUIDES])
 {
-    float at[3 * MOST];
+    float at[3 * MAX];
     uint32_t count = 0, each = hair->sim.smooth_vertices;
-    hair_test_ok(f->test, hair_read_positions(hair, HAIR_READ_SMOOTH, at, MOST, &count));
+    hair_test_ok(f->test, hair_read_positions(hair, HAIR_READ_SMOOTH, at, MAX, &count));
     assert_int_equal(count, GUIDES * each);
     for (uint32_t i = 0; i < GUIDES; ++i) tip[i] = hair_load3(at + 3 * ((i + 1) * each - 1));
 }
@@ -155,23 +155,23 @@ static double swing_of(const struct run* run, hair_vec3 mean[GUIDES])
 // Return the maximum change of a tip's step from one frame to the next.
 static double jerk_of(const struct run* run)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 2; i < FRAMES; ++i)
         for (int g = 0; g < GUIDES; ++g) {
             hair_vec3 step = hair_sub(run->tip[i][g], run->tip[i - 1][g]);
             hair_vec3 before = hair_sub(run->tip[i - 1][g], run->tip[i - 2][g]);
-            most = fmax(most, (double)hair_distance(step, before));
+            max = fmax(max, (double)hair_distance(step, before));
         }
-    return most;
+    return max;
 }
 
 static double fastest_of(const struct run* run)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 1; i < FRAMES; ++i)
         for (int g = 0; g < GUIDES; ++g)
-            most = fmax(most, (double)hair_distance(run->tip[i][g], run->tip[i - 1][g]));
-    return most;
+            max = fmax(max, (double)hair_distance(run->tip[i][g], run->tip[i - 1][g]));
+    return max;
 }
 
 // Maximum differences of a run at a lower rate.

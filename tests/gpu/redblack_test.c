@@ -9,7 +9,7 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "lib/reference/reference.h"
+#include "tests/reference/reference.h"
 #include "tests/support/handmade.h"
 
 #define STATES 4096 // Maximum number of guide vertices in a test.
@@ -59,10 +59,10 @@ static struct fixture start_with(void** state, struct hair_test_handmade wanted)
 }
 
 // Start with one guide of each number of vertices up to `most`.
-static struct fixture start_up_to(void** state, uint32_t most)
+static struct fixture start_up_to(void** state, uint32_t max)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.guides = most - 1, wanted.fewest = 2, wanted.most = most;
+    wanted.guides = max - 1, wanted.fewest = 2, wanted.max = max;
     return start_with(state, wanted);
 }
 
@@ -80,9 +80,9 @@ static void finish(struct fixture* f)
 static void move_head(struct fixture* f)
 {
     for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i) {
-        float share = (float)(i + 1) / 5;
-        f->params.substep[i] = (struct hair_substep){vec4_of_quat(turn_about(hair_v3(1, 2, 3), 0.2f * share)),
-                                                     {0.005f, -0.002f, 0.003f, share}};
+        float fraction = (float)(i + 1) / 5;
+        f->params.substep[i] = (struct hair_substep){
+            vec4_of_quat(turn_about(hair_v3(1, 2, 3), 0.2f * fraction)), {0.005f, -0.002f, 0.003f, fraction}};
     }
 }
 
@@ -140,7 +140,7 @@ static void run_pass(struct fixture* f, hair_gl_pass pass)
 {
     struct hair_gl* gl = &f->test->context->gl;
     size_t size = f->groom->info.guide_vertex_count * sizeof *f->state;
-    hair_test_ok(f->test, hair_gl_need(gl, pass));
+    hair_test_ok(f->test, hair_gl_ensure_program(gl, pass));
     // One driver loses data that is written to a buffer while a dispatch writes the buffer.
     glFinish();
     glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
@@ -154,7 +154,7 @@ static void run_pass(struct fixture* f, hair_gl_pass pass)
 
 static void run(struct fixture* f)
 {
-    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK, f->groom->most_vertices));
+    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK, f->groom->max_vertices));
 }
 
 static double largest(const hair_vec4* a, const double* b)
@@ -366,10 +366,10 @@ static void a_step_is_what_the_application_asked_for(void** state)
     p->substeps = 4;
     p->colliders = 1;
     for (int i = 0; i < 4; ++i) {
-        float share = (float)(i + 1) / 4;
+        float fraction = (float)(i + 1) / 4;
         p->substep[i] =
-            (struct hair_substep){{0, (float)sin(angle * share / 2), 0, (float)cos(angle * share / 2)},
-                                  {(float)(to[0] / 4), (float)(to[1] / 4), (float)(to[2] / 4), share}};
+            (struct hair_substep){{0, (float)sin(angle * fraction / 2), 0, (float)cos(angle * fraction / 2)},
+                                  {(float)(to[0] / 4), (float)(to[1] / 4), (float)(to[2] / 4), fraction}};
     }
     for (int end = 0; end < 2; ++end) {
         float x = (float)((end ? -1 : 1) * sin(0.8) * 0.1), y = (float)((end ? 1 : -1) * cos(0.8) * 0.1);
@@ -419,15 +419,15 @@ static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** sta
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
-        uint32_t most = vertices[guides - 1];
+        uint32_t max = vertices[guides - 1];
         struct hair_test_handmade wanted = hair_test_handmade_default();
         wanted.guides = guides, wanted.vertices = vertices;
-        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f;
+        wanted.segment = max > 64 ? 0.64f / (float)max : 0.01f;
         struct fixture f = start_with(state, wanted);
         switch_all_on(&f);
         f.params.substeps = 3;
         char what[32];
-        snprintf(what, sizeof what, "up to %u vertices", most);
+        snprintf(what, sizeof what, "up to %u vertices", max);
         compare(&f, what);
         finish(&f);
     }
@@ -438,7 +438,7 @@ static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** sta
 static void a_guide_of_two_vertices_is_rigid(void** state)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.fewest = wanted.most = 2;
+    wanted.fewest = wanted.max = 2;
     struct fixture f = start_with(state, wanted);
     switch_all_on(&f);
     f.params.substeps = 4;

@@ -164,7 +164,7 @@ struct refusal {
     uint32_t* done; // Number of allocations or creations so far.
     uint32_t* refuse; // Number of the one to refuse, from 1.
     const char* what;
-    uint32_t least; // Minimum number. With fewer, the test would test nothing.
+    uint32_t min; // Minimum number. With fewer, the test would test nothing.
 };
 
 // Refuse the first allocation or creation, then the second, and so on until there are no more. Each
@@ -184,7 +184,7 @@ static void torture(struct user* user, hair_result (*call)(struct user*), struct
         if (*of.done < n) {
             hair_test_ok(test, result);
             print_message("    %u %s\n", *of.done, of.what);
-            assert_true(*of.done >= of.least);
+            assert_true(*of.done >= of.min);
             return;
         }
         if (result != HAIR_ERROR_MEMORY && (result != HAIR_ERROR_OPENGL || of.done != &creations))
@@ -197,15 +197,15 @@ static void torture(struct user* user, hair_result (*call)(struct user*), struct
     fail_msg("there is no end of %s", of.what);
 }
 
-static struct refusal of_memory(struct user* user, uint32_t least)
+static struct refusal of_memory(struct user* user, uint32_t min)
 {
     struct hair_test_host* host = &user->test->host;
-    return (struct refusal){&host->allocations, &host->refuse, "allocations", least};
+    return (struct refusal){&host->allocations, &host->refuse, "allocations", min};
 }
 
-static struct refusal of_objects(uint32_t least)
+static struct refusal of_objects(uint32_t min)
 {
-    return (struct refusal){&creations, &refused_creation, "objects of OpenGL", least};
+    return (struct refusal){&creations, &refused_creation, "objects of OpenGL", min};
 }
 
 static struct user start(void** state, int way)

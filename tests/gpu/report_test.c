@@ -10,7 +10,7 @@
 #include "tests/support/handmade.h"
 #include "tests/support/trace.h"
 
-enum { MOST = 64 };
+enum { MAX = 64 };
 
 struct fixture {
     struct hair_test* test;
@@ -19,7 +19,7 @@ struct fixture {
     struct hair_test_frame frame;
     hair_view view;
     hair_report_info info;
-    hair_report_row row[MOST];
+    hair_report_row row[MAX];
     uint32_t rows;
 };
 
@@ -52,8 +52,8 @@ static void finish(struct fixture* f)
 static void report(struct fixture* f)
 {
     f->info = hair_report_info_default();
-    hair_test_ok(f->test, hair_report(f->hair, 1, &f->info, f->row, sizeof *f->row, MOST, &f->rows));
-    assert_in_range(f->rows, 10, MOST);
+    hair_test_ok(f->test, hair_report(f->hair, 1, &f->info, f->row, sizeof *f->row, MAX, &f->rows));
+    assert_in_range(f->rows, 10, MAX);
     assert_int_equal(f->info.age, 0);
 }
 
@@ -89,8 +89,9 @@ static void check(const struct fixture* f, const char* work, hair_skip_reason wh
 // cache. None of them has a pass or memory.
 static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 {
-    static const char* const none[] = {"scalp",  "ride",  "wind", "crowd",   "seat",
-                                       "expand", "count", "list", "diagnose"};
+    static const char* const none[] = {"unpack_scalp", "root_transforms", "wind",
+                                       "hair_grid",    "bind_followers",  "expand",
+                                       "scan_strands", "compact_strands", "diagnose"};
     struct fixture f = start(state, NULL);
     hair_test_trace_clear();
     run_frame(&f);
@@ -99,7 +100,7 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
     check(&f, "field", HAIR_SKIP_REASON_NONE_NEAR, 0);
     check(&f, "hit", HAIR_SKIP_REASON_NONE_NEAR, 0);
     check(&f, "repair", HAIR_SKIP_REASON_NONE_NEAR, 0);
-    check(&f, "stir", HAIR_SKIP_REASON_NOT_DUE, 0);
+    check(&f, "activity", HAIR_SKIP_REASON_NOT_DUE, 0);
     check(&f, "depth", HAIR_SKIP_REASON_NOT_CALLED, 0);
     check(&f, "solve", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "smooth", HAIR_SKIP_REASON_NONE, 1);
@@ -128,7 +129,7 @@ static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
     check(&f, "field", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "hit", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "repair", HAIR_SKIP_REASON_NONE, 1);
-    check(&f, "crowd", HAIR_SKIP_REASON_NONE, 1);
+    check(&f, "hair_grid", HAIR_SKIP_REASON_NONE, 1);
     print_message("    %llu bytes, with a collider and a crowd %llu\n", (unsigned long long)before,
                   (unsigned long long)f.info.bytes);
     physics.cohesion = 0;
@@ -138,7 +139,7 @@ static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
     check(&f, "field", HAIR_SKIP_REASON_NONE_NEAR, 0);
     check(&f, "hit", HAIR_SKIP_REASON_NONE_NEAR, 0);
     check(&f, "repair", HAIR_SKIP_REASON_NONE_NEAR, 0);
-    check(&f, "crowd", HAIR_SKIP_REASON_NOT_WANTED, 0);
+    check(&f, "hair_grid", HAIR_SKIP_REASON_NOT_WANTED, 0);
     assert_true(f.info.bytes == before);
     finish(&f);
 }
@@ -153,10 +154,10 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
     run_frame(&f);
     run_frame(&f);
     check(&f, "solve", HAIR_SKIP_REASON_ASLEEP, 1);
-    check(&f, "stir", HAIR_SKIP_REASON_ASLEEP, 1);
+    check(&f, "activity", HAIR_SKIP_REASON_ASLEEP, 1);
     check(&f, "smooth", HAIR_SKIP_REASON_UNCHANGED, 1);
     check(&f, "expand", HAIR_SKIP_REASON_UNCHANGED, 1);
-    check(&f, "list", HAIR_SKIP_REASON_UNCHANGED, 1);
+    check(&f, "compact_strands", HAIR_SKIP_REASON_UNCHANGED, 1);
     check(&f, "color", HAIR_SKIP_REASON_NONE, 1);
     // Vertices that a pass of their own shades count as colour.
     check(&f, "colliders", HAIR_SKIP_REASON_NOT_CALLED, 0);
@@ -185,7 +186,7 @@ static void reports_come_without_waiting_and_are_of_one_instance(void** state)
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_step(other.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-        hair_test_ok(f.test, hair_report(f.hair, 0, &f.info, f.row, sizeof *f.row, MOST, &f.rows));
+        hair_test_ok(f.test, hair_report(f.hair, 0, &f.info, f.row, sizeof *f.row, MAX, &f.rows));
         if (!f.rows) continue;
         assert_in_range(f.info.frame, last, i + 1);
         assert_int_equal(f.info.frame + f.info.age, i + 1);
@@ -208,14 +209,14 @@ static void wrong_arguments_are_refused(void** state)
     hair_report_info info = hair_report_info_default();
     uint32_t count;
     size_t stride = sizeof *f.row;
-    assert_int_equal(hair_report(NULL, 0, &info, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT);
-    hair_test_refused(f.test, hair_report(f.hair, 0, NULL, f.row, stride, MOST, &count), HAIR_ERROR_ARGUMENT,
+    assert_int_equal(hair_report(NULL, 0, &info, f.row, stride, MAX, &count), HAIR_ERROR_ARGUMENT);
+    hair_test_refused(f.test, hair_report(f.hair, 0, NULL, f.row, stride, MAX, &count), HAIR_ERROR_ARGUMENT,
                       "hair_report_info is NULL");
-    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, stride, MOST, NULL), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, stride, MAX, NULL), HAIR_ERROR_ARGUMENT,
                       "count is NULL");
     hair_test_refused(f.test, hair_report(f.hair, 0, &info, NULL, stride, 1, &count), HAIR_ERROR_ARGUMENT,
                       "rows is NULL but capacity is 1");
-    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, 1, MOST, &count), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, 1, MAX, &count), HAIR_ERROR_ARGUMENT,
                       "stride is 1, not in");
     hair_test_ok(f.test, hair_report(f.hair, 0, &info, NULL, 0, 0, &count));
     assert_int_equal(info.frame, 0);

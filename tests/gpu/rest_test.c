@@ -1,5 +1,5 @@
 // rest_test.c - the measure of hair at rest: moving hair has its speed, and sleeping hair is still.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 // rod_any_test.c - strands as rods with collision meshes and a thousand colliders, which sweep,
 // spin, contain the hair at the start, or appear on it.
 #include "lib/collide/distance.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 #include "tests/support/meshes.h"
 
 #include <math.h>
@@ -12,9 +12,9 @@
 #define MARGIN 1e-3
 #define VOXEL 5e-3 // Default voxel of the field, in metres.
 
-static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
+static hair_collision_mesh* mesh_of(struct hair_test* test, struct hair_test_mesh mesh, uint32_t resolution)
 {
-    hair_collision_mesh* form = NULL;
+    hair_collision_mesh* collision_mesh = NULL;
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     desc.host = &test->host.host;
     desc.positions = mesh.positions;
@@ -22,30 +22,30 @@ static hair_collision_mesh* form_of(struct hair_test* test, struct hair_test_mes
     desc.vertex_count = mesh.vertex_count;
     desc.triangle_count = mesh.triangle_count;
     desc.resolution = resolution;
-    hair_test_ok(test, hair_collision_mesh_create(&desc, &form));
+    hair_test_ok(test, hair_collision_mesh_create(&desc, &collision_mesh));
     hair_test_mesh_free(&mesh);
-    return form;
+    return collision_mesh;
 }
 
-// Return a box with these half sides. With `is_form` it is a collision mesh of half the size,
+// Return a box with these half sides. With `is_mesh` it is a collision mesh of half the size,
 // scaled by two.
-static hair_collider box_of(struct hair_test* test, int is_form, float x, float y, float z)
+static hair_collider box_of(struct hair_test* test, int is_mesh, float x, float y, float z)
 {
     const float half[] = {x / 2, y / 2, z / 2};
-    hair_collider collider = hair_test_body(is_form ? HAIR_SHAPE_MESH : HAIR_SHAPE_BOX, 0, 0, 0);
-    if (is_form) {
-        collider.mesh = form_of(test, hair_test_box_mesh(half), 48);
+    hair_collider collider = hair_test_body(is_mesh ? HAIR_SHAPE_MESH : HAIR_SHAPE_BOX, 0, 0, 0);
+    if (is_mesh) {
+        collider.mesh = mesh_of(test, hair_test_box_mesh(half), 48);
         collider.scale = 2;
     } else
         collider.size[0] = x, collider.size[1] = y, collider.size[2] = z;
     return collider;
 }
 
-static hair_collider ball_of(struct hair_test* test, int is_form, float radius)
+static hair_collider ball_of(struct hair_test* test, int is_mesh, float radius)
 {
-    hair_collider collider = hair_test_body(is_form ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE, 0, 0, 0);
-    if (is_form)
-        collider.mesh = form_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
+    hair_collider collider = hair_test_body(is_mesh ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE, 0, 0, 0);
+    if (is_mesh)
+        collider.mesh = mesh_of(test, hair_test_ball_mesh(radius, 24, 48), 48);
     else
         collider.size[0] = radius;
     return collider;
@@ -217,9 +217,9 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
         for (int solver = 0; solver < (n == 1 ? SOLVERS : 1); ++solver) {
             static const char* const names[] = {"swept", "spun", "begun inside", "came upon"};
             struct hair_test_living living;
-            int is_form = n % 2, what = n / 2;
+            int is_mesh = n % 2, what = n / 2;
             hair_collider collider =
-                what == 1 ? box_of(*state, is_form, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_form, 0.05f);
+                what == 1 ? box_of(*state, is_mesh, 0.08f, 0.02f, 0.05f) : ball_of(*state, is_mesh, 0.05f);
             live_row(*state, solver, &physics, &living);
             if (what == 0) // At 5 m/s, and then stopped.
                 for (double x = -0.3; x < 0.1; x += 5.0 / 60) {
@@ -244,7 +244,7 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
             }
             check_after(&living, &collider, names[what], solver);
             hair_test_die(&living);
-            if (is_form) hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)collider.mesh);
+            if (is_mesh) hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)collider.mesh);
         }
 }
 
@@ -252,7 +252,7 @@ static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** sta
 
 #define MANY 1000
 
-static void place_many(hair_collider* colliders, const hair_collision_mesh* form)
+static void place_many(hair_collider* colliders, const hair_collision_mesh* collision_mesh)
 {
     uint32_t random = 5;
     for (int i = 0; i < MANY; ++i) {
@@ -266,7 +266,7 @@ static void place_many(hair_collider* colliders, const hair_collision_mesh* form
                                                   : HAIR_SHAPE_BOX,
                                       0.5f * p[0], -0.17f + 0.2f * p[1], 0.5f * p[2]);
         if (colliders[i].shape == HAIR_SHAPE_MESH) {
-            colliders[i].mesh = form;
+            colliders[i].mesh = collision_mesh;
             continue;
         }
         for (int k = 0; k < 3; ++k) colliders[i].size[k] = i % 3 && k ? 0 : 0.012f;
@@ -277,8 +277,8 @@ static void among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_
 {
     static hair_collider colliders[MANY];
     hair_physics physics = hair_test_loose(0.3f);
-    hair_collision_mesh* form = form_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
-    place_many(colliders, form);
+    hair_collision_mesh* collision_mesh = mesh_of(*state, hair_test_ball_mesh(0.015f, 12, 24), 24);
+    place_many(colliders, collision_mesh);
     struct hair_test_living living[2];
     size_t size = 0;
     void* bytes;
@@ -310,7 +310,7 @@ static void among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_
     assert_memory_equal(living[0].positions, living[1].positions, 12 * living[0].vertices);
     hair_test_die(&living[0]);
     hair_test_die(&living[1]);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh_destroy(collision_mesh);
 }
 
 #define POST_BALLS 100
@@ -339,8 +339,8 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
     hair_collider post = hair_test_body(HAIR_SHAPE_CAPSULE, 0, -0.15f, 0);
     post.size[0] = 0.02f, post.size[1] = 0.09f;
     for (int i = 0; i < POST_BALLS; ++i) {
-        float share = (float)i / (POST_BALLS - 1);
-        balls[i] = hair_test_body(HAIR_SHAPE_SPHERE, 0, -0.24f + 0.18f * share, 0);
+        float fraction = (float)i / (POST_BALLS - 1);
+        balls[i] = hair_test_body(HAIR_SHAPE_SPHERE, 0, -0.24f + 0.18f * fraction, 0);
         balls[i].size[0] = 0.02f;
     }
     uint32_t fallbacks[3];

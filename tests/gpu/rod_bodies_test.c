@@ -1,7 +1,7 @@
 // rod_bodies_test.c - strands as rods on boxes, cylinders, cones and planes: at rest, swept, spun,
 // and held by friction.
 #include "lib/collide/distance.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 // rod_contact_test.c - strands as rods and colliders: at rest on them, sliding, held by friction,
 // carried, swept, and freed.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,7 +34,7 @@ static hair_collider capsule(double x, double y, double radius, double angle)
 // distance. A root that the scalp holds does not count.
 static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
-    double most = -INFINITY;
+    double max = -INFINITY;
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
         for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
              ++i) {
@@ -42,9 +42,9 @@ static double depth(const struct hair_test_living* living, const hair_collider* 
             double x = (double)(p.x - collider->position[0]), y = (double)(p.y - collider->position[1]);
             double z = (double)(p.z - collider->position[2]);
             if (collider->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)collider->size[1], 0);
-            most = fmax(most, (double)collider->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
+            max = fmax(max, (double)collider->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
         }
-    return most;
+    return max;
 }
 
 // Lay a strand of 0.25 m over a collider, with its root above and to the side, and wait for

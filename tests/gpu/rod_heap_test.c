@@ -1,6 +1,6 @@
 // rod_heap_test.c - hair on a heap of balls that overlap and move apart. Colliders that are not
 // tested would have had no effect.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 // rod_laws_test.c - laws of strands as rods: they fall by the formula, keep momentum and energy,
 // and rest. They do not depend on the mapping to threads or on the length of steps.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -45,10 +45,10 @@ static void shake(struct hair_test* test, struct hair_test_strands* strands, con
 static double apart(const struct hair_test_living* a, uint32_t guide, const struct hair_test_living* b,
                     uint32_t other)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < a->groom->guides[guide].count; ++i)
-        most = fmax(most, (double)hair_distance(hair_test_at(a, guide, i), hair_test_at(b, other, i)));
-    return most;
+        max = fmax(max, (double)hair_distance(hair_test_at(a, guide, i), hair_test_at(b, other, i)));
+    return max;
 }
 
 // Check guides together and alone. They differ by rounding only, because root frames are chosen by
@@ -87,10 +87,10 @@ static void a_thread_per_guide_does_what_a_work_group_does(void** state)
             hair_desc desc = hair_test_rods((hair_solver)solver, mapping, 1.0 / 480, &physics);
             shake(*state, &strands, &desc, &living[m]);
         }
-        double most = 0;
-        for (uint32_t g = 0; g < KINDS; ++g) most = fmax(most, apart(&living[0], g, &living[1], g));
-        print_message("    solver %d: %.2g m apart\n", solver, most);
-        assert_true(most < 1e-5);
+        double max = 0;
+        for (uint32_t g = 0; g < KINDS; ++g) max = fmax(max, apart(&living[0], g, &living[1], g));
+        print_message("    solver %d: %.2g m apart\n", solver, max);
+        assert_true(max < 1e-5);
         hair_test_die(&living[0]);
         hair_test_die(&living[1]);
     }
@@ -116,10 +116,10 @@ static void motion_does_not_depend_on_how_time_is_cut(void** state)
                 }
                 hair_test_read_guides(&living[cut]);
             }
-            double most = apart(&living[0], 0, &living[1], 0);
+            double max = apart(&living[0], 0, &living[1], 0);
             print_message("    solver %d, the head %s: %.2g m apart\n", solver, moves ? "moves" : "stands",
-                          most);
-            assert_true(most <= (moves ? 1e-5 : 0));
+                          max);
+            assert_true(max <= (moves ? 1e-5 : 0));
             hair_test_die(&living[0]);
             hair_test_die(&living[1]);
             hair_test_strands_free(&strands);
@@ -164,7 +164,7 @@ static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
         hair_desc desc =
             hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        hair_test_blow(&living, &wind);
+        hair_test_wind_coupling(&living, &wind);
         for (int k = 0; k < 60; ++k) {
             hair_test_advance(&living, NULL, FRAME);
             hair_test_read_guides(&living);

@@ -1,6 +1,6 @@
 // rod_motion_test.c - strands as rods move like the converged reference in double precision:
 // shaken, hinged, and free.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static struct error follow(struct hair_test_living* living, uint32_t guide, uint
     struct error error = {0, 0};
     for (uint32_t k = 0; k < frames; ++k) {
         struct hair_reference_rod_pose head = hair_test_shaken(shakes ? (k + 1) * FRAME : 0);
-        double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES];
+        double x[3 * HAIR_REFERENCE_ROD_MAX_VERTICES];
         hair_test_advance(living, &head, FRAME);
         hair_test_read_guides(living);
         error.stretch = fmax(error.stretch, hair_test_stretch(living));
@@ -171,7 +171,7 @@ static void wind_carries_hair_as_the_reference_has_it(void** state)
         hair_desc desc =
             hair_test_rods((hair_solver)solver, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        hair_test_blow(&living, &wind);
+        hair_test_wind_coupling(&living, &wind);
         struct error error = follow(&living, 0, 30, 1);
         print_message("    solver %d: rms %.2g of the length, stretch %.2g\n", solver, error.rms,
                       error.stretch);

@@ -1,6 +1,6 @@
 // rod_pins_test.c - guides with pinned vertices: to the head, to the world, as a catenary between
 // two ends, too far apart, and released.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 #include "tests/support/motion.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 // rod_shape_test.c - strands as rods keep their shape, bend and twist like the reference, and keep
 // their groom with gravity preload.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -159,7 +159,7 @@ static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** stat
 // the length.
 static double shake(struct hair_test_living* living, uint32_t frames)
 {
-    double most = 0;
+    double max = 0;
     struct hair_reference_rod* rods[SHAPES];
     for (uint32_t g = 0; g < SHAPES; ++g) rods[g] = hair_test_reference(living, g, NULL);
     for (uint32_t k = 1; k <= frames; ++k) {
@@ -169,11 +169,11 @@ static double shake(struct hair_test_living* living, uint32_t frames)
         for (uint32_t g = 0; g < SHAPES; ++g) {
             uint32_t substeps = (uint32_t)fmax(96, 2 * FRAME / hair_reference_rod_longest_substep(rods[g]));
             assert_true(hair_reference_rod_advance(rods[g], &head, FRAME, substeps));
-            most = fmax(most, hair_test_off(living, g, rods[g]) / hair_test_length(living, g));
+            max = fmax(max, hair_test_off(living, g, rods[g]) / hair_test_length(living, g));
         }
     }
     for (uint32_t g = 0; g < SHAPES; ++g) hair_reference_rod_destroy(rods[g]);
-    return most;
+    return max;
 }
 
 static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
@@ -221,16 +221,16 @@ static void a_head_that_turns_takes_shapes_with_it(void** state)
                     hair_test_advance(&living, &head, FRAME);
                 }
                 hair_test_read_guides(&living);
-                double most = 0;
+                double max = 0;
                 hair_quat turn = {(float)head.rotation[0], (float)head.rotation[1], (float)head.rotation[2],
                                   (float)head.rotation[3]};
                 for (uint32_t i = 0; i < 20; ++i) {
                     hair_vec3 aim = hair_rotate(turn, hair_load3(&living.groom->rest[i].position.x));
-                    most = fmax(most, (double)hair_distance(hair_test_at(&living, 0, i), aim));
+                    max = fmax(max, (double)hair_distance(hair_test_at(&living, 0, i), aim));
                 }
                 print_message("    solver %d, shape %u, %s: %.2g m away\n", solver, g,
-                              k ? "along the root" : "about some axis", most);
-                assert_true(most < 1e-5);
+                              k ? "along the root" : "about some axis", max);
+                assert_true(max < 1e-5);
                 hair_test_die(&living);
             }
 }

@@ -1,5 +1,5 @@
 // rod_spin_test.c - a straight strand on a spinning head trails like the converged reference.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -26,7 +26,7 @@ static void spin(struct hair_test* test, double rate)
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, &physics);
     struct hair_reference_rod_pose head = turned(rate, 0);
     struct hair_test_living living;
-    double x[3 * HAIR_REFERENCE_ROD_MOST_VERTICES], most = 0;
+    double x[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], max = 0;
     hair_test_live(test, &strands, &desc, &living);
     struct hair_reference_rod* rod = hair_test_reference(&living, 0, &head);
     double needs = 2 * FRAME / hair_reference_rod_longest_substep(rod);
@@ -39,11 +39,11 @@ static void spin(struct hair_test* test, double rate)
     hair_reference_rod_positions(rod, x);
     for (uint32_t i = 0; i < 32; ++i) {
         hair_vec3 p = hair_test_at(&living, 0, i);
-        most = fmax(most, hypot(hypot((double)p.x - x[3 * i], (double)p.y - x[3 * i + 1]),
-                                (double)p.z - x[3 * i + 2]));
+        max = fmax(max, hypot(hypot((double)p.x - x[3 * i], (double)p.y - x[3 * i + 1]),
+                              (double)p.z - x[3 * i + 2]));
     }
-    print_message("    %g Hz: %.4f of the length\n", rate, most / (double)LENGTH);
-    assert_true(most < 0.005 * (double)LENGTH);
+    print_message("    %g Hz: %.4f of the length\n", rate, max / (double)LENGTH);
+    assert_true(max < 0.005 * (double)LENGTH);
     hair_test_healthy(&living);
     hair_reference_rod_destroy(rod);
     hair_test_die(&living);

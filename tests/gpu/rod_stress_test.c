@@ -1,6 +1,6 @@
 // rod_stress_test.c - stress that no hair should suffer. Strands as rods stay finite, keep their
 // length, and are back in their rest shape four seconds later.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -130,25 +130,25 @@ static double suffer(struct hair_test_living* living, const struct stress* stres
 {
     struct hair_reference_rod_pose head, home = hair_test_pose_of(hair_v3(0, 0, 0), up, 0);
     hair_physics calm = living->physics, changed = calm;
-    double dt, most = 0;
+    double dt, max = 0;
     if (stress->change && !stress->lasting) stress->change(&changed);
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 1000, wind.velocity[2] = -1000;
     hair_test_ok(living->test, hair_set_physics(living->hair, &changed));
-    hair_test_blow(living, stress->blows ? &wind : NULL);
+    hair_test_wind_coupling(living, stress->blows ? &wind : NULL);
     for (uint32_t i = 0; (dt = stress->frame(i, &head)) > 0; ++i) {
         hair_test_advance(living, &head, dt);
         hair_test_read_guides(living);
-        most = fmax(most, hair_test_stretch(living));
+        max = fmax(max, hair_test_stretch(living));
     }
     hair_test_ok(living->test, hair_set_physics(living->hair, &calm));
-    hair_test_blow(living, NULL);
+    hair_test_wind_coupling(living, NULL);
     for (uint32_t i = 0; i < 240; ++i) {
         hair_test_advance(living, &home, 1.0 / 60);
         hair_test_read_guides(living);
-        most = fmax(most, hair_test_stretch(living));
+        max = fmax(max, hair_test_stretch(living));
     }
-    return most;
+    return max;
 }
 
 static struct hair_test_living start(struct hair_test* test, hair_solver solver, hair_thread_mapping mapping,
@@ -168,14 +168,14 @@ static struct hair_test_living start(struct hair_test* test, hair_solver solver,
 // Return the maximum distance of a guide from its rest pose, relative to its length.
 static double from_rest(const struct hair_test_living* living)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
         for (uint32_t i = 0; i < living->groom->guides[g].count; ++i) {
             hair_vec3 rest = hair_load3(&living->groom->rest[living->groom->guides[g].first + i].position.x);
             double off = (double)hair_distance(hair_test_at(living, g, i), rest);
-            most = fmax(most, off / hair_test_length(living, g));
+            max = fmax(max, off / hair_test_length(living, g));
         }
-    return most;
+    return max;
 }
 
 static void try_all(struct hair_test* test, hair_thread_mapping mapping, int solvers)
@@ -183,13 +183,13 @@ static void try_all(struct hair_test* test, hair_thread_mapping mapping, int sol
     for (size_t n = 0; n < sizeof stresses / sizeof *stresses; ++n)
         for (int solver = 0; solver < solvers; ++solver) {
             struct hair_test_living living = start(test, (hair_solver)solver, mapping, &stresses[n]);
-            double most = suffer(&living, &stresses[n]), off = from_rest(&living);
+            double max = suffer(&living, &stresses[n]), off = from_rest(&living);
             hair_solver_stats solver_stats = hair_test_solver_stats(&living);
             print_message("    %s, solver %d: stretch %.2g, then %.2g of the length from rest; %u by Euler, "
                           "%u follow, %u reset\n",
-                          stresses[n].name, solver, most, off, solver_stats.euler_fallbacks,
+                          stresses[n].name, solver, max, off, solver_stats.euler_fallbacks,
                           solver_stats.follow_fallbacks, solver_stats.reset);
-            assert_true(most <= 0.02);
+            assert_true(max <= 0.02);
             if (stresses[n].returns && solver != HAIR_SOLVER_FOLLOW) assert_true(off < 0.01);
             assert_int_equal(solver_stats.reset, 0);
             hair_test_die(&living);
@@ -220,7 +220,7 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
     struct hair_test_living living;
     struct hair_test_strands s = hair_test_strands_make(8, HAIR_MAX_GUIDE_VERTICES);
     hair_physics physics = hair_physics_default();
-    double most = 0, dt = 0.01;
+    double max = 0, dt = 0.01;
     physics.youngs_modulus = 1e12f;
     physics.flatness = 0.5f;
     physics.tip_mass = tip_mass;
@@ -232,10 +232,10 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
         struct hair_reference_rod_pose head = hair_test_pose_of(hair_v3((float)(i / 12), 0, 0), up, 0);
         hair_test_advance(&living, &head, dt);
         hair_test_read_guides(&living);
-        most = fmax(most, hair_test_stretch(&living));
+        max = fmax(max, hair_test_stretch(&living));
     }
     hair_test_die(&living);
-    return most;
+    return max;
 }
 
 // Check guides with the maximum number of vertices. Software rasterisers end long loops, and a
@@ -244,9 +244,9 @@ static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
 {
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (float tip_mass = 0; tip_mass <= 10; tip_mass += 10) {
-            double most = jump_as_many(*state, (hair_solver)solver, tip_mass);
-            print_message("    solver %d, a tip of %g: stretch %.2g\n", solver, (double)tip_mass, most);
-            assert_true(most <= 0.02);
+            double max = jump_as_many(*state, (hair_solver)solver, tip_mass);
+            print_message("    solver %d, a tip of %g: stretch %.2g\n", solver, (double)tip_mass, max);
+            assert_true(max <= 0.02);
         }
 }
 
@@ -275,12 +275,12 @@ static void a_head_100_km_out_is_a_head_like_any_other(void** state)
         hair_test_ok(*state, hair_teleport(near.hair, home));
         hair_test_read_guides(&far);
         hair_test_read_guides(&near);
-        double most = 0;
+        double max = 0;
         for (uint32_t i = 0; i < near.vertices; ++i)
-            most = fmax(most, (double)hair_distance(hair_load3(far.positions + 3 * i),
-                                                    hair_load3(near.positions + 3 * i)));
-        print_message("    solver %d: %.2g m apart\n", solver, most);
-        assert_true(most < 1e-5);
+            max = fmax(max, (double)hair_distance(hair_load3(far.positions + 3 * i),
+                                                  hair_load3(near.positions + 3 * i)));
+        print_message("    solver %d: %.2g m apart\n", solver, max);
+        assert_true(max < 1e-5);
         hair_test_die(&far);
         hair_test_die(&near);
     }

@@ -1,6 +1,6 @@
 // rod_two_test.c - many guides on a GPU go through two programs. The first has only the solver's
 // own method. The second has all methods, for guides that the first leaves.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <string.h>
 
@@ -41,13 +41,13 @@ static void run(struct hair_test* test, int units, float* track, hair_solver_sta
         struct hair_reference_rod_pose head =
             hair_test_pose_of(hair_v3(aside, 0.001f * (float)frame, 0), hair_v3(0, 1, 0), 0.01 * frame);
         // With wind, all guides go through one program.
-        hair_test_blow(&living, frame == 14 ? &wind : NULL);
+        hair_test_wind_coupling(&living, frame == 14 ? &wind : NULL);
         hair_test_advance(&living, &head, 1.0 / 60);
         hair_test_read_guides(&living);
         memcpy(track + (size_t)frame * 3 * living.vertices, living.positions, 12 * living.vertices);
     }
     *solver_stats = hair_test_solver_stats(&living);
-    assert_int_equal(living.hair->sim.in_two, units > 0);
+    assert_int_equal(living.hair->sim.two_pass, units > 0);
     hair_test_die(&living);
     gl->units = was;
 }

@@ -1,6 +1,6 @@
 // rod_whip_test.c - energy of undamped straight strands that are released from high up, so that
 // their tips whip.
-#include "tests/support/crowd.h"
+#include "tests/support/hair_grid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -65,7 +65,7 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
 {
     hair_physics physics = hair_test_bare();
     struct hair_test_living living;
-    double angle = whip->degrees * 3.14159265358979 / 180, first = 0, most = 0, now = 0;
+    double angle = whip->degrees * 3.14159265358979 / 180, first = 0, max = 0, now = 0;
     physics.damping = 0;
     physics.root = whip->root;
     hair_vec3 way = hair_v3((float)sin(angle), (float)-cos(angle), 0);
@@ -82,15 +82,15 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
         if (i % 10 != 2) continue;
         now = energy_of(&living) - lowest;
         if (i == 2) first = now;
-        most = fmax(most, now);
+        max = fmax(max, now);
     }
     print_message(
         "    %u vertices from %g degrees, root %d, 1/%.0f s, %d colliders: %.4f of the energy left, "
         "at most %.4f\n",
-        whip->vertices, whip->degrees, (int)whip->root, 1 / h, whip->beside, now / first, most / first);
+        whip->vertices, whip->degrees, (int)whip->root, 1 / h, whip->beside, now / first, max / first);
     hair_test_healthy(&living);
     assert_true(now > 0.95 * first);
-    assert_true(most < 1.03 * first);
+    assert_true(max < 1.03 * first);
     hair_test_die(&living);
 }
 

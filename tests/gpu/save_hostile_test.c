@@ -35,7 +35,7 @@ static void seal(struct hair_test_blob* blob)
     hair_write_u64(blob->bytes + blob->size - 8, hash);
 }
 
-#define CROWD 3 // Index of the way with a hair-hair grid, saved within a block.
+#define HAIR_GRID 3 // Index of the way with a hair-hair grid, saved within a block.
 
 // Create a small moving instance with two colliders. The way with a hair-hair grid has a pin.
 static hair_instance* make_small(struct hair_test* test, int way)
@@ -43,16 +43,16 @@ static hair_instance* make_small(struct hair_test* test, int way)
     struct hair_test_subject subject = hair_test_subject_of(0);
     subject.desc = hair_test_way(way);
     subject.groom.guides = 2;
-    subject.groom.fewest = 4, subject.groom.most = 5;
+    subject.groom.fewest = 4, subject.groom.max = 5;
     subject.groom.followers = 8;
-    if (way == CROWD) subject.physics.cohesion = 5, subject.physics.pressure_stiffness = 0.2f;
+    if (way == HAIR_GRID) subject.physics.cohesion = 5, subject.physics.pressure_stiffness = 0.2f;
     hair_instance* hair = hair_test_subject_make(test, &subject);
     hair_pin pin = {1, 2, HAIR_PIN_WORLD, {0.1f, 0.2f, 0.1f}};
-    if (way == CROWD) hair_test_ok(test, hair_set_pins(hair, &pin, 1, sizeof pin));
+    if (way == HAIR_GRID) hair_test_ok(test, hair_set_pins(hair, &pin, 1, sizeof pin));
     hair_test_run(test, hair, &subject, 0, 4);
     hair_test_move(test, hair, &subject, 4);
-    assert_int_equal(hair->sim.colliders.now.count, 2);
-    assert_int_equal(hair->sim.crowd.beat > 0, way == CROWD);
+    assert_int_equal(hair->sim.colliders.current.count, 2);
+    assert_int_equal(hair->sim.hair_grid.substeps_done > 0, way == HAIR_GRID);
     return hair;
 }
 
@@ -138,7 +138,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     // state, frame, rates, and, after a flag, force and rotations.
     size_t vertices = hair->sim.guide_vertices,
            states = COLLIDERS + 12 +
-                    COLLIDER_BYTES * (hair->sim.colliders.now.count + hair->sim.colliders.before.count),
+                    COLLIDER_BYTES * (hair->sim.colliders.current.count + hair->sim.colliders.previous.count),
            tip = states + 32 * (vertices - 1);
     size_t frames = states + 32 * vertices, rates = frames + 16 * vertices;
     size_t forces = 4 + 48 * vertices;
@@ -157,7 +157,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
         {load_sealed_short, 1, HAIR_ERROR_FILE, "within the whether air is a fluid at byte "},
-        {load_sealed_short, SLEEP + 1, HAIR_ERROR_FILE, "within the number of substeps since the crowd was looked at at byte "},
+        {load_sealed_short, SLEEP + 1, HAIR_ERROR_FILE, "within the number of substeps since the last update of the hair grid at byte "},
         {load_sealed_short, SLEEP + 5 + forces, HAIR_ERROR_FILE, "within the rates of guide vertices at byte "},
         {load_sealed_short, 32 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE, "within the frames of segments at byte "},
         {load_sealed_short, 48 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE, "within the guide vertices at byte "},
@@ -216,7 +216,7 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     for (int i = 0; i < 3; ++i) others[i] = hair_test_subject_of(0);
     others[0].groom.guides = 8;
     others[1].groom.guides = 6, subject.groom.guides = 6;
-    others[1].groom.fewest = 15, others[1].groom.most = 17;
+    others[1].groom.fewest = 15, others[1].groom.max = 17;
     others[2].desc.substep = 0.01f;
     // The guides have 16 vertices each. The total equals that of guides of 15 to 17.
     hair_instance* six = hair_test_subject_make(test, &subject);
@@ -308,7 +308,7 @@ static void load_the_farthest(struct hair_test* test, int way)
 {
     hair_instance* hair = make_small(test, way);
     struct hair_test_blob blob = hair_test_save(test, hair);
-    size_t pushes = hair->sim.crowd.beat ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
+    size_t pushes = hair->sim.hair_grid.substeps_done ? hair->sim.guide_vertices * sizeof(hair_vec4) : 0;
     size_t beat = blob.size - 8 - SLEEP - pushes - 4;
     size_t flag = beat - 4 - (hair->sim.bend ? 48 * (size_t)hair->sim.guide_vertices : 0);
     size_t pins = 4 + hair->sim.pins.count * PIN_BYTES;

@@ -28,7 +28,7 @@ static int check_run(struct hair_test* test, const struct hair_test_subject* sub
     hair_instance* hair = hair_test_subject_make(test, subject);
     hair_test_run(test, hair, subject, 0, i);
     hair_test_move(test, hair, subject, i);
-    int between = hair->sim.left > 0.05 * hair->sim.substep;
+    int between = hair->sim.accumulator > 0.05 * hair->sim.substep;
     struct hair_test_blob blob = hair_test_save(test, hair);
     follow(test, hair, subject, i, straight);
     for (int fresh = 0; fresh < 2; ++fresh) {

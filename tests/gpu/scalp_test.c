@@ -85,26 +85,26 @@ static void give(struct hair_test* test, struct skinned* s)
     hair_test_ok(test, hair_set_scalp(s->hair, s->positions, VERTICES, 12, NULL));
 }
 
-#define MOST 8192
+#define MAX 8192
 struct seen {
-    float at[3 * MOST];
+    float at[3 * MAX];
     uint32_t count;
 };
 
 static void look(struct hair_test* test, const struct skinned* s, hair_read_source what, struct seen* seen)
 {
-    hair_test_ok(test, hair_read_positions(s->hair, what, seen->at, MOST, &seen->count));
-    assert_in_range(seen->count, 1, MOST);
+    hair_test_ok(test, hair_read_positions(s->hair, what, seen->at, MAX, &seen->count));
+    assert_in_range(seen->count, 1, MAX);
     for (uint32_t i = 0; i < 3 * seen->count; ++i) assert_true(isfinite(seen->at[i]));
 }
 
 static double farthest(const struct seen* a, const struct seen* b)
 {
-    double most = 0;
+    double max = 0;
     assert_int_equal(a->count, b->count);
     for (uint32_t i = 0; i < a->count; ++i)
-        most = fmax(most, (double)hair_distance(hair_load3(a->at + 3 * i), hair_load3(b->at + 3 * i)));
-    return most;
+        max = fmax(max, (double)hair_distance(hair_load3(a->at + 3 * i), hair_load3(b->at + 3 * i)));
+    return max;
 }
 
 // Make a nod about an axis beside the scalp, and a walk.
@@ -141,7 +141,7 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
             i == 4 ? HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE : HAIR_THREAD_MAPPING_AUTO;
         struct skinned head = make_by(test, solvers[i % 4], mapping),
                        scalp = make_by(test, solvers[i % 4], mapping);
-        double most = 0, went = 0, apart[2] = {0};
+        double max = 0, went = 0, apart[2] = {0};
         float time = 0;
         for (int frame = 1; frame <= 25; ++frame) {
             float m[16];
@@ -155,7 +155,7 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
             hair_test_ok(test, hair_step(scalp.hair, dt));
             look(test, &head, HAIR_READ_FOLLOWERS, &a);
             look(test, &scalp, HAIR_READ_FOLLOWERS, &b);
-            most = fmax(most, farthest(&a, &b));
+            max = fmax(max, farthest(&a, &b));
             for (uint32_t k = 0; k < FOLLOWERS; ++k)
                 apart[0] = fmax(apart[0], (double)hair_distance(hair_load3(a.at + 3 * k * (SEGMENTS + 1)),
                                                                 hair_load3(b.at + 3 * k * (SEGMENTS + 1))));
@@ -167,9 +167,9 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
         }
         print_message(
             "    way %d: followers within %.2g mm, their roots within %.2g mm, guides within %.2g mm\n", i,
-            most * 1e3, apart[0] * 1e3, apart[1] * 1e3);
+            max * 1e3, apart[0] * 1e3, apart[1] * 1e3);
         assert_true(went > 0.2);
-        assert_true(most < CHORD && apart[1] < CHORD);
+        assert_true(max < CHORD && apart[1] < CHORD);
         assert_true(apart[0] < 2e-6);
         drop(&head), drop(&scalp);
     }
@@ -185,7 +185,7 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
     float time = 0;
     struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
     hair_physics physics = hair_physics_default();
-    double most[2] = {0};
+    double max[2] = {0};
     for (int frame = 1; frame <= 90; ++frame) {
         float m[16];
         physics.substep_rate = rates[frame / 5 % 6];
@@ -205,11 +205,11 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
         for (int i = 0; i < 2; ++i) {
             look(test, &head, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &a);
             look(test, &scalp, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &b);
-            most[i] = fmax(most[i], farthest(&a, &b));
+            max[i] = fmax(max[i], farthest(&a, &b));
         }
     }
-    print_message("    guides within %.2g mm, drawn within %.2g mm\n", most[0] * 1e3, most[1] * 1e3);
-    assert_true(most[0] < CHORD && most[1] < CHORD);
+    print_message("    guides within %.2g mm, drawn within %.2g mm\n", max[0] * 1e3, max[1] * 1e3);
+    assert_true(max[0] < CHORD && max[1] < CHORD);
     drop(&head), drop(&scalp);
 }
 
@@ -220,7 +220,7 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b, c, d;
-    double most[2] = {0};
+    double max[2] = {0};
     struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
     hair_physics physics = hair_physics_default();
     hair_collider colliders[2] = {hair_collider_default(), hair_collider_default()};
@@ -245,10 +245,10 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
             look(test, s, HAIR_READ_GUIDES, i ? &b : &a);
             look(test, s, HAIR_READ_FOLLOWERS, i ? &d : &c);
         }
-        most[0] = fmax(most[0], farthest(&a, &b)), most[1] = fmax(most[1], farthest(&c, &d));
+        max[0] = fmax(max[0], farthest(&a, &b)), max[1] = fmax(max[1], farthest(&c, &d));
     }
-    print_message("    guides within %.2g mm, followers within %.2g mm\n", most[0] * 1e3, most[1] * 1e3);
-    assert_true(most[0] < 1e-4 && most[1] < 4e-3);
+    print_message("    guides within %.2g mm, followers within %.2g mm\n", max[0] * 1e3, max[1] * 1e3);
+    assert_true(max[0] < 1e-4 && max[1] < 4e-3);
     drop(&head), drop(&scalp);
 }
 

@@ -9,7 +9,7 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "lib/reference/self_shadow.h"
+#include "tests/reference/self_shadow.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 
@@ -80,7 +80,7 @@ static void draw(struct fixture* f)
     glFinish();
 }
 
-static float from_ordered(uint32_t u)
+static float from_float_key(uint32_t u)
 {
     uint32_t bits = u & 0x80000000u ? u & 0x7fffffffu : ~u;
     float x;
@@ -112,7 +112,7 @@ static void look_inside(struct fixture* f)
     glGetNamedBufferSubData(d->self_shadow.box, 0, sizeof box, box);
     f->grid.cell = (double)d->look.self_shadow_cell;
     for (int i = 0; i < 3; ++i) {
-        double low = (double)from_ordered(box[i]), high = (double)from_ordered(~box[3 + i]);
+        double low = (double)from_float_key(box[i]), high = (double)from_float_key(~box[3 + i]);
         f->grid.lower[i] = f->grid.cell * floor(low / f->grid.cell);
         f->grid.nodes[i] = (uint32_t)(floor(high / f->grid.cell) - floor(low / f->grid.cell) + 2);
         nodes *= f->grid.nodes[i];
@@ -125,7 +125,7 @@ static void look_inside(struct fixture* f)
     glGetNamedBufferSubData(d->self_shadow.density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
     glGetNamedBufferSubData(d->self_shadow.nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
     glGetNamedBufferSubData(d->self_shadow.light, 0, sizeof f->numbers, f->numbers);
-    glGetNamedBufferSubData(d->expanded.position, 0, VERTICES * sizeof *f->position, f->position);
+    glGetNamedBufferSubData(d->vertex_cache.position, 0, VERTICES * sizeof *f->position, f->position);
     for (size_t n = 0; n < nodes; ++n) f->density[n] = sums[n] / HAIR_DENSITY_UNITS;
     for (size_t n = 0; n < nodes * EACH; ++n)
         f->met[n % EACH * nodes + n / EACH] = sums[n / EACH] ? (double)light[n] : 0;
@@ -174,7 +174,7 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
     look_inside(&f);
     size_t nodes = node_count(&f);
     uint32_t held = 0;
-    double most = 0, to[3], lamp[3], from_origin[3];
+    double max = 0, to[3], lamp[3], from_origin[3];
     double l = sqrt(0.4 * 0.4 + 0.8 * 0.8 + 0.45 * 0.45);
     into_head((float[]){(float)(0.4 / l), (float)(0.8 / l), (float)(0.45 / l)}, to);
     for (int i = 0; i < 3; ++i) from_origin[i] = (double)f.light[1].position[i] - (double)turned[12 + i];
@@ -194,15 +194,15 @@ static void light_is_that_of_the_twin_in_double_precision(void** state)
         reach = sqrt(reach);
         for (int i = 0; i < 3; ++i) way[i] /= reach;
         double sky = hair_reference_sky(&f.grid, at), met = hair_reference_met(&f.grid, at, to, 1e9, NULL);
-        most = fmax(most, met);
+        max = fmax(max, met);
         // Rounding decides whether the last step is within the grid, or nearer than the lamp.
         hair_test_near("sky", n, f.met[n], sky, 1e-3);
         hair_test_near("met", n, f.met[nodes + n], met, 1e-3 * (1 + met));
         hair_test_near("met before the lamp", n, f.met[2 * nodes + n],
                        hair_reference_met(&f.grid, at, way, reach, NULL), 0.02);
     }
-    print_message("    %u nodes with hair, at most %g met\n", held, most);
-    assert_true(held > 100 && most > 0.5);
+    print_message("    %u nodes with hair, at most %g met\n", held, max);
+    assert_true(held > 100 && max > 0.5);
     for (int v = 0; v < VERTICES; ++v) {
         double at[3], before[3], after[3], along = 0, length = 0;
         int k = v % (SEGMENTS + 1);
@@ -306,18 +306,18 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
     draw(&f);
-    assert_int_equal(row_of(&f, "light").runs, 4);
-    assert_true(row_of(&f, "light").bytes > 4 * HAIR_DENSITY_NODES);
+    assert_int_equal(row_of(&f, "self_shadow").runs, 4);
+    assert_true(row_of(&f, "self_shadow").bytes > 4 * HAIR_DENSITY_NODES);
     f.light[1].position[1] = 1;
     draw(&f);
-    assert_int_equal(row_of(&f, "light").runs, 6); // The grid does not change.
+    assert_int_equal(row_of(&f, "self_shadow").runs, 6); // The grid does not change.
     look.self_shadow = HAIR_SELF_SHADOW_DEPTH;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
-    assert_int_equal(row_of(&f, "light").runs, 0);
-    assert_int_equal(row_of(&f, "light").skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
-    assert_int_equal(row_of(&f, "light").bytes, 0);
+    assert_int_equal(row_of(&f, "self_shadow").runs, 0);
+    assert_int_equal(row_of(&f, "self_shadow").skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
+    assert_int_equal(row_of(&f, "self_shadow").bytes, 0);
     finish(&f);
 }
 

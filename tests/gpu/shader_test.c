@@ -8,7 +8,7 @@
 
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #define SIDE 96
 
@@ -253,7 +253,7 @@ static void no_text_breaks_anything(void** state)
         "/* without an end",
         "#version 330\nvec4 hair_shade(hair_fragment f) { return vec4(1); }",
         "#include \"../../etc/passwd\"\n",
-        "#include \"own.glsl\"\n",
+        "#include \"light/user_shader.glsl\"\n",
         "#include \"a_name_that_is_much_too_long_for_any_file_of_the_library.glsl\"\n",
         "}}}}\n{{{{",
         "#error no\n",

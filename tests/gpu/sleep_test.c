@@ -14,7 +14,7 @@
 #include "tests/support/motion.h"
 #include "tests/support/trace.h"
 
-enum { FPS = 60, GUIDES = 7, MOST = 512, PATIENCE = 15 * FPS };
+enum { FPS = 60, GUIDES = 7, MAX = 512, PATIENCE = 15 * FPS };
 
 static hair_context* make_context(struct hair_test* test)
 {
@@ -57,33 +57,33 @@ static void step(struct hair_test* test, hair_instance* hair)
 
 // Step like an application that shows its frames, so that the GPU is fewer than `most` frames
 // behind. A GPU that falls behind without limit would report rest much too late.
-static void show(struct hair_test* test, hair_instance* hair, uint32_t frame, uint32_t most)
+static void show(struct hair_test* test, hair_instance* hair, uint32_t frame, uint32_t max)
 {
     step(test, hair);
-    if (frame % most == 0) glFinish();
+    if (frame % max == 0) glFinish();
 }
 
 // Shake the hair for half a second, and then leave it alone. Return the number of frames until it
 // sleeps, or PATIENCE if it does not.
-static uint32_t let_sleep(struct hair_test* test, hair_instance* hair, uint32_t most)
+static uint32_t let_sleep(struct hair_test* test, hair_instance* hair, uint32_t max)
 {
     uint32_t frame = 0;
     for (; frame < FPS / 2; ++frame) {
         turn_head(test, hair, 0.4f * sinf(6.2831853f * (float)(frame + 1) / (FPS / 2)), 0);
-        show(test, hair, frame, most);
+        show(test, hair, frame, max);
     }
-    for (; frame < PATIENCE && !hair->sim.sleep.asleep; ++frame) show(test, hair, frame, most);
+    for (; frame < PATIENCE && !hair->sim.sleep.asleep; ++frame) show(test, hair, frame, max);
     return frame;
 }
 
 static float farthest(struct hair_test* test, hair_instance* a, hair_instance* b)
 {
-    float at[2][3 * MOST], far = 0;
+    float at[2][3 * MAX], far = 0;
     uint32_t count[2];
-    hair_test_ok(test, hair_read_positions(a, HAIR_READ_SMOOTH, at[0], MOST, &count[0]));
-    hair_test_ok(test, hair_read_positions(b, HAIR_READ_SMOOTH, at[1], MOST, &count[1]));
+    hair_test_ok(test, hair_read_positions(a, HAIR_READ_SMOOTH, at[0], MAX, &count[0]));
+    hair_test_ok(test, hair_read_positions(b, HAIR_READ_SMOOTH, at[1], MAX, &count[1]));
     assert_int_equal(count[0], count[1]);
-    assert_in_range(count[0], 2, MOST);
+    assert_in_range(count[0], 2, MAX);
     for (uint32_t i = 0; i < count[0]; ++i)
         far = fmaxf(far, hair_distance(hair_load3(at[0] + 3 * i), hair_load3(at[1] + 3 * i)));
     return far;
@@ -99,9 +99,9 @@ static hair_collider ball_at(float x)
 // Return the distance of the nearest vertex from the ball.
 static float nearest(struct hair_test* test, hair_instance* hair, const hair_collider* ball)
 {
-    float at[3 * MOST], near = 1;
+    float at[3 * MAX], near = 1;
     uint32_t count;
-    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, at, MOST, &count));
+    hair_test_ok(test, hair_read_positions(hair, HAIR_READ_GUIDES, at, MAX, &count));
     for (uint32_t i = 0; i < count; ++i)
         near = fminf(near, hair_distance(hair_load3(at + 3 * i), hair_load3(ball->position)) - ball->size[0]);
     return near;
@@ -181,7 +181,7 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
     assert_false(hair[0]->sim.sleep.asleep);
     assert_true(asleep <= bound);
     assert_true(awake <= bound);
-    assert_true(hair[0]->sim.left == hair[1]->sim.left);
+    assert_true(hair[0]->sim.accumulator == hair[1]->sim.accumulator);
     for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
 }
 
@@ -203,7 +203,7 @@ struct dozing {
 };
 
 // Check whether the next step wakes the hair. Afterwards put it to sleep again.
-static void check_stir(struct dozing* d, const char* what, int stirs)
+static void check_activity(struct dozing* d, const char* what, int stirs)
 {
     hair_test_trace_clear();
     step(d->test, d->hair);
@@ -225,17 +225,17 @@ static void put_ball(struct dozing* d, float x)
 static void check_colliders(struct dozing* d)
 {
     put_ball(d, 5);
-    check_stir(d, "a ball has come into being far off", 0);
+    check_activity(d, "a ball has come into being far off", 0);
     put_ball(d, 4.9f);
-    check_stir(d, "a ball moves far off", 0);
+    check_activity(d, "a ball moves far off", 0);
     put_ball(d, -5);
-    check_stir(d, "a ball flies right through", 1);
+    check_activity(d, "a ball flies right through", 1);
     put_ball(d, 0.4f);
-    check_stir(d, "a ball has come into being near by", 1);
+    check_activity(d, "a ball has come into being near by", 1);
     hair_collider plane = hair_collider_default();
     plane.shape = HAIR_SHAPE_PLANE, plane.position[1] = -50;
     hair_test_ok(d->test, hair_set_colliders(d->hair, &plane, 1, sizeof plane));
-    check_stir(d, "there is a plane, which is everywhere", 1);
+    check_activity(d, "there is a plane, which is everywhere", 1);
 }
 
 static void check_settings(struct dozing* d)
@@ -244,25 +244,25 @@ static void check_settings(struct dozing* d)
     hair_pin pin = hair_pin_default();
     hair_wind wind = hair_wind_default();
     hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
-    check_stir(d, "the same physics", 0);
+    check_activity(d, "the same physics", 0);
     physics.damping += 0.01f;
     hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
-    check_stir(d, "other physics", 1);
+    check_activity(d, "other physics", 1);
     hair_test_ok(d->test, hair_set_wind(d->hair, NULL));
-    check_stir(d, "no wind once more", 0);
+    check_activity(d, "no wind once more", 0);
     wind.velocity[2] = 0.01f;
     hair_test_ok(d->test, hair_set_wind(d->hair, &wind));
-    check_stir(d, "wind", 1);
+    check_activity(d, "wind", 1);
     hair_test_ok(d->test, hair_set_pins(d->hair, NULL, 0, sizeof pin));
-    check_stir(d, "no pins once more", 0);
+    check_activity(d, "no pins once more", 0);
     hair_test_ok(d->test, hair_set_pins(d->hair, &pin, 1, sizeof pin));
-    check_stir(d, "a pin", 1);
+    check_activity(d, "a pin", 1);
     hair_test_ok(d->test, hair_reset(d->hair));
-    check_stir(d, "a reset", 1);
+    check_activity(d, "a reset", 1);
     float head[16];
     hair_test_pose(1, head);
     hair_test_ok(d->test, hair_teleport(d->hair, head));
-    check_stir(d, "a teleport", 1);
+    check_activity(d, "a teleport", 1);
 }
 
 static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
@@ -273,13 +273,13 @@ static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
     assert_true(let_sleep(d.test, d.hair, 1) < PATIENCE);
     d.blob = hair_test_save(d.test, d.hair);
     turn_head(d.test, d.hair, 0, 0);
-    check_stir(&d, "the head is set where it is", 0);
+    check_activity(&d, "the head is set where it is", 0);
     turn_head(d.test, d.hair, 0, 0.2e-4f);
-    check_stir(&d, "the head moves by a fifth of the bound", 0);
+    check_activity(&d, "the head moves by a fifth of the bound", 0);
     turn_head(d.test, d.hair, 0, 0.3e-4f);
-    check_stir(&d, "the head moves by a third of the bound", 1);
+    check_activity(&d, "the head moves by a third of the bound", 1);
     turn_head(d.test, d.hair, 1e-3f, 0);
-    check_stir(&d, "the head turns", 1);
+    check_activity(&d, "the head turns", 1);
     check_colliders(&d);
     check_settings(&d);
     hair_destroy(d.hair);
@@ -319,13 +319,13 @@ static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** 
     }
     hair_test_trace_clear();
     for (; frame < 4 * FPS; ++frame) {
-        uint32_t looks = hair[1]->sim.sleep.looks;
+        uint32_t looks = hair[1]->sim.sleep.samples;
         for (int i = 0; i < 2; ++i) {
             hair_test_trace_hold(i && frame > FPS / 2 && frame < 3 * FPS / 2);
             show(test, hair[i], frame, 1);
             if (!asleep[i] && hair[i]->sim.sleep.asleep) asleep[i] = frame;
         }
-        if (frame > FPS && frame < 3 * FPS / 2) assert_int_equal(hair[1]->sim.sleep.looks, looks);
+        if (frame > FPS && frame < 3 * FPS / 2) assert_int_equal(hair[1]->sim.sleep.samples, looks);
     }
     if (hair_test_trace_waits()) fail_msg("%u waits: %s", hair_test_trace_waits(), hair_test_trace_list());
     float apart = farthest(test, hair[0], hair[1]);

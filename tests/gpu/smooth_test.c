@@ -6,7 +6,7 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "lib/reference/reference.h"
+#include "tests/reference/reference.h"
 #include "tests/support/handmade.h"
 
 #define STATES 4096
@@ -45,7 +45,7 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     f.params.guides = f.groom->info.guide_count;
-    f.params.smooth_vertices = 2 * f.groom->most_vertices - 1;
+    f.params.smooth_vertices = 2 * f.groom->max_vertices - 1;
     f.params.rotation_before = turn_about(hair_v3(1, 2, 3), 0.3f);
     f.params.rotation_after = turn_about(hair_v3(1, 2, 2.5f), 0.4f);
     f.params.rotation_now = turn_about(hair_v3(3, -1, 1), 0.5f);
@@ -55,16 +55,16 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
     // A direction is the difference of positions that are at least half a segment apart. A frame
     // has the errors of all frames before it, which add up as the square root of their number.
     f.direction = POSITION / (0.5 * (double)wanted.segment);
-    f.turn = sqrt(f.groom->most_vertices) * f.direction;
+    f.turn = sqrt(f.groom->max_vertices) * f.direction;
     hair_test_scatter(f.groom, 0.1f * wanted.segment, 0.2f * wanted.segment, &f.random, f.state);
     return &f;
 }
 
 // Start with one guide of each number of vertices.
-static struct fixture* start(void** state, uint32_t fewest, uint32_t most)
+static struct fixture* start(void** state, uint32_t fewest, uint32_t max)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.fewest = fewest, wanted.most = most, wanted.guides = most - fewest + 1;
+    wanted.fewest = fewest, wanted.max = max, wanted.guides = max - fewest + 1;
     return start_with(state, wanted);
 }
 
@@ -137,10 +137,10 @@ static void guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference(void** 
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
-        uint32_t most = vertices[guides - 1];
+        uint32_t max = vertices[guides - 1];
         struct hair_test_handmade wanted = hair_test_handmade_default();
         wanted.guides = guides, wanted.vertices = vertices;
-        wanted.segment = most > 64 ? 0.64f / (float)most : 0.01f; // No guide is longer than 1 m.
+        wanted.segment = max > 64 ? 0.64f / (float)max : 0.01f; // No guide is longer than 1 m.
         struct fixture* f = start_with(state, wanted);
         run(f);
         compare(f);

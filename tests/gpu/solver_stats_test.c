@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "tests/support/haircut.h"
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 #include "tests/support/shell.h"
 
 #include "lib/api/api.h"
@@ -93,11 +93,11 @@ static void haircuts_on_a_box_gain_no_energy(void** state)
 // kg/m.
 static double energy_off(const struct hair_energy* energy, const struct hair_reference_rod_energy* exact)
 {
-    double scale = fabs(exact->kinetic) + fabs(exact->elastic) + fabs(exact->gravity), most = 0;
+    double scale = fabs(exact->kinetic) + fabs(exact->elastic) + fabs(exact->gravity), max = 0;
     double off[] = {(double)energy->now.x - exact->kinetic, (double)energy->now.y - exact->gravity,
                     (double)energy->now.z - exact->elastic};
-    for (int k = 0; k < 3; ++k) most = fmax(most, fabs(off[k]) / scale);
-    return most;
+    for (int k = 0; k < 3; ++k) max = fmax(max, fabs(off[k]) / scale);
+    return max;
 }
 
 // Set the reference to the positions, with the velocity of BDF2, which both schemes use (see

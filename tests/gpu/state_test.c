@@ -67,8 +67,8 @@ static int start(void** state)
         return -1;
     }
     f->groom = hair_test_groom(&f->host.host, hair_test_handmade_default());
-    f->groom->paint =
-        hair_alloc(&f->host.host, f->groom->info.follower_count, 8 * 4 * sizeof *f->groom->paint);
+    f->groom->colors =
+        hair_alloc(&f->host.host, f->groom->info.follower_count, 8 * 4 * sizeof *f->groom->colors);
     return 0;
 }
 

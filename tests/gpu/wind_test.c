@@ -1,5 +1,5 @@
 // wind_test.c - drag of the wind on strands agrees with the reference, and no wind harms hair.
-#include "tests/support/living.h"
+#include "tests/support/live_hair.h"
 
 #include <math.h>
 
@@ -40,7 +40,7 @@ static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
         for (int solver = 0; solver < 2; ++solver) {
             hair_wind wind = blowing(0, 0, speeds[k / 2]);
             struct hair_test_living living = straight(*state, 8, ways[k % 2], &physics, (hair_solver)solver);
-            hair_test_blow(&living, &wind);
+            hair_test_wind_coupling(&living, &wind);
             struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
             double off = 0, way = (double)speeds[k / 2] * 15 * FRAME;
             for (int i = 0; i < 15; ++i) {
@@ -71,7 +71,7 @@ static void a_strand_is_deflected_as_the_reference_has_it(void** state)
             hair_wind wind = blowing(0.8f * cases[k].speed, 0, 0.6f * cases[k].speed);
             struct hair_test_living living =
                 straight(*state, 16, hair_v3(0.1f, -1, 0), &physics, (hair_solver)solver);
-            hair_test_blow(&living, &wind);
+            hair_test_wind_coupling(&living, &wind);
             struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
             for (int i = 0; i < 120; ++i) assert_true(hair_reference_rod_advance(rod, NULL, FRAME, 192));
             hair_test_wait(&living, 120);
@@ -124,7 +124,7 @@ static void a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_la
             wind.still_air = cases[k].still_air;
             struct hair_test_living living =
                 straight(*state, 8, hair_v3(1, 0, 0), &physics, (hair_solver)solver);
-            hair_test_blow(&living, &wind);
+            hair_test_wind_coupling(&living, &wind);
             hair_test_wait(&living, 180);
             hair_test_read_guides(&living);
             hair_test_wait(&living, 12);
@@ -142,14 +142,14 @@ static void a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_la
 static double suffer(struct hair_test_living* living, const hair_wind* wind, uint32_t frames, int gusty,
                      double dt)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < frames; ++i) {
-        hair_test_blow(living, gusty && i % 2 ? NULL : wind);
+        hair_test_wind_coupling(living, gusty && i % 2 ? NULL : wind);
         hair_test_advance(living, NULL, dt);
         hair_test_read_guides(living);
-        most = fmax(most, hair_test_stretch(living));
+        max = fmax(max, hair_test_stretch(living));
     }
-    return most;
+    return max;
 }
 
 static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
@@ -167,16 +167,16 @@ static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
             hair_wind wind = blowing(0.6f * speed, 0.1f * speed, -0.8f * speed);
             struct hair_test_living living =
                 straight(*state, 16, hair_v3(0.6f, -1, 0), &physics, (hair_solver)solver);
-            double most = suffer(&living, &wind, 60, cases[k].gusty, cases[k].dt);
-            most = fmax(most, suffer(&living, NULL, 240, 0, FRAME));
+            double max = suffer(&living, &wind, 60, cases[k].gusty, cases[k].dt);
+            max = fmax(max, suffer(&living, NULL, 240, 0, FRAME));
             hair_solver_stats solver_stats = hair_test_solver_stats(&living);
             print_message(
                 "    %g m/s, drag %g%s, steps of %.2g s, solver %d: stretch %.2g, then %.2g from rest; %u by "
                 "Euler, %u follow, %u reset\n",
                 (double)speed, (double)cases[k].drag, cases[k].gusty ? ", on and off" : "", cases[k].dt,
-                solver, most, hair_test_from_rest(&living) / 0.2, solver_stats.euler_fallbacks,
+                solver, max, hair_test_from_rest(&living) / 0.2, solver_stats.euler_fallbacks,
                 solver_stats.follow_fallbacks, solver_stats.reset);
-            assert_true(most <= 0.02);
+            assert_true(max <= 0.02);
             if (solver != HAIR_SOLVER_FOLLOW) assert_true(hair_test_from_rest(&living) < 0.002);
             assert_int_equal(solver_stats.reset, 0);
             hair_test_die(&living);
@@ -189,13 +189,13 @@ static void what_no_wind_takes_is_nothing(void** state)
     hair_wind wind = blowing(1, 0, 0);
     struct hair_test_living living = straight(*state, 8, hair_v3(0, -1, 0), &physics, HAIR_SOLVER_DIRECT);
     hair_test_wait(&living, 1);
-    assert_int_equal(living.hair->sim.air.params, 0);
-    hair_test_blow(&living, &wind);
+    assert_int_equal(living.hair->sim.wind_state.params, 0);
+    hair_test_wind_coupling(&living, &wind);
     hair_test_wait(&living, 1);
-    assert_int_not_equal(living.hair->sim.air.params, 0);
-    hair_test_blow(&living, NULL);
+    assert_int_not_equal(living.hair->sim.wind_state.params, 0);
+    hair_test_wind_coupling(&living, NULL);
     hair_test_wait(&living, 1);
-    assert_int_equal(living.hair->sim.air.params, 0);
+    assert_int_equal(living.hair->sim.wind_state.params, 0);
     hair_test_die(&living);
 }
 

@@ -83,10 +83,10 @@ static inline double gjk(const btConvexShape* shape, const btTransform& where, c
 
 struct randoms {
     uint32_t seed = 1;
-    btScalar next(btScalar least, btScalar most)
+    btScalar next(btScalar min, btScalar max)
     {
         seed = seed * 1664525u + 1013904223u;
-        return least + (most - least) * btScalar(seed >> 8) / btScalar(16777216);
+        return min + (max - min) * btScalar(seed >> 8) / btScalar(16777216);
     }
     btVector3 vector(btScalar reach)
     {

@@ -67,9 +67,9 @@ void hair_test_voxel(const struct hair_field_box* box, const struct hair_pose* h
     for (int k = 0; k < 3; ++k) point[k] += head->position[k];
 }
 
-static float between(uint32_t* random, float least, float most)
+static float between(uint32_t* random, float min, float max)
 {
-    return least + (most - least) * hair_random(random);
+    return min + (max - min) * hair_random(random);
 }
 
 hair_collider hair_test_any_collider(const struct hair_field_box* box, const struct hair_pose* head,

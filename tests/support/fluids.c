@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lib/reference/fluid.h"
+#include "tests/reference/fluid.h"
 
 // Make strands along every axis, so that the field is a cube.
 static hair_groom* make_groom(struct hair_test* test)
@@ -43,11 +43,11 @@ void hair_test_fluid_begin(struct hair_test* test, const struct hair_fluid_desc*
     *out = (struct hair_test_fluid){.test = test, .cells = desc->cells};
     out->groom = make_groom(test);
     hair_gl_enter(&test->context->gl);
-    hair_field_create(&out->field, &test->context->forms, out->groom, 0.005f);
+    hair_field_create(&out->field, &test->context->sdf_pool, out->groom, 0.005f);
     hair_test_ok(test, hair_colliders_set(&test->host.host, &out->colliders, &collider, (uint32_t)ball,
                                           sizeof collider));
-    hair_test_ok(
-        test, hair_field_update(&out->field, out->colliders.now.collider, out->colliders.now.count, &origin));
+    hair_test_ok(test, hair_field_update(&out->field, out->colliders.current.collider,
+                                         out->colliders.current.count, &origin));
     hair_test_ok(test, hair_fluid_create(&out->fluid, &test->context->gl, desc));
     hair_test_ok(test, hair_fluid_make_room(&out->fluid, 1));
     out->now = (struct hair_fluid_now){.head = origin,
@@ -98,7 +98,7 @@ double* hair_test_fluid_open(const struct hair_test_fluid* f, uint32_t level)
     uint32_t first = f->fluid.level[level].slot, count = f->fluid.level[level + 1].slot - first;
     uint32_t* slots = malloc(count * sizeof *slots);
     double* out = malloc(3 * (size_t)count * sizeof *out);
-    glGetNamedBufferSubData(f->fluid.open.buffer, 4 * (GLintptr)first, 4 * (GLsizeiptr)count, slots);
+    glGetNamedBufferSubData(f->fluid.face_fraction.buffer, 4 * (GLintptr)first, 4 * (GLsizeiptr)count, slots);
     for (uint32_t i = 0; i < 3 * count; ++i) out[i] = (slots[i % count] >> 10 * (i / count) & 1023) / 1023.0;
     free(slots);
     return out;
@@ -110,9 +110,9 @@ double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocit
     size_t side = f->cells + 1, base = (size_t)axis * side * side * side, stride[3] = {1, side, side * side};
     double part[3], sum = 0;
     for (int k = 0; k < 3; ++k) {
-        double most = k == axis ? f->cells : f->cells - 1;
-        double g = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), most);
-        double low = fmin(floor(g), most - 1);
+        double max = k == axis ? f->cells : f->cells - 1;
+        double g = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), max);
+        double low = fmin(floor(g), max - 1);
         part[k] = g - low;
         base += (size_t)low * stride[k];
     }
@@ -128,7 +128,7 @@ double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocit
     return sum;
 }
 
-void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_air_gusts* gusts,
+void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_wind_gusts* gusts,
                        const float* texel, const double place[3], double out[3])
 {
     const float* lower = &f->fluid.lower.x;
@@ -165,7 +165,7 @@ double hair_test_fluid_left(struct hair_test_fluid* f)
 {
     double* velocity = hair_test_fluid_velocity(f);
     double* open = hair_test_fluid_open(f, 0);
-    double* wall = hair_test_floats(f->fluid.wall.buffer, f->faces);
+    double* wall = hair_test_floats(f->fluid.wall_velocity.buffer, f->faces);
     double* right = malloc(f->count * sizeof *right);
     hair_reference_inflow(f->cells, open, wall, velocity, right);
     double rms = hair_test_rms(right, f->count);

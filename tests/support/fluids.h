@@ -45,7 +45,7 @@ double hair_test_fluid_at(const struct hair_test_fluid* f, const double* velocit
 // Return the root mean square of the flow into cells that the last step left.
 double hair_test_fluid_left(struct hair_test_fluid* f);
 // Compute the gusts at a place in cells, m/s, from the texels of their texture.
-void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_air_gusts* gusts,
+void hair_test_gust_at(const struct hair_test_fluid* f, const struct hair_wind_gusts* gusts,
                        const float* texel, const double place[3], double out[3]);
 double hair_test_rms(const double* numbers, size_t count);
 

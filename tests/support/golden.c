@@ -11,8 +11,8 @@
 
 // Two runs on one driver give equal pictures. Pictures of an SSE4.1 CPU and of an AVX2 CPU differed
 // by an RMSE of 0.00004.
-#define MOST_RMSE 0.003
-#define MOST_BAD_PIXELS 0.002 // fraction of pixels whose distance is above a quarter
+#define MAX_RMSE 0.003
+#define MAX_BAD_PIXELS 0.002 // fraction of pixels whose distance is above a quarter
 
 void hair_test_read_png(const char* path, uint8_t* pixels, uint32_t width, uint32_t height)
 {
@@ -87,5 +87,5 @@ void hair_test_golden(const char* name, const uint8_t* pixels, uint32_t width, u
     free(before);
     double rmse = sqrt(square / (double)count), fraction = (double)bad / (double)count;
     print_message("%s: rmse %.5f, pixels further off than a quarter %.5f\n", name, rmse, fraction);
-    assert_true(rmse <= MOST_RMSE && fraction <= MOST_BAD_PIXELS);
+    assert_true(rmse <= MAX_RMSE && fraction <= MAX_BAD_PIXELS);
 }

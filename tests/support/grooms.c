@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t most)
+struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t max)
 {
-    return (struct hair_test_strands){.positions = malloc(3 * (size_t)count * most * sizeof(float)),
+    return (struct hair_test_strands){.positions = malloc(3 * (size_t)count * max * sizeof(float)),
                                       .vertices = malloc(count * sizeof(uint32_t))};
 }
 
@@ -91,11 +91,11 @@ void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* sc
     desc->scalp_triangle_count = scalp->triangle_count;
 }
 
-static struct hair_smoothed_point guide_at(const struct hair_groom* groom, uint32_t guide, float u)
+static struct hair_guide_spline_point guide_at(const struct hair_groom* groom, uint32_t guide, float u)
 {
-    struct hair_smoothed smoothed;
-    hair_smooth_guide(groom, guide, &smoothed);
-    return hair_smoothed_at(&smoothed, u);
+    struct hair_guide_spline spline;
+    hair_guide_spline_fit(groom, guide, &spline);
+    return hair_guide_spline_at(&spline, u);
 }
 
 static hair_vec3 xyz(hair_vec4 v)
@@ -105,7 +105,7 @@ static hair_vec3 xyz(hair_vec4 v)
 
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
-    struct hair_smoothed_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
+    struct hair_guide_spline_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
     hair_vec3 p[4];
     for (int i = 0; i < 4; ++i) p[i] = xyz(follower->offset[i]);
     for (int n = 3; n > 0; --n) // De Casteljau's algorithm.
@@ -116,9 +116,9 @@ hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_fol
 hair_vec3 hair_test_multi(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
     float u = t * follower->length_ratio;
-    struct hair_smoothed_point g0 = guide_at(groom, follower->guide0, u);
-    struct hair_smoothed_point g1 = guide_at(groom, follower->guide1, u);
-    struct hair_smoothed_point g2 = guide_at(groom, follower->guide2, u);
+    struct hair_guide_spline_point g0 = guide_at(groom, follower->guide0, u);
+    struct hair_guide_spline_point g1 = guide_at(groom, follower->guide1, u);
+    struct hair_guide_spline_point g2 = guide_at(groom, follower->guide2, u);
     float w0 = 1 - follower->weight1 - follower->weight2;
     hair_vec3 own = {follower->offset[1].w, follower->offset[2].w, follower->offset[3].w};
     hair_vec3 blended =

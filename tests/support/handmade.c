@@ -12,7 +12,7 @@ struct hair_test_handmade hair_test_handmade_default(void)
 {
     return (struct hair_test_handmade){.guides = 7,
                                        .fewest = 16,
-                                       .most = 16,
+                                       .max = 16,
                                        .segment = 0.01f,
                                        .turn = 0.3f,
                                        .followers = 64,
@@ -29,9 +29,9 @@ static void* take(const hair_host* host, size_t count, size_t size)
     return memory;
 }
 
-static float between(uint32_t* random, float least, float most)
+static float between(uint32_t* random, float min, float max)
 {
-    return least + (most - least) * hair_random(random);
+    return min + (max - min) * hair_random(random);
 }
 
 // Return the i-th root, evenly over the upper half of the ball (Fibonacci's lattice).
@@ -43,11 +43,11 @@ static hair_vec3 find_root(uint32_t i, uint32_t count)
     return hair_v3(0.1f * r * cosf(angle), 0.1f * y, 0.1f * r * sinf(angle));
 }
 
-static hair_vec3 turn_a_little(hair_vec3 direction, float most, uint32_t* random)
+static hair_vec3 turn_a_little(hair_vec3 direction, float max, uint32_t* random)
 {
     hair_vec3 side = hair_perpendicular(direction);
     hair_vec3 other = hair_cross(direction, side);
-    float about = between(random, 0, 6.2831853f), angle = between(random, 0, most);
+    float about = between(random, 0, 6.2831853f), angle = between(random, 0, max);
     hair_vec3 to = hair_add(hair_scale(side, cosf(about)), hair_scale(other, sinf(about)));
     return hair_add(hair_scale(direction, cosf(angle)), hair_scale(to, sinf(angle)));
 }
@@ -109,7 +109,7 @@ static void place_patch(struct hair_patch* patch, uint32_t first, const struct h
 static uint32_t count_vertices(const struct hair_test_handmade* wanted, uint32_t guide)
 {
     if (wanted->vertices) return wanted->vertices[guide];
-    return wanted->fewest + guide % (wanted->most - wanted->fewest + 1);
+    return wanted->fewest + guide % (wanted->max - wanted->fewest + 1);
 }
 
 hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wanted)
@@ -131,7 +131,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
         guide->count = count_vertices(&wanted, i);
         place_guide(guide, groom->rest + first, find_root(i, wanted.guides), &wanted, &random);
         first += guide->count;
-        if (guide->count > groom->most_vertices) groom->most_vertices = guide->count;
+        if (guide->count > groom->max_vertices) groom->max_vertices = guide->count;
     }
     for (uint32_t i = 0; i < wanted.followers; ++i)
         place_follower(&groom->followers[i], i, wanted.guides, &random);
@@ -141,7 +141,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.follower_count = wanted.followers;
     groom->info.patch_count = patches;
     hair_measure_patches(groom);
-    groom->skull = hair_find_skull(groom);
+    groom->head_sphere = hair_find_head_sphere(groom);
     return groom;
 }
 

@@ -7,7 +7,7 @@
 struct hair_test_handmade {
     // Number of guides, with roots on a ball of radius 0.1 m around the head's origin.
     uint32_t guides;
-    uint32_t fewest, most; // range of vertices per guide, used in turn
+    uint32_t fewest, max; // range of vertices per guide, used in turn
     const uint32_t* vertices; // vertices of each guide instead of the range. NULL disables.
     float segment; // mean length, m
     float turn; // maximum angle between segments, rad

@@ -15,12 +15,12 @@ struct hair_test_subject hair_test_subject_of(uint32_t kind)
     subject.desc.solver = (hair_solver)(kind % HAIR_TEST_SOLVERS);
     subject.desc.substep = 1.0f / 120;
     if (kind == 1) { // Guides of many lengths, in many short substeps.
-        subject.groom.guides = 5, subject.groom.fewest = 4, subject.groom.most = 9;
+        subject.groom.guides = 5, subject.groom.fewest = 4, subject.groom.max = 9;
         subject.desc.substep = 1.0f / 500;
         subject.physics.damping = 12, subject.physics.redblack.bend = 0.4f;
     }
     if (kind == 2) { // Long guides, each in a work group of 64.
-        subject.groom.guides = 3, subject.groom.fewest = 40, subject.groom.most = 40;
+        subject.groom.guides = 3, subject.groom.fewest = 40, subject.groom.max = 40;
         subject.groom.segment = 0.004f;
         subject.physics.gravity[0] = 3, subject.physics.redblack.iterations = 7;
     }
@@ -133,10 +133,10 @@ void hair_test_look(struct hair_test* test, hair_instance* hair, struct hair_tes
     look_at(hair->sim.history, out);
     look_at(hair->sim.material, out);
     for (int what = 0; what <= HAIR_READ_FOLLOWERS; ++what) {
-        uint32_t most = (uint32_t)(HAIR_TEST_SEEN - out->count) / 3, count;
+        uint32_t max = (uint32_t)(HAIR_TEST_SEEN - out->count) / 3, count;
         hair_test_ok(
-            test, hair_read_positions(hair, (hair_read_source)what, out->number + out->count, most, &count));
-        assert_in_range(count, 1, most);
+            test, hair_read_positions(hair, (hair_read_source)what, out->number + out->count, max, &count));
+        assert_in_range(count, 1, max);
         out->count += 3 * (size_t)count;
     }
 }

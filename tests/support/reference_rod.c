@@ -57,7 +57,7 @@ void hair_test_rod_rest(struct hair_reference_rod* rod)
 
 void hair_test_rod_tip(const struct hair_reference_rod* rod, double tip[3])
 {
-    double x[3 * HAIR_TEST_MOST];
+    double x[3 * HAIR_TEST_MAX];
     hair_reference_rod_positions(rod, x);
     memcpy(tip, x + 3 * (hair_reference_rod_vertices(rod) - 1), 3 * sizeof *tip);
 }

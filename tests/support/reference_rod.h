@@ -2,14 +2,14 @@
 #ifndef HAIR_TESTS_SUPPORT_REFERENCE_ROD_H
 #define HAIR_TESTS_SUPPORT_REFERENCE_ROD_H
 
-#include "lib/reference/rod.h"
+#include "tests/reference/rod.h"
 
-#define HAIR_TEST_MOST HAIR_REFERENCE_ROD_MOST_VERTICES
+#define HAIR_TEST_MAX HAIR_REFERENCE_ROD_MAX_VERTICES
 
 struct hair_test_plane {
     struct hair_reference_rod_desc desc; // It points into the arrays, so the struct must not move.
-    double positions[3 * HAIR_TEST_MOST], lengths[HAIR_TEST_MOST];
-    double strain[3 * HAIR_TEST_MOST], real[HAIR_TEST_MOST];
+    double positions[3 * HAIR_TEST_MAX], lengths[HAIR_TEST_MAX];
+    double strain[3 * HAIR_TEST_MAX], real[HAIR_TEST_MAX];
 };
 
 // Make a straight rod in the plane of x and y, with gravity `gamma` along -y. `angle` is measured

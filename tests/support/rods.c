@@ -5,7 +5,7 @@
 
 #include "lib/base/math.h"
 
-#define MOST HAIR_MAX_GUIDE_VERTICES
+#define MAX HAIR_MAX_GUIDE_VERTICES
 
 void hair_test_rod_place(struct hair_test_rod* f, uint32_t count, const float* p)
 {
@@ -30,7 +30,7 @@ void hair_test_rod_place(struct hair_test_rod* f, uint32_t count, const float* p
 
 void hair_test_rod_straight(struct hair_test_rod* f, uint32_t count, double length, double angle)
 {
-    float p[3 * MOST];
+    float p[3 * MAX];
     for (uint32_t i = 0; i < count; ++i) {
         double s = length * i / (count - 1);
         p[3 * i] = (float)(s * sin(angle));
@@ -42,7 +42,7 @@ void hair_test_rod_straight(struct hair_test_rod* f, uint32_t count, double leng
 
 void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment)
 {
-    float p[3 * MOST];
+    float p[3 * MAX];
     for (uint32_t i = 0; i < count; ++i) {
         double t = i + 0.2 * sin(5.0 * i);
         p[3 * i] = (float)(segment * (0.8 * t + cos(0.7 * t)));
@@ -69,7 +69,7 @@ double hair_test_rod_bend(const hair_physics* p)
 
 void hair_test_rod_hold(struct hair_test_rod* f)
 {
-    hair_rods_hold(&f->guide, f->rest, 1, &f->physics, f->borne, &f->report);
+    hair_rods_preload_gravity(&f->guide, f->rest, 1, &f->physics, f->borne, &f->report);
 }
 
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep)

@@ -2,7 +2,7 @@
 #ifndef HAIR_TESTS_SUPPORT_RODS_H
 #define HAIR_TESTS_SUPPORT_RODS_H
 
-#include "lib/sim/rod.h"
+#include "lib/rod/rod.h"
 
 struct hair_test_rod {
     struct hair_guide guide;

@@ -296,17 +296,17 @@ static void memory_stays_within_its_bound(void** state)
 static void more_strands_than_a_groom_can_hold_need_a_share(void** state)
 {
     (void)state;
-    const uint32_t most = 4194304;
+    const uint32_t max = 4194304;
     struct hair_test_file file = hair_test_hair(0);
     hair_test_set_u32(&file, 12, 2);
     hair_test_set_u32(&file, 16, 1);
-    for (uint32_t i = 0; i <= most; ++i) hair_test_put(&file, (const float[6]){0, 0, 0, 1, 0, 0}, 24);
+    for (uint32_t i = 0; i <= max; ++i) hair_test_put(&file, (const float[6]){0, 0, 0, 1, 0, 0}, 24);
     for (uint32_t more = 0; more < 3; ++more) {
         hair_import import = hair_test_import();
         hair_asset* asset = NULL;
         if (more == 2) import.keep_fraction = 0.5f;
-        hair_test_set_u32(&file, 4, most + (more > 0));
-        hair_test_set_u32(&file, 8, 2 * (most + (more > 0)));
+        hair_test_set_u32(&file, 4, max + (more > 0));
+        hair_test_set_u32(&file, 8, 2 * (max + (more > 0)));
         hair_result result = hair_test_read(&test, &import, file.bytes, file.size, &asset);
         assert_int_equal(result, more == 1 ? HAIR_ERROR_FILE : HAIR_OK);
         if (!result) hair_asset_free(asset);

@@ -112,7 +112,7 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --json $D/a.json --csv $D/a.csv", "redblack");
-    char path[256], field[256], text[MOST_TEXT], keys[64][256];
+    char path[256], field[256], text[MAX_TEXT], keys[64][256];
     snprintf(path, sizeof path, "%s/a.csv", hair_test_folder());
     json_t* root = hair_test_shell_json("a.json");
     json_t* rows = json_object_get(root, "rows");

@@ -114,7 +114,7 @@ static double voxel_of(const hair_collider& collider)
 
 // Compare distances near the surface, in voxels. Interpolated distances have an error of up to 0.87
 // voxels over a sharp edge.
-static void compare_form(const char* what, const btConvexShape& shape)
+static void compare_mesh(const char* what, const btConvexShape& shape)
 {
     take(shape, btTransform::getIdentity());
     const double voxel = voxel_of(colliders(1)[0]);
@@ -131,22 +131,22 @@ static void convex_shapes_are_as_far_as_gjk_says(void**)
     std::vector<btVector3> points;
     for (int i = 0; i < 40; ++i) points.push_back(random.vector(btScalar(0.3)));
     btConvexHullShape hull(&points[0].x(), static_cast<int>(points.size()));
-    compare_form("hull", hull);
+    compare_mesh("hull", hull);
     hull.setLocalScaling(btVector3(2, 1, btScalar(0.5)));
     hull.setMargin(btScalar(0.01));
-    compare_form("scaled hull", hull);
+    compare_mesh("scaled hull", hull);
     btConvexPointCloudShape cloud(points.data(), static_cast<int>(points.size()), btVector3(1, 2, 1));
-    compare_form("point cloud", cloud);
+    compare_mesh("point cloud", cloud);
     btBU_Simplex1to4 tetrahedron(btVector3(0, 0, 0), btVector3(btScalar(0.5), 0, 0),
                                  btVector3(0, btScalar(0.4), 0), btVector3(btScalar(0.1), 0, btScalar(0.6)));
-    compare_form("tetrahedron", tetrahedron);
+    compare_mesh("tetrahedron", tetrahedron);
     btTriangleMesh triangles;
     for (int i = 0; i + 2 < 40; ++i) triangles.addTriangle(points[i], points[i + 1], points[i + 2]);
     btConvexTriangleMeshShape mesh(&triangles);
     mesh.setLocalScaling(btVector3(1, btScalar(1.5), 1));
-    compare_form("convex mesh", mesh);
+    compare_mesh("convex mesh", mesh);
     btUniformScalingShape scaled(&hull, btScalar(0.5));
-    compare_form("uniform scaling", scaled);
+    compare_mesh("uniform scaling", scaled);
     hair_bullet_invalidate(test.bullet, nullptr);
 }
 
@@ -161,10 +161,10 @@ static void spheres_together_are_as_far_as_gjk_says(void**)
     assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_SPHERE);
     compare("two spheres", two, GJK_ERROR, 1);
     assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_CAPSULE);
-    compare_form("spheres of one radius", four);
-    compare_form("spheres of several", others);
+    compare_mesh("spheres of one radius", four);
+    compare_mesh("spheres of several", others);
     others.setLocalScaling(btVector3(2, 2, 2));
-    compare_form("scaled spheres", others);
+    compare_mesh("scaled spheres", others);
 }
 
 // Distance to a mesh, as the minimum over all triangles.
@@ -230,13 +230,13 @@ static void triangle_meshes_are_as_far_as_their_triangles(void**)
     mesh.setMargin(btScalar(0.02));
     compare_mesh("mesh", mesh, btScalar(0.6));
     assert_true(nearest(btVector3(0, 0, 0)) < -0.38);
-    const hair_collision_mesh* form = colliders(1)[0].mesh;
+    const hair_collision_mesh* collision_mesh = colliders(1)[0].mesh;
     btScaledBvhTriangleMeshShape twice(&mesh, btVector3(2, 2, 2)),
         uneven(&mesh, btVector3(1, 2, btScalar(0.5)));
     compare_mesh("mesh twice as large", twice, btScalar(0.6));
-    assert_ptr_equal(colliders(1)[0].mesh, form); // The mesh is shared and scaled.
+    assert_ptr_equal(colliders(1)[0].mesh, collision_mesh); // The mesh is shared and scaled.
     compare_mesh("mesh scaled unevenly", uneven, btScalar(0.6));
-    assert_ptr_not_equal(colliders(1)[0].mesh, form);
+    assert_ptr_not_equal(colliders(1)[0].mesh, collision_mesh);
 }
 
 static void a_height_field_is_solid_below(void**)

@@ -162,7 +162,7 @@ static void arguments_are_checked(void**)
     world world;
     hair_bullet* other = nullptr;
     btCollisionObject bare;
-    const float nan[] = {0, NAN, 0}, least[] = {1, 1, 1}, far[] = {0, INFINITY, 0};
+    const float nan[] = {0, NAN, 0}, min_value[] = {1, 1, 1}, far[] = {0, INFINITY, 0};
     const size_t wrong = sizeof(btScalar) == 4 ? 8 : 4;
     assert_int_equal(hair_bullet_create(&test.host.host, wrong, &other), HAIR_ERROR_VERSION);
     assert_non_null(std::strstr(test.host.sentence, "btScalar is of 8 bytes, that of libhair_bullet of 4"));
@@ -175,7 +175,7 @@ static void arguments_are_checked(void**)
     assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, nullptr, upper, -1),
                      HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, nan, upper, -1), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, least, upper, -1),
+    assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, min_value, upper, -1),
                      HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, lower, far, -1), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_bullet_set_resolution(test.bullet, 7), HAIR_ERROR_ARGUMENT);
@@ -199,9 +199,9 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
         assert_int_equal(hair_bullet_add_shape(test.bullet, &hull, nullptr), HAIR_OK);
         return colliders(1)[0].mesh;
     };
-    const hair_collision_mesh* form = take_hull();
+    const hair_collision_mesh* collision_mesh = take_hull();
     const uint32_t blocks = test.host.blocks, made = test.host.allocations;
-    assert_ptr_equal(take_hull(), form);
+    assert_ptr_equal(take_hull(), collision_mesh);
     assert_true(test.host.allocations - made < 10); // Only its points were allocated.
     hull.setLocalScaling(btVector3(2, 2, 2));
     take_hull();
@@ -254,14 +254,14 @@ static void every_refused_allocation_is_borne(void**)
 // Return the minimum time of many runs, so that load of the machine has little effect.
 static double cost(const world& world)
 {
-    double least = INFINITY;
+    double min_value = INFINITY;
     for (int round = 0; round < 50; ++round) {
         const auto begun = std::chrono::steady_clock::now();
         for (int i = 0; i < 100; ++i) take(world, -1);
         const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begun;
-        least = std::fmin(least, passed.count() / 100);
+        min_value = std::fmin(min_value, passed.count() / 100);
     }
-    return least;
+    return min_value;
 }
 
 static void ten_thousand_objects_cost_as_much_as_the_dozen_that_touch(void**)

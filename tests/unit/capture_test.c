@@ -116,7 +116,7 @@ static void hair_behind_the_head_may_be_left_out_and_the_picture_is_the_same(voi
     (void)state;
     expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --hash > $D/all.txt", "");
     expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --set hide=on --hash | cmp - $D/all.txt", "");
-    expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --set hide=on --stats - | grep -A1 '\"hide\"'",
+    expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --set hide=on --stats - | grep -A1 '\"occlusion\"'",
            "done");
 }
 
@@ -125,10 +125,10 @@ static void every_number_of_the_physics_can_be_set(void** state)
     (void)state;
     static const char* const names[] = {
 #define BEGIN(type)
-#define FIELD(type, name, kind, usual, least, most) #type "." #name,
+#define FIELD(type, name, kind, usual, min, max) #type "." #name,
 #define MATRIX(type, name)
 #define END(type)
-#include "lib/api/fields.inl"
+#include "lib/api/schema.inl"
 #undef BEGIN
 #undef FIELD
 #undef MATRIX
@@ -453,7 +453,7 @@ static void each_solver_can_be_asked_for(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --set thread_mapping=workgroup_per_guide --stats -",
            "\"method\": \"sim/mixed_32");
     expect(0, "$T " SMALL " --frames 0:2 --set thread_mapping=thread_per_guide --stats -",
-           "\"method\": \"sim/mixed_thread_32");
+           "\"method\": \"sim/mixed_thread_per_guide_32");
 }
 
 static void scene_files_say_what_options_say(void** state)

@@ -66,7 +66,7 @@ static void capsules_are_from_the_head(void** state)
     struct hair_pose before = {{1e6, 0, 0}, {0, 0, 0, 1}}, now = {{1e6 - 0.25, 0, 0}, {0, 0, 0, 1}};
     hair_collider one = sphere(1e6f + 1);
     set(&one, 1);
-    hair_colliders_settle(&colliders);
+    hair_colliders_end_step(&colliders);
     hair_colliders_capsules(&colliders, &before, &now, capsules);
     assert_true(capsules[0].start[0].x == 1 && capsules[0].end[0].x == 1.25f);
 }
@@ -76,13 +76,13 @@ static void a_collider_moves_from_where_it_was_at_the_last_step(void** state)
     (void)state;
     hair_collider two[2] = {sphere(1), sphere(5)};
     set(two, 1);
-    hair_colliders_settle(&colliders);
+    hair_colliders_end_step(&colliders);
     two[0].position[0] = 2;
     set(two, 2);
     hair_colliders_capsules(&colliders, &origin, &origin, capsules);
     assert_true(capsules[0].start[0].x == 1 && capsules[0].end[0].x == 2);
     assert_true(capsules[1].start[0].x == 5); // A new collider starts at its position.
-    hair_colliders_settle(&colliders);
+    hair_colliders_end_step(&colliders);
     hair_colliders_capsules(&colliders, &origin, &origin, capsules);
     assert_true(capsules[0].start[0].x == 2);
 }
@@ -92,7 +92,7 @@ static void another_shape_is_another_collider(void** state)
     (void)state;
     hair_collider one = sphere(1);
     set(&one, 1);
-    hair_colliders_settle(&colliders);
+    hair_colliders_end_step(&colliders);
     one.shape = HAIR_SHAPE_CAPSULE;
     one.position[0] = 2;
     set(&one, 1);
@@ -108,7 +108,7 @@ static void a_larger_stride_skips_what_is_newer(void** state)
         float newer[3];
     } two[2] = {{sphere(1), {NAN, NAN, NAN}}, {sphere(2), {NAN, NAN, NAN}}};
     assert_int_equal(hair_colliders_set(&test.host, &colliders, &two[0].collider, 2, sizeof *two), HAIR_OK);
-    assert_true(colliders.now.collider[1].position[0] == 2);
+    assert_true(colliders.current.collider[1].position[0] == 2);
 }
 
 static void none_is_a_count_too(void** state)
@@ -131,8 +131,8 @@ static void a_wrong_collider_is_named_and_none_is_taken(void** state)
     two[1].size[0] = -1;
     assert_int_equal(hair_colliders_set(&test.host, &colliders, two, 2, sizeof *two), HAIR_ERROR_ARGUMENT);
     assert_string_equal(test.sentence, "colliders[1].size[0] is -1, not in (0, 1e6]");
-    assert_int_equal(colliders.now.count, 1);
-    assert_true(colliders.now.collider[0].position[0] == 1);
+    assert_int_equal(colliders.current.count, 1);
+    assert_true(colliders.current.collider[0].position[0] == 1);
     two[1] = sphere(2);
     two[1].shape = (hair_shape)-1;
     assert_int_equal(hair_colliders_set(&test.host, &colliders, two, 2, sizeof *two), HAIR_ERROR_ARGUMENT);
@@ -176,17 +176,17 @@ static void a_collider_is_known_by_its_key_wherever_it_stands(void** state)
                            keyed(11, 7), keyed(14, 0), keyed(19, 0)};
     float were[] = {2, 3, 17, 1, 4, 19};
     set(before, 5);
-    hair_colliders_settle(&colliders);
+    hair_colliders_end_step(&colliders);
     set(now, 6);
     for (uint32_t i = 0; i < 6; ++i)
-        assert_true(hair_colliders_before(&colliders, i)->position[0] == were[i]);
-    hair_colliders_settle(&colliders);
+        assert_true(hair_colliders_previous(&colliders, i)->position[0] == were[i]);
+    hair_colliders_end_step(&colliders);
     for (uint32_t i = 0; i < 6; ++i)
-        assert_true(hair_colliders_before(&colliders, i)->position[0] == now[i].position[0]);
-    hair_colliders_forget(&colliders);
+        assert_true(hair_colliders_previous(&colliders, i)->position[0] == now[i].position[0]);
+    hair_colliders_reset(&colliders);
     set(before, 5);
     for (uint32_t i = 0; i < 5; ++i)
-        assert_true(hair_colliders_before(&colliders, i)->position[0] == before[i].position[0]);
+        assert_true(hair_colliders_previous(&colliders, i)->position[0] == before[i].position[0]);
 }
 
 // Check that sizes which a shape does not use may have any value.

@@ -36,32 +36,33 @@ static hair_collision_mesh_desc desc_of(const struct hair_test_mesh* mesh, uint3
     return desc;
 }
 
-static hair_collision_mesh* form_of(const struct hair_test_mesh* mesh, uint32_t resolution)
+static hair_collision_mesh* mesh_of(const struct hair_test_mesh* mesh, uint32_t resolution)
 {
     hair_collision_mesh_desc desc = desc_of(mesh, resolution);
-    hair_collision_mesh* form = NULL;
-    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
-    return form;
+    hair_collision_mesh* collision_mesh = NULL;
+    assert_int_equal(hair_collision_mesh_create(&desc, &collision_mesh), HAIR_OK);
+    return collision_mesh;
 }
 
-static void node_at(const hair_collision_mesh* form, size_t node, double out[3])
+static void node_at(const hair_collision_mesh* collision_mesh, size_t node, double out[3])
 {
-    size_t at[3] = {node % form->size[0], node / form->size[0] % form->size[1],
-                    node / form->size[0] / form->size[1]};
-    for (int k = 0; k < 3; ++k) out[k] = (double)form->origin[k] + (double)form->voxel * (double)at[k];
+    size_t at[3] = {node % collision_mesh->size[0], node / collision_mesh->size[0] % collision_mesh->size[1],
+                    node / collision_mesh->size[0] / collision_mesh->size[1]};
+    for (int k = 0; k < 3; ++k)
+        out[k] = (double)collision_mesh->origin[k] + (double)collision_mesh->voxel * (double)at[k];
 }
 
 // Check the maximum error of the distance at the nodes. Within the band it is in voxels, and
 // outside it is relative to the distance from the band. The sign must be right everywhere except on
 // the surface.
-static void compare(const char* what, const hair_collision_mesh* form, hair_shape shape, const float size[3],
-                    double limit)
+static void compare(const char* what, const hair_collision_mesh* collision_mesh, hair_shape shape,
+                    const float size[3], double limit)
 {
-    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
-    double worst = 0, worst_far = 0, voxel = (double)form->voxel;
+    size_t nodes = (size_t)collision_mesh->size[0] * collision_mesh->size[1] * collision_mesh->size[2];
+    double worst = 0, worst_far = 0, voxel = (double)collision_mesh->voxel;
     for (size_t i = 0; i < nodes; ++i) {
-        double at[3], own = (double)form->distance[i];
-        node_at(form, i, at);
+        double at[3], own = (double)collision_mesh->distance[i];
+        node_at(collision_mesh, i, at);
         double exact = hair_distance_to_shape(shape, size, at, NULL);
         double off = fabs(own - exact) / voxel,
                beyond = fabs(exact) / voxel - (HAIR_COLLISION_MESH_BAND - 0.1);
@@ -82,10 +83,10 @@ static void a_box_of_triangles_is_as_far_as_a_box(void** state)
     (void)state;
     const float size[3] = {0.3f, 0.2f, 0.11f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_collision_mesh* form = form_of(&mesh, 48);
-    assert_int_equal(form->info.closed, 1);
-    compare("box", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 48);
+    assert_int_equal(collision_mesh->info.closed, 1);
+    compare("box", collision_mesh, HAIR_SHAPE_BOX, size, 1e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
 }
 
@@ -95,11 +96,11 @@ static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
     (void)state;
     const float size[3] = {0.1f, 0, 0};
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 64, 128);
-    hair_collision_mesh* form = form_of(&mesh, 40);
-    assert_int_equal(form->info.closed, 1);
-    double sag = 0.1 * (1 - cos(3.14159265 / 64)) / (double)form->voxel;
-    compare("ball", form, HAIR_SHAPE_SPHERE, size, 1.1 * sag + 1e-3);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 40);
+    assert_int_equal(collision_mesh->info.closed, 1);
+    double sag = 0.1 * (1 - cos(3.14159265 / 64)) / (double)collision_mesh->voxel;
+    compare("ball", collision_mesh, HAIR_SHAPE_SPHERE, size, 1.1 * sag + 1e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
 }
 
@@ -112,9 +113,9 @@ static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
         uint32_t a = mesh.triangles[3 * i];
         mesh.triangles[3 * i] = mesh.triangles[3 * i + 1], mesh.triangles[3 * i + 1] = a;
     }
-    hair_collision_mesh* form = form_of(&mesh, 16);
-    compare("inside out", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 16);
+    compare("inside out", collision_mesh, HAIR_SHAPE_BOX, size, 1e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
 }
 
@@ -132,10 +133,10 @@ static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
         soup.triangles[i] = i;
         memcpy(soup.positions + 3 * i, mesh.positions + 3 * mesh.triangles[i], 3 * sizeof(float));
     }
-    hair_collision_mesh* form = form_of(&soup, 16);
-    assert_int_equal(form->info.closed, 1);
-    compare("soup", form, HAIR_SHAPE_BOX, size, 1e-3);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh* collision_mesh = mesh_of(&soup, 16);
+    assert_int_equal(collision_mesh->info.closed, 1);
+    compare("soup", collision_mesh, HAIR_SHAPE_BOX, size, 1e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&soup);
 }
@@ -149,15 +150,15 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
     --mesh.triangle_count;
     hair_collision_mesh_desc desc = desc_of(&mesh, 32);
     desc.thickness = 0.03f;
-    hair_collision_mesh* form = NULL;
-    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
+    hair_collision_mesh* collision_mesh = NULL;
+    assert_int_equal(hair_collision_mesh_create(&desc, &collision_mesh), HAIR_OK);
     assert_int_equal(test.warnings, 1);
-    assert_int_equal(form->info.closed, 0);
+    assert_int_equal(collision_mesh->info.closed, 0);
     const double in[3] = {0, 0, 0}, wall[3] = {0, 0.1, 0}, near[3] = {0, 0.12, 0};
-    hair_test_near("centre", 0, hair_distance_to_mesh(form, in, NULL), 0.1 - 0.015, 1e-3);
-    hair_test_near("wall", 0, hair_distance_to_mesh(form, wall, NULL), -0.015, 2e-3);
-    hair_test_near("near", 0, hair_distance_to_mesh(form, near, NULL), 0.005, 2e-3);
-    hair_collision_mesh_destroy(form);
+    hair_test_near("centre", 0, hair_distance_to_mesh(collision_mesh, in, NULL), 0.1 - 0.015, 1e-3);
+    hair_test_near("wall", 0, hair_distance_to_mesh(collision_mesh, wall, NULL), -0.015, 2e-3);
+    hair_test_near("near", 0, hair_distance_to_mesh(collision_mesh, near, NULL), 0.005, 2e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     (void)bare;
     hair_test_mesh_free(&mesh);
 }
@@ -169,13 +170,13 @@ static void what_lies_in_a_hollow_is_outside(void** state)
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32),
                           inner = hair_test_ball_mesh(0.05f, 16, 32);
     hair_test_mesh_append(&mesh, &inner, 1);
-    hair_collision_mesh* form = form_of(&mesh, 32);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 32);
     const double middle[3] = {0, 0, 0}, wall[3] = {0.075, 0, 0}, out[3] = {0.2, 0, 0};
-    assert_int_equal(form->info.closed, 1);
-    hair_test_near("middle", 0, hair_distance_to_mesh(form, middle, NULL), 0.05, 2e-3);
-    hair_test_near("wall", 0, hair_distance_to_mesh(form, wall, NULL), -0.025, 2e-3);
-    hair_test_near("out", 0, hair_distance_to_mesh(form, out, NULL), 0.1, 2e-3);
-    hair_collision_mesh_destroy(form);
+    assert_int_equal(collision_mesh->info.closed, 1);
+    hair_test_near("middle", 0, hair_distance_to_mesh(collision_mesh, middle, NULL), 0.05, 2e-3);
+    hair_test_near("wall", 0, hair_distance_to_mesh(collision_mesh, wall, NULL), -0.025, 2e-3);
+    hair_test_near("out", 0, hair_distance_to_mesh(collision_mesh, out, NULL), 0.1, 2e-3);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&inner);
 }
@@ -186,11 +187,11 @@ static void two_balls_through_each_other_have_one_inside(void** state)
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32), other = hair_test_ball_mesh(0.1f, 16, 32);
     for (uint32_t i = 0; i < other.vertex_count; ++i) other.positions[3 * i] += 0.1f;
     hair_test_mesh_append(&mesh, &other, 0);
-    hair_collision_mesh* form = form_of(&mesh, 32);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 32);
     const double middle[3] = {0.05, 0, 0}, left[3] = {-0.05, 0, 0};
-    assert_true(hair_distance_to_mesh(form, middle, NULL) < -0.03);
-    assert_true(hair_distance_to_mesh(form, left, NULL) < -0.04);
-    hair_collision_mesh_destroy(form);
+    assert_true(hair_distance_to_mesh(collision_mesh, middle, NULL) < -0.03);
+    assert_true(hair_distance_to_mesh(collision_mesh, left, NULL) < -0.04);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
     hair_test_mesh_free(&other);
 }
@@ -199,7 +200,7 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 32, 64);
-    hair_collision_mesh* form = form_of(&mesh, 32);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 32);
     uint32_t seed = 3;
     for (int i = 0; i < 1000; ++i) {
         double p[3], gradient[3], far = 0;
@@ -209,11 +210,11 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
         if (far < 0.2) continue;
         // Beyond the grid, the nearest point of the surface differs. The distance is too large by
         // little.
-        double own = hair_distance_to_mesh(form, p, gradient), exact = far - 0.1;
+        double own = hair_distance_to_mesh(collision_mesh, p, gradient), exact = far - 0.1;
         assert_true(own > exact - 1e-3 && own < 1.06 * exact + 1e-3);
         assert_true(gradient[0] * p[0] + gradient[1] * p[1] + gradient[2] * p[2] > 0.95 * far);
     }
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
 }
 
@@ -222,12 +223,12 @@ static void a_form_lives_as_long_as_who_holds_it(void** state)
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
-    hair_collision_mesh* form = form_of(&mesh, 8);
-    hair_collision_mesh_hold(form);
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh* collision_mesh = mesh_of(&mesh, 8);
+    hair_collision_mesh_hold(collision_mesh);
+    hair_collision_mesh_destroy(collision_mesh);
     assert_true(test.blocks > 0);
-    assert_true(form->distance[0] > 0);
-    hair_collision_mesh_release(form);
+    assert_true(collision_mesh->distance[0] > 0);
+    hair_collision_mesh_release(collision_mesh);
     assert_int_equal(test.blocks, 0);
     hair_collision_mesh_destroy(NULL);
     hair_test_mesh_free(&mesh);
@@ -235,9 +236,10 @@ static void a_form_lives_as_long_as_who_holds_it(void** state)
 
 static void refused(const hair_collision_mesh_desc* desc, const char* words)
 {
-    hair_collision_mesh* form = NULL;
-    if (hair_collision_mesh_create(desc, &form) != HAIR_ERROR_ARGUMENT) fail_msg("not refused: %s", words);
-    assert_null(form);
+    hair_collision_mesh* collision_mesh = NULL;
+    if (hair_collision_mesh_create(desc, &collision_mesh) != HAIR_ERROR_ARGUMENT)
+        fail_msg("not refused: %s", words);
+    assert_null(collision_mesh);
     assert_int_equal(test.errors, 1);
     if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
     assert_int_equal(test.blocks, 0);
@@ -288,21 +290,21 @@ static void degenerate_triangles_are_borne(void** state)
     float positions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
     uint32_t triangles[] = {0, 1, 2, 1, 2, 3, 0, 0, 1};
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    hair_collision_mesh* form = NULL;
+    hair_collision_mesh* collision_mesh = NULL;
     desc.host = &test.host;
     desc.positions = positions;
     desc.triangles = triangles;
     desc.vertex_count = 4;
     desc.triangle_count = 3;
     desc.resolution = 32;
-    assert_int_equal(hair_collision_mesh_create(&desc, &form), HAIR_OK);
-    assert_int_equal(form->info.unused, 2);
-    size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
-    for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(form->distance[i]));
+    assert_int_equal(hair_collision_mesh_create(&desc, &collision_mesh), HAIR_OK);
+    assert_int_equal(collision_mesh->info.unused, 2);
+    size_t nodes = (size_t)collision_mesh->size[0] * collision_mesh->size[1] * collision_mesh->size[2];
+    for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(collision_mesh->distance[i]));
     const double over[3] = {1, 0.3, 0};
-    hair_test_near("over", 0, hair_distance_to_mesh(form, over, NULL), 0.3 - (double)form->info.thickness / 2,
-                   0.01);
-    hair_collision_mesh_destroy(form);
+    hair_test_near("over", 0, hair_distance_to_mesh(collision_mesh, over, NULL),
+                   0.3 - (double)collision_mesh->info.thickness / 2, 0.01);
+    hair_collision_mesh_destroy(collision_mesh);
 }
 
 // Check random meshes. Each gives a finite field or an error.
@@ -317,7 +319,7 @@ static void random_meshes_make_finite_forms(void** state)
             positions[i] = ldexpf(hair_random(&seed) - 0.5f, n % 3 ? 0 : (int)(40 * hair_random(&seed)) - 20);
         for (int i = 0; i < 90; ++i) triangles[i] = (uint32_t)(20 * hair_random(&seed));
         hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-        hair_collision_mesh* form = NULL;
+        hair_collision_mesh* collision_mesh = NULL;
         desc.host = &test.host, desc.positions = positions, desc.triangles = triangles;
         desc.vertex_count = 20, desc.triangle_count = 30, desc.resolution = 12;
         desc.voxel_size = n % 4 ? 0 : ldexpf(1, (int)(40 * hair_random(&seed)) - 20);
@@ -325,12 +327,12 @@ static void random_meshes_make_finite_forms(void** state)
         desc.thickness = fminf(desc.thickness, 1e6f), desc.voxel_size = fminf(desc.voxel_size, 1e6f);
         // Fine grids take long.
         if (desc.voxel_size > 0 && desc.voxel_size < 0.01f) desc.voxel_size = 0;
-        hair_result result = hair_collision_mesh_create(&desc, &form);
+        hair_result result = hair_collision_mesh_create(&desc, &collision_mesh);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_ARGUMENT);
         if (result) continue;
-        size_t nodes = (size_t)form->size[0] * form->size[1] * form->size[2];
-        for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(form->distance[i]));
-        hair_collision_mesh_destroy(form);
+        size_t nodes = (size_t)collision_mesh->size[0] * collision_mesh->size[1] * collision_mesh->size[2];
+        for (size_t i = 0; i < nodes; ++i) assert_true(isfinite(collision_mesh->distance[i]));
+        hair_collision_mesh_destroy(collision_mesh);
         ++made;
     }
     test.errors = 0;
@@ -343,18 +345,18 @@ static void every_refused_allocation_is_borne(void** state)
     const float size[3] = {0.1f, 0.1f, 0.1f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
     hair_collision_mesh_desc desc = desc_of(&mesh, 8);
-    hair_collision_mesh* form = NULL;
+    hair_collision_mesh* collision_mesh = NULL;
     uint32_t n = 0;
     for (hair_result result = HAIR_ERROR_MEMORY; result;) {
         test.allocations = 0;
         test.refuse = ++n;
-        result = hair_collision_mesh_create(&desc, &form);
+        result = hair_collision_mesh_create(&desc, &collision_mesh);
         if (result) assert_int_equal(test.blocks, 0);
         assert_true(result == HAIR_OK || result == HAIR_ERROR_MEMORY);
     }
     assert_true(n > 6);
     test.errors = 0;
-    hair_collision_mesh_destroy(form);
+    hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
 }
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 
 #define PI 3.141592653589793
 

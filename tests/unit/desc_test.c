@@ -9,17 +9,17 @@
 
 struct sample {
     hair_struct_header header;
-    float share;
+    float fraction;
     uint32_t count;
     float newer; // Not in the struct of an older caller.
 };
 
 static const struct hair_field rows[] = {
-    {"sample.share", offsetof(struct sample, share), HAIR_FIELD_FLOAT, 0.3, 0.1, 0.9},
-    {"sample.count", offsetof(struct sample, count), HAIR_FIELD_UINT, 5, 2, 4000000000.0},
-    {"sample.newer", offsetof(struct sample, newer), HAIR_FIELD_FLOAT, -1, -2, 0},
+    {"sample.fraction", offsetof(struct sample, fraction), HAIR_SCHEMA_FLOAT, 0.3, 0.1, 0.9},
+    {"sample.count", offsetof(struct sample, count), HAIR_SCHEMA_UINT, 5, 2, 4000000000.0},
+    {"sample.newer", offsetof(struct sample, newer), HAIR_SCHEMA_FLOAT, -1, -2, 0},
 };
-static const struct hair_fields fields = {rows, 3, sizeof(struct sample)};
+static const struct hair_schema fields = {rows, 3, sizeof(struct sample)};
 
 static struct hair_test_host test;
 
@@ -34,20 +34,20 @@ static struct sample defaults(void)
 {
     struct sample sample;
     memset(&sample, 0xff, sizeof sample);
-    hair_fields_init(&sample, (hair_struct_header){sizeof sample, HAIR_VERSION}, fields);
+    hair_schema_init(&sample, (hair_struct_header){sizeof sample, HAIR_VERSION}, fields);
     return sample;
 }
 
 static hair_result take(const struct sample* from, struct sample* own)
 {
-    return hair_fields_take(&test.host, "sample", from, own, fields);
+    return hair_schema_copy_in(&test.host, "sample", from, own, fields);
 }
 
 static void defaults_are_those_of_the_table(void** state)
 {
     (void)state;
     struct sample sample = defaults();
-    assert_true(sample.share == 0.3f);
+    assert_true(sample.fraction == 0.3f);
     assert_int_equal(sample.count, 5);
     assert_true(sample.newer == -1);
     assert_int_equal(sample.header.size, sizeof sample);
@@ -60,7 +60,7 @@ static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** sta
     struct sample sample;
     memset(&sample, 0x55, sizeof sample);
     struct sample untouched = sample;
-    hair_fields_init(&sample, (hair_struct_header){offsetof(struct sample, newer), HAIR_VERSION}, fields);
+    hair_schema_init(&sample, (hair_struct_header){offsetof(struct sample, newer), HAIR_VERSION}, fields);
     assert_int_equal(sample.count, 5);
     assert_memory_equal(&sample.newer, &untouched.newer, sizeof sample.newer);
 }
@@ -98,9 +98,9 @@ static void both_ends_of_a_range_are_inside(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
-    sample.share = 0.1f; // Less than 0.1 as a double.
+    sample.fraction = 0.1f; // Less than 0.1 as a double.
     assert_int_equal(take(&sample, &own), HAIR_OK);
-    sample.share = 0.9f;
+    sample.fraction = 0.9f;
     sample.count = 4000000000u;
     assert_int_equal(take(&sample, &own), HAIR_OK);
     assert_int_equal(test.errors, 0);
@@ -110,17 +110,17 @@ static void a_number_outside_is_named_with_its_range(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
-    sample.share = 1.5f;
+    sample.fraction = 1.5f;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
-    assert_string_equal(test.sentence, "sample.share is 1.5, not in [0.1, 0.9]");
+    assert_string_equal(test.sentence, "sample.fraction is 1.5, not in [0.1, 0.9]");
     sample = defaults();
     sample.count = 1;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
     assert_string_equal(test.sentence, "sample.count is 1, not in [2, 4e+09]");
     sample = defaults();
-    sample.share = NAN;
+    sample.fraction = NAN;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
-    sample.share = INFINITY;
+    sample.fraction = INFINITY;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
     assert_int_equal(take(NULL, &own), HAIR_ERROR_ARGUMENT);
     assert_string_equal(test.sentence, "sample is NULL");

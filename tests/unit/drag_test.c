@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "lib/reference/drag.h"
+#include "tests/reference/drag.h"
 
 #define PI 3.14159265358979323846
 
@@ -32,8 +32,8 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
                 {60, 1.39},
                 {80, 1.35},
                 {100, 1.33},
-                // Wieselsberger 1922, NACA TN 121, read off its curve. The lower end of the curve is Lamb's
-                // theory.
+                // Wieselsberger 1922, NACA TN 121, read off its curve. The lower end of the curve
+                // is Lamb's theory.
                 {0.116, 54.1},
                 {0.241, 30.5},
                 {0.728, 13.2},
@@ -44,9 +44,9 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
                 {63.6, 1.48},
                 {196, 1.27},
                 {356, 1.15},
-                // Steady Navier-Stokes equations, solved for this test. The method is second differences of
-                // the stream function and the vorticity on two grids, out to 400 radii and more. At 0.1 the
-                // result is 1 % above Kaplun.
+                // Steady Navier-Stokes equations, solved for this test. The method is second
+                // differences of the stream function and the vorticity on two grids, out to 400
+                // radii and more. At 0.1 the result is 1 % above Kaplun.
                 {0.5, 16.86},
                 {1, 10.50},
                 {2, 6.76}};

@@ -74,17 +74,17 @@ static double fresnel(double in, double out, double index)
 // Return the angle by which a ray is deflected on leaving a unit circle after `legs` legs inside.
 // The ray enters at height h along -x, and is refracted by Snell's law. `share` is the fraction of
 // light that leaves then, and `path` the length inside.
-static double trace(double h, int legs, double index, double* share, double* path)
+static double trace(double h, int legs, double index, double* fraction, double* path)
 {
     struct vec p = {sqrt(1 - h * h), h}, d = {-1, 0};
     double in = -dot(p, d), out = sqrt(1 - (1 - in * in) / (index * index)), f = fresnel(in, out, index);
     *path = 0;
     if (legs == 0) {
-        *share = f;
+        *fraction = f;
         d = (struct vec){d.x + 2 * in * p.x, d.y + 2 * in * p.y};
         return atan2(d.y, d.x);
     }
-    *share = 1 - f;
+    *fraction = 1 - f;
     struct vec way = {d.x / index + (in / index - out) * p.x, d.y / index + (in / index - out) * p.y};
     for (int leg = 1;; ++leg) {
         double far = -2 * dot(p, way);
@@ -94,12 +94,12 @@ static double trace(double h, int legs, double index, double* share, double* pat
         // The reflectance for the opposite direction is the same.
         double r = fresnel(leave, meet, index);
         if (leg == legs) {
-            *share *= 1 - r;
+            *fraction *= 1 - r;
             struct vec n = {way.x * index + (leave - meet * index) * p.x,
                             way.y * index + (leave - meet * index) * p.y};
             return atan2(n.y, n.x);
         }
-        *share *= r;
+        *fraction *= r;
         way = (struct vec){way.x - 2 * meet * p.x, way.y - 2 * meet * p.y};
     }
 }
@@ -111,30 +111,30 @@ static void lobes_lie_where_rays_traced_through_a_circle_leave_it(void** state)
     (void)state;
     static hair_fibre_table table;
     hair_fibre_fill(&usual, table);
-    double scale = (double)hair_fibre_scale(usual.around), most = 0;
+    double scale = (double)hair_fibre_scale(usual.around), max = 0;
     double cut = 1 / (1 + exp(-PI / scale)) - 1 / (1 + exp(PI / scale));
     for (int i = 0; i < HAIR_FIBRE_COLUMNS; i += 7)
         for (int legs = 0; legs < 3; ++legs) {
             double sum = 0, far = 0;
             int rays = 20000;
             for (int k = 0; k < rays; ++k) {
-                double share, path,
-                    angle = trace((k + 0.5) / rays * 2 - 1, legs, (double)usual.index, &share, &path);
+                double fraction, path,
+                    angle = trace((k + 0.5) / rays * 2 - 1, legs, (double)usual.index, &fraction, &path);
                 double x = PI * i / (HAIR_FIBRE_COLUMNS - 1) - angle;
                 x -= 2 * PI * floor((x + PI) / (2 * PI));
                 double e = exp(-fabs(x) / scale), density = e / (scale * (1 + e) * (1 + e)) / cut;
-                sum += share * density / rays;
-                far += share * density * path / rays;
+                sum += fraction * density / rays;
+                far += fraction * density * path / rays;
             }
             const hair_vec4 *w = &table[0][HAIR_FIBRE_ROWS - 1][i], *l = &table[1][HAIR_FIBRE_ROWS - 1][i];
             double density = (double)(legs == 0 ? w->x : legs == 1 ? w->y : w->z);
-            most = fmax(most, fabs(density - sum));
+            max = fmax(max, fabs(density - sum));
             hair_test_near("density", (size_t)(3 * i + legs), density, sum, 5e-4);
             if (legs)
                 hair_test_near("path", (size_t)(3 * i + legs), (double)(legs == 1 ? l->x : l->y), far / sum,
                                2e-2);
         }
-    print_message("    off by up to %.2g of 1/radian\n", most);
+    print_message("    off by up to %.2g of 1/radian\n", max);
 }
 
 int main(void)

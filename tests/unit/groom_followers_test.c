@@ -78,16 +78,16 @@ struct fit {
 static double find_strand(const struct hair_test_strands* strands, hair_vec3 root, const float** found,
                           uint32_t* vertices)
 {
-    double least = INFINITY;
+    double min = INFINITY;
     const float* p = strands->positions;
     for (uint32_t i = 0; i < strands->count; p += 3 * strands->vertices[i++]) {
         double d = (double)hair_distance(root, hair_load3(p));
-        if (d >= least) continue;
-        least = d;
+        if (d >= min) continue;
+        min = d;
         *found = p;
         *vertices = strands->vertices[i];
     }
-    return least;
+    return min;
 }
 
 static struct fit measure_fit(const hair_groom* groom, const struct hair_test_strands* strands)
@@ -429,15 +429,15 @@ static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
         int x = (int)fminf(p.x * 200, 39), z = (int)fminf(p.z * 200, 39);
         ++count[40 * z + x];
     }
-    double squared = 0, most = 0, least = 100;
+    double squared = 0, max = 0, min = 100;
     for (int i = 0; i < 1600; ++i) {
         squared += (count[i] - 25.0) * (count[i] - 25.0) / 1600;
-        most = fmax(most, count[i]);
-        least = fmin(least, count[i]);
+        max = fmax(max, count[i]);
+        min = fmin(min, count[i]);
     }
-    printf("followers per cell: 25 +- %.1f, from %.0f to %.0f\n", sqrt(squared), least, most);
+    printf("followers per cell: 25 +- %.1f, from %.0f to %.0f\n", sqrt(squared), min, max);
     assert_true(sqrt(squared) < 3);
-    assert_true(least > 12 && most < 38);
+    assert_true(min > 12 && max < 38);
     hair_groom_destroy(groom);
     free_grown(&grown);
 }

@@ -165,9 +165,9 @@ static void guides_go_where_strands_differ_more_than_where_they_are_many(void** 
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.guide_count = 230;
     hair_groom* groom = make(&desc);
-    uint32_t narrow = 0;
-    for (uint32_t i = 0; i < 230; ++i) narrow += vertex(groom, i, 0).x < 0.1f;
-    assert_in_range(narrow, 5, 20);
+    uint32_t clip_row_to_sphere = 0;
+    for (uint32_t i = 0; i < 230; ++i) clip_row_to_sphere += vertex(groom, i, 0).x < 0.1f;
+    assert_in_range(clip_row_to_sphere, 5, 20);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }
@@ -212,11 +212,11 @@ static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_m
         desc.strand_set = HAIR_STRAND_SET_GUIDES;
         desc.guide_vertices = asked[k];
         hair_groom* groom = make(&desc);
-        uint32_t first = 0, most = 0;
+        uint32_t first = 0, max = 0;
         for (uint32_t i = 0; i < 8; ++i) {
             uint32_t kept = given[i] < 4 ? 4 : given[i];
             if (kept > asked[k]) kept = asked[k];
-            if (kept > most) most = kept;
+            if (kept > max) max = kept;
             assert_int_equal(groom->guides[i].first, first);
             assert_int_equal(groom->guides[i].count, kept);
             first += kept;
@@ -227,7 +227,7 @@ static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_m
             assert_true(hair_distance(vertex(groom, i, kept - 1), curl(1, i, NULL)) == 0);
         }
         assert_int_equal(groom->info.guide_vertex_count, first);
-        assert_int_equal(groom->most_vertices, most);
+        assert_int_equal(groom->max_vertices, max);
         hair_groom_destroy(groom);
     }
     hair_test_strands_free(&strands);
@@ -257,10 +257,10 @@ static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samp
     assert_float_equal(groom->guides[1].arc_length / length_of(strands.positions + 9, 32), 1, 1e-6);
 
     double turn = 12.566 / 31, around = 0.02 * 12.566,
-           share = around * around / (around * around + 0.2 * 0.2);
+           fraction = around * around / (around * around + 0.2 * 0.2);
     double loss = 1 - groom->guides[2].arc_length / length_of(strands.positions + 3 * 35, 200);
     printf("200 vertices brought down to 32: %.2f %% shorter\n", 100 * loss);
-    assert_float_equal(loss, share * turn * turn / 24, 0.1 * turn * turn / 24);
+    assert_float_equal(loss, fraction * turn * turn / 24, 0.1 * turn * turn / 24);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }

@@ -104,7 +104,7 @@ static void assert_sound(const hair_groom* groom)
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         assert_finite(&groom->guides[i].root_frame, 4);
         assert_true(isfinite(groom->guides[i].arc_length) && groom->guides[i].arc_length > 0);
-        assert_in_range(groom->guides[i].count, 2, groom->most_vertices);
+        assert_in_range(groom->guides[i].count, 2, groom->max_vertices);
     }
     assert_finite(groom->rest, 8 * (size_t)info->guide_vertex_count);
     for (uint32_t i = 0; i < info->follower_count; ++i) {

@@ -105,19 +105,19 @@ static hair_vec3 root_of(const hair_groom* groom, uint32_t follower)
     return hair_test_single(groom, &groom->followers[follower], 0);
 }
 
-// Return how many followers of a patch are drawn with a set, as in glsl/patch.glsl.
-static float wanted_of(const struct hair_patch* patch, float map_density, float share)
+// Return how many followers of a patch are drawn with a set, as in glsl/strands/patch.glsl.
+static float wanted_of(const struct hair_patch* patch, float map_density, float fraction)
 {
-    return (float)patch->count * patch->density * map_density * share;
+    return (float)patch->count * patch->density * map_density * fraction;
 }
 
 // Count the drawn followers in each of ten columns.
-static void count_columns(const hair_groom* groom, float share, double count[10])
+static void count_columns(const hair_groom* groom, float fraction, double count[10])
 {
     memset(count, 0, 10 * sizeof *count);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
-        float wanted = wanted_of(&patch, patch.map_density.x, share);
+        float wanted = wanted_of(&patch, patch.map_density.x, fraction);
         for (uint32_t k = 0; (float)k < wanted; ++k) {
             int column = (int)fminf(fmaxf(10 * root_of(groom, patch.first + k).x / SIDE, 0), 9);
             count[column] += (double)fminf(wanted - (float)k, 1);
@@ -275,9 +275,9 @@ static void patches_tell_of_every_set(void** state)
             assert_float_equal(patch->map_density.x, 1 - ramp, 0.2501);
             assert_float_equal(patch->map_density.y, ramp, 0.2501);
             // Maximum over all sets, which the follower's own radius includes.
-            float most = fmaxf(1, 0.5f + 1.5f * ramp);
-            assert_float_equal(patch->map_thickness.x, 1 / most, 0.1251);
-            assert_float_equal(patch->map_thickness.y, (0.5f + 1.5f * ramp) / most, 0.1251);
+            float max = fmaxf(1, 0.5f + 1.5f * ramp);
+            assert_float_equal(patch->map_thickness.x, 1 / max, 0.1251);
+            assert_float_equal(patch->map_thickness.y, (0.5f + 1.5f * ramp) / max, 0.1251);
         }
     }
     assert_float_equal(sum[0] / 6000, 0.5, 0.01);

@@ -308,11 +308,11 @@ static void followers_of_a_patch_are_neighbours(void** state)
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
         hair_vec3 first = hair_test_single(groom, &groom->followers[patch.first], 0);
-        double most = 0;
+        double max = 0;
         for (uint32_t j = 1; j < patch.count; ++j)
-            most = fmax(most,
-                        hair_distance(first, hair_test_single(groom, &groom->followers[patch.first + j], 0)));
-        sum += most;
+            max = fmax(max,
+                       hair_distance(first, hair_test_single(groom, &groom->followers[patch.first + j], 0)));
+        sum += max;
     }
     double mean = sum / groom->info.patch_count;
     printf("patches reach %.0f mm from their first follower\n", 1e3 * mean);

@@ -74,7 +74,7 @@ static void memory_that_the_host_refuses_is_null(void** state)
 static void without_a_host_there_is_the_c_library(void** state)
 {
     (void)state;
-    hair_host own = hair_host_take(NULL);
+    hair_host own = hair_host_or_default(NULL);
     void* memory = hair_alloc(&own, 1, 5);
     assert_non_null(memory);
     hair_free(&own, memory);
@@ -86,7 +86,7 @@ static void half_an_allocator_is_none(void** state)
     (void)state;
     hair_host half = test.host;
     half.free = NULL;
-    hair_host own = hair_host_take(&half);
+    hair_host own = hair_host_or_default(&half);
     hair_free(&own, hair_alloc(&own, 1, 5));
     assert_int_equal(test.allocations, 0);
     assert_ptr_equal(own.log, test.host.log);

@@ -98,7 +98,7 @@ static void a_picture_differs_from_itself_by_nothing_and_from_another_as_that_fr
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS], there[PIXELS], back[PIXELS];
-    static double most;
+    static double max;
     paint(0, a);
     paint(1, b);
     assert_true(hair_flip(a, a, WIDTH, HEIGHT, HAIR_FLIP_DISPLAY, there));
@@ -107,9 +107,9 @@ static void a_picture_differs_from_itself_by_nothing_and_from_another_as_that_fr
     assert_true(hair_flip(b, a, WIDTH, HEIGHT, HAIR_FLIP_DISPLAY, back));
     for (int i = 0; i < PIXELS; ++i) {
         assert_true(there[i] == back[i] && there[i] >= 0 && there[i] <= 1);
-        most = fmax(most, there[i]);
+        max = fmax(max, there[i]);
     }
-    assert_true(most > 0.9);
+    assert_true(max > 0.9);
 }
 
 static void what_is_too_fine_to_be_seen_differs_less(void** state)

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "lib/base/math.h"
-#include "lib/reference/reference.h"
+#include "tests/reference/reference.h"
 
 static void the_first_kind_and_the_first_color_are_the_defaults(void** state)
 {

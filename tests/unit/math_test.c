@@ -10,9 +10,9 @@
 
 static uint32_t seed = 1;
 
-static float between(float least, float most)
+static float between(float min, float max)
 {
-    return least + (most - least) * hair_random(&seed);
+    return min + (max - min) * hair_random(&seed);
 }
 
 static hair_vec3 any_vector(void)

@@ -5,14 +5,14 @@
 #include <stdlib.h>
 
 #include "lib/draw/fibre.h"
-#include "lib/reference/paths.h"
+#include "tests/reference/paths.h"
 
 #define STRANDS 400
 #define RAYS 20000
 
 static const struct hair_fibre usual = {0.3f, 0.3f, 1.55f};
 
-static float share(void)
+static float fraction(void)
 {
     return (float)(rand() % 100000) / 1e5f;
 }
@@ -28,14 +28,14 @@ static struct hair_reference_fibre fibre_of(const struct hair_fibre* of, double 
 // Fill a box of 0.1 m with straight strands in random directions.
 static void fill(float* positions)
 {
-    for (int i = 0; i < 6 * STRANDS; ++i) positions[i] = 0.1f * share();
+    for (int i = 0; i < 6 * STRANDS; ++i) positions[i] = 0.1f * fraction();
 }
 
 // Make rays along -z onto the box from above.
 static void look_down(double* from, double* way, int rays)
 {
     for (int i = 0; i < 3 * rays; ++i) {
-        from[i] = i % 3 == 2 ? 1 : 0.01 + 0.08 * (double)share();
+        from[i] = i % 3 == 2 ? 1 : 0.01 + 0.08 * (double)fraction();
         way[i] = i % 3 == 2 ? -1 : 0;
     }
 }
@@ -115,9 +115,9 @@ static void directions_are_chosen_by_the_density_that_is_said(void** state)
             double chosen = 0, even = 0;
             int count = 20000;
             for (int i = 0; i < count; ++i) {
-                double random[3], light[3], scattered, phi = 2 * pi * (double)share(),
-                                                       y = 2 * (double)share() - 1;
-                for (int k = 0; k < 3; ++k) random[k] = (double)share();
+                double random[3], light[3], scattered, phi = 2 * pi * (double)fraction(),
+                                                       y = 2 * (double)fraction() - 1;
+                for (int k = 0; k < 3; ++k) random[k] = (double)fraction();
                 double density = hair_reference_choose(&fibre, tangent, eye, random, light);
                 hair_reference_scatter(&fibre, tangent, light, eye, none, 1, &scattered);
                 chosen += scattered * sqrt(1 - light[1] * light[1]) / density / count;

@@ -4,17 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-#include "lib/reference/reference.h"
+#include "tests/reference/reference.h"
 
 #define PI 3.141592653589793
-#define MOST HAIR_MAX_GUIDE_VERTICES
+#define MAX HAIR_MAX_GUIDE_VERTICES
 
 // A guide of `count` vertices with links of length `link`, straight down from `root`.
 struct fixture {
     struct hair_guide guide;
-    struct hair_rest rest[MOST];
+    struct hair_rest rest[MAX];
     struct hair_step_params params;
-    struct hair_reference_vertex state[MOST];
+    struct hair_reference_vertex state[MAX];
 };
 
 static struct hair_reference_guide whole(const struct fixture* f)
@@ -106,7 +106,7 @@ static void an_unhindered_vertex_falls_as_verlet_says(void** state)
     (void)state;
     struct fixture f = straight_down(5, 0.01f);
     f.params.gravity.y = -10;
-    double dt = (double)f.params.gravity.w, p[3 * MOST];
+    double dt = (double)f.params.gravity.w, p[3 * MAX];
     for (int n = 1; n <= 50; ++n) {
         hair_reference_integrate(whole(&f), 0, f.state, p);
         for (uint32_t i = 2; i < 5; ++i)
@@ -127,7 +127,7 @@ static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
     f.params.keep = 0.75f;
-    double p[3 * MOST];
+    double p[3 * MAX];
     f.state[3].displacement[0] = 0.004;
     for (int n = 1; n <= 20; ++n) {
         hair_reference_integrate(whole(&f), 0, f.state, p);
@@ -144,7 +144,7 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
     f.params.substep[0].displacement = (hair_vec4){0.25f, 0, -0.5f, 1};
-    double p[3 * MOST];
+    double p[3 * MAX];
     hair_reference_integrate(whole(&f), 0, f.state, p);
     near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
     near3("pinned", p, 0, 0, 0, 0);
@@ -159,7 +159,7 @@ static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
     f.params.gravity.w = 0.125f;
     f.params.shape_frequency_root = f.params.shape_frequency_tip = 8;
     f.state[3].position[0] = 0.5;
-    double p[3 * MOST];
+    double p[3 * MAX];
     hair_reference_integrate(whole(&f), 0, f.state, p);
     near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
 }

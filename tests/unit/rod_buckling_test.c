@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tests/support/reference_rod.h"
 
 #define PI 3.141592653589793

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tests/support/reference_rod.h"
 
 #define PI 3.141592653589793
@@ -105,7 +105,7 @@ static double distance_from_elastica(uint32_t segments, double gamma, double up,
 }
 
 // Return how far too low a chain hangs if it turns by `up` and a right angle at its clamp. See
-// lib/sim/rod_shape.c.
+// lib/rod/rod_shape.c.
 static double polygon_error(uint32_t segments, double gamma, double up)
 {
     return sqrt(gamma) * (1 - cos((PI / 2 + up) / 2)) / (6.0 * segments * segments);
@@ -283,7 +283,7 @@ static void a_chain_pinned_at_its_tip_is_a_catenary(void** state)
     for (uint32_t links = 32; links <= 64; links *= 2) {
         struct hair_test_plane p;
         struct hair_reference_catenary expected = hair_reference_catenary_of_links(0.5, links);
-        double pull[HAIR_TEST_MOST] = {0}, x[3 * HAIR_TEST_MOST], sag = 0;
+        double pull[HAIR_TEST_MAX] = {0}, x[3 * HAIR_TEST_MAX], sag = 0;
         double stiffness = 30;
         hair_test_plane_make(&p, links + 1, PI / 2, 1);
         for (uint32_t i = 0; i < links; ++i) { // The initial shape is an arc.

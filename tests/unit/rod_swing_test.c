@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tests/support/reference_rod.h"
 
 #define PI 3.141592653589793

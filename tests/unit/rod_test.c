@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lib/reference/rod.h"
+#include "tests/reference/rod.h"
 
 #define PI 3.141592653589793
 #define CURL 12 // Number of vertices of the rod that has every feature.
@@ -88,12 +88,12 @@ static void forces_are_the_slope_of_the_energy(void** state)
             double gradient[3 * CURL], force[3 * CURL];
             differ(rod, c.positions, gradient);
             hair_reference_rod_elastic_forces(rod, force);
-            double most = 0;
-            for (int i = 0; i < 3 * CURL; ++i) most = fmax(most, fabs(force[i]));
-            assert_true(most > 1e-3);
+            double max = 0;
+            for (int i = 0; i < 3 * CURL; ++i) max = fmax(max, fabs(force[i]));
+            assert_true(max > 1e-3);
             for (int i = 0; i < 3 * CURL; ++i)
                 hair_test_near(straight ? "straight" : "with twist", (size_t)i, force[i], -gradient[i],
-                               1e-8 * most);
+                               1e-8 * max);
             hair_reference_rod_destroy(rod);
         }
 }
@@ -286,22 +286,22 @@ static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
 static void energy_stays_within_the_square_of_the_substep(void** state)
 {
     (void)state;
-    double most[2];
+    double max[2];
     for (int run = 0; run < 2; ++run) {
         struct curl c;
         make_curl(&c);
         struct hair_reference_rod* rod = rod_of(&c.desc);
         double start = hair_reference_rod_energy(rod).total;
-        most[run] = 0;
+        max[run] = 0;
         for (int k = 0; k < 1000; ++k) {
             assert_true(hair_reference_rod_advance(rod, NULL, 1e-3, run ? 8 : 4));
-            most[run] = fmax(most[run], fabs(hair_reference_rod_energy(rod).total - start));
+            max[run] = fmax(max[run], fabs(hair_reference_rod_energy(rod).total - start));
         }
         assert_true(hair_reference_rod_stretch(rod) < 1e-13);
         hair_reference_rod_destroy(rod);
     }
-    hair_test_near("ratio", 0, most[0] / most[1], 4, 0.4);
-    assert_true(most[1] < 1e-5 && most[1] > 1e-8); // The exchanged energy is 0.05 J.
+    hair_test_near("ratio", 0, max[0] / max[1], 4, 0.4);
+    assert_true(max[1] < 1e-5 && max[1] > 1e-8); // The exchanged energy is 0.05 J.
 }
 
 // Check convergence with everything at once: a head that moves and rotates, wind, damping, pull,

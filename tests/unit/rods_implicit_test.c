@@ -9,12 +9,12 @@
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793
-#define MOST HAIR_MAX_GUIDE_VERTICES
+#define MAX HAIR_MAX_GUIDE_VERTICES
 #define STEP (1.0 / 240) // Seconds.
 
 // Build diag(m A) + b^2 K of the written rods. K is the second derivatives of the energy k/2 |row
 // x|^2 of every vertex.
-static void build(const struct hair_test_rod* f, double b, double a[][MOST])
+static void build(const struct hair_test_rod* f, double b, double a[][MAX])
 {
     uint32_t n = f->guide.count;
     int fixed = f->physics.root != HAIR_ROOT_FREE;
@@ -37,7 +37,7 @@ static void build(const struct hair_test_rod* f, double b, double a[][MOST])
     }
 }
 
-static void compare(const struct hair_test_rod* f, double a[][MOST], int euler)
+static void compare(const struct hair_test_rod* f, double a[][MAX], int euler)
 {
     uint32_t n = f->guide.count;
     for (uint32_t i = 0; i < n; ++i)
@@ -56,7 +56,7 @@ static void the_factors_are_of_the_implicit_systems(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double(*a)[MOST] = calloc(MOST, sizeof *a);
+    double(*a)[MAX] = calloc(MAX, sizeof *a);
     f->physics.flatness = 0.5f;
     f->physics.damping = 100;
     f->physics.tip_mass = 0.1f;
@@ -106,7 +106,7 @@ static void substitute(const struct hair_test_rod* f, double* x)
 // Solve by this number of rounds of cyclic reduction, as a work group does.
 static void reduce(const hair_vec4* row, uint32_t n, uint32_t rounds, double* x)
 {
-    double before[MOST + 2] = {0};
+    double before[MAX + 2] = {0};
     for (uint32_t round = 0; round <= rounds; ++round) {
         uint32_t reach = round < rounds ? 2u << round : 0;
         if (reach >= n) continue;
@@ -136,15 +136,14 @@ static void leave_out(hair_root root)
     for (int k = 0; k < 6; ++k) {
         uint32_t n = lengths[k], rounds[4], all = hair_rods_rounds(n) - 1;
         for (int s = 0; s < 4; ++s) {
-            double x[MOST], y[MOST],
-                off = 0, most = 0,
-                heard = root == HAIR_ROOT_FREE ? 0 : 1e-4 * fmin(pow(240 * steps[s], 3), 1);
-            hair_vec4 out[9 * MOST], last[9 * MOST];
+            double x[MAX], y[MAX],
+                off = 0, max = 0, heard = root == HAIR_ROOT_FREE ? 0 : 1e-4 * fmin(pow(240 * steps[s], 3), 1);
+            hair_vec4 out[9 * MAX], last[9 * MAX];
             memset(out, 0, sizeof out);
             memset(last, 0, sizeof last);
             hair_test_rod_straight(f, n, 0.3, PI / 2);
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, steps[s]);
-            rounds[s] = hair_rods_reduce(&f->guide, 1, f->rod, n, steps[s], out, last);
+            rounds[s] = hair_rods_write_reduction(&f->guide, 1, f->rod, n, steps[s], out, last);
             for (uint32_t i = 0; i < n;
                  // The right side is momenta. The impulses of displacements vary less from vertex
                  // to vertex.
@@ -155,13 +154,13 @@ static void leave_out(hair_root root)
             reduce(out, n, rounds[s], y);
             for (uint32_t i = 0; i < n; ++i) {
                 off = fmax(off, fabs(x[i] - y[i]));
-                most = fmax(most, fabs(x[i]));
+                max = fmax(max, fabs(x[i]));
             }
             printf("%u vertices, 1/%.0f s: %u of %u rounds, off by %.1e, heard from %.1e on\n", n,
-                   1 / steps[s], rounds[s], all, off / most, heard);
+                   1 / steps[s], rounds[s], all, off / max, heard);
             assert_true(rounds[s] <= all);
             // The factor is for two blocks of two, on both sides.
-            assert_true(off <= (4 * heard + 2e-6) * most);
+            assert_true(off <= (4 * heard + 2e-6) * max);
         }
         assert_true(n < 20 || (rounds[3] < all) == (root != HAIR_ROOT_FREE));
     }
@@ -176,9 +175,9 @@ static void what_the_reduction_leaves_out_is_not_heard(void** state)
 }
 
 // Return the highest frequency of m^-1 K, by the power method.
-static double highest_frequency(const struct hair_test_rod* f, double a[][MOST])
+static double highest_frequency(const struct hair_test_rod* f, double a[][MAX])
 {
-    double x[MOST], y[MOST], highest = 0;
+    double x[MAX], y[MAX], highest = 0;
     uint32_t n = f->guide.count;
     for (uint32_t i = 0; i < n; ++i) x[i] = sin(3.0 * i * i);
     for (int k = 0; k < 2000; ++k) {
@@ -199,7 +198,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double(*a)[MOST] = calloc(MOST, sizeof *a);
+    double(*a)[MAX] = calloc(MAX, sizeof *a);
     f->physics.gravity_preload = f->physics.damping = f->physics.shape_frequency_root =
         f->physics.shape_frequency_tip = 0;
     for (uint32_t count = 4; count <= 100; count += 8) {
@@ -273,7 +272,7 @@ static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
     double worst = 0;
     for (int e = 0; e < 6; ++e)
         for (uint32_t count = 4; count <= 256; count *= 4) {
-            float x[MOST] = {0};
+            float x[MAX] = {0};
             make_stiff(f, HAIR_ROOT_HINGED, count, pow(10, -e));
             for (uint32_t i = 1; i < count; ++i) x[i] = (float)i / (float)(count - 1) / f->rod[i].segment.y;
             solve(f, x);
@@ -290,11 +289,11 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double(*a)[MOST] = calloc(MOST, sizeof *a);
+    double(*a)[MAX] = calloc(MAX, sizeof *a);
     double worst = 0;
     for (int e = 0; e < 6; ++e)
         for (uint32_t count = 4; count <= 256; count *= 4) {
-            float lever[MOST + 1] = {0}, x[MOST];
+            float lever[MAX + 1] = {0}, x[MAX];
             make_stiff(f, HAIR_ROOT_FREE, count, pow(10, -e));
             build(f, STEP, a);
             for (uint32_t i = 0; i < count; ++i) assert_true(a[i][i] * (double)f->rod[i].segment.y < 1.6e4);

@@ -9,12 +9,12 @@
 #include <stdlib.h>
 
 #include "lib/groom/groom.h"
-#include "lib/sim/statics.h"
+#include "lib/rod/statics.h"
 #include "lib/sim/pins.h"
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793
-#define MOST HAIR_MAX_GUIDE_VERTICES
+#define MAX HAIR_MAX_GUIDE_VERTICES
 
 struct rested {
     double left; // Remaining torque, relative.
@@ -30,7 +30,7 @@ static struct rested rest_of(const struct hair_guide* guide, const struct hair_r
 {
     struct hair_rod_shape shape;
     struct hair_rod_pose* pose = malloc(sizeof *pose);
-    hair_rod_rest at_rest[MOST];
+    hair_rod_rest at_rest[MAX];
     struct rested r = {.length = (double)guide->arc_length};
     hair_rod_shape_of(guide, rest, physics, &shape);
     hair_rod_bear(&shape, borne);
@@ -72,13 +72,13 @@ static void compare(const char* name, const hair_groom* groom, const hair_physic
     struct hair_rod_borne* borne = calloc(groom->info.guide_vertex_count, sizeof *borne);
     struct hair_rod* rod = calloc(groom->info.guide_vertex_count, sizeof *rod);
     struct hair_rods_report all, own;
-    hair_rods_hold(groom->guides, groom->rest, count, physics, borne, &all);
+    hair_rods_preload_gravity(groom->guides, groom->rest, count, physics, borne, &all);
     hair_rods_write(groom->guides, groom->rest, borne, count, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240, rod);
     assert_true(all.stiffest >= 1 && all.stiffest <= 3);
     double farthest = 0, stiffen = 0;
     for (uint32_t k = 0; k < count; ++k) {
         const struct hair_guide* guide = groom->guides + k;
-        hair_rods_hold(guide, groom->rest, 1, physics, borne, &own);
+        hair_rods_preload_gravity(guide, groom->rest, 1, physics, borne, &own);
         for (uint32_t i = 0; i < guide->count; ++i)
             assert_true(borne[guide->first + i].stiffen >= 1 && borne[guide->first + i].stiffen <= 3);
         for (uint32_t i = 0; i + 1 < guide->count; ++i)
@@ -145,12 +145,13 @@ static void what_sags_bears_what_it_bore_when_it_is_pinned(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    struct hair_knot knot = {.vertex = 20};
+    struct hair_resolved_pin resolved_pin = {.vertex = 20};
     hair_test_rod_straight(f, 32, 0.3, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.sagging, 1);
-    struct hair_rod* rod = calloc(MOST, sizeof *rod);
-    hair_rods_pin(&f->guide, f->rest, f->borne, &knot, 1, &f->physics, HAIR_SOLVER_DIRECT, 0, 1.0 / 240, rod);
+    struct hair_rod* rod = calloc(MAX, sizeof *rod);
+    hair_rods_pin(&f->guide, f->rest, f->borne, &resolved_pin, 1, &f->physics, HAIR_SOLVER_DIRECT, 0,
+                  1.0 / 240, rod);
     for (uint32_t i = 0; i < 32; ++i) assert_memory_equal(&rod[i].strain, &f->rod[i].strain, 16);
     free(rod);
     free(f);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/reference/rod.h"
+#include "tests/reference/rod.h"
 #include "tests/support/rods.h"
 
 static void what_bears_no_gravity_rests_in_the_grooms_own_strain(void** state)
@@ -55,7 +55,7 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    double p[3 * 20], strain[3 * 20], real[20], most = 0;
+    double p[3 * 20], strain[3 * 20], real[20], max = 0;
     hair_test_rod_curl(f, 20, 0.002);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 0);
@@ -76,9 +76,8 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
             hair_test_near("strain", (size_t)i, (double)(&f->rod[i / 3].strain.x)[i % 3], strain[i], 5e-6);
     for (uint32_t i = 0; i < 19; ++i) hair_test_near("real part", i, f->borne[i].rest_real, real[i], 2e-6);
     hair_reference_rod_strain(20, p, desc.root_frame, strain);
-    for (int i = 0; i < 57; ++i)
-        most = fmax(most, fabs((double)(&f->rod[i / 3].strain.x)[i % 3] - strain[i]));
-    assert_true(most > 0.005); // Gravity is visible in the strain.
+    for (int i = 0; i < 57; ++i) max = fmax(max, fabs((double)(&f->rod[i / 3].strain.x)[i % 3] - strain[i]));
+    assert_true(max > 0.005); // Gravity is visible in the strain.
     free(f);
 }
 

@@ -8,11 +8,11 @@
 #include <string.h>
 
 #include "lib/base/math.h"
-#include "lib/reference/rod.h"
+#include "tests/reference/rod.h"
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793
-#define MOST HAIR_MAX_GUIDE_VERTICES
+#define MAX HAIR_MAX_GUIDE_VERTICES
 #define STEP (1.0 / 240) // Seconds.
 
 static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void** state)
@@ -103,13 +103,13 @@ static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
     free(f);
 }
 
-static float within(uint32_t* random, double least, double most)
+static float within(uint32_t* random, double min, double max)
 {
     double t = (double)hair_random(random);
-    if (t < 0.2) return (float)least;
-    if (t > 0.8) return (float)most;
-    if (least > 0) return (float)(least * pow(most / least, (t - 0.2) / 0.6));
-    return (float)(least + (most - least) * pow((t - 0.2) / 0.6, 9));
+    if (t < 0.2) return (float)min;
+    if (t > 0.8) return (float)max;
+    if (min > 0) return (float)(min * pow(max / min, (t - 0.2) / 0.6));
+    return (float)(min + (max - min) * pow((t - 0.2) / 0.6, 9));
 }
 
 static void whatever_the_fields_hold_rods_are_finite(void** state)
@@ -134,7 +134,7 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
         p->shape_frequency_tip = within(&random, 0, 30);
         for (int k = 0; k < 3; ++k)
             p->gravity[k] = within(&random, 0, 1000) * (hair_random(&random) < 0.5f ? -1 : 1);
-        float at[3 * MOST] = {0}, size = within(&random, 1e-9, 1e4);
+        float at[3 * MAX] = {0}, size = within(&random, 1e-9, 1e4);
         uint32_t count = 2 + (uint32_t)(hair_random(&random) * 40);
         for (uint32_t i = 0; i < 3 * count; ++i) {
             float far = run % 4 ? size : within(&random, 1e-9, 1e4);
@@ -185,7 +185,7 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
     memcpy(rest, short_one->rest, 5 * sizeof *rest);
     memcpy(rest + 5, long_one->rest, 32 * sizeof *rest);
     memcpy(rest + 37, short_one->rest, 5 * sizeof *rest);
-    hair_rods_hold(guides, rest, 3, &short_one->physics, borne, &report);
+    hair_rods_preload_gravity(guides, rest, 3, &short_one->physics, borne, &report);
     hair_rods_write(guides, rest, borne, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0, 1e-3, rod);
     assert_memory_equal(rod, short_one->rod, 5 * sizeof *rod);
     assert_memory_equal(rod + 5, long_one->rod, 32 * sizeof *rod);

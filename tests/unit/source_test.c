@@ -139,7 +139,7 @@ static void refused_memory_leaks_nothing(void** state)
 // The passes --------------------------------------------------------------------------------------
 
 static const char* const stages[] = {
-#define PASS(name, label, features, stages) stages,
+#define PASS(name, label, category, features, stages) stages,
 #include "lib/gl/passes.inl"
 };
 
@@ -239,7 +239,8 @@ static void walk(const char* name, int on_condition, struct included* all)
     while (fgets(line, sizeof line, text)) {
         depth += strncmp(line, "#if", 3) == 0 && !is_guard(line);
         depth -= strncmp(line, "#endif", 6) == 0 && depth > 0;
-        if (sscanf(line, "#include \"%47[^\"]\"", file) != 1 || strcmp(file, HAIR_GL_OWN) == 0) continue;
+        if (sscanf(line, "#include \"%47[^\"]\"", file) != 1 || strcmp(file, HAIR_GL_USER_SHADER) == 0)
+            continue;
         uint32_t k = 0;
         while (k < all->count && strcmp(all->file[k], file)) ++k;
         if (k < all->count) {

@@ -145,15 +145,15 @@ static void tip_first_strands_are_turned_round(void** state)
 static void a_share_keeps_so_many_strands_evenly(void** state)
 {
     (void)state;
-    const float shares[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
+    const float fractions[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
     const uint32_t counts[] = {1, 2, 3, 10, 97, 1000};
     for (size_t s = 0; s < 8; ++s)
         for (size_t c = 0; c < 6; ++c) {
             hair_import import = defaults();
-            import.keep_fraction = shares[s];
+            import.keep_fraction = fractions[s];
             struct hair_strands strands = make(counts[c], 3);
             clean(&import, &strands);
-            double wanted = (double)shares[s] * counts[c];
+            double wanted = (double)fractions[s] * counts[c];
             assert_true(strands.strand_count >= fmax(1, floor(wanted)));
             assert_true(strands.strand_count <= fmax(1, ceil(wanted)));
             // z identifies the strand. Strands are in order and unique, without a gap wider than

@@ -427,18 +427,18 @@ static void roots_are_spread_evenly(void** state)
     for (uint32_t i = 0; i < 3; ++i) {
         struct cut cut = cut_with(HAIR_STYLE_AFRO, counts[i], 1, 1);
         uint32_t n = cut.info.scalp_vertex_count;
-        float sum = 0, least = INFINITY, most = 0;
+        float sum = 0, min = INFINITY, max = 0;
         for (uint32_t a = 0; a < n; ++a) {
             float nearest = INFINITY;
             for (uint32_t b = 0; b < n; ++b)
                 if (a != b)
                     nearest = fminf(nearest, hair_distance(scalp_vertex(&cut, a), scalp_vertex(&cut, b)));
             sum += nearest;
-            least = fminf(least, nearest);
-            most = fmaxf(most, nearest);
+            min = fminf(min, nearest);
+            max = fmaxf(max, nearest);
         }
-        assert_true(least > 0.65f * sum / (float)n);
-        assert_true(most < 1.35f * sum / (float)n);
+        assert_true(min > 0.65f * sum / (float)n);
+        assert_true(max < 1.35f * sum / (float)n);
         hair_asset_destroy(cut.asset);
     }
 }

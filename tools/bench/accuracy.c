@@ -1,7 +1,7 @@
 // accuracy.c - Suite `accuracy`, run time against error for every solver and setting.
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tools/bench/accuracy.h"
-#include "tools/bench/living.h"
+#include "tools/bench/live_scene.h"
 #include "tools/bench/peers.h"
 #include "tools/common/file.h"
 
@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define FRAME BENCH_MOTION_FRAME
-#define MOST_SUBSTEPS 4096
+#define MAX_SUBSTEPS 4096
 #define FINE_SUBSTEPS 512
 // Maximum change of the reference when its substep is halved, as a fraction of the length.
 #define TOLERANCE 1e-7
@@ -62,12 +62,13 @@ static const struct setting settings[] = {
 };
 #define SETTINGS (sizeof settings / sizeof *settings)
 
-static bool bring_to_life(struct bench* bench, const struct bench_motion* motion, struct bench_living* out)
+static bool bring_to_life(struct bench* bench, const struct bench_motion* motion,
+                          struct bench_live_scene* out)
 {
     if (!bench_live(bench, &motion->scene, out)) return false;
     if (!hair_set_colliders(out->hair, motion->colliders, motion->collider_count, sizeof *motion->colliders))
         return true;
-    bench_die(out);
+    bench_free_live_scene(out);
     return false;
 }
 
@@ -77,16 +78,16 @@ static bool run_finely(struct bench* bench, const struct bench_motion* motion, u
                        double* positions)
 {
     struct bench_motion fine = *motion;
-    struct bench_living living;
+    struct bench_live_scene live;
     fine.scene.solver = HAIR_SOLVER_ACCURATE;
     fine.scene.strands = 1;
     fine.scene.substep = FRAME / substeps;
-    if (!bring_to_life(bench, &fine, &living)) return false;
+    if (!bring_to_life(bench, &fine, &live)) return false;
     bool whole = true;
     for (uint32_t k = 0; k < fine.frames && whole; ++k)
-        whole = bench_step(&living, fine.moves ? fine.heads + k : NULL, FRAME) &&
-                bench_read(&living, positions + (size_t)k * 3 * fine.scene.vertices);
-    bench_die(&living);
+        whole = bench_step(&live, fine.moves ? fine.heads + k : NULL, FRAME) &&
+                bench_read(&live, positions + (size_t)k * 3 * fine.scene.vertices);
+    bench_free_live_scene(&live);
     return whole;
 }
 
@@ -97,11 +98,11 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     double all = 0, worst = 0;
     bool whole = half != NULL;
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
-        double *truth = motion->truth + run * count, sum = 0;
+        double *ground_truth = motion->truth + run * count, sum = 0;
         bench_set_shoulder(motion, run);
         whole = run_finely(bench, motion, FINE_SUBSTEPS / 2, half) &&
-                run_finely(bench, motion, FINE_SUBSTEPS, truth);
-        for (size_t i = 0; i < count && whole; ++i) sum += pow(truth[i] - half[i], 2);
+                run_finely(bench, motion, FINE_SUBSTEPS, ground_truth);
+        for (size_t i = 0; i < count && whole; ++i) sum += pow(ground_truth[i] - half[i], 2);
         all += sum;
         worst = fmax(worst, sum);
     }
@@ -119,7 +120,7 @@ static bool find_truth_by_reference(struct bench_motion* motion)
     if (!rod) return false;
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, motion->frames, motion->moves ? motion->heads : NULL, FRAME, 128,
-                                    MOST_SUBSTEPS, TOLERANCE * motion->length, motion->truth);
+                                    MAX_SUBSTEPS, TOLERANCE * motion->length, motion->truth);
     hair_reference_rod_destroy(rod);
     snprintf(motion->reference, sizeof motion->reference, "rod, double, %u substeps, converged to %.1e",
              report.substeps, report.change / motion->length);
@@ -146,18 +147,19 @@ struct error {
 };
 
 // Simulate all frames and accumulate the errors against the truth.
-static bool run_frames(struct bench_living* living, const struct bench_motion* motion, const double* truth,
-                       struct error* out)
+static bool run_frames(struct bench_live_scene* live, const struct bench_motion* motion,
+                       const double* ground_truth, struct error* out)
 {
     uint32_t size = 3 * motion->scene.vertices;
-    double positions[3 * BENCH_MOST_VERTICES];
-    for (uint32_t k = 0; k < motion->frames; ++k, truth += size) {
-        if (!bench_step(living, motion->moves ? motion->heads + k : NULL, FRAME)) return false;
-        if (!bench_read(living, positions)) return false;
-        double stretch = bench_stretch(living, positions);
+    double positions[3 * BENCH_MAX_VERTICES];
+    for (uint32_t k = 0; k < motion->frames; ++k, ground_truth += size) {
+        if (!bench_step(live, motion->moves ? motion->heads + k : NULL, FRAME)) return false;
+        if (!bench_read(live, positions)) return false;
+        double stretch = bench_stretch(live, positions);
         for (uint32_t i = 0; i < size; i += 3) {
-            double square = pow(positions[i] - truth[i], 2) + pow(positions[i + 1] - truth[i + 1], 2) +
-                            pow(positions[i + 2] - truth[i + 2], 2);
+            double square = pow(positions[i] - ground_truth[i], 2) +
+                            pow(positions[i + 1] - ground_truth[i + 1], 2) +
+                            pow(positions[i + 2] - ground_truth[i + 2], 2);
             out->squares += square;
             if (!(sqrt(square) <= out->farthest)) out->farthest = sqrt(square);
         }
@@ -167,32 +169,32 @@ static bool run_frames(struct bench_living* living, const struct bench_motion* m
 }
 
 // Simulate all runs. The first run is last, because it is the one that is timed.
-static bool run_all(struct bench_living* living, struct bench_motion* motion, struct error* out)
+static bool run_all(struct bench_live_scene* live, struct bench_motion* motion, struct error* out)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
     bool whole = true;
     *out = (struct error){0};
     for (uint32_t run = motion->runs; run-- > 0 && whole;) {
         if (motion->collider_count) bench_set_shoulder(motion, run);
-        whole = bench_restart(living) &&
-                !hair_set_colliders(living->hair, motion->colliders, motion->collider_count,
+        whole = bench_restart(live) &&
+                !hair_set_colliders(live->hair, motion->colliders, motion->collider_count,
                                     sizeof *motion->colliders) &&
-                run_frames(living, motion, motion->truth + run * count, out);
+                run_frames(live, motion, motion->truth + run * count, out);
     }
     return whole;
 }
 
-static void add_row(const struct bench_motion* motion, struct bench_living* living, const struct error* error,
-                    const struct bench_times* times, const struct setting* setting)
+static void add_row(const struct bench_motion* motion, struct bench_live_scene* live,
+                    const struct error* error, const struct bench_times* times, const struct setting* setting)
 {
     const struct bench_scene* scene = &motion->scene;
     double rms = sqrt(error->squares / motion->runs / motion->frames / scene->vertices);
-    json_t* row = bench_rows_add(&living->bench->rows);
+    json_t* row = bench_rows_add(&live->bench->rows);
     bench_set_text(row, "case", motion->name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
     bench_set_number(row, "length", motion->length);
-    bench_set_number(row, "substeps", bench_substeps(living));
+    bench_set_number(row, "substeps", bench_substeps(live));
     if (setting->iterations) bench_set_count(row, "iterations", setting->iterations);
     bench_set_count(row, "strands", scene->strands);
     bench_set_number(row, "ms", times->ms);
@@ -205,25 +207,25 @@ static void add_row(const struct bench_motion* motion, struct bench_living* livi
     bench_set_number(row, "rms_mm", 1000 * rms);
     bench_set_number(row, "max_stretch", error->stretch);
     if (!setting->substeps) bench_set_flag(row, "default", true);
-    bench_set_flag(row, "alike", bench_strands_are_alike(living));
+    bench_set_flag(row, "alike", bench_strands_are_alike(live));
     bench_set_text(row, "reference", motion->reference);
     bench_set_text(row, "measured_by", "here");
-    bench_set_material(row, living);
+    bench_set_material(row, live);
 }
 
 // Set the solver's own substep, rounded such that it divides a frame. Strands are read at the end
 // of the last substep.
 static bool settle_substep(struct bench* bench, struct bench_motion* motion)
 {
-    struct bench_living living;
+    struct bench_live_scene live;
     motion->scene.substep = 0;
-    if (!bring_to_life(bench, motion, &living)) return false;
+    if (!bring_to_life(bench, motion, &live)) return false;
     // Colliders shorten the substep from the first step on.
     hair_solver_stats solver_stats = hair_solver_stats_default();
-    if (bench_step(&living, NULL, FRAME) && !hair_get_solver_stats(living.hair, &solver_stats))
-        living.substep = (double)solver_stats.substep;
-    motion->scene.substep = FRAME / ceil(FRAME / living.substep - 1e-3);
-    bench_die(&living);
+    if (bench_step(&live, NULL, FRAME) && !hair_get_solver_stats(live.hair, &solver_stats))
+        live.substep = (double)solver_stats.substep;
+    motion->scene.substep = FRAME / ceil(FRAME / live.substep - 1e-3);
+    bench_free_live_scene(&live);
     return true;
 }
 
@@ -232,7 +234,7 @@ static void measure(struct bench* bench, struct bench_motion* motion, const stru
     const char* method = bench_solver_name(setting->solver);
     if (!bench_begin(bench, motion->name, method)) return;
     struct bench_scene* scene = &motion->scene;
-    struct bench_living living;
+    struct bench_live_scene live;
     struct error error;
     struct bench_times times;
     scene->solver = setting->solver;
@@ -240,16 +242,16 @@ static void measure(struct bench* bench, struct bench_motion* motion, const stru
     scene->substep = setting->substeps ? FRAME / setting->substeps : 0;
     scene->mapping =
         setting->solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
-    if ((!setting->substeps && !settle_substep(bench, motion)) || !bring_to_life(bench, motion, &living)) {
+    if ((!setting->substeps && !settle_substep(bench, motion)) || !bring_to_life(bench, motion, &live)) {
         bench_refuse(bench, motion->name, method);
         return;
     }
-    if (find_truth(bench, motion) && run_all(&living, motion, &error) &&
-        bench_time(&living, motion->frames, motion->moves ? motion->heads : NULL, FRAME, &times))
-        add_row(motion, &living, &error, &times, setting);
+    if (find_truth(bench, motion) && run_all(&live, motion, &error) &&
+        bench_time(&live, motion->frames, motion->moves ? motion->heads : NULL, FRAME, &times))
+        add_row(motion, &live, &error, &times, setting);
     else
         bench_refuse(bench, motion->name, method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 static void measure_all(struct bench* bench, struct bench_motion* motion)
@@ -261,37 +263,37 @@ static void measure_all(struct bench* bench, struct bench_motion* motion)
 
 // Real hair at rest -------------------------------------------------------------------------------
 
-static void add_static_row(struct bench_living* living, const double* positions)
+static void add_static_row(struct bench_live_scene* live, const double* positions)
 {
-    const struct bench_scene* scene = living->scene;
+    const struct bench_scene* scene = live->scene;
     struct bench_section section = bench_section_of(&scene->physics);
-    double length = living->length;
+    double length = live->length;
     double gamma = section.line_density * BENCH_GRAVITY * pow(length, 3) / section.bend[0];
     struct hair_reference_elastica rest = hair_reference_elastica(gamma, 0, 0);
     const double* tip = positions + 3 * (scene->vertices - 1);
     double error = hypot(hypot(tip[0] / length - rest.across, tip[1] / length + rest.down), tip[2] / length);
-    json_t* row = bench_rows_add(&living->bench->rows);
+    json_t* row = bench_rows_add(&live->bench->rows);
     bench_set_text(row, "case", "static");
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
     bench_set_number(row, "length", length);
-    bench_set_number(row, "substeps", bench_substeps(living));
+    bench_set_number(row, "substeps", bench_substeps(live));
     if (scene->solver == HAIR_SOLVER_REDBLACK)
         bench_set_count(row, "iterations", scene->physics.redblack.iterations);
     bench_set_number(row, "tip_error", error);
-    bench_set_number(row, "max_stretch", bench_stretch(living, positions));
+    bench_set_number(row, "max_stretch", bench_stretch(live, positions));
     bench_set_text(row, "reference", "elastica");
     bench_set_text(row, "measured_by", "here");
-    bench_set_material(row, living);
+    bench_set_material(row, live);
 }
 
 static void measure_static(struct bench* bench, hair_solver solver, double length)
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "static", method)) return;
-    double positions[3 * BENCH_MOST_VERTICES] = {0};
+    double positions[3 * BENCH_MAX_VERTICES] = {0};
     const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, 32, length, root, along);
     scene.solver = solver;
@@ -304,15 +306,15 @@ static void measure_static(struct bench* bench, hair_solver solver, double lengt
         scene.mapping = HAIR_THREAD_MAPPING_AUTO;
         scene.substep = FRAME;
     }
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "static", method);
         return;
     }
-    if (bench_settle(&living, positions))
-        add_static_row(&living, positions);
+    if (bench_settle(&live, positions))
+        add_static_row(&live, positions);
     else
         bench_refuse(bench, "static", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 static void measure_straight(struct bench* bench)

@@ -8,7 +8,7 @@
 
 #define BENCH_TOOL "hair-bench"
 
-#define BENCH_MOST_PASSES 256 // maximum of hair_get_timings, more than any suite needs
+#define BENCH_MAX_PASSES 256 // maximum of hair_get_timings, more than any suite needs
 
 struct bench_suite;
 

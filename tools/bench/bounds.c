@@ -10,7 +10,7 @@
 
 #define SIZE 720
 #define FRAMES 31
-#define MOST_WORKS 32
+#define MAX_CATEGORIES 32
 #define WARM 300 // ms
 #define MORE 4 // factor of guides and followers
 
@@ -118,12 +118,12 @@ static struct floors measure_floors(struct bench* bench)
 
 // Work --------------------------------------------------------------------------------------------
 
-static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uint32_t* count)
+static bool look(struct bench_studio* studio, struct work works[MAX_CATEGORIES], uint32_t* count)
 {
     hair_report_info info = hair_report_info_default();
-    hair_report_row rows[MOST_WORKS];
-    if (hair_report(studio->hair, 1, &info, rows, sizeof *rows, MOST_WORKS, count)) return false;
-    for (uint32_t i = 0; i < *count && i < MOST_WORKS; ++i) {
+    hair_report_row rows[MAX_CATEGORIES];
+    if (hair_report(studio->hair, 1, &info, rows, sizeof *rows, MAX_CATEGORIES, count)) return false;
+    for (uint32_t i = 0; i < *count && i < MAX_CATEGORIES; ++i) {
         struct work* work = &works[i];
         work->name = rows[i].stage;
         work->bytes = rows[i].bytes;
@@ -137,7 +137,7 @@ static bool look(struct bench_studio* studio, struct work works[MOST_WORKS], uin
 
 // Simulate and draw frames of a head that shakes.
 static bool live(struct bench* bench, const struct point* point, uint32_t times, uint32_t size,
-                 struct work works[MOST_WORKS], uint32_t* count)
+                 struct work works[MAX_CATEGORIES], uint32_t* count)
 {
     struct bench_studio studio;
     struct bench_studio_desc desc = {.scene = "demo",
@@ -145,7 +145,7 @@ static bool live(struct bench* bench, const struct point* point, uint32_t times,
                                      .guides = times * point->guides,
                                      .followers = times * point->followers,
                                      .solver = HAIR_SOLVER_DIRECT};
-    memset(works, 0, MOST_WORKS * sizeof *works);
+    memset(works, 0, MAX_CATEGORIES * sizeof *works);
     if (!bench_studio_make(bench, &desc, &studio)) return false;
     struct bench_shot shot = bench_studio_shot(&studio);
     shot.samples = 4;
@@ -196,7 +196,7 @@ static void add_row(struct bench* bench, const struct point* point, const struct
     double ms = median(work), grown = median(more), shrunk = median(small);
     double launch = floors->launch * work->runs;
     double moved = moves_all(work) ? floors->byte * (double)work->bytes : 0;
-    double least = launch > moved ? launch : moved;
+    double min = launch > moved ? launch : moved;
     json_t* row = bench_rows_add(&bench->rows);
     bench_set_text(row, "case", point->name);
     bench_set_text(row, "method", work->name);
@@ -211,8 +211,8 @@ static void add_row(struct bench* bench, const struct point* point, const struct
     if (!draws(work)) { // The maximum rates of vertices and pixels are unknown.
         bench_set_number(row, "launch_ms", launch);
         bench_set_number(row, "bytes_ms", moved);
-        bench_set_number(row, "floor_ms", least);
-        bench_set_number(row, "of_floor", ms / least);
+        bench_set_number(row, "floor_ms", min);
+        bench_set_number(row, "of_floor", ms / min);
     }
     bench_set_text(row, "bound", name_bound(work, ms, grown, shrunk, launch, moved));
 }
@@ -220,7 +220,7 @@ static void add_row(struct bench* bench, const struct point* point, const struct
 static void measure(struct bench* bench, const struct point* point, const struct floors* floors)
 {
     // The work itself, more work, and a picture of half the width and height.
-    static struct work works[3][MOST_WORKS];
+    static struct work works[3][MAX_CATEGORIES];
     uint32_t count[3] = {0, 0, 0}, size = bench->options.size ? bench->options.size : SIZE;
     if (!bench_begin(bench, point->name, "direct")) return;
     for (uint32_t i = 0; i < 3; ++i)
@@ -228,7 +228,7 @@ static void measure(struct bench* bench, const struct point* point, const struct
             bench_refuse(bench, point->name, "direct");
             return;
         }
-    for (uint32_t i = 0; i < count[0] && i < MOST_WORKS; ++i)
+    for (uint32_t i = 0; i < count[0] && i < MAX_CATEGORIES; ++i)
         if (works[0][i].times) add_row(bench, point, floors, &works[0][i], &works[1][i], &works[2][i]);
 }
 

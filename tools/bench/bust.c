@@ -1,14 +1,14 @@
 // bust.c - Long hair on a moving head and shoulders.
 #include "tools/bench/bust.h"
 #include "tools/common/stats.h"
-#include "tools/common/subject.h"
+#include "tools/common/groom_source.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_RUNS 15
+#define MAX_RUNS 15
 
 static bool make_target(struct bench_bust* bust)
 {
@@ -25,7 +25,7 @@ static bool place(struct bench_bust* bust, float transform[16])
 {
     float time = (float)bust->frame / BUST_FPS;
     hair_motion_at(&bust->scene.motion, time, transform);
-    bust->collider_count = hair_rig_colliders(&bust->scene, time, transform, bust->colliders);
+    bust->collider_count = hair_head_rig_colliders(&bust->scene, time, transform, bust->colliders);
     return !bust->hair ||
            (!hair_set_transform(bust->hair, transform) &&
             !hair_set_colliders(bust->hair, bust->colliders, bust->collider_count, sizeof *bust->colliders));
@@ -64,7 +64,7 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     // Only interpolation and colliders may turn strands.
     out->look.tip_stray_fraction = out->look.stray_fraction = 0;
     if (segments) out->look.segments = segments;
-    if (!hair_subject_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
+    if (!hair_groom_source_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
         bring_to_life(out, hit_method))
         return true;
     bench_bust_free(out);
@@ -104,10 +104,10 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
     for (uint32_t i = 0; i < bust->guides * each && ok; ++i) {
         float at = (float)(i % each) / (float)(each - 1) * (float)(bust->smooth - 1);
         uint32_t k = (uint32_t)at < bust->smooth - 2 ? (uint32_t)at : bust->smooth - 2;
-        float share = at - (float)k;
+        float fraction = at - (float)k;
         for (uint32_t axis = 0; axis < 3; ++axis) {
             const float* a = all + 3 * (i / each * bust->smooth + k) + axis;
-            guides[3 * i + axis] = a[0] + share * (a[3] - a[0]);
+            guides[3 * i + axis] = a[0] + fraction * (a[3] - a[0]);
         }
     }
     free(all);
@@ -117,7 +117,7 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
 // Return the distance to the nearest collider. All colliders of the bust are capsules.
 double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 {
-    double least = INFINITY;
+    double min = INFINITY;
     for (uint32_t i = 0; i < bust->collider_count; ++i) {
         const hair_collider* collider = &bust->colliders[i];
         const float* q = collider->rotation;
@@ -132,20 +132,20 @@ double bench_bust_distance(const struct bench_bust* bust, const float at[3])
         along = fmin(fmax(along, -half), half);
         double square = 0;
         for (int k = 0; k < 3; ++k) square += (arm[k] - along * axis[k]) * (arm[k] - along * axis[k]);
-        least = fmin(least, sqrt(square) - (double)collider->size[0]);
+        min = fmin(min, sqrt(square) - (double)collider->size[0]);
     }
-    return least;
+    return min;
 }
 
 // Timing ------------------------------------------------------------------------------------------
 
 static double time_of_passes(hair_context* context)
 {
-    hair_timing now[BENCH_MOST_PASSES];
-    uint32_t count = hair_get_timings(context, now, BENCH_MOST_PASSES);
+    hair_timing now[BENCH_MAX_PASSES];
+    uint32_t count = hair_get_timings(context, now, BENCH_MAX_PASSES);
     double ms = 0;
-    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
-        if (strstr(now[i].pass, "interpolate/hit") || strstr(now[i].pass, "interpolate/repair"))
+    for (uint32_t i = 0; i < count && i < BENCH_MAX_PASSES; ++i)
+        if (strstr(now[i].pass, "strands/hit") || strstr(now[i].pass, "strands/repair"))
             ms += now[i].total_ms;
     return ms;
 }
@@ -193,11 +193,11 @@ static int compare(const void* a, const void* b)
 
 bool bench_bust_time(struct bench_bust* bust, hair_follower_collision collision, double* ms, uint32_t* runs)
 {
-    double all[MOST_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
+    double all[MAX_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
     bust->look.follower_collision = collision;
     *runs = 0;
     if (!warm_up(bust)) return false;
-    for (int k = -2; k < MOST_RUNS; ++k) { // The first two runs compile shaders.
+    for (int k = -2; k < MAX_RUNS; ++k) { // The first two runs compile shaders.
         if (!draw(bust, false, &first) || !draw(bust, true, &second) || bench_was_interrupted()) return false;
         if (k < 0) start = hair_now();
         if (k >= 0) all[(*runs)++] = fmax(first - second, 0);

@@ -3,7 +3,7 @@
 #define HAIR_TOOLS_BENCH_BUST_H
 
 #include "tools/bench/bench.h"
-#include "tools/common/rig.h"
+#include "tools/common/head_rig.h"
 
 #define BUST_FPS 240
 
@@ -13,7 +13,7 @@ struct bench_bust {
     hair_groom* groom;
     hair_instance* hair;
     hair_look look;
-    hair_collider colliders[HAIR_RIG_COLLIDERS]; // in world space
+    hair_collider colliders[HAIR_HEAD_RIG_COLLIDERS]; // in world space
     uint32_t collider_count;
     uint32_t followers, guides, smooth; // `smooth` is the number of vertices of a smoothed guide
     uint32_t frame;

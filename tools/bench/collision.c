@@ -2,7 +2,7 @@
 // (figure 6 of Tariq 2010). The suite measures the treatment of these followers, the time to find
 // them, and the cost of many colliders to guides.
 #include "tools/bench/bust.h"
-#include "tools/bench/many.h"
+#include "tools/bench/collider_count.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ static const char* const names[] = {"push_out", "single_guide",
 // Effects of the treatment on followers, summed over frames.
 struct found {
     uint64_t inside_before, inside_after, moved, dropped, vertices_moved;
-    double depth_before, depth, displacement, most_displacement, length_error, turn, turn_of_guides;
+    double depth_before, depth, displacement, max_displacement, length_error, turn, turn_of_guides;
     double jump, jump_of_strands;
 };
 
@@ -63,14 +63,14 @@ static double distance(const float* a, const float* b)
 // Return the maximum angle between successive segments, in degrees.
 static double turn_of(const float* p, uint32_t segments)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t k = 1; k < segments; ++k) {
         const float *a = p + 3 * (k - 1), *b = a + 3, *c = b + 3;
         double dot = 0, product = distance(a, b) * distance(b, c);
         for (int i = 0; i < 3; ++i) dot += ((double)b[i] - (double)a[i]) * ((double)c[i] - (double)b[i]);
-        if (product > 0) most = fmax(most, acos(fmin(fmax(dot / product, -1), 1)));
+        if (product > 0) max = fmax(max, acos(fmin(fmax(dot / product, -1), 1)));
     }
-    return most * 180 / acos(-1);
+    return max * 180 / acos(-1);
 }
 
 static void look_at_strand(const struct bench_bust* bust, const struct frame* frame, size_t first,
@@ -78,12 +78,12 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
 {
     const float *p = frame->before + first, *q = frame->after + first;
     uint32_t segments = bust->look.segments;
-    double before = 0, after = 0, most = 0, sum = 0;
+    double before = 0, after = 0, max = 0, sum = 0;
     bool finite = true;
     for (uint32_t k = 0; k <= segments; ++k) {
         double away = distance(p + 3 * k, q + 3 * k);
         finite &= isfinite(away) != 0;
-        most = fmax(most, away);
+        max = fmax(max, away);
         sum += away;
         if (follows) {
             const float *a = frame->last_before + first + 3 * k, *b = frame->last_after + first + 3 * k;
@@ -104,11 +104,11 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
     }
     found->dropped += !finite || after == 0;
     found->turn = fmax(found->turn, turn_of(q, segments));
-    if (most < 1e-6) return;
+    if (max < 1e-6) return;
     ++found->moved;
     found->vertices_moved += segments + 1;
     found->displacement += sum;
-    found->most_displacement = fmax(found->most_displacement, most);
+    found->max_displacement = fmax(found->max_displacement, max);
     found->length_error = fmax(found->length_error, fabs(after / before - 1));
 }
 
@@ -150,7 +150,7 @@ static void add_row(struct bench_bust* bust, hair_follower_collision collision, 
     bench_set_count(row, "moved", found->moved);
     if (found->moved)
         bench_set_number(row, "mean_displacement", found->displacement / (double)found->vertices_moved);
-    bench_set_number(row, "max_displacement", found->most_displacement);
+    bench_set_number(row, "max_displacement", found->max_displacement);
     bench_set_number(row, "length_error", found->length_error);
     bench_set_number(row, "turn", found->turn);
     bench_set_number(row, "turn_of_guides", found->turn_of_guides);
@@ -238,7 +238,7 @@ static void run_suite(struct bench* bench)
     double compute = measure_first_hit(bench, HAIR_HIT_METHOD_COMPUTE, 0);
     measure_first_hit(bench, HAIR_HIT_METHOD_PREPASS, compute);
     bench_measure_world(bench);
-    bench_many_colliders(bench);
+    bench_collider_count(bench);
 }
 
 const struct bench_suite bench_collision = {

@@ -37,9 +37,9 @@ static const struct {
 static bool measure(struct bench* bench, double speed, double guess, double* rate)
 {
     const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
-    double now[3 * BENCH_MOST_VERTICES];
+    double now[3 * BENCH_MAX_VERTICES];
     bench_scene_straight(&scene, 8, 0.1, root, along);
     scene.solver = HAIR_SOLVER_ACCURATE;
     scene.mapping = bench->options.mapping;
@@ -48,14 +48,14 @@ static bool measure(struct bench* bench, double speed, double guess, double* rat
     scene.physics.drag = 1;
     scene.physics.root = HAIR_ROOT_FREE;
     scene.wind.velocity[2] = (float)speed;
-    if (!bench_live(bench, &scene, &living)) return false;
-    bool ok = bench_step(&living, NULL, (SUBSTEPS + 0.5) * scene.substep) && bench_read(&living, now);
+    if (!bench_live(bench, &scene, &live)) return false;
+    bool ok = bench_step(&live, NULL, (SUBSTEPS + 0.5) * scene.substep) && bench_read(&live, now);
     double time = SUBSTEPS * scene.substep;
     // From rest z = speed (t - (1 - exp(-rate t)) / rate) = speed rate t^2 / 2 (1 - rate t / 3 +
     // ...). z is the distance and t the time.
     *rate = 2 * now[2] / (speed * time * time);
     *rate *= 1 + *rate * time / 3;
-    bench_die(&living);
+    bench_free_live_scene(&live);
     return ok;
 }
 
@@ -102,13 +102,12 @@ static double terminal_speed(const struct bench_scene* scene)
     return low;
 }
 
-static bool fall(struct bench_living* living, double* speed)
+static bool fall(struct bench_live_scene* live, double* speed)
 {
-    double before[3 * BENCH_MOST_VERTICES], now[3 * BENCH_MOST_VERTICES];
+    double before[3 * BENCH_MAX_VERTICES], now[3 * BENCH_MAX_VERTICES];
     for (double t = 0; t < FALL - LAST / 2; t += LAST)
-        if (!bench_step(living, NULL, LAST)) return false;
-    if (!bench_read(living, before) || !bench_step(living, NULL, LAST) || !bench_read(living, now))
-        return false;
+        if (!bench_step(live, NULL, LAST)) return false;
+    if (!bench_read(live, before) || !bench_step(live, NULL, LAST) || !bench_read(live, now)) return false;
     *speed = (before[1] - now[1]) / LAST;
     return true;
 }
@@ -117,23 +116,23 @@ static void measure_fall(struct bench* bench, hair_solver solver, uint32_t still
 {
     const char* method = bench_solver_name(solver);
     struct bench_scene scene = bench_level_scene(bench, solver, 16, 0, 0.2);
-    struct bench_living living;
+    struct bench_live_scene live;
     double speed;
     scene.physics.root = HAIR_ROOT_FREE;
     scene.physics.drag = drag;
     scene.wind.still_air = still_air;
-    if (!bench_live_in_step(bench, &scene, LAST, &living)) {
+    if (!bench_live_in_step(bench, &scene, LAST, &live)) {
         bench_refuse(bench, "still_air", method);
         return;
     }
-    if (fall(&living, &speed)) {
-        json_t* row = bench_physics_row(&living, "still_air", terminal_speed(&scene), speed,
+    if (fall(&live, &speed)) {
+        json_t* row = bench_physics_row(&live, "still_air", terminal_speed(&scene), speed,
                                         still_air ? 0.01 : 0.1, "1 + 9.75 Re^-0.744, White 1991");
         bench_set_count(row, "still_air", still_air);
         bench_set_number(row, "drag", (double)drag);
     } else
         bench_refuse(bench, "still_air", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 // Without the law, damping stands for a drag of 0.1.

@@ -5,7 +5,7 @@
 #include <math.h>
 
 #define TEXELS 4 // minimum texels of a shadow map per pixel
-#define LEAST_MAP 256 // texels per side
+#define MIN_MAP 256 // texels per side
 
 // Return the pixels per metre of a projection at a distance.
 static float scale_of(const struct hair_matrices* matrices, float distance, uint32_t pixels)
@@ -66,9 +66,9 @@ uint32_t bench_extent_map(const struct bench_studio* studio, const struct hair_m
                           const struct hair_matrices* light)
 {
     uint32_t size = HAIR_SHADOW_SIZE;
-    while (size > LEAST_MAP && bench_extent_fits(studio, light, size / 2)) size /= 2;
+    while (size > MIN_MAP && bench_extent_fits(studio, light, size / 2)) size /= 2;
     if (!studio->shot.has_lod || !studio->shot.lod.per_patch) return size;
-    while (size > LEAST_MAP && TEXELS * bench_extent_texel(studio, camera, light, size / 2) <= 1) size /= 2;
+    while (size > MIN_MAP && TEXELS * bench_extent_texel(studio, camera, light, size / 2) <= 1) size /= 2;
     return size;
 }
 

@@ -15,7 +15,7 @@
 #define SIDE 0.6 // side of the field's box, m
 // Voxels on either side of a surface where an interpolated value has all its neighbours.
 #define BAND 3
-#define MOST_RUNS 41
+#define MAX_RUNS 41
 #define MIXED 20
 #define MANY 10000
 
@@ -84,11 +84,11 @@ static bool update(struct subject* subject, const hair_collider* colliders, uint
 // Return the GPU time of the passes that write the field. `runs` receives how often they ran.
 static double sum_passes(struct bench* bench, uint32_t* runs)
 {
-    hair_timing timings[BENCH_MOST_PASSES];
-    uint32_t count = hair_get_timings(bench->context, timings, BENCH_MOST_PASSES);
+    hair_timing timings[BENCH_MAX_PASSES];
+    uint32_t count = hair_get_timings(bench->context, timings, BENCH_MAX_PASSES);
     double sum = 0;
     *runs = 0;
-    for (uint32_t i = 0; i < count && i < BENCH_MOST_PASSES; ++i)
+    for (uint32_t i = 0; i < count && i < BENCH_MAX_PASSES; ++i)
         if (!strncmp(timings[i].pass, "field/", 6)) {
             sum += timings[i].total_ms;
             *runs += timings[i].runs;
@@ -148,9 +148,9 @@ static uint32_t random_of(uint32_t* seed)
     return (*seed >> 8) ^ (*seed >> 21);
 }
 
-static double between(uint32_t* seed, double least, double most)
+static double between(uint32_t* seed, double min, double max)
 {
-    return least + (most - least) * (random_of(seed) % 65536) / 65535;
+    return min + (max - min) * (random_of(seed) % 65536) / 65535;
 }
 
 static hair_collider any_collider(hair_shape shape, double size, double reach, uint32_t* seed)
@@ -176,7 +176,7 @@ static hair_collision_mesh* make_ball(struct bench* bench, double radius)
     size_t vertices = (size_t)(ROWS + 1) * 2 * ROWS, triangles = 0;
     float* positions = malloc(vertices * 3 * sizeof *positions);
     uint32_t* indices = malloc(2 * vertices * 3 * sizeof *indices);
-    hair_collision_mesh* form = NULL;
+    hair_collision_mesh* mesh = NULL;
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     const double pi = 3.14159265358979323846;
     for (uint32_t i = 0; positions && indices && i < vertices; ++i) {
@@ -198,16 +198,16 @@ static hair_collision_mesh* make_ball(struct bench* bench, double radius)
     desc.vertex_count = (uint32_t)vertices;
     desc.triangle_count = (uint32_t)triangles;
     desc.resolution = 128;
-    if (positions && indices && hair_collision_mesh_create(&desc, &form)) form = NULL;
+    if (positions && indices && hair_collision_mesh_create(&desc, &mesh)) mesh = NULL;
     free(positions);
     free(indices);
-    return form;
+    return mesh;
 }
 
 // Errors ------------------------------------------------------------------------------------------
 
 struct errors {
-    double most, square, centre; // in voxels
+    double max, square, centre; // in voxels
     uint64_t points, wrong; // `wrong` counts wrong signs farther than a voxel from the surface
 };
 
@@ -224,9 +224,9 @@ static double interpolate(const struct subject* subject, const float* texels, co
     }
     for (uint32_t corner = 0; corner < 8; ++corner) {
         uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        double share = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
+        double fraction = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
         size_t texel = ((size_t)(low[2] + z) * size[1] + low[1] + y) * size[0] + low[0] + x;
-        sum += share * (double)texels[texel];
+        sum += fraction * (double)texels[texel];
     }
     return sum;
 }
@@ -255,7 +255,7 @@ static void measure(const struct subject* subject, const float* texels, const ha
         if (fabs(right) > BAND * voxel) continue;
         double found = interpolate(subject, texels, at), off = fabs(found - right) / voxel;
         if (centre) out->centre = fmax(out->centre, off);
-        out->most = fmax(out->most, off);
+        out->max = fmax(out->max, off);
         out->square += off * off;
         out->wrong += fabs(right) > voxel && (right < 0) != (found < 0);
         ++out->points;
@@ -274,19 +274,19 @@ static void set_errors(json_t* row, const struct shape_row* shape, const struct 
     // A field that is sampled from a grid has errors at voxel centres too.
     double centre = shape->shape == HAIR_SHAPE_MESH ? shape->limit : 0.05;
     bench_set_text(row, "shape", shape->name);
-    bench_set_number(row, "max_error", errors->most);
+    bench_set_number(row, "max_error", errors->max);
     bench_set_number(row, "rms_error", sqrt(errors->square / (double)errors->points));
     bench_set_number(row, "max_limit", shape->limit);
     bench_set_number(row, "max_centre", errors->centre);
     bench_set_number(row, "centre_limit", centre);
     bench_set_count(row, "wrong_sign", errors->wrong);
-    bench_set_flag(row, "pass", errors->most <= shape->limit && errors->centre <= centre && !errors->wrong);
+    bench_set_flag(row, "pass", errors->max <= shape->limit && errors->centre <= centre && !errors->wrong);
 }
 
 static bool run_shape(struct subject* subject, const struct shape_row* shape, hair_collision_mesh* ball)
 {
     uint32_t seed = 5, runs = subject->bench->options.quick ? 9 : 21;
-    double ms[MOST_RUNS], size = 0.08;
+    double ms[MAX_RUNS], size = 0.08;
     hair_collider collider = any_collider(shape->shape, size, 0.02, &seed), moved = collider,
                   exact = collider;
     collider.rounding = (float)(shape->rounding * size);
@@ -355,7 +355,7 @@ static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t cou
 {
     hair_collider colliders[MIXED];
     uint32_t runs = mixed->bench->options.quick ? 5 : 15;
-    double sums[2] = {0}, least[2] = {0}, ms[2][MOST_RUNS];
+    double sums[2] = {0}, min[2] = {0}, ms[2][MAX_RUNS];
     make_mixed(colliders, count, 0.04);
     if (!update(mixed, colliders, count)) return false;
     for (uint32_t k = 0; k < count; ++k) {
@@ -369,18 +369,18 @@ static bool run_moved(struct subject* mixed, struct subject* alone, uint32_t cou
         for (int i = 0; i < 2; ++i) {
             sums[i] += median(ms[i], runs) / count;
             // The minimum is used, because other load on the machine only lengthens times.
-            least[i] += ms[i][0] / count;
+            min[i] += ms[i][0] / count;
         }
     }
     for (int i = 0; i < 2; ++i) {
         json_t* row = new_row(i ? alone : mixed, i ? "one alone" : "one of them", i ? 1 : count);
         bench_set_number(row, "ms", sums[i]);
-        bench_set_number(row, "ms_min", least[i]);
+        bench_set_number(row, "ms_min", min[i]);
         bench_set_count(row, "runs", runs * count);
         if (i) continue;
-        bench_set_number(row, "ratio", least[0] / least[1]);
+        bench_set_number(row, "ratio", min[0] / min[1]);
         bench_set_number(row, "limit", 1.3);
-        bench_set_flag(row, "pass", least[0] / least[1] <= 1.3);
+        bench_set_flag(row, "pass", min[0] / min[1] <= 1.3);
     }
     return true;
 }
@@ -389,7 +389,7 @@ static bool run_all(struct subject* subject, const char* name, uint32_t count, d
 {
     hair_collider* colliders = malloc(count * sizeof *colliders);
     uint32_t runs = 9, before, after;
-    double ms[MOST_RUNS];
+    double ms[MAX_RUNS];
     bool ok = colliders;
     if (ok) make_mixed(colliders, count, size);
     ok = ok && update(subject, colliders, count);

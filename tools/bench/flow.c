@@ -1,7 +1,7 @@
 // flow.c - The fluid around a ball, and its measures.
 #include "tools/bench/flow.h"
 
-#include "lib/reference/fluid.h"
+#include "tests/reference/fluid.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,9 +40,9 @@ bool bench_flow_live(struct bench* bench, const struct hair_fluid_desc* desc, bo
     hair_result result = make_groom(bench, &out->groom);
     if (result) return false;
     hair_gl_enter(gl);
-    hair_field_create(&out->field, &bench->context->forms, out->groom, 0.005f);
+    hair_field_create(&out->field, &bench->context->sdf_pool, out->groom, 0.005f);
     result = hair_colliders_set(&bench->context->host, &out->colliders, &collider, ball, sizeof collider);
-    if (!result) result = hair_field_update(&out->field, out->colliders.now.collider, ball, &origin);
+    if (!result) result = hair_field_update(&out->field, out->colliders.current.collider, ball, &origin);
     if (!result) result = hair_fluid_create(&out->fluid, gl, desc);
     if (!result) result = hair_fluid_make_room(&out->fluid, 1);
     if (result) {
@@ -93,7 +93,7 @@ static double* read_open(const struct bench_flow* flow)
     uint32_t* slots = malloc(count * sizeof *slots);
     double* out = malloc(3 * count * sizeof *out);
     if (!slots || !out) abort();
-    glGetNamedBufferSubData(flow->fluid.open.buffer, 0, (GLsizeiptr)(count * sizeof *slots), slots);
+    glGetNamedBufferSubData(flow->fluid.face_fraction.buffer, 0, (GLsizeiptr)(count * sizeof *slots), slots);
     for (size_t i = 0; i < 3 * count; ++i) out[i] = (slots[i % count] >> 10 * (i / count) & 1023) / 1023.0;
     free(slots);
     return out;
@@ -109,14 +109,14 @@ static double rms(const double* numbers, size_t count)
 double bench_flow_residual(const struct bench_flow* flow)
 {
     const struct hair_fluid* fluid = &flow->fluid;
-    double* right = read_floats(fluid->right.buffer, flow->cells);
-    double* pressure = read_floats(fluid->pressure[fluid->pressed].buffer, flow->cells);
+    double* right = read_floats(fluid->rhs.buffer, flow->cells);
+    double* pressure = read_floats(fluid->pressure[fluid->current_pressure].buffer, flow->cells);
     double *open = read_open(flow), *left = malloc(flow->cells * sizeof *left);
     if (!left) abort();
     hair_reference_residual(fluid->desc.cells, open, right, pressure, left);
-    double share = rms(left, flow->cells) / rms(right, flow->cells);
+    double fraction = rms(left, flow->cells) / rms(right, flow->cells);
     free(right), free(pressure), free(open), free(left);
-    return share;
+    return fraction;
 }
 
 double* bench_flow_velocity(const struct bench_flow* flow)
@@ -132,9 +132,9 @@ double bench_flow_at(const struct bench_flow* flow, const double* velocity, int 
     size_t base = (size_t)axis * side * side * side;
     double part[3], sum = 0;
     for (int k = 0; k < 3; ++k) {
-        double most = k == axis ? (double)cells : (double)cells - 1;
-        double g = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), most);
-        double low = fmin(floor(g), most - 1);
+        double max = k == axis ? (double)cells : (double)cells - 1;
+        double g = fmin(fmax(place[k] - (k == axis ? 0 : 0.5), 0), max);
+        double low = fmin(floor(g), max - 1);
         part[k] = g - low;
         base += (size_t)low * stride[k];
     }

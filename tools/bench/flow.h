@@ -44,9 +44,9 @@ double bench_flow_beside(const struct bench_flow* flow, const double* velocity, 
 double bench_flow_energy(const double* velocity, size_t faces);
 
 // Add rows that compare the closed-form wind around the ball with the fluid's mean velocity.
-// Defined in lee.c.
+// Defined in wake.c.
 void bench_lee_compare(const struct bench_flow* flow, const double* mean);
-// Add rows of the cost of both models. Defined in lee.c.
+// Add rows of the cost of both models. Defined in wake.c.
 void bench_lee_cost(struct bench* bench);
 
 #endif

@@ -41,10 +41,10 @@ static double misfit(const double* samples, uint32_t count, double dt, double fr
 double bench_frequency(const double* samples, uint32_t count, double dt, double low, double high)
 {
     const double golden = 0.61803398874989485, step = 0.1 / (count * dt);
-    double best = low, least = INFINITY;
+    double best = low, min = INFINITY;
     for (double f = low; f <= high; f += step) {
         double m = misfit(samples, count, dt, f);
-        if (m < least) least = m, best = f;
+        if (m < min) min = m, best = f;
     }
     for (low = best - step, high = best + step; high - low > 1e-9 * best;) {
         double a = high - golden * (high - low), b = low + golden * (high - low);

@@ -2,7 +2,7 @@
 // temporal stability of a walk away from the hair, and speed far away.
 #include "tools/bench/picture.h"
 #include "tools/bench/studio.h"
-#include "tools/bench/turn.h"
+#include "tools/bench/flicker.h"
 #include "tools/common/file.h"
 
 #include <epoxy/gl.h>
@@ -21,7 +21,7 @@ static const char* const columns[] = {
     "calm",          "calm_most", "ms_near",     "ms",      "rate",          NULL};
 
 static const char* const scenes[] = {"still", "short", "afro"};
-static const float shares[] = {0.5f, 0.2f, 0.1f, 0.05f};
+static const float fractions[] = {0.5f, 0.2f, 0.1f, 0.05f};
 
 // A scene whose studio is created when the first row needs it.
 struct scene {
@@ -31,7 +31,7 @@ struct scene {
     bool alive, refused;
 };
 
-static bool need(struct scene* scene)
+static bool ensure(struct scene* scene)
 {
     const struct bench_options* options = &scene->bench->options;
     if (scene->alive || scene->refused) return scene->alive;
@@ -77,11 +77,11 @@ static json_t* add_row(struct scene* scene, const char* name, const char* method
 
 // Coverage ----------------------------------------------------------------------------------------
 
-static bool compare_coverage(struct scene* scene, float share, const char* method)
+static bool compare_coverage(struct scene* scene, float fraction, const char* method)
 {
     struct bench_picture full = {0}, thin = {0};
     struct hair_image_error error;
-    if (!need(scene)) return false;
+    if (!ensure(scene)) return false;
     struct bench_shot shot = shot_of(scene);
     shot.supersample = 4;
     bool ok = bench_picture_make(scene->studio.size, &full) &&
@@ -89,7 +89,7 @@ static bool compare_coverage(struct scene* scene, float share, const char* metho
               bench_picture_cover(&full);
     shot.has_lod = true;
     shot.lod.per_patch = 0;
-    shot.lod.strand_fraction = share;
+    shot.lod.strand_fraction = fraction;
     ok = ok && take(&scene->studio, &shot, &thin) && bench_picture_compare(&full, &full, &thin, &error);
     if (ok) {
         json_t* row = add_row(scene, "coverage", method);
@@ -105,10 +105,10 @@ static void measure_coverage(struct bench* bench)
 {
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes && (i == 0 || !bench->options.quick); ++i) {
         struct scene scene = {.bench = bench, .name = scenes[i]};
-        for (size_t k = 0; k < sizeof shares / sizeof *shares; ++k) {
+        for (size_t k = 0; k < sizeof fractions / sizeof *fractions; ++k) {
             char method[16];
-            snprintf(method, sizeof method, "%g %%", 100 * (double)shares[k]);
-            if (bench_begin(bench, "coverage", method) && !compare_coverage(&scene, shares[k], method))
+            snprintf(method, sizeof method, "%g %%", 100 * (double)fractions[k]);
+            if (bench_begin(bench, "coverage", method) && !compare_coverage(&scene, fractions[k], method))
                 bench_refuse(bench, "coverage", method);
         }
         if (scene.alive) bench_studio_free(&scene.studio);
@@ -157,7 +157,7 @@ static bool walk_away(struct scene* scene)
 {
     struct walk walk = {.flip_more = -1};
     uint32_t frames = scene->bench->options.quick ? FRAMES / 25 : FRAMES;
-    bool ok = need(scene);
+    bool ok = ensure(scene);
     for (int i = 0; i < 4 && ok; ++i)
         ok = bench_picture_make(scene->studio.size, &walk.picture[i / 2][i % 2]);
     for (uint32_t k = 0; k < frames && ok; ++k) ok = walk_on(scene, &walk, k, frames);
@@ -184,7 +184,7 @@ static bool look_from_far(struct scene* scene)
     struct bench_times near_by, far_off;
     struct hair_image_error error;
     double enough = scene->bench->options.quick ? 50 : 1000;
-    if (!need(scene)) return false;
+    if (!ensure(scene)) return false;
     struct bench_shot shot = shot_of(scene);
     bool ok = bench_picture_make(scene->studio.size, &full) &&
               bench_picture_make(scene->studio.size, &less) && bench_studio_set(&scene->studio, &shot) &&
@@ -221,7 +221,7 @@ static void run_suite(struct bench* bench)
     measure_coverage(bench);
     measure(&scene, "walk", walk_away);
     measure(&scene, "far", look_from_far);
-    bench_measure_turn(bench);
+    bench_measure_flicker(bench);
     if (scene.alive) bench_studio_free(&scene.studio);
 }
 

@@ -12,7 +12,7 @@ static const struct bench_suite* const suites[] = {
     &bench_paths,    &bench_physics,   &bench_render,    &bench_scale, &bench_shadow,
     &bench_skip,     &bench_stability, &bench_table,     &bench_wind};
 
-#define MOST_SCENE 999999999
+#define MAX_SCENE 999999999
 
 enum name {
     JSON = 256,
@@ -99,14 +99,14 @@ static int misuse(void)
     return HAIR_EXIT_USAGE;
 }
 
-static bool parse_count(const char* option, const char* text, uint32_t least, uint32_t most, uint32_t* out)
+static bool parse_count(const char* option, const char* text, uint32_t min, uint32_t max, uint32_t* out)
 {
     char* end;
     errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
     *out = (uint32_t)value;
-    if (*text >= '0' && *text <= '9' && !*end && !errno && value >= least && value <= most) return true;
-    hair_complain(BENCH_TOOL, "--%s is %s, not a whole number in [%u, %u]", option, text, least, most);
+    if (*text >= '0' && *text <= '9' && !*end && !errno && value >= min && value <= max) return true;
+    hair_complain(BENCH_TOOL, "--%s is %s, not a whole number in [%u, %u]", option, text, min, max);
     return false;
 }
 
@@ -117,8 +117,8 @@ static bool parse_range(const char* option, const char* text, struct bench_optio
     uint32_t last;
     const char* dash = strchr(text, '-');
     snprintf(first, sizeof first, "%.*s", (int)(dash ? dash - text : 12), text);
-    if (!parse_count(option, first, 0, MOST_SCENE, &out->scene)) return false;
-    if (!parse_count(option, dash ? dash + 1 : first, out->scene, MOST_SCENE, &last)) return false;
+    if (!parse_count(option, first, 0, MAX_SCENE, &out->scene)) return false;
+    if (!parse_count(option, dash ? dash + 1 : first, out->scene, MAX_SCENE, &last)) return false;
     out->scenes = last - out->scene + 1;
     return true;
 }

@@ -47,7 +47,7 @@ struct scene {
     bool alive, refused;
 };
 
-static bool need(struct scene* scene)
+static bool ensure(struct scene* scene)
 {
     const struct bench_options* options = &scene->bench->options;
     bool software = scene->bench->software;
@@ -67,8 +67,8 @@ static double now(const struct bench* bench)
     return bench->software ? 1e3 * (double)clock() / CLOCKS_PER_SEC : hair_now();
 }
 
-// Draw the picture by `path` and its shadow map by HAIR_RENDER_PATH_AUTO, or vice versa if kind->of_depth.
-// Hair moves between frames, so that vertices that a path caches are recomputed.
+// Draw the picture by `path` and its shadow map by HAIR_RENDER_PATH_AUTO, or vice versa if
+// kind->of_depth. Hair moves between frames, so that vertices that a path caches are recomputed.
 static bool run_frames(struct scene* scene, const struct kind* kind, hair_render_path path, uint32_t frames,
                        double* ms)
 {
@@ -110,7 +110,7 @@ static bool compare(struct scene* scene, const struct kind* kind)
     const char *passes[WAYS], *taken; // `taken` is the pass that HAIR_RENDER_PATH_AUTO chose
     bool software = scene->bench->software;
     uint32_t frames = software ? 1 : 60, rounds = scene->bench->options.quick ? 2 : ROUNDS, fastest = 0;
-    if (!need(scene)) return false;
+    if (!ensure(scene)) return false;
     for (uint32_t i = 0; i < WAYS; ++i) { // the first runs compile shaders
         if (!run_frames(scene, kind, ways[i].path, 1, &first)) return false;
         passes[i] = drawn_by(scene, kind);

@@ -31,30 +31,31 @@ static const char* const columns[] = {"case",
 
 const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
 
-json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
+json_t* bench_physics_row(struct bench_live_scene* live, const char* name, double expected, double measured,
                           double limit, const char* reference)
 {
     double error = expected == 0 ? fabs(measured) : fabs(measured / expected - 1);
-    json_t* row = bench_rows_add(&living->bench->rows);
+    json_t* row = bench_rows_add(&live->bench->rows);
     bench_set_text(row, "case", name);
-    bench_set_text(row, "method", bench_solver_name(living->scene->solver));
-    bench_set_count(row, "vertices", living->scene->vertices);
+    bench_set_text(row, "method", bench_solver_name(live->scene->solver));
+    bench_set_count(row, "vertices", live->scene->vertices);
     bench_set_number(row, "expected", expected);
     bench_set_number(row, "measured", measured);
     bench_set_number(row, "relative_error", error);
     if (limit >= 0) bench_set_number(row, "limit", limit);
     if (limit >= 0) bench_set_flag(row, "pass", error <= limit);
     bench_set_text(row, "reference", reference);
-    bench_set_material(row, living);
+    bench_set_material(row, live);
     return row;
 }
 
-bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out)
+bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt,
+                        struct bench_live_scene* out)
 {
     if (!bench_live(bench, scene, out)) return false;
     double count = dt / out->substep;
     if (fabs(count - round(count)) < 1e-3) return true;
-    bench_die(out);
+    bench_free_live_scene(out);
     scene->substep = dt / ceil(count);
     return bench_live(bench, scene, out);
 }
@@ -73,12 +74,12 @@ struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solv
 
 double bench_farthest(const double* a, const double* b, uint32_t vertices)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < 3 * vertices; i += 3) {
         double off = hypot(hypot(a[i] - b[i], a[i + 1] - b[i + 1]), a[i + 2] - b[i + 2]);
-        if (off > most || isnan(off)) most = off;
+        if (off > max || isnan(off)) max = off;
     }
-    return most;
+    return max;
 }
 
 static void run_suite(struct bench* bench)

@@ -2,7 +2,7 @@
 #ifndef HAIR_TOOLS_BENCH_PHYSICS_H
 #define HAIR_TOOLS_BENCH_PHYSICS_H
 
-#include "tools/bench/living.h"
+#include "tools/bench/live_scene.h"
 
 #define BENCH_RODS 2 // rod solvers that the suite tests
 extern const hair_solver bench_rod_solvers[BENCH_RODS];
@@ -12,12 +12,13 @@ extern const hair_solver bench_rod_solvers[BENCH_RODS];
 
 // Add a row with relative_error = |measured / expected - 1|, or |measured| if `expected` is 0. The
 // row passes if relative_error is at most `limit`.
-json_t* bench_physics_row(struct bench_living* living, const char* name, double expected, double measured,
+json_t* bench_physics_row(struct bench_live_scene* live, const char* name, double expected, double measured,
                           double limit, const char* reference);
 
 // Create the scene with the solver's own substep, shortened if needed such that it divides `dt`.
 // Strands are read at the end of the last substep. Return false if the library refused.
-bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt, struct bench_living* out);
+bool bench_live_in_step(struct bench* bench, struct bench_scene* scene, double dt,
+                        struct bench_live_scene* out);
 
 // Return a level straight strand of `length` whose root is at x = `root`, with a damping of 4/s.
 struct bench_scene bench_level_scene(const struct bench* bench, hair_solver solver, uint32_t vertices,

@@ -14,7 +14,7 @@
 #define STEP (1.0 / 240)
 
 struct body {
-    struct bench_living living;
+    struct bench_live_scene living;
     double positions[3 * VERTICES], velocities[3 * VERTICES];
 };
 
@@ -50,16 +50,16 @@ static struct hair_reference_rod_pose find_head(const double axis[3], double tim
 // Pull the helix around with the head, then release it.
 static bool spin_up(struct body* body, const double axis[3])
 {
-    struct bench_living* living = &body->living;
-    hair_physics calm = living->scene->physics, pulled = calm;
+    struct bench_live_scene* live = &body->living;
+    hair_physics calm = live->scene->physics, pulled = calm;
     pulled.shape_frequency_root = pulled.shape_frequency_tip = PULL;
     pulled.damping = DRAG;
-    if (hair_set_physics(living->hair, &pulled)) return false;
+    if (hair_set_physics(live->hair, &pulled)) return false;
     for (double time = STEP; time < SECONDS_UP + STEP / 2; time += STEP) {
         struct hair_reference_rod_pose head = find_head(axis, time);
-        if (!bench_step(living, &head, STEP) || bench_was_interrupted()) return false;
+        if (!bench_step(live, &head, STEP) || bench_was_interrupted()) return false;
     }
-    return !hair_set_physics(living->hair, &calm) && bench_step(living, NULL, 4 * living->substep);
+    return !hair_set_physics(live->hair, &calm) && bench_step(live, NULL, 4 * live->substep);
 }
 
 // Measure positions and velocities. Velocities are central differences, therefore the hair is
@@ -115,19 +115,19 @@ static double length_of(const double v[3])
 // The reference starts from the solver's state.
 static double compare(struct body* body, struct hair_reference_rod* rod)
 {
-    double truth[3 * VERTICES], most = 0, h = body->living.substep;
+    double ground_truth[3 * VERTICES], max = 0, h = body->living.substep;
     double count = round(0.5 / h);
     hair_reference_rod_set_state(rod, body->positions, body->velocities);
     struct hair_reference_rod_report report =
-        hair_reference_rod_converge(rod, 1, NULL, count * h, 4096, 65536, 1e-5, truth);
+        hair_reference_rod_converge(rod, 1, NULL, count * h, 4096, 65536, 1e-5, ground_truth);
     if (!isfinite(report.change) || !wait(body, (count - 1) * h)) return NAN;
     if (!bench_read(&body->living, body->positions)) return NAN;
     for (int i = 0; i < 3 * VERTICES; i += 3) {
         double off[3];
-        for (int k = 0; k < 3; ++k) off[k] = body->positions[i + k] - truth[i + k];
-        most = fmax(most, length_of(off));
+        for (int k = 0; k < 3; ++k) off[k] = body->positions[i + k] - ground_truth[i + k];
+        max = fmax(max, length_of(off));
     }
-    return most / body->living.length;
+    return max / body->living.length;
 }
 
 static bool run(struct body* body, struct hair_reference_rod* rod, bool precesses)
@@ -165,7 +165,7 @@ static void measure(struct bench* bench, hair_solver solver, bool precesses)
     }
     if (!run(&body, rod, precesses)) bench_refuse(bench, name, method);
     hair_reference_rod_destroy(rod);
-    bench_die(&body.living);
+    bench_free_live_scene(&body.living);
 }
 
 void bench_free_bodies(struct bench* bench)

@@ -60,18 +60,18 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     return scene;
 }
 
-static bool wait_and_read(struct bench_living* living, int frames, double* out)
+static bool wait_and_read(struct bench_live_scene* live, int frames, double* out)
 {
     for (int k = 0; k < frames; ++k)
-        if (!bench_step(living, NULL, 1.0 / 60) || bench_was_interrupted()) return false;
-    return bench_read(living, out);
+        if (!bench_step(live, NULL, 1.0 / 60) || bench_was_interrupted()) return false;
+    return bench_read(live, out);
 }
 
-static void add_row(struct bench_living* living, double friction, double fraction, double slipped,
+static void add_row(struct bench_live_scene* live, double friction, double fraction, double slipped,
                     double creep)
 {
     bool slips = fraction > 1;
-    json_t* row = bench_physics_row(living, "capstan", slips, slipped > SLIPPED, 0,
+    json_t* row = bench_physics_row(live, "capstan", slips, slipped > SLIPPED, 0,
                                     "weights over a rough cylinder: 1 slips, 0 holds");
     bench_set_number(row, "friction", friction);
     bench_set_number(row, "load", fraction);
@@ -86,25 +86,25 @@ static void measure(struct bench* bench, hair_solver solver, uint32_t vertices, 
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "capstan", method)) return;
-    double first[3 * BENCH_MOST_VERTICES], middle[3 * BENCH_MOST_VERTICES], last[3 * BENCH_MOST_VERTICES];
+    double first[3 * BENCH_MAX_VERTICES], middle[3 * BENCH_MAX_VERTICES], last[3 * BENCH_MAX_VERTICES];
     struct bench_scene scene = make_scene(bench, solver, vertices, friction, fraction);
-    struct bench_living living;
+    struct bench_live_scene live;
     hair_collider cylinder = hair_collider_default();
     cylinder.shape = HAIR_SHAPE_CAPSULE;
     cylinder.size[0] = (float)RADIUS;
     cylinder.size[1] = 0.2f;
     cylinder.rotation[0] = cylinder.rotation[3] = (float)sqrt(0.5); // maps local y to z
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "capstan", method);
         return;
     }
     uint32_t tip = 3 * (vertices - 1) + 1;
-    if (!hair_set_colliders(living.hair, &cylinder, 1, sizeof cylinder) && bench_read(&living, first) &&
-        wait_and_read(&living, 60, middle) && wait_and_read(&living, 60, last))
-        add_row(&living, friction, fraction, first[tip] - last[tip], fabs(middle[tip] - last[tip]));
+    if (!hair_set_colliders(live.hair, &cylinder, 1, sizeof cylinder) && bench_read(&live, first) &&
+        wait_and_read(&live, 60, middle) && wait_and_read(&live, 60, last))
+        add_row(&live, friction, fraction, first[tip] - last[tip], fabs(middle[tip] - last[tip]));
     else
         bench_refuse(bench, "capstan", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 void bench_capstan(struct bench* bench)

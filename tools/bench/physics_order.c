@@ -29,20 +29,21 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
 
 // Return the root mean square error of the vertices over the frames, against the converged rod,
 // over the length. Return NaN if the library refused.
-static double error_of(struct bench_living* living, const double* truth)
+static double error_of(struct bench_live_scene* live, const double* ground_truth)
 {
     double positions[3 * ORDER_VERTICES], squares = 0;
     uint32_t size = 3 * ORDER_VERTICES;
     for (int k = 0; k < ORDER_FRAMES; ++k) {
-        if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return NAN;
-        for (uint32_t i = 0; i < size; ++i) squares += pow(positions[i] - truth[(uint32_t)k * size + i], 2);
+        if (!bench_step(live, NULL, FRAME) || !bench_read(live, positions)) return NAN;
+        for (uint32_t i = 0; i < size; ++i)
+            squares += pow(positions[i] - ground_truth[(uint32_t)k * size + i], 2);
     }
     return sqrt(squares / (ORDER_FRAMES * ORDER_VERTICES)) / LENGTH;
 }
 
-static void add_order_row(struct bench_living* living, uint32_t substeps, const double error[2])
+static void add_order_row(struct bench_live_scene* live, uint32_t substeps, const double error[2])
 {
-    json_t* row = bench_physics_row(living, "order", 2, log2(error[0] / error[1]), 0.1,
+    json_t* row = bench_physics_row(live, "order", 2, log2(error[0] / error[1]), 0.1,
                                     "log2 of how the error shrinks with half the substep");
     bench_set_count(row, "substeps", substeps);
 }
@@ -51,22 +52,22 @@ static void measure_order(struct bench* bench, hair_solver solver, uint32_t subs
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "order", method)) return;
-    double truth[ORDER_FRAMES * 3 * ORDER_VERTICES], error[3] = {NAN, NAN, NAN};
+    double ground_truth[ORDER_FRAMES * 3 * ORDER_VERTICES], error[3] = {NAN, NAN, NAN};
     struct bench_scene scene = make_hair(bench, solver, ORDER_VERTICES, -30);
     struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod) return;
-    hair_reference_rod_converge(rod, ORDER_FRAMES, NULL, FRAME, 256, 8192, 1e-8 * LENGTH, truth);
+    hair_reference_rod_converge(rod, ORDER_FRAMES, NULL, FRAME, 256, 8192, 1e-8 * LENGTH, ground_truth);
     hair_reference_rod_destroy(rod);
     for (uint32_t i = 0; i < 3; ++i) {
-        struct bench_living living;
+        struct bench_live_scene live;
         scene.substep = FRAME / (substeps << i);
-        if (!bench_live(bench, &scene, &living)) {
+        if (!bench_live(bench, &scene, &live)) {
             bench_refuse(bench, "order", method);
             return;
         }
-        error[i] = error_of(&living, truth);
-        if (i > 0) add_order_row(&living, substeps << (i - 1), error + i - 1);
-        bench_die(&living);
+        error[i] = error_of(&live, ground_truth);
+        if (i > 0) add_order_row(&live, substeps << (i - 1), error + i - 1);
+        bench_free_live_scene(&live);
     }
 }
 
@@ -86,13 +87,13 @@ void bench_order(struct bench* bench)
 
 // Compute the mean energy over a window. The velocity between two substeps is the difference
 // quotient of their positions.
-static bool average_energy(struct bench_living* living, struct hair_reference_rod* rod, double* out)
+static bool average_energy(struct bench_live_scene* live, struct hair_reference_rod* rod, double* out)
 {
     double before[3 * VERTICES], now[3 * VERTICES], velocity[3 * VERTICES], sum = 0;
-    if (!bench_read(living, before)) return false;
+    if (!bench_read(live, before)) return false;
     for (int k = 0; k < WINDOW; ++k) {
-        if (!bench_step(living, NULL, living->substep) || !bench_read(living, now)) return false;
-        for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (now[i] - before[i]) / living->substep;
+        if (!bench_step(live, NULL, live->substep) || !bench_read(live, now)) return false;
+        for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (now[i] - before[i]) / live->substep;
         hair_reference_rod_set_state(rod, before, velocity);
         sum += hair_reference_rod_energy(rod).total / 2;
         hair_reference_rod_set_state(rod, now, velocity);
@@ -104,10 +105,10 @@ static bool average_energy(struct bench_living* living, struct hair_reference_ro
     return true;
 }
 
-static bool pass_substeps(struct bench_living* living, uint32_t count)
+static bool pass_substeps(struct bench_live_scene* live, uint32_t count)
 {
     for (; count > 0 && !bench_was_interrupted(); count -= count < 50 ? count : 50)
-        if (!bench_step(living, NULL, living->substep * (count < 50 ? count : 50))) return false;
+        if (!bench_step(live, NULL, live->substep * (count < 50 ? count : 50))) return false;
     return true;
 }
 
@@ -117,27 +118,27 @@ static void measure_energy(struct bench* bench, hair_solver solver, double angle
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "energy", method)) return;
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_scene scene = make_hair(bench, solver, VERTICES, angle);
     struct hair_reference_rod* rod = bench_reference(&scene);
     double first, last;
-    if (!rod || !bench_live(bench, &scene, &living)) {
+    if (!rod || !bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "energy", method);
         hair_reference_rod_destroy(rod);
         return;
     }
-    if (average_energy(&living, rod, &first) && pass_substeps(&living, 100000 - 2 * WINDOW) &&
-        average_energy(&living, rod, &last)) {
+    if (average_energy(&live, rod, &first) && pass_substeps(&live, 100000 - 2 * WINDOW) &&
+        average_energy(&live, rod, &last)) {
         double mass = bench_section_of(&scene.physics).line_density * LENGTH;
         json_t* row =
-            bench_physics_row(&living, "energy", 0, (last - first) / (mass * BENCH_GRAVITY * LENGTH / 2),
+            bench_physics_row(&live, "energy", 0, (last - first) / (mass * BENCH_GRAVITY * LENGTH / 2),
                               solver == HAIR_SOLVER_ACCURATE && angle < -45 ? 1e-5 : BENCH_NO_LIMIT,
                               "drift in 100,000 substeps over m g L / 2");
-        bench_set_number(row, "substeps", bench_substeps(&living));
+        bench_set_number(row, "substeps", bench_substeps(&live));
         bench_set_number(row, "angle", angle);
     } else
         bench_refuse(bench, "energy", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
     hair_reference_rod_destroy(rod);
 }
 
@@ -148,22 +149,22 @@ void bench_energy(struct bench* bench)
 }
 
 // Measure the energy of a strand five seconds after its level release, relative to hanging down.
-static bool run_whip(struct bench_living* living, struct hair_reference_rod* rod)
+static bool run_whip(struct bench_live_scene* live, struct hair_reference_rod* rod)
 {
-    double weight = bench_section_of(&living->scene->physics).line_density * LENGTH * BENCH_GRAVITY;
+    double weight = bench_section_of(&live->scene->physics).line_density * LENGTH * BENCH_GRAVITY;
     double at[3][3 * VERTICES], velocity[3 * VERTICES];
-    double h = living->substep, count = round(5 / h);
+    double h = live->substep, count = round(5 / h);
     for (double k = 0; k < count; ++k)
-        if (!bench_step(living, NULL, h) || bench_was_interrupted()) return false;
+        if (!bench_step(live, NULL, h) || bench_was_interrupted()) return false;
     for (int k = 0; k < 3; ++k)
-        if (!bench_step(living, NULL, h) || !bench_read(living, at[k])) return false;
+        if (!bench_step(live, NULL, h) || !bench_read(live, at[k])) return false;
     for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (at[2][i] - at[0][i]) / (2 * h);
     hair_reference_rod_set_state(rod, at[1], velocity);
     double energy = hair_reference_rod_energy(rod).total / (weight * LENGTH / 2) + 1;
-    json_t* row = bench_physics_row(living, "whip_energy", 1, energy,
-                                    living->scene->solver == HAIR_SOLVER_ACCURATE ? 0.05 : BENCH_NO_LIMIT,
+    json_t* row = bench_physics_row(live, "whip_energy", 1, energy,
+                                    live->scene->solver == HAIR_SOLVER_ACCURATE ? 0.05 : BENCH_NO_LIMIT,
                                     "energy above hanging down, after 5 s, over that at the start");
-    bench_set_number(row, "substeps", bench_substeps(living));
+    bench_set_number(row, "substeps", bench_substeps(live));
     return true;
 }
 
@@ -171,16 +172,16 @@ static void measure_whip(struct bench* bench, hair_solver solver)
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "whip_energy", method)) return;
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_scene scene = make_hair(bench, solver, VERTICES, 0);
     struct hair_reference_rod* rod = bench_reference(&scene);
-    if (!rod || !bench_live(bench, &scene, &living)) {
+    if (!rod || !bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "whip_energy", method);
         hair_reference_rod_destroy(rod);
         return;
     }
-    if (!run_whip(&living, rod)) bench_refuse(bench, "whip_energy", method);
-    bench_die(&living);
+    if (!run_whip(&live, rod)) bench_refuse(bench, "whip_energy", method);
+    bench_free_live_scene(&live);
     hair_reference_rod_destroy(rod);
 }
 

@@ -1,6 +1,6 @@
 // physics_rest.c - Hair at rest as heavy cantilevers, straight and curved, the catenary, and rods
 // that leave their plane.
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tools/bench/physics.h"
 
 #include <math.h>
@@ -17,13 +17,13 @@ static double degrees(double angle)
 }
 
 // Add the distance of the tip from its expected position, over the length.
-static void add_tip_row(struct bench_living* living, const char* name, const double* positions, double across,
-                        double down, double gamma, double angle, const char* reference)
+static void add_tip_row(struct bench_live_scene* live, const char* name, const double* positions,
+                        double across, double down, double gamma, double angle, const char* reference)
 {
-    const double* tip = positions + 3 * (living->scene->vertices - 1);
-    double off = hypot(hypot(tip[0] - across, tip[1] + down), tip[2]) / living->length;
-    double limit = living->scene->vertices == 32 ? 0.005 : 0.001;
-    json_t* row = bench_physics_row(living, name, 0, off, limit, reference);
+    const double* tip = positions + 3 * (live->scene->vertices - 1);
+    double off = hypot(hypot(tip[0] - across, tip[1] + down), tip[2]) / live->length;
+    double limit = live->scene->vertices == 32 ? 0.005 : 0.001;
+    json_t* row = bench_physics_row(live, name, 0, off, limit, reference);
     bench_set_number(row, "gamma", gamma);
     bench_set_number(row, "angle", angle);
 }
@@ -38,8 +38,8 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "cantilever", method)) return;
     const double length = 0.1, along[3] = {cos(degrees(angle)), sin(degrees(angle)), 0};
-    double positions[3 * BENCH_MOST_VERTICES];
-    struct bench_living living;
+    double positions[3 * BENCH_MAX_VERTICES];
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
     bench_scene_straight(&scene, vertices, length, nowhere, along);
     scene.solver = solver;
@@ -47,24 +47,24 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
     scene.physics.fiber_radius = 1e-4f;
     scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "cantilever", method);
         return;
     }
-    if (bench_settle(&living, positions)) {
+    if (bench_settle(&live, positions)) {
         struct hair_reference_elastica rest = hair_reference_elastica(gamma, 0, -degrees(angle));
         const double* tip = positions + 3 * (vertices - 1);
         double limit = vertices == 32 ? 0.01 : 0.004;
         if (gamma > 200) limit = vertices == 32 ? 0.03 : 0.015;
-        json_t* row = bench_physics_row(&living, "cantilever", rest.down / rest.across, -tip[1] / tip[0],
-                                        limit, "elastica, H/W");
+        json_t* row = bench_physics_row(&live, "cantilever", rest.down / rest.across, -tip[1] / tip[0], limit,
+                                        "elastica, H/W");
         bench_set_number(row, "gamma", gamma);
         bench_set_number(row, "angle", angle);
-        add_tip_row(&living, "cantilever", positions, length * rest.across, length * rest.down, gamma, angle,
+        add_tip_row(&live, "cantilever", positions, length * rest.across, length * rest.down, gamma, angle,
                     "elastica, off by over L");
     } else
         bench_refuse(bench, "cantilever", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 // Compute the rest position of the tip of the scene's arc. The result is extrapolated from two
@@ -74,7 +74,7 @@ static bool find_arc_at_rest(const struct bench_scene* scene, double length, dou
 {
     const double along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
     struct bench_scene fine = *scene;
-    double positions[3 * BENCH_MOST_VERTICES], found[2][2];
+    double positions[3 * BENCH_MAX_VERTICES], found[2][2];
     for (uint32_t k = 0; k < 2; ++k) {
         uint32_t vertices = (FINE_SEGMENTS >> k) + 1;
         bench_scene_arc(&fine, vertices, length, turn, along, across);
@@ -96,8 +96,8 @@ static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertic
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "cantilever_arc", method)) return;
     const double length = 0.1, along[3] = {1, 0, 0}, across[3] = {0, -1, 0};
-    double positions[3 * BENCH_MOST_VERTICES], tip[2];
-    struct bench_living living;
+    double positions[3 * BENCH_MAX_VERTICES], tip[2];
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
     bench_scene_arc(&scene, vertices, length, degrees(turn), along, across);
     scene.solver = solver;
@@ -106,16 +106,16 @@ static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertic
     scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
     snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
-    if (!find_arc_at_rest(&scene, length, degrees(turn), tip) || !bench_live(bench, &scene, &living)) {
+    if (!find_arc_at_rest(&scene, length, degrees(turn), tip) || !bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "cantilever_arc", method);
         return;
     }
-    if (bench_settle(&living, positions))
-        add_tip_row(&living, "cantilever_arc", positions, tip[0], -tip[1], gamma, turn,
+    if (bench_settle(&live, positions))
+        add_tip_row(&live, "cantilever_arc", positions, tip[0], -tip[1], gamma, turn,
                     "rod in double precision, off by over L");
     else
         bench_refuse(bench, "cantilever_arc", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 void bench_cantilever(struct bench* bench)
@@ -156,8 +156,8 @@ static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t v
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, "catenary", method)) return;
     const double length = 0.3, along[3] = {sqrt(0.5), -sqrt(0.5), 0};
-    double positions[3 * BENCH_MOST_VERTICES], lowest = 0;
-    struct bench_living living;
+    double positions[3 * BENCH_MAX_VERTICES], lowest = 0;
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
     hair_pin pin = hair_pin_default();
     bench_scene_straight(&scene, vertices, length, nowhere, along);
@@ -167,17 +167,17 @@ static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t v
     scene.physics.youngs_modulus = 0;
     scene.physics.root = HAIR_ROOT_HINGED;
     pin.position[0] = (float)(span * length);
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "catenary", method);
         return;
     }
-    if (!hair_set_pins(living.hair, &pin, 1, sizeof pin) && bench_settle(&living, positions)) {
+    if (!hair_set_pins(live.hair, &pin, 1, sizeof pin) && bench_settle(&live, positions)) {
         for (uint32_t i = 0; i < vertices; ++i) lowest = fmin(lowest, positions[3 * i + 1]);
-        bench_physics_row(&living, "catenary", catenary_sag(span), -lowest / length, 0.005,
+        bench_physics_row(&live, "catenary", catenary_sag(span), -lowest / length, 0.005,
                           span < 0.6 ? "catenary of span 0.5, sag/L" : "catenary of span 0.8, sag/L");
     } else
         bench_refuse(bench, "catenary", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 void bench_catenary(struct bench* bench)
@@ -200,7 +200,7 @@ struct buckling {
     const char* name;
     struct bench_scene scene;
     double critical; // critical gamma
-    double share; // fraction of the critical gamma at the end
+    double fraction; // fraction of the critical gamma at the end
     bool leaves; // whether the rod leaves the plane
     double phi; // natural turn for the row, degrees
 };
@@ -213,11 +213,11 @@ static void disturb(struct bench_scene* scene, double length)
     }
 }
 
-static bool raise_gravity(struct bench_living* living, hair_physics physics)
+static bool raise_gravity(struct bench_live_scene* live, hair_physics physics)
 {
     for (int k = 1; k <= 60 * RISE; ++k) {
         physics.gravity[1] = (float)(-BENCH_GRAVITY * k / (60 * RISE));
-        if (hair_set_physics(living->hair, &physics) || !bench_step(living, NULL, 1.0 / 60)) return false;
+        if (hair_set_physics(live->hair, &physics) || !bench_step(live, NULL, 1.0 / 60)) return false;
         if (bench_was_interrupted()) return false;
     }
     return true;
@@ -227,30 +227,30 @@ static void measure_buckling(struct bench* bench, hair_solver solver, struct buc
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, buckling->name, method)) return;
-    double positions[3 * BENCH_MOST_VERTICES], most = 0;
-    struct bench_living living;
+    double positions[3 * BENCH_MAX_VERTICES], max = 0;
+    struct bench_live_scene live;
     struct bench_scene* scene = &buckling->scene;
     hair_physics full = scene->physics;
     scene->solver = solver;
     scene->mapping = bench->options.mapping;
     scene->physics.gravity[1] = 0;
-    if (!bench_live(bench, scene, &living)) {
+    if (!bench_live(bench, scene, &live)) {
         bench_refuse(bench, buckling->name, method);
         return;
     }
-    if (raise_gravity(&living, full) && bench_settle(&living, positions)) {
+    if (raise_gravity(&live, full) && bench_settle(&live, positions)) {
         for (uint32_t i = 0; i < scene->vertices; ++i)
-            most = fmax(most, fabs(positions[3 * i + 2]) / living.length);
-        json_t* row = bench_physics_row(&living, buckling->name, buckling->leaves, most, BENCH_NO_LIMIT,
+            max = fmax(max, fabs(positions[3 * i + 2]) / live.length);
+        json_t* row = bench_physics_row(&live, buckling->name, buckling->leaves, max, BENCH_NO_LIMIT,
                                         "continuum: 1 leaves the plane, 0 stays");
-        bench_set_number(row, "gamma", buckling->critical * buckling->share);
+        bench_set_number(row, "gamma", buckling->critical * buckling->fraction);
         bench_set_number(row, "angle", buckling->phi);
         bench_set_null(row, "relative_error");
         bench_set_number(row, "limit", THRESHOLD);
-        bench_set_flag(row, "pass", (most > THRESHOLD) == buckling->leaves);
+        bench_set_flag(row, "pass", (max > THRESHOLD) == buckling->leaves);
     } else
         bench_refuse(bench, buckling->name, method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 // Test a rod of natural curvature that hangs from a downward clamp. The rod is helical between two
@@ -266,14 +266,14 @@ void bench_bend_twist(struct bench* bench)
             struct buckling b = {.name = "bend_twist", .scene = bench_scene_default()};
             b.phi = 360 * rows[i / 4].turns;
             b.critical = rows[i / 4].critical[i / 2 % 2];
-            b.share = i % 2 ? 1.05 : 0.95;
+            b.fraction = i % 2 ? 1.05 : 0.95;
             // It leaves the plane above the first and below the second critical weight.
             b.leaves = i / 2 % 2 != i % 2;
             bench_scene_arc(&b.scene, 64, length, degrees(b.phi), down, across);
             disturb(&b.scene, length);
             b.scene.physics.fiber_radius = 1e-4f;
             b.scene.physics.damping = 10;
-            bench_scene_set_gamma(&b.scene, length, b.critical * b.share);
+            bench_scene_set_gamma(&b.scene, length, b.critical * b.fraction);
             measure_buckling(bench, bench_rod_solvers[s], &b);
         }
 }
@@ -289,7 +289,7 @@ void bench_lateral_buckling(struct bench* bench)
         for (int i = 0; i < 2; ++i) {
             struct buckling b = {
                 .name = "lateral_buckling", .scene = bench_scene_default(), .critical = critical};
-            b.share = i ? 1.05 : 0.95;
+            b.fraction = i ? 1.05 : 0.95;
             b.leaves = i;
             bench_scene_straight(&b.scene, 64, length, nowhere, along);
             disturb(&b.scene, length);
@@ -301,8 +301,8 @@ void bench_lateral_buckling(struct bench* bench)
             // Stiffness is proportional to Young's modulus.
             struct bench_section section = bench_section_of(p);
             double root = sqrt(section.bend[0] * section.twist);
-            p->youngs_modulus *=
-                (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) / (root * critical * b.share));
+            p->youngs_modulus *= (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) /
+                                         (root * critical * b.fraction));
             measure_buckling(bench, bench_rod_solvers[s], &b);
         }
 }

@@ -7,7 +7,7 @@
 
 #define LENGTH 0.1 // m
 #define SECONDS 6
-#define MOST_RATE 240 // Hz
+#define MAX_RATE 240 // Hz
 #define NUDGE 1.02 // factor of gravity that starts the swing
 
 struct seen {
@@ -17,39 +17,39 @@ struct seen {
 
 // Measure the sag and the swing. The strand comes to rest under slightly stronger gravity. Then
 // gravity is restored, and damping is removed. The direction from the root to the tip oscillates.
-static bool look(struct bench_living* living, hair_physics physics, uint32_t rate, const double modes[2],
+static bool look(struct bench_live_scene* live, hair_physics physics, uint32_t rate, const double modes[2],
                  struct seen* out)
 {
-    double positions[3 * BENCH_MOST_VERTICES], samples[SECONDS * MOST_RATE], tip = 0;
-    uint32_t last = 3 * (living->scene->vertices - 1), count = SECONDS * rate;
+    double positions[3 * BENCH_MAX_VERTICES], samples[SECONDS * MAX_RATE], tip = 0;
+    uint32_t last = 3 * (live->scene->vertices - 1), count = SECONDS * rate;
     physics.gravity[1] *= (float)NUDGE;
     // Part 0 measures the rest position, part 1 comes to rest under stronger gravity.
     for (int part = 0; part < 2; ++part) {
-        if (part && hair_set_physics(living->hair, &physics)) return false;
+        if (part && hair_set_physics(live->hair, &physics)) return false;
         for (uint32_t k = 0; k < 4 * rate; ++k)
-            if (!bench_step(living, NULL, 1.0 / rate)) return false;
-        if (!bench_read(living, positions) || bench_was_interrupted()) return false;
+            if (!bench_step(live, NULL, 1.0 / rate)) return false;
+        if (!bench_read(live, positions) || bench_was_interrupted()) return false;
         if (part == 0) out->sag = -positions[last + 1] / positions[last];
         if (part == 0) tip = atan2(positions[last + 1], positions[last]);
     }
-    physics = living->scene->physics;
+    physics = live->scene->physics;
     physics.damping = 0;
-    if (hair_set_physics(living->hair, &physics)) return false;
+    if (hair_set_physics(live->hair, &physics)) return false;
     for (uint32_t k = 0; k < count; ++k) {
-        if (!bench_read(living, positions)) return false;
+        if (!bench_read(live, positions)) return false;
         samples[k] = atan2(positions[last + 1], positions[last]) - tip;
-        if (!bench_step(living, NULL, 1.0 / rate)) return false;
+        if (!bench_step(live, NULL, 1.0 / rate)) return false;
     }
     out->frequency =
         bench_frequency(samples, count, 1.0 / rate, 0.8 * modes[0], 1.2 * modes[1]) / (2 * BENCH_PI);
     return true;
 }
 
-static void add_rows(struct bench_living* living, const char* name, double gamma, uint32_t rate,
+static void add_rows(struct bench_live_scene* live, const char* name, double gamma, uint32_t rate,
                      const struct seen* seen, const struct seen* standard, const char* const references[2])
 {
     for (int i = 0; i < 2; ++i) {
-        json_t* row = bench_physics_row(living, name, i ? standard->frequency : standard->sag,
+        json_t* row = bench_physics_row(live, name, i ? standard->frequency : standard->sag,
                                         i ? seen->frequency : seen->sag, 0.01, references[i]);
         bench_set_number(row, "gamma", gamma);
         bench_set_number(row, "rate", rate);
@@ -64,7 +64,7 @@ static void measure(struct bench* bench, const char* name, hair_solver solver, d
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, name, method)) return;
     const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_scene scene = bench_scene_default();
     struct seen seen;
     double modes[2]; // in the plane and across it, in ascending order
@@ -76,17 +76,17 @@ static void measure(struct bench* bench, const char* name, hair_solver solver, d
     bench_scene_set_gamma(&scene, LENGTH, gamma);
     struct hair_reference_rod* rod = bench_reference(&scene);
     if (!rod || !hair_reference_rod_rest(rod).converged || hair_reference_rod_modes(rod, 2, modes) < 2 ||
-        !bench_live(bench, &scene, &living)) {
+        !bench_live(bench, &scene, &live)) {
         bench_refuse(bench, name, method);
         hair_reference_rod_destroy(rod);
         return;
     }
-    if (look(&living, scene.physics, rate, modes, &seen)) {
+    if (look(&live, scene.physics, rate, modes, &seen)) {
         if (standard->sag == 0) *standard = seen;
-        add_rows(&living, name, gamma, rate, &seen, standard, references);
+        add_rows(&live, name, gamma, rate, &seen, standard, references);
     } else
         bench_refuse(bench, name, method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
     hair_reference_rod_destroy(rod);
 }
 

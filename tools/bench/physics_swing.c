@@ -1,6 +1,6 @@
 // physics_swing.c - Chains without stiffness, with small swings of a hanging chain and large swings
 // of one and two links.
-#include "lib/reference/continuum.h"
+#include "tests/reference/continuum.h"
 #include "tools/bench/frequency.h"
 #include "tools/bench/physics.h"
 
@@ -69,14 +69,14 @@ static void place(const struct mode* mode, struct bench_scene* scene)
     }
 }
 
-static bool record(struct bench_living* living, const struct mode* mode, double* samples)
+static bool record(struct bench_live_scene* live, const struct mode* mode, double* samples)
 {
     double positions[3 * VERTICES];
     for (int k = 0; k < FRAMES; ++k) {
-        if (!bench_read(living, positions) || bench_was_interrupted()) return false;
+        if (!bench_read(live, positions) || bench_was_interrupted()) return false;
         samples[k] = 0;
         for (int i = 0; i < VERTICES; ++i) samples[k] += mode->mass[i] * mode->y[i] * positions[3 * i];
-        if (!bench_step(living, NULL, FRAME)) return false;
+        if (!bench_step(live, NULL, FRAME)) return false;
     }
     return true;
 }
@@ -89,19 +89,19 @@ static void measure_mode(struct bench* bench, hair_solver solver, uint32_t numbe
     double samples[FRAMES];
     struct mode mode = find_mode(number);
     struct bench_scene scene = make_chain(bench, solver);
-    struct bench_living living;
+    struct bench_live_scene live;
     place(&mode, &scene);
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, "chain_modes", method);
         return;
     }
-    if (record(&living, &mode, samples)) {
+    if (record(&live, &mode, samples)) {
         double expected[] = {mode.frequency,
                              hair_reference_chain_frequency(number, LENGTH, BENCH_GRAVITY, 0)};
         double measured = bench_frequency(samples, FRAMES, FRAME, 0.8 * mode.frequency, 1.2 * mode.frequency);
         bool held = solver == HAIR_SOLVER_ACCURATE;
         for (int i = 0; i < 2; ++i) {
-            json_t* row = bench_physics_row(&living, "chain_modes", expected[i] / (2 * BENCH_PI),
+            json_t* row = bench_physics_row(&live, "chain_modes", expected[i] / (2 * BENCH_PI),
                                             measured / (2 * BENCH_PI),
                                             !held ? BENCH_NO_LIMIT
                                             : i   ? far[number - 1]
@@ -111,7 +111,7 @@ static void measure_mode(struct bench* bench, hair_solver solver, uint32_t numbe
         }
     } else
         bench_refuse(bench, "chain_modes", method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 void bench_chain_modes(struct bench* bench)
@@ -125,27 +125,27 @@ void bench_chain_modes(struct bench* bench)
 
 // Return the maximum distance from the exact linkage at the ends of all frames of a second. Return
 // a negative value if the library refused.
-static double farthest(struct bench_living* living)
+static double farthest(struct bench_live_scene* live)
 {
-    uint32_t links = living->scene->vertices - 1;
-    double lengths[2], masses[2], angles[2], rates[2] = {0, 0}, positions[9], most = 0;
+    uint32_t links = live->scene->vertices - 1;
+    double lengths[2], masses[2], angles[2], rates[2] = {0, 0}, positions[9], max = 0;
     for (uint32_t j = 0; j < links; ++j) {
         lengths[j] = LENGTH / links;
         masses[j] = j + 1 < links ? 1 : 0.5;
         angles[j] = BENCH_PI / 2;
     }
     for (int k = 0; k < 60; ++k) {
-        if (!bench_step(living, NULL, FRAME) || !bench_read(living, positions)) return -1;
+        if (!bench_step(live, NULL, FRAME) || !bench_read(live, positions)) return -1;
         hair_reference_linkage_advance(links, lengths, masses, BENCH_GRAVITY, FRAME, 4, angles, rates);
         double x = 0, y = 0;
         for (uint32_t j = 0; j < links; ++j) {
             const double* p = positions + 3 * (j + 1);
             x += lengths[j] * sin(angles[j]);
             y -= lengths[j] * cos(angles[j]);
-            most = fmax(most, hypot(hypot(p[0] - x, p[1] - y), p[2]));
+            max = fmax(max, hypot(hypot(p[0] - x, p[1] - y), p[2]));
         }
     }
-    return most;
+    return max;
 }
 
 static void measure_pendulum(struct bench* bench, hair_solver solver, uint32_t vertices)
@@ -155,20 +155,20 @@ static void measure_pendulum(struct bench* bench, hair_solver solver, uint32_t v
     if (!bench_begin(bench, name, method)) return;
     const double root[3] = {0, 0, 0}, along[3] = {1, 0, 0};
     struct bench_scene scene = make_chain(bench, solver);
-    struct bench_living living;
+    struct bench_live_scene live;
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, name, method);
         return;
     }
-    double most = farthest(&living);
-    if (most >= 0)
-        bench_physics_row(&living, name, 0, most / LENGTH,
+    double max = farthest(&live);
+    if (max >= 0)
+        bench_physics_row(&live, name, 0, max / LENGTH,
                           solver == HAIR_SOLVER_ACCURATE ? 0.001 : BENCH_NO_LIMIT,
                           "linkage in its angles, farthest in 1 s over the length");
     else
         bench_refuse(bench, name, method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 void bench_pendulums(struct bench* bench)

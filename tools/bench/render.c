@@ -7,8 +7,8 @@
 // halves.
 #include "tools/bench/extent.h"
 #include "tools/bench/picture.h"
-#include "tools/bench/truth.h"
-#include "tools/bench/versus.h"
+#include "tools/bench/ground_truth.h"
+#include "tools/bench/ribbons_vs_lines.h"
 #include "tools/common/file.h"
 
 #include <math.h>
@@ -20,8 +20,8 @@
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 4500 // the density of 18,000 strands at 1,024 pixels
-#define MOST_RADIUS 0.01f // maximum of hair_look.radius, m
-#define LEAST_RATIO 5 // minimum ratio of a reported error to that of the reference
+#define MAX_RADIUS 0.01f // maximum of hair_look.radius, m
+#define MIN_RATIO 5 // minimum ratio of a reported error to that of the reference
 
 static const char* const columns[] = {
     "case",    "width",          "method",        "primitive",  "lod",     "segments",
@@ -67,7 +67,7 @@ static const struct primitive {
 // Level of detail with fewer and wider strands. A share of 0 selects dynamic level of detail.
 static const struct lod {
     const char* name;
-    float share;
+    float fraction;
     bool quick;
 } lods[] = {{"100 %", 1, true},
             {"50 %", 0.5f, false},
@@ -76,7 +76,7 @@ static const struct lod {
             {"dynamic", 0, true}};
 
 // Segments of a strand, powers of two, and all numbers in the range of the close comparison.
-enum { FEWEST_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MOST_OF_CLOSE = 32, MOST_SEGMENTS = 64 };
+enum { MIN_SEGMENTS = 4, FEWEST_OF_CLOSE = 8, MAX_OF_CLOSE = 32, MAX_SEGMENTS = 64 };
 
 // Samples of a pixel. Software rasterizers draw four pixels faster than one pixel with four
 // samples.
@@ -94,10 +94,10 @@ struct scene {
     const struct subject* subject;
     struct bench_studio studio;
     bool alive, refused;
-    uint32_t most_samples; // supported by OpenGL
-    struct bench_truth truth;
+    uint32_t max_samples; // supported by OpenGL
+    struct bench_ground_truth truth;
     double halves_differ;
-    struct bench_versus versus;
+    struct bench_comparison versus;
 };
 
 static uint32_t strands_of(const struct bench* bench, const struct subject* subject, uint32_t size)
@@ -112,7 +112,7 @@ static uint32_t strands_of(const struct bench* bench, const struct subject* subj
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
-    shot.look.radius = fminf(shot.look.radius * scene->studio.fewer, MOST_RADIUS);
+    shot.look.radius = fminf(shot.look.radius * scene->studio.fewer, MAX_RADIUS);
     shot.away = scene->subject->away;
     // Compute drawing, which is faster on GPUs, supports no lines.
     shot.map_fits = scene->bench->software;
@@ -126,20 +126,21 @@ static struct bench_shot shot_of(const struct scene* scene)
 static bool find_truth(struct scene* scene)
 {
     struct hair_image_error error;
-    struct bench_truth* truth = &scene->truth;
+    struct bench_ground_truth* ground_truth = &scene->truth;
     struct bench_shot shot = shot_of(scene);
     shot.look.segments = REFERENCE_SEGMENTS;
-    bool ok = bench_truth_make(scene->studio.size, truth) &&
-              bench_truth_take(&scene->studio, &shot, REFERENCE_SAMPLES, 0, truth) &&
-              bench_picture_cover(&truth->whole) &&
-              bench_picture_compare(&truth->whole, &truth->half[0], &truth->half[1], &error);
+    bool ok =
+        bench_ground_truth_create(scene->studio.size, ground_truth) &&
+        bench_ground_truth_render(&scene->studio, &shot, REFERENCE_SAMPLES, 0, ground_truth) &&
+        bench_picture_cover(&ground_truth->whole) &&
+        bench_picture_compare(&ground_truth->whole, &ground_truth->half[0], &ground_truth->half[1], &error);
     if (ok) scene->halves_differ = error.flip;
     return ok;
 }
 
 // Create the studio and the reference on the first call. A failure is remembered, and each row is
 // refused.
-static bool need(struct scene* scene)
+static bool ensure(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
     uint32_t size = scene->bench->software ? SIZE_OF_SOFTWARE : SIZE;
@@ -148,7 +149,7 @@ static bool need(struct scene* scene)
     struct bench_studio_desc desc = {.scene = scene->subject->scene,
                                      .size = size,
                                      .followers = strands_of(scene->bench, scene->subject, size)};
-    scene->most_samples = bench_most_samples();
+    scene->max_samples = bench_max_samples();
     scene->alive = bench_studio_make(scene->bench, &desc, &scene->studio) && find_truth(scene);
     scene->refused = !scene->alive;
     return scene->alive;
@@ -188,17 +189,17 @@ static bool add_row(struct scene* scene, const struct setting* setting, const st
     bench_set_count(row, "pixels", error->pixels);
     bench_set_number(row, "coverage_error", coverage);
     bench_set_number(row, "halves_differ", scene->halves_differ);
-    if (error->flip < LEAST_RATIO * scene->halves_differ) return true;
+    if (error->flip < MIN_RATIO * scene->halves_differ) return true;
     bench_set_number(row, "flip", error->flip);
     bench_set_number(row, "psnr", error->psnr);
     struct bench_contender contender = {scene->studio.shot, times->ms_min, error->flip, row};
-    return bench_versus_add(&scene->versus, &contender);
+    return bench_comparison_add(&scene->versus, &contender);
 }
 
 static bool look(struct scene* scene, const struct setting* setting)
 {
     struct bench_shot shot = shot_of(scene);
-    const struct bench_picture* truth = &scene->truth.whole;
+    const struct bench_picture* ground_truth = &scene->truth.whole;
     struct bench_picture picture;
     struct bench_times times;
     struct hair_image_error error;
@@ -206,9 +207,9 @@ static bool look(struct scene* scene, const struct setting* setting)
     shot.view.primitive = setting->primitive->primitive;
     shot.view.coverage = setting->primitive->coverage;
     shot.look.segments = setting->segments;
-    shot.has_lod = setting->lod->share < 1;
-    shot.lod.per_patch = setting->lod->share > 0 ? 0 : 1;
-    if (setting->lod->share > 0) shot.lod.strand_fraction = setting->lod->share;
+    shot.has_lod = setting->lod->fraction < 1;
+    shot.lod.per_patch = setting->lod->fraction > 0 ? 0 : 1;
+    if (setting->lod->fraction > 0) shot.lod.strand_fraction = setting->lod->fraction;
     shot.samples = setting->samples->msaa;
     shot.supersample = setting->samples->supersample;
     if (!bench_picture_make(scene->studio.size, &picture)) return false;
@@ -216,8 +217,8 @@ static bool look(struct scene* scene, const struct setting* setting)
     bool ok = bench_studio_set(&scene->studio, &shot) && bench_studio_time(&scene->studio, enough, &times) &&
               bench_studio_add(&scene->studio, picture.rgba);
     if (ok) bench_picture_finish(&picture, 1, (double)scene->studio.scene.exposure);
-    ok = ok && bench_picture_compare(truth, truth, &picture, &error);
-    ok = ok && add_row(scene, setting, &times, &error, picture.coverage / truth->coverage - 1);
+    ok = ok && bench_picture_compare(ground_truth, ground_truth, &picture, &error);
+    ok = ok && add_row(scene, setting, &times, &error, picture.coverage / ground_truth->coverage - 1);
     bench_picture_free(&picture);
     return ok;
 }
@@ -241,8 +242,8 @@ static bool is_wanted_closely(const struct bench* bench, const struct subject* s
 {
     bool every = subject->width >= 0.5f && setting->primitive == primitives && setting->lod == lods;
     return bench->software && !bench->options.quick && setting->path->path == HAIR_RENDER_PATH_CACHED &&
-           setting->lod->share > 0 && setting->segments >= FEWEST_OF_CLOSE &&
-           setting->segments <= MOST_OF_CLOSE &&
+           setting->lod->fraction > 0 && setting->segments >= FEWEST_OF_CLOSE &&
+           setting->segments <= MAX_OF_CLOSE &&
            (setting->samples->supersample == 1 || setting->samples->of_software) &&
            (every || setting->segments % 4 == 0);
 }
@@ -255,13 +256,13 @@ static bool is_wanted_of_width(const struct bench* bench, const struct subject* 
     bool usual = setting->segments == 32, all = setting->lod == lods;
     if (is_wanted_closely(bench, subject, setting)) return true;
     if (is_between(setting->segments)) return false;
-    if (setting->path->path == HAIR_RENDER_PATH_INSTANCED || setting->lod->share < 0.25f) return false;
+    if (setting->path->path == HAIR_RENDER_PATH_INSTANCED || setting->lod->fraction < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
                  (setting->path == paths || setting->path->path == HAIR_RENDER_PATH_COMPUTE ||
                   setting->primitive->coverage == HAIR_COVERAGE_ALPHA);
     if (bench->options.quick && !quick) return false;
     if (setting->samples->supersample > 1) return usual && all;
-    return all ? setting->segments >= FEWEST_OF_CLOSE && setting->segments <= MOST_OF_CLOSE : usual;
+    return all ? setting->segments >= FEWEST_OF_CLOSE && setting->segments <= MAX_OF_CLOSE : usual;
 }
 
 // Return whether to measure compute drawing. Only full-detail ribbons with sample coverage are
@@ -278,9 +279,9 @@ static bool is_computed(const struct bench* bench, const struct setting* setting
 // additional samples.
 static bool is_wanted(const struct bench* bench, const struct subject* subject, const struct setting* setting)
 {
-    bool shares = setting->primitive->coverage == HAIR_COVERAGE_ALPHA;
+    bool fractions = setting->primitive->coverage == HAIR_COVERAGE_ALPHA;
     if (setting->samples->of_software && (!bench->software || setting->primitive != primitives)) return false;
-    if (shares && (setting->path->path != HAIR_RENDER_PATH_CACHED || setting->samples->supersample > 1))
+    if (fractions && (setting->path->path != HAIR_RENDER_PATH_CACHED || setting->samples->supersample > 1))
         return false;
     if (setting->path->path == HAIR_RENDER_PATH_COMPUTE && !is_computed(bench, setting)) return false;
     if (subject->width > 0) return is_wanted_of_width(bench, subject, setting);
@@ -297,7 +298,7 @@ static void measure(struct scene* scene, const struct setting* setting)
         !bench_begin(bench, scene->subject->name, setting->path->name))
         return;
     // OpenGL supports fewer samples.
-    if (need(scene) && setting->samples->msaa > scene->most_samples) return;
+    if (ensure(scene) && setting->samples->msaa > scene->max_samples) return;
     if (!scene->alive || !look(scene, setting))
         bench_refuse(bench, scene->subject->name, setting->path->name);
 }
@@ -310,14 +311,14 @@ static void measure_subject(struct bench* bench, const struct subject* subject)
         for (size_t p = 0; p < COUNT(paths); ++p)
             for (size_t k = 0; k < COUNT(primitives); ++k)
                 for (size_t l = 0; l < COUNT(lods); ++l)
-                    for (uint32_t s = FEWEST_SEGMENTS; s <= MOST_SEGMENTS; ++s) {
+                    for (uint32_t s = MIN_SEGMENTS; s <= MAX_SEGMENTS; ++s) {
                         struct setting setting = {&paths[p], &primitives[k], &lods[l], s, &samples[n]};
                         measure(&scene, &setting);
                     }
-    if (scene.alive && subject->width > 0 && !bench_versus_settle(&scene.versus, &scene.studio))
+    if (scene.alive && subject->width > 0 && !bench_comparison_finish(&scene.versus, &scene.studio))
         bench_refuse(bench, subject->name, "lines");
-    bench_versus_free(&scene.versus);
-    bench_truth_free(&scene.truth);
+    bench_comparison_free(&scene.versus);
+    bench_ground_truth_free(&scene.truth);
     if (scene.alive) bench_studio_free(&scene.studio);
 }
 

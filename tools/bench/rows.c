@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define DIGITS 7 // precision of a float
-#define MOST_TEXT 96
+#define MAX_TEXT 96
 
 void bench_rows_create(struct bench_rows* rows, const char* const* columns)
 {
@@ -109,12 +109,12 @@ void bench_write_json(const struct bench_rows* rows, const struct bench_about* a
 }
 
 // Return the text of a value, empty for null.
-static const char* print(const json_t* value, char text[MOST_TEXT])
+static const char* print(const json_t* value, char text[MAX_TEXT])
 {
     text[0] = 0;
     if (json_is_string(value)) return json_string_value(value);
-    if (json_is_integer(value)) snprintf(text, MOST_TEXT, "%lld", (long long)json_integer_value(value));
-    if (json_is_real(value)) snprintf(text, MOST_TEXT, "%.*g", DIGITS, json_real_value(value));
+    if (json_is_integer(value)) snprintf(text, MAX_TEXT, "%lld", (long long)json_integer_value(value));
+    if (json_is_real(value)) snprintf(text, MAX_TEXT, "%.*g", DIGITS, json_real_value(value));
     if (json_is_boolean(value)) return json_is_true(value) ? "true" : "false";
     return text;
 }
@@ -136,7 +136,7 @@ static void write_field(const char* text, FILE* file)
 
 void bench_write_csv(const struct bench_rows* rows, FILE* file)
 {
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     for (const char* const* column = rows->columns; *column; ++column)
         fprintf(file, "%s%s", column == rows->columns ? "" : ",", *column);
     fputs("\r\n", file);
@@ -162,7 +162,7 @@ static int width_of(const char* text)
 
 static int column_width(const struct bench_rows* rows, const char* column)
 {
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     int width = width_of(column);
     size_t i;
     json_t* row;
@@ -192,7 +192,7 @@ static void write_cell(const char* text, int width, bool left, FILE* file)
 // Write the values that are equal in all rows on one line.
 static void write_shared(const struct bench_rows* rows, FILE* file)
 {
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     const char* comma = "";
     for (const char* const* column = rows->columns; *column; ++column) {
         const json_t* value = json_object_get(json_array_get(rows->rows, 0), *column);
@@ -205,7 +205,7 @@ static void write_shared(const struct bench_rows* rows, FILE* file)
 
 void bench_write_table(const struct bench_rows* rows, FILE* file)
 {
-    char text[MOST_TEXT];
+    char text[MAX_TEXT];
     write_shared(rows, file);
     for (size_t line = 0; line <= json_array_size(rows->rows); ++line) {
         const json_t* row = line ? json_array_get(rows->rows, line - 1) : NULL;

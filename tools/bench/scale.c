@@ -51,8 +51,8 @@ static void add_row(const struct bench_studio* studio, const struct point* point
 // Simulate and draw frames of a head that shakes.
 static bool run(struct bench_studio* studio, const struct point* point)
 {
-    enum { MOST_FRAMES = 60 };
-    double step[MOST_FRAMES], draw[MOST_FRAMES], passed = 0;
+    enum { MAX_FRAMES = 60 };
+    double step[MAX_FRAMES], draw[MAX_FRAMES], passed = 0;
     double enough = studio->bench->options.quick ? 100 : 1000;
     uint32_t frames = 0;
     struct bench_shot shot = bench_studio_shot(studio);
@@ -60,7 +60,7 @@ static bool run(struct bench_studio* studio, const struct point* point)
     if (!bench_studio_set(studio, &shot)) return false;
     for (int i = 0; i < 2; ++i) // the first frames compile shaders
         if (!bench_studio_step(studio, NULL) || !bench_studio_draw(studio, NULL)) return false;
-    for (double start = hair_now(); bench_times_want_more(frames, MOST_FRAMES, passed, enough); ++frames) {
+    for (double start = hair_now(); bench_times_want_more(frames, MAX_FRAMES, passed, enough); ++frames) {
         if (!bench_studio_step(studio, &step[frames]) || !bench_studio_draw(studio, &draw[frames]))
             return false;
         passed = hair_now() - start;

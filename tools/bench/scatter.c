@@ -1,7 +1,7 @@
 // scatter.c - Rows of the suite `shadow`. They compare the multiple scattering of drawn hair with
 // path tracing. Only means over the visible part of a haircut are compared.
 #include "lib/draw/fibre.h"
-#include "lib/reference/paths.h"
+#include "tests/reference/paths.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/scatter.h"
 #include "tools/bench/studio.h"
@@ -118,7 +118,7 @@ static bool make_rays(struct scatter* scatter, uint32_t rays)
 }
 
 // Return the absorption of a strand with the given reflectance, as absorption_of() in
-// glsl/fibre.glsl.
+// glsl/light/fibre.glsl.
 static double absorption_of(double reflectance, double roughness)
 {
     double b = roughness, d = 5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + 0.245 * b))));
@@ -198,18 +198,18 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     hair_look* look = &scatter->shot.look;
     hair_light* light = &scatter->studio.scene.settings.light;
     size_t of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
-    double all[3], once[3], truth[3], alone[3], error = 0;
+    double all[3], once[3], ground_truth[3], alone[3], error = 0;
     look->self_shadow = method->shadow;
     memcpy(look->root_color, scatter->colors[of / 3], sizeof look->root_color);
     memcpy(look->tip_color, scatter->colors[of / 3], sizeof look->tip_color);
     for (int k = 0; k < 3; ++k) light->direction[k] = (float)scatter->to_light[from][k];
     if (!measure_light(scatter, 1, all) || !measure_light(scatter, 0, once)) return false;
     for (size_t k = 0; k < 3; ++k) {
-        truth[k] = scatter->glow.often[from][of + k];
+        ground_truth[k] = scatter->glow.often[from][of + k];
         alone[k] = scatter->glow.once[from][of + k];
         error += scatter->glow.error[from][of + k];
     }
-    double sum = truth[0] + truth[1] + truth[2];
+    double sum = ground_truth[0] + ground_truth[1] + ground_truth[2];
     json_t* row = bench_rows_add(&scatter->bench->rows);
     bench_set_text(row, "case", "scatter");
     bench_set_text(row, "method", method->name);
@@ -222,7 +222,7 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     bench_set_number(row, "error", error / sum);
     bench_set_number(row, "often", 1 - (alone[0] + alone[1] + alone[2]) / sum);
     bench_set_number(row, "bias", (all[0] + all[1] + all[2]) / sum - 1);
-    for (size_t k = 0; k < 3; ++k) bench_set_number(row, keys[k], all[k] / truth[k] - 1);
+    for (size_t k = 0; k < 3; ++k) bench_set_number(row, keys[k], all[k] / ground_truth[k] - 1);
     bench_set_number(row, "bias_once", (once[0] + once[1] + once[2]) / (alone[0] + alone[1] + alone[2]) - 1);
     return true;
 }

@@ -1,10 +1,10 @@
-// scene.c - Strands, materials and heads, and their conversion to rods of lib/reference.
+// scene.c - Strands, materials and heads, and their conversion to rods of tests/reference.
 #include "tools/bench/scene.h"
 
 #include <math.h>
 #include <stdbool.h>
 
-#include "lib/sim/rod.h"
+#include "lib/rod/rod.h"
 
 struct bench_scene bench_scene_default(void)
 {
@@ -125,17 +125,17 @@ static double between(float root, float tip, uint32_t i, uint32_t count)
 
 static int is_straight(const struct bench_scene* scene, const double* strain)
 {
-    double most = 0;
-    for (uint32_t i = 0; i < 3 * (scene->vertices - 1); ++i) most = fmax(most, fabs(strain[i]));
-    return scene->physics.flatness == 1 && most < 1e-4;
+    double max = 0;
+    for (uint32_t i = 0; i < 3 * (scene->vertices - 1); ++i) max = fmax(max, fabs(strain[i]));
+    return scene->physics.flatness == 1 && max < 1e-4;
 }
 
 // Return whether the mixed scheme solves the strand, which is straight. Only the scheme of straight
 // rods has the energy of the chord between tangents.
 static bool is_mixed(const struct bench_scene* scene, const double root_frame[4])
 {
-    struct hair_rest rest[BENCH_MOST_VERTICES] = {0};
-    struct hair_rod_borne borne[BENCH_MOST_VERTICES] = {0};
+    struct hair_rest rest[BENCH_MAX_VERTICES] = {0};
+    struct hair_rod_borne borne[BENCH_MAX_VERTICES] = {0};
     struct hair_rods_report report;
     const hair_vec4 frame = {(float)root_frame[0], (float)root_frame[1], (float)root_frame[2],
                              (float)root_frame[3]};
@@ -149,14 +149,14 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
         rest[i].frame = frame;
         guide.arc_length += rest[i].position.w;
     }
-    hair_rods_hold(&guide, rest, 1, &scene->physics, borne, &report);
+    hair_rods_preload_gravity(&guide, rest, 1, &scene->physics, borne, &report);
     return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, scene->substep);
 }
 
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
 {
-    double positions[3 * BENCH_MOST_VERTICES], strain[3 * BENCH_MOST_VERTICES];
-    double scale[BENCH_MOST_VERTICES], pull[BENCH_MOST_VERTICES];
+    double positions[3 * BENCH_MAX_VERTICES], strain[3 * BENCH_MAX_VERTICES];
+    double scale[BENCH_MAX_VERTICES], pull[BENCH_MAX_VERTICES];
     const hair_physics* p = &scene->physics;
     struct bench_section section = bench_section_of(p);
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();

@@ -1,18 +1,18 @@
 // scene.h - One strand with its material, solver and head, as measured by a row, and its conversion
-// to a rod of lib/reference.
+// to a rod of tests/reference.
 #ifndef HAIR_TOOLS_BENCH_SCENE_H
 #define HAIR_TOOLS_BENCH_SCENE_H
 
 #include <hair/hair.h>
 
-#include "lib/reference/rod.h"
+#include "tests/reference/rod.h"
 
-#define BENCH_MOST_VERTICES 256
+#define BENCH_MAX_VERTICES 256
 #define BENCH_PI 3.14159265358979323846
 #define BENCH_GRAVITY 9.81
 
 struct bench_scene {
-    float positions[3 * BENCH_MOST_VERTICES]; // at rest, in the head's frame
+    float positions[3 * BENCH_MAX_VERTICES]; // at rest, in the head's frame
     uint32_t vertices;
     uint32_t strands; // identical strands
     hair_solver solver;

@@ -7,7 +7,7 @@
 #include "tools/bench/scatter.h"
 #include "tools/bench/strand_light.h"
 #include "tools/bench/studio.h"
-#include "lib/reference/self_shadow.h"
+#include "tests/reference/self_shadow.h"
 #include "tools/common/camera.h"
 
 #include <epoxy/gl.h>
@@ -142,7 +142,7 @@ static bool read_strands(struct scene* scene)
     return ok && scene->light;
 }
 
-static bool need(struct scene* scene)
+static bool ensure(struct scene* scene)
 {
     if (scene->alive || scene->refused) return scene->alive;
     uint32_t strands = scene->bench->options.strands, size = scene->bench->options.size;
@@ -306,7 +306,7 @@ static bool look_at_body(struct scene* scene, GLsizei size)
 static void measure_body(struct scene* scene)
 {
     for (GLsizei size = 128; size <= 2048; size *= 4)
-        if (bench_begin(scene->bench, "body", "opacity") && (!need(scene) || !look_at_body(scene, size)))
+        if (bench_begin(scene->bench, "body", "opacity") && (!ensure(scene) || !look_at_body(scene, size)))
             bench_refuse(scene->bench, "body", "opacity");
 }
 
@@ -314,7 +314,7 @@ static void run_suite(struct bench* bench)
 {
     struct scene scene = {.bench = bench};
     for (size_t i = 0; i < sizeof methods / sizeof *methods; ++i)
-        if (bench_begin(bench, "long", methods[i].name) && (!need(&scene) || !look(&scene, &methods[i])))
+        if (bench_begin(bench, "long", methods[i].name) && (!ensure(&scene) || !look(&scene, &methods[i])))
             bench_refuse(bench, "long", methods[i].name);
     measure_body(&scene);
     bench_picture_free(&scene.truth);

@@ -9,8 +9,8 @@
 #include "tools/bench/bench.h"
 #include "tools/common/stats.h"
 
-#define MOST_HEADS 100
-#define MOST_RUNS 31
+#define MAX_HEADS 100
+#define MAX_RUNS 31
 #define SIZE 256
 #define REST (15 * 60) // frames in which hair at rest falls asleep
 
@@ -54,7 +54,7 @@ struct heads {
     struct bench* bench;
     struct scene scene;
     hair_groom* groom;
-    hair_instance* hair[MOST_HEADS];
+    hair_instance* hair[MAX_HEADS];
     GLuint frame, color, depth;
     uint32_t frames;
 };
@@ -157,7 +157,7 @@ static int compare(const void* a, const void* b)
 static bool measure(struct bench* bench, const struct scene* scene, double* ms, uint32_t* runs, json_t* row)
 {
     struct heads heads = {.bench = bench, .scene = *scene};
-    double times[MOST_RUNS], start = hair_now();
+    double times[MAX_RUNS], start = hair_now();
     hair_result result = live(&heads);
     uint32_t rest = scene->sleeps && scene->moving < scene->heads ? REST : 10;
     for (uint32_t i = 0; i < rest && !result; ++i) {
@@ -166,9 +166,9 @@ static bool measure(struct bench* bench, const struct scene* scene, double* ms, 
         // done when measuring starts.
         glFinish();
     }
-    uint32_t most = bench->options.quick ? 3 : MOST_RUNS;
+    uint32_t max = bench->options.quick ? 3 : MAX_RUNS;
     start = hair_now();
-    for (*runs = 0; *runs < most && !result && (*runs < 3 || hair_now() - start < 4000); ++*runs) {
+    for (*runs = 0; *runs < max && !result && (*runs < 3 || hair_now() - start < 4000); ++*runs) {
         double begin = hair_now();
         result = run_frame(&heads, !scene->blind);
         glFinish();

@@ -64,39 +64,39 @@ static double distance(const double* a, const double* b)
 // that origin.
 static double stretch_of(const struct bench_watch* watch, const double* positions)
 {
-    const struct bench_living* living = watch->living;
-    double most = 0, farthest[3] = {0}, none[3] = {0}, away = 0;
-    for (uint32_t i = 0; i < 3 * living->scene->vertices; ++i)
+    const struct bench_live_scene* live = watch->living;
+    double max = 0, farthest[3] = {0}, none[3] = {0}, away = 0;
+    for (uint32_t i = 0; i < 3 * live->scene->vertices; ++i)
         farthest[i % 3] = fmax(farthest[i % 3], fabs(positions[i]));
-    for (uint32_t i = 0; i < living->scene->vertices; ++i)
+    for (uint32_t i = 0; i < live->scene->vertices; ++i)
         away = fmax(away, distance(positions + 3 * i, watch->head.position));
     double resolved = 1.2e-7 * (distance(farthest, none) + away);
-    for (uint32_t i = 0; i + 1 < living->scene->vertices; ++i) {
-        double off = fabs(distance(positions + 3 * i, positions + 3 * i + 3) - living->lengths[i]);
-        most = fmax(most, (off - resolved) / living->lengths[i]);
+    for (uint32_t i = 0; i + 1 < live->scene->vertices; ++i) {
+        double off = fabs(distance(positions + 3 * i, positions + 3 * i + 3) - live->lengths[i]);
+        max = fmax(max, (off - resolved) / live->lengths[i]);
     }
-    return most;
+    return max;
 }
 
 // Return the maximum depth of vertices in spheres. Vertices that the scalp fixes are ignored.
 static double depth_of(const struct bench_watch* watch, const double* positions)
 {
     const struct bench_scene* scene = watch->living->scene;
-    double most = 0;
+    double max = 0;
     for (uint32_t s = 0; s < watch->collider_count; ++s) {
         const hair_collider* collider = &watch->colliders[s];
         const double centre[3] = {(double)collider->position[0], (double)collider->position[1],
                                   (double)collider->position[2]};
         for (uint32_t i = scene->solver == HAIR_SOLVER_REDBLACK ? 2 : 1; i < scene->vertices; ++i)
-            most = fmax(most, (double)collider->size[0] - distance(positions + 3 * i, centre));
+            max = fmax(max, (double)collider->size[0] - distance(positions + 3 * i, centre));
     }
-    return most;
+    return max;
 }
 
 static void look(struct bench_watch* watch, const double* now, double passed)
 {
-    const struct bench_living* living = watch->living;
-    uint32_t count = living->scene->vertices;
+    const struct bench_live_scene* live = watch->living;
+    uint32_t count = live->scene->vertices;
     watch->finite = watch->finite && bench_are_finite(now, count);
     if (!watch->finite) return;
     watch->stretch = fmax(watch->stretch, stretch_of(watch, now));
@@ -105,42 +105,42 @@ static void look(struct bench_watch* watch, const double* now, double passed)
     if (watch->spared <= 0) watch->penetration = fmax(watch->penetration, depth_of(watch, now));
 }
 
-bool bench_watch(struct bench_living* living, struct bench_watch* out)
+bool bench_watch(struct bench_live_scene* live, struct bench_watch* out)
 {
     *out = (struct bench_watch){
-        .living = living, .calm = living->scene->physics, .head = living->scene->head, .finite = true};
-    return bench_read(living, out->before);
+        .living = live, .calm = live->scene->physics, .head = live->scene->head, .finite = true};
+    return bench_read(live, out->before);
 }
 
 bool bench_watch_step(struct bench_watch* watch, double dt)
 {
-    struct bench_living* living = watch->living;
-    double now[3 * BENCH_MOST_VERTICES];
+    struct bench_live_scene* live = watch->living;
+    double now[3 * BENCH_MAX_VERTICES];
     // Hair moves in whole substeps, therefore a speed uses the time of the completed substeps.
-    double done = floor(watch->time / living->substep + 1e-4);
-    if (hair_set_colliders(living->hair, watch->colliders, watch->collider_count, sizeof *watch->colliders))
+    double done = floor(watch->time / live->substep + 1e-4);
+    if (hair_set_colliders(live->hair, watch->colliders, watch->collider_count, sizeof *watch->colliders))
         return false;
-    if (!bench_step(living, &watch->head, dt) || !bench_read(living, now)) return false;
-    watch->time += fmin(dt, living->scene->max_dt);
+    if (!bench_step(live, &watch->head, dt) || !bench_read(live, now)) return false;
+    watch->time += fmin(dt, live->scene->max_dt);
     watch->spared -= dt;
     watch->had_colliders = watch->had_colliders || watch->collider_count > 0;
-    look(watch, now, (floor(watch->time / living->substep + 1e-4) - done) * living->substep);
-    memcpy(watch->before, now, 3 * sizeof *now * living->scene->vertices);
+    look(watch, now, (floor(watch->time / live->substep + 1e-4) - done) * live->substep);
+    memcpy(watch->before, now, 3 * sizeof *now * live->scene->vertices);
     return !bench_was_interrupted();
 }
 
-json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch)
+json_t* bench_stability_row(struct bench_live_scene* live, const char* name, const struct bench_watch* watch)
 {
-    bool rod = living->scene->solver != HAIR_SOLVER_REDBLACK;
-    json_t* row = bench_rows_add(&living->bench->rows);
+    bool rod = live->scene->solver != HAIR_SOLVER_REDBLACK;
+    json_t* row = bench_rows_add(&live->bench->rows);
     bench_set_text(row, "case", name);
-    bench_set_text(row, "method", bench_solver_name(living->scene->solver));
+    bench_set_text(row, "method", bench_solver_name(live->scene->solver));
     bench_set_flag(row, "finite", watch->finite);
     bench_set_number(row, "max_stretch", watch->finite ? watch->stretch : NAN);
     bench_set_number(row, "max_speed", watch->finite ? watch->speed : NAN);
     if (watch->had_colliders) bench_set_number(row, "max_penetration", watch->penetration);
-    bench_set_flag(row, "pass", watch->finite && (!rod || watch->stretch <= BENCH_MOST_STRETCH));
-    bench_set_material(row, living);
+    bench_set_flag(row, "pass", watch->finite && (!rod || watch->stretch <= BENCH_MAX_STRETCH));
+    bench_set_material(row, live);
     return row;
 }
 
@@ -166,33 +166,33 @@ static bool find_rest(const struct bench_watch* watch, double* positions)
 // hundredth of the length of their rest positions. It is infinite if they do not within that time.
 static bool recover(struct bench_watch* watch, const double* rest, double* seconds)
 {
-    struct bench_living* living = watch->living;
+    struct bench_live_scene* live = watch->living;
     watch->collider_count = 0;
     *seconds = 0;
-    if (hair_set_physics(living->hair, &watch->calm) || hair_set_wind(living->hair, NULL)) return false;
+    if (hair_set_physics(live->hair, &watch->calm) || hair_set_wind(live->hair, NULL)) return false;
     for (int k = 1; k <= 360; ++k) {
         if (!bench_watch_step(watch, FRAME)) return false;
-        double most = 0;
-        for (uint32_t i = 0; i < living->scene->vertices; ++i) {
+        double max = 0;
+        for (uint32_t i = 0; i < live->scene->vertices; ++i) {
             double off = distance(watch->before + 3 * i, rest + 3 * i);
-            if (!(off <= most)) most = off;
+            if (!(off <= max)) max = off;
         }
-        if (!(most <= 0.01 * living->length)) *seconds = k < 360 ? (k + 1) * FRAME : INFINITY;
+        if (!(max <= 0.01 * live->length)) *seconds = k < 360 ? (k + 1) * FRAME : INFINITY;
     }
     return true;
 }
 
 static void add_row(struct bench_watch* watch, const char* name, const double* rest)
 {
-    struct bench_living* living = watch->living;
+    struct bench_live_scene* live = watch->living;
     hair_solver_stats solver_stats = hair_solver_stats_default();
     double seconds = NAN;
-    if (hair_get_solver_stats(living->hair, &solver_stats) || (rest && !recover(watch, rest, &seconds))) {
-        bench_refuse(living->bench, name, bench_solver_name(living->scene->solver));
+    if (hair_get_solver_stats(live->hair, &solver_stats) || (rest && !recover(watch, rest, &seconds))) {
+        bench_refuse(live->bench, name, bench_solver_name(live->scene->solver));
         return;
     }
-    json_t* row = bench_stability_row(living, name, watch);
-    bench_set_count(row, "vertices", living->scene->vertices);
+    json_t* row = bench_stability_row(live, name, watch);
+    bench_set_count(row, "vertices", live->scene->vertices);
     bench_set_solver_stats(row, &solver_stats);
     if (!rest) return;
     bool recovered = seconds <= 3;
@@ -220,20 +220,20 @@ static void measure(struct bench* bench, const struct bench_stress* stress, hair
 {
     const char* method = bench_solver_name(solver);
     if (!bench_begin(bench, stress->name, method)) return;
-    double rest[3 * BENCH_MOST_VERTICES];
+    double rest[3 * BENCH_MAX_VERTICES];
     struct bench_scene scene = make_scene(bench, solver);
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_watch watch;
     if (stress->prepare) stress->prepare(&scene);
-    if (!bench_live(bench, &scene, &living)) {
+    if (!bench_live(bench, &scene, &live)) {
         bench_refuse(bench, stress->name, method);
         return;
     }
-    if (bench_watch(&living, &watch) && stress->run(&watch))
+    if (bench_watch(&live, &watch) && stress->run(&watch))
         add_row(&watch, stress->name, find_rest(&watch, rest) ? rest : NULL);
     else
         bench_refuse(bench, stress->name, method);
-    bench_die(&living);
+    bench_free_live_scene(&live);
 }
 
 static void run_suite(struct bench* bench)

@@ -2,17 +2,17 @@
 #ifndef HAIR_TOOLS_BENCH_STABILITY_H
 #define HAIR_TOOLS_BENCH_STABILITY_H
 
-#include "tools/bench/living.h"
+#include "tools/bench/live_scene.h"
 #include "tools/bench/rest.h"
 
-#define BENCH_MOST_STRETCH 0.02 // limit under any stress, for rod solvers
-#define BENCH_MOST_COLLIDERS 128
+#define BENCH_MAX_STRETCH 0.02 // limit under any stress, for rod solvers
+#define BENCH_MAX_COLLIDERS 128
 
 struct bench_watch {
-    struct bench_living* living;
+    struct bench_live_scene* living;
     hair_physics calm; // physics after the stress, initially the scene's own
     struct hair_reference_rod_pose head;
-    hair_collider colliders[BENCH_MOST_COLLIDERS];
+    hair_collider colliders[BENCH_MAX_COLLIDERS];
     uint32_t collider_count;
     bool had_colliders;
     double spared; // time in s during which depth in colliders is ignored
@@ -20,11 +20,11 @@ struct bench_watch {
     bool finite;
     double stretch, speed, penetration; // maxima so far
     double time; // simulated time, s
-    double before[3 * BENCH_MOST_VERTICES];
+    double before[3 * BENCH_MAX_VERTICES];
 };
 
 // Start observing. Return false if the library refused.
-bool bench_watch(struct bench_living* living, struct bench_watch* out);
+bool bench_watch(struct bench_live_scene* live, struct bench_watch* out);
 
 // Simulate `dt` with the head at watch->head and the colliders of `watch` at its end. Return false
 // if the library refused.
@@ -58,6 +58,6 @@ struct bench_stress {
 // Stresses of stability_stresses.c, terminated by a name of NULL.
 extern const struct bench_stress bench_stresses[];
 
-json_t* bench_stability_row(struct bench_living* living, const char* name, const struct bench_watch* watch);
+json_t* bench_stability_row(struct bench_live_scene* live, const char* name, const struct bench_watch* watch);
 
 #endif

@@ -53,7 +53,7 @@ static const struct contact contacts[] = {
 // the previous one.
 static hair_result make_groom(struct bench* bench, const struct contact* contact, hair_groom** out)
 {
-    float positions[3 * STRANDS * BENCH_MOST_VERTICES];
+    float positions[3 * STRANDS * BENCH_MAX_VERTICES];
     uint32_t vertices[STRANDS];
     hair_groom_desc desc = hair_groom_desc_default();
     for (uint32_t s = 0; s < STRANDS; ++s) {
@@ -91,13 +91,13 @@ static hair_result add_collider(const struct contact* contact, hair_instance* ha
 static bool run(struct bench* bench, const char* name, hair_instance* hair, const struct bench_scene* scene)
 {
     struct bench_rest_desc desc = {20, 0.5, 30, bench_was_interrupted};
-    struct bench_living living = {.bench = bench, .scene = scene};
+    struct bench_live_scene live = {.bench = bench, .scene = scene};
     hair_solver_stats solver_stats = hair_solver_stats_default();
     struct bench_rest rest;
     if (!bench_measure_rest(hair, STRANDS, scene->vertices, &desc, &rest)) return false;
     if (hair_get_solver_stats(hair, &solver_stats)) return false;
     json_t* row = bench_rows_add(&bench->rows);
-    living.substep = (double)solver_stats.substep;
+    live.substep = (double)solver_stats.substep;
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
     bench_set_count(row, "vertices", scene->vertices);
@@ -105,7 +105,7 @@ static bool run(struct bench* bench, const char* name, hair_instance* hair, cons
     bench_set_flag(row, "colliders", true);
     bench_set_rest(row, scene->solver, &rest);
     bench_set_solver_stats(row, &solver_stats);
-    bench_set_material(row, &living);
+    bench_set_material(row, &live);
     return true;
 }
 

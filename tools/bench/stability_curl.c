@@ -13,14 +13,14 @@
 #define MAX_ENERGY 1.01
 
 struct curl {
-    struct bench_living living;
+    struct bench_live_scene living;
     struct hair_reference_rod* rod; // NULL for follow and redblack, which have no energy
     hair_physics calm;
     double time;
     double start; // energy after the nudge, J
     double max_energy; // J
     double max_speed; // in the last half second, m/s
-    double at[3][3 * BENCH_MOST_VERTICES];
+    double at[3][3 * BENCH_MAX_VERTICES];
     bool finite;
 };
 
@@ -28,7 +28,7 @@ struct curl {
 static double find_energy(struct curl* curl, double h)
 {
     uint32_t vertices = curl->living.scene->vertices;
-    double velocities[3 * BENCH_MOST_VERTICES], masses[BENCH_MOST_VERTICES], momentum[3] = {0}, mass = 0;
+    double velocities[3 * BENCH_MAX_VERTICES], masses[BENCH_MAX_VERTICES], momentum[3] = {0}, mass = 0;
     for (uint32_t i = 0; i < 3 * vertices; ++i) velocities[i] = (curl->at[2][i] - curl->at[0][i]) / (2 * h);
     hair_reference_rod_set_state(curl->rod, curl->at[1], velocities);
     hair_reference_rod_masses(curl->rod, masses);
@@ -42,39 +42,39 @@ static double find_energy(struct curl* curl, double h)
 
 static double find_speed(const struct curl* curl, double h)
 {
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < curl->living.scene->vertices; ++i) {
         double squares = 0;
         for (uint32_t k = 3 * i; k < 3 * i + 3; ++k) squares += pow(curl->at[2][k] - curl->at[1][k], 2);
         double speed = sqrt(squares) / h;
-        if (!(speed <= most)) most = speed;
+        if (!(speed <= max)) max = speed;
     }
-    return most;
+    return max;
 }
 
 // Simulate a frame. Read the positions after its last three substeps.
 static bool step_frame(struct curl* curl)
 {
-    struct bench_living* living = &curl->living;
-    double h = living->substep, count = fmax(round(1 / (60 * h)), 2);
-    if (!bench_step(living, NULL, (count - 2) * h) || !bench_read(living, curl->at[0])) return false;
+    struct bench_live_scene* live = &curl->living;
+    double h = live->substep, count = fmax(round(1 / (60 * h)), 2);
+    if (!bench_step(live, NULL, (count - 2) * h) || !bench_read(live, curl->at[0])) return false;
     for (int k = 1; k < 3; ++k)
-        if (!bench_step(living, NULL, h) || !bench_read(living, curl->at[k])) return false;
+        if (!bench_step(live, NULL, h) || !bench_read(live, curl->at[k])) return false;
     curl->time += count * h;
     for (int k = 0; k < 3; ++k)
-        curl->finite = curl->finite && bench_are_finite(curl->at[k], living->scene->vertices);
+        curl->finite = curl->finite && bench_are_finite(curl->at[k], live->scene->vertices);
     return !bench_was_interrupted();
 }
 
 static bool nudge(struct curl* curl)
 {
-    struct bench_living* living = &curl->living;
+    struct bench_live_scene* live = &curl->living;
     hair_physics push = curl->calm;
     push.root = HAIR_ROOT_CLAMPED; // a free coil would only fall
     push.gravity[0] = push.gravity[2] = NUDGE_GRAVITY;
-    double h = living->substep, count = ceil(NUDGE / h);
-    return !hair_set_physics(living->hair, &push) && bench_step(living, &living->scene->head, count * h) &&
-           !hair_set_physics(living->hair, &curl->calm) && bench_step(living, &living->scene->head, h);
+    double h = live->substep, count = ceil(NUDGE / h);
+    return !hair_set_physics(live->hair, &push) && bench_step(live, &live->scene->head, count * h) &&
+           !hair_set_physics(live->hair, &curl->calm) && bench_step(live, &live->scene->head, h);
 }
 
 static bool run(struct curl* curl)
@@ -95,10 +95,10 @@ static bool run(struct curl* curl)
 static void add_row(struct curl* curl, const char* name, double radius, uint32_t each)
 {
     static const char* const roots[] = {"clamped", "hinged", "free"};
-    struct bench_living* living = &curl->living;
-    const struct bench_scene* scene = living->scene;
+    struct bench_live_scene* live = &curl->living;
+    const struct bench_scene* scene = live->scene;
     hair_solver_stats solver_stats = hair_solver_stats_default();
-    json_t* row = bench_rows_add(&living->bench->rows);
+    json_t* row = bench_rows_add(&live->bench->rows);
     bool damped = scene->physics.damping > 0, pass = curl->finite;
     double ratio = curl->max_energy / curl->start;
     bench_set_text(row, "case", name);
@@ -114,8 +114,8 @@ static void add_row(struct curl* curl, const char* name, double radius, uint32_t
     if (damped) bench_set_number(row, "limit", bench_rest_limit(scene->solver));
     if (damped) pass = pass && curl->max_speed <= bench_rest_limit(scene->solver);
     bench_set_flag(row, "pass", pass);
-    if (!hair_get_solver_stats(living->hair, &solver_stats)) { bench_set_solver_stats(row, &solver_stats); }
-    bench_set_material(row, living);
+    if (!hair_get_solver_stats(live->hair, &solver_stats)) { bench_set_solver_stats(row, &solver_stats); }
+    bench_set_material(row, live);
 }
 
 static struct bench_scene make_scene(const struct bench* bench, hair_solver solver, double radius,
@@ -153,7 +153,7 @@ static void measure(struct bench* bench, double radius, uint32_t each, hair_solv
     else
         bench_refuse(bench, name, method);
     hair_reference_rod_destroy(curl.rod);
-    bench_die(&curl.living);
+    bench_free_live_scene(&curl.living);
 }
 
 void bench_rest_curls(struct bench* bench)

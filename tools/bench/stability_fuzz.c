@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define SEED 20100601u
-#define FEWEST 17 // minimum number of colliders in a group, large enough for a grid lookup
+#define MIN_VERTICES 17 // minimum number of colliders in a group, large enough for a grid lookup
 
 // SplitMix64 (Steele, Lea, Flood 2014).
 static uint64_t draw(uint64_t* state)
@@ -30,15 +30,15 @@ static uint32_t one_of(uint64_t* state, uint32_t count)
 
 // Return a random value, mostly near the usual one, sometimes an extreme, sometimes log-uniform
 // over the range.
-static float any(uint64_t* state, double usual, double least, double most)
+static float any(uint64_t* state, double usual, double min, double max)
 {
-    double low = fmax(least, 1e-6 * most);
+    double low = fmax(min, 1e-6 * max);
     switch (one_of(state, 8)) {
-    case 0: return (float)least;
-    case 1: return (float)most;
+    case 0: return (float)min;
+    case 1: return (float)max;
     case 2:
-    case 3: return (float)fmin(fmax(exp(even(state, log(low), log(most))), least), most);
-    default: return (float)fmin(fmax(usual * exp(even(state, -0.7, 0.7)), least), most);
+    case 3: return (float)fmin(fmax(exp(even(state, log(low), log(max))), min), max);
+    default: return (float)fmin(fmax(usual * exp(even(state, -0.7, 0.7)), min), max);
     }
 }
 
@@ -151,7 +151,7 @@ static hair_collider any_small_collider(uint64_t* state)
 }
 
 // Update a group of colliders after the first `few`. They move slowly and sometimes jump.
-static void any_crowd(uint64_t* state, struct bench_watch* watch, uint32_t few, uint32_t count)
+static void any_hair_grid(uint64_t* state, struct bench_watch* watch, uint32_t few, uint32_t count)
 {
     for (uint32_t s = few; s < few + count; ++s) {
         hair_collider* collider = &watch->colliders[s];
@@ -196,7 +196,8 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
     hair_instance* hair = watch->living->hair;
     uint32_t count = 24 + one_of(state, 12), few = 0;
     uint64_t own = ~*state;
-    uint32_t crowd = one_of(&own, 8) ? 0 : FEWEST + one_of(&own, BENCH_MOST_COLLIDERS - FEWEST - 4);
+    uint32_t hair_grid =
+        one_of(&own, 8) ? 0 : MIN_VERTICES + one_of(&own, BENCH_MAX_COLLIDERS - MIN_VERTICES - 4);
     float matrix[16];
     for (uint32_t k = 0; k < count; ++k) {
         if (one_of(state, 2)) any_move(state, &watch->head);
@@ -208,7 +209,7 @@ static bool any_steps(uint64_t* state, struct bench_watch* watch)
         if (one_of(state, 8) == 0) few = one_of(state, 5);
         for (uint32_t s = 0; s < few; ++s)
             if (one_of(state, 2)) watch->colliders[s] = any_collider(state);
-        any_crowd(&own, watch, few, crowd);
+        any_hair_grid(&own, watch, few, hair_grid);
         if (one_of(state, 64) == 0 && hair_reset(hair)) return false;
         bench_matrix(&watch->head, matrix);
         if (one_of(state, 32) == 0 && hair_teleport(hair, matrix)) return false;
@@ -223,16 +224,16 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
 {
     uint64_t state = SEED + (uint64_t)number * 0x100000001b3u;
     struct bench_scene scene = any_scene(&state, bench, solver);
-    struct bench_living living;
+    struct bench_live_scene live;
     struct bench_watch watch;
-    if (!bench_live(bench, &scene, &living)) return false;
+    if (!bench_live(bench, &scene, &live)) return false;
     hair_collider none = {
         .shape = HAIR_SHAPE_SPHERE, .rotation = {0, 0, 0, 1}, .size = {0.01f, 0}, .scale = 1, .friction = 1};
-    bool ok = bench_watch(&living, &watch);
+    bool ok = bench_watch(&live, &watch);
     hair_solver_stats own = hair_solver_stats_default();
     for (int s = 0; s < 4; ++s) watch.colliders[s] = none;
-    if (ok && any_steps(&state, &watch) && !hair_get_solver_stats(living.hair, &own)) {
-        if (solver != HAIR_SOLVER_REDBLACK && (!watch.finite || watch.stretch > BENCH_MOST_STRETCH))
+    if (ok && any_steps(&state, &watch) && !hair_get_solver_stats(live.hair, &own)) {
+        if (solver != HAIR_SOLVER_REDBLACK && (!watch.finite || watch.stretch > BENCH_MAX_STRETCH))
             hair_complain(
                 BENCH_TOOL, "scene %u, %s: %s, stretch %.3g, %u vertices, %u euler, %u follow, %u reset",
                 number, bench_solver_name(solver), watch.finite ? "finite" : "not finite", watch.stretch,
@@ -247,7 +248,7 @@ static bool live_through(struct bench* bench, hair_solver solver, uint32_t numbe
         solver_stats->reset += own.reset;
     } else
         ok = false;
-    bench_die(&living);
+    bench_free_live_scene(&live);
     return ok;
 }
 
@@ -268,8 +269,8 @@ static void fuzz(struct bench* bench, hair_solver solver)
     }
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    struct bench_living living = {.bench = bench, .scene = &scene, .substep = NAN};
-    json_t* row = bench_stability_row(&living, "fuzz", &all);
+    struct bench_live_scene live = {.bench = bench, .scene = &scene, .substep = NAN};
+    json_t* row = bench_stability_row(&live, "fuzz", &all);
     bench_set_count(row, "euler_fallbacks", solver_stats.euler_fallbacks);
     bench_set_count(row, "parts", solver_stats.parts);
     bench_set_count(row, "follow_fallbacks", solver_stats.follow_fallbacks);

@@ -1,7 +1,7 @@
 // stability_rest.c - Cases `rest HAIRCUT VERTICES`, every built-in haircut with default settings on
 // a head at rest.
 #include "tools/bench/stability.h"
-#include "tools/common/rig.h"
+#include "tools/common/head_rig.h"
 
 #include <hair/hair_asset.h>
 
@@ -44,11 +44,11 @@ static hair_result make_groom(struct bench* bench, hair_style style, uint32_t gu
 static hair_result add_head(hair_instance* hair)
 {
     struct hair_scene scene;
-    hair_collider colliders[HAIR_RIG_COLLIDERS];
+    hair_collider colliders[HAIR_HEAD_RIG_COLLIDERS];
     const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_scene_default(&scene);
     scene.head = true;
-    uint32_t count = hair_rig_colliders(&scene, 0, still, colliders);
+    uint32_t count = hair_head_rig_colliders(&scene, 0, still, colliders);
     return hair_set_colliders(hair, colliders, count, sizeof *colliders);
 }
 
@@ -56,7 +56,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
                     const hair_groom_info* info, bool collides, const struct bench_rest* rest,
                     const hair_solver_stats* solver_stats)
 {
-    struct bench_living living = {.bench = bench, .scene = scene, .substep = substep};
+    struct bench_live_scene live = {.bench = bench, .scene = scene, .substep = substep};
     json_t* row = bench_rows_add(&bench->rows);
     bench_set_text(row, "case", name);
     bench_set_text(row, "method", bench_solver_name(scene->solver));
@@ -65,7 +65,7 @@ static void add_row(struct bench* bench, const char* name, const struct bench_sc
     bench_set_flag(row, "colliders", collides);
     bench_set_rest(row, scene->solver, rest);
     bench_set_solver_stats(row, solver_stats);
-    bench_set_material(row, &living);
+    bench_set_material(row, &live);
 }
 
 void bench_set_rest(json_t* row, hair_solver solver, const struct bench_rest* rest)

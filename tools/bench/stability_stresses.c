@@ -108,8 +108,8 @@ static bool spin(struct bench_watch* watch)
     const double fastest = 2 * BENCH_PI * 10;
     double angle = 0;
     for (int k = 0; k < 300; ++k) {
-        double t = (k + 0.5) * FRAME, share = fmin(fmin(t / 2, 1), (5 - t) / 2);
-        angle += share * fastest * FRAME;
+        double t = (k + 0.5) * FRAME, fraction = fmin(fmin(t / 2, 1), (5 - t) / 2);
+        angle += fraction * fastest * FRAME;
         watch->head = bench_pose(up, angle, none);
         if (!bench_watch_step(watch, FRAME)) return false;
     }
@@ -185,7 +185,7 @@ static bool shake_in_honey(struct bench_watch* watch)
     physics.damping = 1000;
     return shake_under(watch, &physics);
 }
-static bool blow(struct bench_watch* watch)
+static bool wind_coupling(struct bench_watch* watch)
 {
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 600;
@@ -193,11 +193,11 @@ static bool blow(struct bench_watch* watch)
     return !hair_set_wind(watch->living->hair, &wind) && shake(watch, 2, FRAME);
 }
 // Use coincident strands, the highest possible density, which the hair-hair grid pushes apart.
-static void crowd(struct bench_scene* scene)
+static void hair_grid(struct bench_scene* scene)
 {
     scene->strands = 64;
 }
-static bool shake_in_crowd(struct bench_watch* watch)
+static bool shake_in_hair_grid(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
     physics.cohesion = 1000;
@@ -306,9 +306,9 @@ const struct bench_stress bench_stresses[] = {
     {"young_x1000", make_stiff, shake_ordinarily, true},
     {"young_0", make_limp, shake_ordinarily, true},
     {"damping_1000", NULL, shake_in_honey, false},
-    {"wind_1000", NULL, blow, true},
-    {"crowd_of_1", NULL, shake_in_crowd, true},
-    {"crowd_coincident", crowd, shake_in_crowd, true},
+    {"wind_1000", NULL, wind_coupling, true},
+    {"crowd_of_1", NULL, shake_in_hair_grid, true},
+    {"crowd_coincident", hair_grid, shake_in_hair_grid, true},
     {"gravity_1000", NULL, weigh, false},
     {"coincident_vertices", let_three_coincide, shake_ordinarily, false},
     {"vertices_at_root", gather_at_root, shake_ordinarily, false},

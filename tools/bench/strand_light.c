@@ -12,7 +12,7 @@ static uint32_t hash(uint32_t x)
     return x ^ (x >> 16);
 }
 
-static float share_of(uint32_t* random)
+static float fraction_of(uint32_t* random)
 {
     *random = *random * 1664525u + 1013904223u;
     return (float)(hash(*random) >> 8) / 16777216.0f;
@@ -137,12 +137,13 @@ bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t 
         uint32_t random = hash((uint32_t)v ^ seed * 0x9e3779b9u), free_ = 0;
         size_t own = v / s->each, k = v % s->each;
         for (uint32_t i = 0; i < rays; ++i) {
-            float along = ((float)i + share_of(&random)) / (float)rays - 0.5f, from[3];
-            float across = s->radius * (2 * share_of(&random) - 1);
+            float along = ((float)i + fraction_of(&random)) / (float)rays - 0.5f, from[3];
+            float across = s->radius * (2 * fraction_of(&random) - 1);
             size_t next = along < 0 ? (k ? v - 1 : v) : (k + 1 < s->each ? v + 1 : v);
             const float *a = s->seen + 3 * v, *b = s->seen + 3 * next;
-            float share = fabsf(along), dx = b[0] - a[0], dy = b[1] - a[1], l = fmaxf(hypotf(dx, dy), 1e-9f);
-            for (int j = 0; j < 3; ++j) from[j] = a[j] + share * (b[j] - a[j]);
+            float fraction = fabsf(along), dx = b[0] - a[0], dy = b[1] - a[1],
+                  l = fmaxf(hypotf(dx, dy), 1e-9f);
+            for (int j = 0; j < 3; ++j) from[j] = a[j] + fraction * (b[j] - a[j]);
             from[0] -= across * dy / l;
             from[1] += across * dx / l;
             free_ += !is_met(s, &cells, from, own);
@@ -156,14 +157,14 @@ bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t 
 
 // Layers ------------------------------------------------------------------------------------------
 
-#define MOST_LAYERS 8
+#define MAX_LAYERS 8
 #define TAPS 8
 
 struct layers {
     float texel;
     int size[2];
     uint32_t count;
-    float depth[MOST_LAYERS + 1]; // depths of the ends of layers, relative to the first strand
+    float depth[MAX_LAYERS + 1]; // depths of the ends of layers, relative to the first strand
     float* nearest; // per texel
     float* opacity; // per texel and layer, cumulative
 };

@@ -28,7 +28,7 @@ void bench_strands_free(struct bench_strands* strands);
 bool bench_light_by_rays(const struct bench_strands* strands, uint32_t rays, uint32_t seed, float* out);
 
 // Compute the same fractions by a deep opacity map of `layers` layers. Each layer is `deeper` times
-// as deep as the previous one. The taps are those of shadow.glsl.
+// as deep as the previous one. The taps are those of light/shadow.glsl.
 bool bench_light_by_layers(const struct bench_strands* strands, float texel, uint32_t layers, float first,
                            float deeper, float* out);
 

@@ -6,7 +6,7 @@
 #include "tools/common/file.h"
 #include "tools/common/shaders.h"
 #include "tools/common/stats.h"
-#include "tools/common/subject.h"
+#include "tools/common/groom_source.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
@@ -53,7 +53,7 @@ static bool make_head(struct bench_studio* studio)
     glCreateVertexArrays(2, studio->arrays);
     glCreateBuffers(2, studio->buffers);
     if (!scene->head && scene->subject != HAIR_SUBJECT_FUR) return true;
-    if (scene->head ? head_mesh_create(&mesh) : hair_rig_ball(scene->ball_radius, &mesh)) return false;
+    if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) return false;
     studio->indices = 3 * mesh.triangle_count;
     glNamedBufferStorage(studio->buffers[0], (GLsizeiptr)(mesh.vertex_count * 3 * sizeof(float)),
                          mesh.positions, 0);
@@ -70,11 +70,11 @@ static bool make_head(struct bench_studio* studio)
 
 static bool place(struct bench_studio* studio)
 {
-    hair_collider colliders[HAIR_RIG_COLLIDERS];
+    hair_collider colliders[HAIR_HEAD_RIG_COLLIDERS];
     float time = (float)studio->frame / STUDIO_FPS;
     hair_motion_at(&studio->scene.motion, time, studio->transform);
     if (!studio->hair) return true;
-    uint32_t count = hair_rig_colliders(&studio->scene, time, studio->transform, colliders);
+    uint32_t count = hair_head_rig_colliders(&studio->scene, time, studio->transform, colliders);
     return !hair_set_transform(studio->hair, studio->transform) &&
            !hair_set_colliders(studio->hair, colliders, count, sizeof *colliders);
 }
@@ -117,7 +117,7 @@ static bool make_subject(struct bench_studio* studio, const struct bench_studio_
         return false;
     scene->width = scene->height = studio->size;
     if (desc->followers) studio->fewer = (float)followers / (float)desc->followers;
-    if (hair_subject_load(BENCH_TOOL, &studio->bench->host, scene, &studio->groom)) return false;
+    if (hair_groom_source_load(BENCH_TOOL, &studio->bench->host, scene, &studio->groom)) return false;
     studio->info = hair_groom_info_default();
     if (hair_groom_describe(studio->groom, &studio->info)) return false;
     struct hair_bounds bounds;
@@ -215,7 +215,7 @@ static void draw_head(const struct bench_studio* studio, unsigned program,
     glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, studio->transform);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
-    glProgramUniform2f(program, HAIR_AT_BEND, whole ? -1e9f : HAIR_RIG_MOVES, HAIR_RIG_RESTS);
+    glProgramUniform2f(program, HAIR_AT_BEND, whole ? -1e9f : HAIR_HEAD_RIG_MOVES, HAIR_HEAD_RIG_RESTS);
     glUseProgram(program);
     glBindVertexArray(studio->arrays[0]);
     glEnable(GL_CULL_FACE);
@@ -361,11 +361,11 @@ bool bench_studio_warm_up(struct bench_studio* studio, double enough)
 
 bool bench_studio_time(struct bench_studio* studio, double enough, struct bench_times* out)
 {
-    enum { MOST_RUNS = 31, WARM = 100 }; // draws, ms
-    double ms[MOST_RUNS], passed = 0;
+    enum { MAX_RUNS = 31, WARM = 100 }; // draws, ms
+    double ms[MAX_RUNS], passed = 0;
     uint32_t runs = 0;
     if (!bench_studio_warm_up(studio, WARM)) return false;
-    for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
+    for (double start = hair_now(); bench_times_want_more(runs, MAX_RUNS, passed, enough);
          passed = hair_now() - start)
         if (!bench_studio_draw(studio, &ms[runs++])) return false;
     *out = bench_times_of(ms, runs);

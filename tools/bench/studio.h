@@ -5,7 +5,7 @@
 
 #include "tools/bench/bench.h"
 #include "tools/bench/timer.h"
-#include "tools/common/rig.h"
+#include "tools/common/head_rig.h"
 #include "tools/common/shadow_map.h"
 #include "tools/common/targets.h"
 

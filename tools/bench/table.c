@@ -81,7 +81,7 @@ struct column {
     double near_fps; // 0 until measured
 };
 
-static bool need(struct bench* bench, struct column* column)
+static bool ensure(struct bench* bench, struct column* column)
 {
     if (column->alive || column->refused) return column->alive;
     uint32_t size = bench->software ? SIZE_OF_SOFTWARE : SIZE;
@@ -196,11 +196,11 @@ static json_t* add_row(struct column* column, const struct cell* cell, uint32_t 
 
 static bool run_cell(struct bench* bench, struct column* column, const struct cell* cell)
 {
-    enum { MOST_RUNS = 9 };
-    double ms[MOST_RUNS], passed = 0, enough = bench->options.quick ? 100 : 1500;
+    enum { MAX_RUNS = 9 };
+    double ms[MAX_RUNS], passed = 0, enough = bench->options.quick ? 100 : 1500;
     uint32_t runs = 0, frames = bench->software ? (cell->draws ? 2 : 20) : 60;
     struct bench_times times;
-    if (!need(bench, column)) return false;
+    if (!ensure(bench, column)) return false;
     struct bench_shot shot = bench_studio_shot(&column->studio);
     shot.samples = 4;
     shot.view.render_path = column->way->path;
@@ -210,7 +210,7 @@ static bool run_cell(struct bench* bench, struct column* column, const struct ce
     if (!bench_studio_set(&column->studio, &shot)) return false;
     // The first frames compile shaders.
     if (!run_frames(&column->studio, cell, 2, &ms[0])) return false;
-    for (double start = hair_now(); bench_times_want_more(runs, MOST_RUNS, passed, enough);
+    for (double start = hair_now(); bench_times_want_more(runs, MAX_RUNS, passed, enough);
          passed = hair_now() - start)
         if (!run_frames(&column->studio, cell, frames, &ms[runs++])) return false;
     times = bench_times_of(ms, runs);

@@ -65,8 +65,8 @@ struct bench_times bench_times_of(double* ms, uint32_t runs)
     return (struct bench_times){ms[runs / 2], ms[0], ms[runs - 1], runs};
 }
 
-bool bench_times_want_more(uint32_t runs, uint32_t most, double passed, double enough)
+bool bench_times_want_more(uint32_t runs, uint32_t max, double passed, double enough)
 {
     enum { ENOUGH_RUNS = 3 };
-    return runs == 0 || (runs < most && passed < enough) || (runs < ENOUGH_RUNS && passed < 4 * enough);
+    return runs == 0 || (runs < max && passed < enough) || (runs < ENOUGH_RUNS && passed < 4 * enough);
 }

@@ -36,6 +36,6 @@ struct bench_times {
 struct bench_times bench_times_of(double* ms, uint32_t runs);
 
 // Return whether to make another run after `runs` runs that took `passed` ms in total.
-bool bench_times_want_more(uint32_t runs, uint32_t most, double passed, double enough);
+bool bench_times_want_more(uint32_t runs, uint32_t max, double passed, double enough);
 
 #endif

@@ -8,9 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_RUNS 21
+#define MAX_RUNS 21
 #define ENOUGH 400.0 // total time of the runs of one row, ms
-#define MOST_FRUITLESS 30e3 // maximum total time of a method's sweep, ms
+#define MAX_FRUITLESS 30e3 // maximum total time of a method's sweep, ms
 #define WANTED 1e-3 // target of the remaining divergence, as a fraction of the initial one
 
 static const char* const columns[] = {
@@ -41,7 +41,7 @@ static void set_times(json_t* row, const struct bench_times* times)
 static struct bench_times time_part(struct bench_flow* flow, void (*part)(struct bench_flow* flow))
 {
     struct bench_timer timer;
-    double ms[MOST_RUNS], passed = 0;
+    double ms[MAX_RUNS], passed = 0;
     uint32_t runs = 0;
     bench_timer_make(&timer, flow->bench->software);
     part(flow);
@@ -51,7 +51,7 @@ static struct bench_times time_part(struct bench_flow* flow, void (*part)(struct
         bench_timer_stop(&timer);
         ms[runs] = bench_timer_take(&timer);
         passed += ms[runs++];
-    } while (bench_times_want_more(runs, MOST_RUNS, passed, ENOUGH) && !bench_was_interrupted());
+    } while (bench_times_want_more(runs, MAX_RUNS, passed, ENOUGH) && !bench_was_interrupted());
     bench_timer_free(&timer);
     return bench_times_of(ms, runs);
 }
@@ -60,11 +60,11 @@ static struct bench_times time_part(struct bench_flow* flow, void (*part)(struct
 
 static void open_faces(struct bench_flow* flow)
 {
-    hair_fluid_open(&flow->fluid, &flow->now);
+    hair_fluid_find_face_fractions(&flow->fluid, &flow->now);
 }
 static void carry(struct bench_flow* flow)
 {
-    hair_fluid_carry(&flow->fluid);
+    hair_fluid_advect(&flow->fluid);
 }
 static void solve(struct bench_flow* flow)
 {
@@ -119,7 +119,7 @@ static double run_projection(struct bench* bench, struct hair_fluid_desc desc, s
         return NAN;
     }
     hair_fluid_place(&flow.fluid, &flow.now); // Start with the wind everywhere around the ball.
-    hair_fluid_carry(&flow.fluid);
+    hair_fluid_advect(&flow.fluid);
     struct bench_times times = time_part(&flow, solve);
     double left = bench_flow_residual(&flow);
     json_t* row = new_row(bench, "projection", methods[desc.method], desc.cells);
@@ -144,7 +144,7 @@ static void sweep(struct bench* bench, hair_fluid_method method, uint32_t cells,
         uint32_t count = method == HAIR_FLUID_MULTIGRID    ? 1
                          : method == HAIR_FLUID_RELAXATION ? cells / 2
                                                            : 8 * cells;
-        for (double left = 1; left > 0.1 * WANTED && passed < MOST_FRUITLESS && !bench_was_interrupted();) {
+        for (double left = 1; left > 0.1 * WANTED && passed < MAX_FRUITLESS && !bench_was_interrupted();) {
             struct hair_fluid_desc desc = {
                 .cells = cells, .side = FLOW_SIDE, .method = method, .cycles = count, .relax = *r};
             double was = left;
@@ -218,20 +218,20 @@ static bool measure_box(struct bench_flow* flow, json_t* row)
     glNamedBufferSubData(flow->fluid.velocity[flow->fluid.now].buffer, 0,
                          (GLsizeiptr)(flow->faces * sizeof *roll), roll);
     free(roll);
-    hair_fluid_show(&flow->fluid);
+    hair_fluid_publish(&flow->fluid);
     double* velocity = bench_flow_velocity(flow);
     double first = bench_flow_energy(velocity, flow->faces);
     free(velocity);
     for (int i = 0; i < 60; ++i) bench_flow_step(flow);
     velocity = bench_flow_velocity(flow);
-    double most = 0;
+    double max = 0;
     for (size_t i = 0; i < slots; ++i) // maximum velocity through the walls
         for (size_t axis = 0; axis < 3; ++axis) {
             size_t at[3] = {i % side, i / side % side, i / side / side};
-            if (at[axis] == 0 || at[axis] == side - 1) most = fmax(most, fabs(velocity[axis * slots + i]));
+            if (at[axis] == 0 || at[axis] == side - 1) max = fmax(max, fabs(velocity[axis * slots + i]));
         }
     bench_set_number(row, "energy", bench_flow_energy(velocity, flow->faces) / first);
-    bench_set_number(row, "flux", most);
+    bench_set_number(row, "flux", max);
     free(velocity);
     return !bench_was_interrupted();
 }

@@ -10,7 +10,7 @@
 
 #define TOUCHING 12
 #define EVERY 10000
-#define MOST_RUNS 61
+#define MAX_RUNS 61
 #define LIMIT 1.2
 
 static const char* const name = "bullet world";
@@ -107,8 +107,8 @@ static int compare(const void* a, const void* b)
 static bool measure(struct side sides[2])
 {
     struct bench* bench = sides[0].bust.bench;
-    uint32_t runs = bench->options.quick ? 15 : MOST_RUNS, touching[2];
-    double ms[2][MOST_RUNS], medians[2];
+    uint32_t runs = bench->options.quick ? 15 : MAX_RUNS, touching[2];
+    double ms[2][MAX_RUNS], medians[2];
     for (int i = -3; i < (int)runs; ++i) // the first frames create what is missing
         for (int k = 0; k < 2; ++k) {
             double time = time_frame(&sides[k], &touching[k]);

@@ -17,21 +17,21 @@ void hair_bounds_add(struct hair_bounds* bounds, const float lower[3], const flo
 // therefore the half diagonal alone is too large.
 static float apparent_radius(const struct hair_bounds* bounds)
 {
-    float sum = 0, most = 0;
+    float sum = 0, max = 0;
     for (int i = 0; i < 3; ++i) {
         float half = 0.5f * (bounds->upper[i] - bounds->lower[i]);
         sum += half * half;
-        most = fmaxf(most, half);
+        max = fmaxf(max, half);
     }
-    return fmaxf(0.75f * sqrtf(sum), 1.08f * most);
+    return fmaxf(0.75f * sqrtf(sum), 1.08f * max);
 }
 
 void hair_camera_frame(struct hair_scene* scene, const struct hair_bounds* bounds)
 {
     float aspect = (float)scene->width / (float)scene->height;
     float half = 0.5f * glm_rad(scene->field_of_view);
-    float least = aspect < 1 ? atanf(tanf(half) * aspect) : half;
-    float distance = fmaxf(apparent_radius(bounds) / sinf(least), 1e-4f);
+    float min = aspect < 1 ? atanf(tanf(half) * aspect) : half;
+    float distance = fmaxf(apparent_radius(bounds) / sinf(min), 1e-4f);
     vec3 towards = {0.45f, 0.12f, 1};
     glm_vec3_normalize(towards);
     for (int i = 0; i < 3; ++i) {
@@ -45,9 +45,9 @@ float hair_camera_reach(const struct hair_scene* scene, const struct hair_bounds
 {
     float sum = 0;
     for (int i = 0; i < 3; ++i) {
-        float most =
+        float max =
             fmaxf(bounds->upper[i] - scene->motion.pivot[i], scene->motion.pivot[i] - bounds->lower[i]);
-        sum += most * most;
+        sum += max * max;
     }
     return fmaxf(sqrtf(sum), 1e-4f);
 }

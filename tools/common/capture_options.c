@@ -1,7 +1,7 @@
 // capture_options.c - Command line of hair-capture. One table serves getopt and --help.
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
-#include "tools/common/sink.h"
+#include "tools/common/frame_writer.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -318,7 +318,7 @@ static bool change_scene(const char* tool, const struct said* said, struct hair_
 static bool choose_frames(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
     if (said->frames) return parse_frames(tool, said->frames, out);
-    bool one = out->out && hair_sink_is_picture(out->out);
+    bool one = out->out && hair_frame_writer_is_picture(out->out);
     out->first = one ? out->scene.picture : 0;
     out->end = one ? out->scene.picture + 1 : out->scene.frames;
     return true;

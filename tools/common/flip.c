@@ -7,7 +7,7 @@
 #include <string.h>
 
 #define PI 3.14159265358979
-#define MOST_RADIUS 256
+#define MAX_RADIUS 256
 
 struct rgb {
     double r, g, b;
@@ -27,7 +27,7 @@ struct colors {
 // One dimension of a separable filter, with taps from -radius to radius.
 struct kernel {
     int radius;
-    float taps[2 * MOST_RADIUS + 1];
+    float taps[2 * MAX_RADIUS + 1];
 };
 
 // Working memory of one picture. Each plane has one float per pixel.
@@ -188,7 +188,7 @@ enum { PLANES = 8 };
 
 static bool make_planes(struct planes* p, uint32_t width, uint32_t height)
 {
-    size_t count = (size_t)width * height, row = width + 2 * MOST_RADIUS;
+    size_t count = (size_t)width * height, row = width + 2 * MAX_RADIUS;
     *p = (struct planes){.width = width, .height = height};
     if (count > SIZE_MAX / sizeof(float) / (PLANES + 1)) return false;
     p->memory = malloc((PLANES * count + row) * sizeof *p->memory);
@@ -243,9 +243,10 @@ static void blur(struct planes* p, float* channel, double pixels_per_degree, con
         weights[i] = a[i] * sqrt(PI / b[i]) * sum * sum;
         filter(p, channel, &kernels[i], &kernels[i], p->spare[i]);
     }
-    float share = (float)(weights[1] / (weights[0] + weights[1]));
+    float fraction = (float)(weights[1] / (weights[0] + weights[1]));
     for (size_t i = 0; i < count; ++i)
-        channel[i] = share > 0 ? (1 - share) * p->spare[0][i] + share * p->spare[1][i] : p->spare[0][i];
+        channel[i] =
+            fraction > 0 ? (1 - fraction) * p->spare[0][i] + fraction * p->spare[1][i] : p->spare[0][i];
 }
 
 static void find_colors(const struct colors* colors, struct planes* p, double pixels_per_degree)
@@ -278,20 +279,20 @@ static bool look_at(const struct colors* colors, const float* picture, uint32_t 
 
 // Map a colour difference to [0, 1]. The lower 40 % of the input range get 95 % of the output
 // range.
-static double redistribute(double error, double most)
+static double redistribute(double error, double max)
 {
-    const double knee = 0.4 * most, at_knee = 0.95;
-    return error < knee ? error * at_knee / knee : at_knee + (error - knee) / (most - knee) * (1 - at_knee);
+    const double knee = 0.4 * max, at_knee = 0.95;
+    return error < knee ? error * at_knee / knee : at_knee + (error - knee) / (max - knee) * (1 - at_knee);
 }
 
 static void compare(const struct colors* colors, const struct planes* a, const struct planes* b, float* out)
 {
     struct xyz green = to_hunt(colors, (struct rgb){0, 1, 0}), blue = to_hunt(colors, (struct rgb){0, 0, 1});
-    double most = pow(hyab(green, blue), 0.7);
+    double max = pow(hyab(green, blue), 0.7);
     for (size_t i = 0; i < (size_t)a->width * a->height; ++i) {
         struct xyz ca = {a->luma[i], a->red_green[i], a->blue_yellow[i]};
         struct xyz cb = {b->luma[i], b->red_green[i], b->blue_yellow[i]};
-        double color = redistribute(pow(hyab(ca, cb), 0.7), most);
+        double color = redistribute(pow(hyab(ca, cb), 0.7), max);
         double edge = fabs(a->edges[i] - b->edges[i]), point = fabs(a->points[i] - b->points[i]);
         double feature = sqrt(fmax(edge, point) / sqrt(2));
         out[i] = (float)fmin(pow(color, 1 - feature), 1);

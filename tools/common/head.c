@@ -62,15 +62,15 @@ static point grid_point(const struct net* net, uint32_t i, uint32_t j, uint32_t 
     return (point){net->axis[0].at[i], net->axis[1].at[j], net->axis[2].at[k]};
 }
 
-static uint32_t least(uint32_t a, uint32_t b)
+static uint32_t min(uint32_t a, uint32_t b)
 {
     return a < b ? a : b;
 }
 
 static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0)
 {
-    uint32_t i1 = least(i0 + BLOCK, net->axis[0].count), j1 = least(j0 + BLOCK, net->axis[1].count);
-    uint32_t k1 = least(k0 + BLOCK, net->axis[2].count);
+    uint32_t i1 = min(i0 + BLOCK, net->axis[0].count), j1 = min(j0 + BLOCK, net->axis[1].count);
+    uint32_t k1 = min(k0 + BLOCK, net->axis[2].count);
     point a = grid_point(net, i0, j0, k0), b = grid_point(net, i1 - 1, j1 - 1, k1 - 1);
     point middle = {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
     float reach = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));

@@ -19,8 +19,8 @@ void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_COLLIDERS 16
 
-// Write the bust's colliders for hair_set_colliders(). No collider extends outside the scalp. Write at
-// most `capacity` colliders. Return the total count.
+// Write the bust's colliders for hair_set_colliders(). No collider extends outside the scalp. Write
+// at most `capacity` colliders. Return the total count.
 uint32_t head_colliders(hair_collider* out, uint32_t capacity);
 
 #endif

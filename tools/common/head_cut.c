@@ -66,10 +66,10 @@ static void cut(struct cutter* cutter)
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t* corner = mesh->triangles + 3 * (size_t)i;
         const float* below = cutter->below;
-        float least = fminf(below[corner[0]], fminf(below[corner[1]], below[corner[2]]));
-        float most = fmaxf(below[corner[0]], fmaxf(below[corner[1]], below[corner[2]]));
-        if (least < 0 || most == 0) add_part(cutter, corner, -1);
-        if (most > 0) add_part(cutter, corner, 1);
+        float min = fminf(below[corner[0]], fminf(below[corner[1]], below[corner[2]]));
+        float max = fmaxf(below[corner[0]], fmaxf(below[corner[1]], below[corner[2]]));
+        if (min < 0 || max == 0) add_part(cutter, corner, -1);
+        if (max > 0) add_part(cutter, corner, 1);
     }
 }
 
@@ -85,7 +85,7 @@ static int widen(float** memory, size_t count)
 static int make_room(struct cutter* cutter)
 {
     struct head_mesh* mesh = cutter->mesh;
-    size_t most = 2 * (size_t)mesh->vertex_count, crossed = 0;
+    size_t max = 2 * (size_t)mesh->vertex_count, crossed = 0;
     cutter->below = malloc(mesh->vertex_count * sizeof(float));
     cutter->twin = calloc(mesh->vertex_count, sizeof(uint32_t));
     if (!cutter->below || !cutter->twin) return 0;
@@ -101,10 +101,10 @@ static int make_room(struct cutter* cutter)
         for (int k = 0; k < 3; ++k)
             crossed += cutter->below[corner[k]] * cutter->below[corner[(k + 1) % 3]] < 0;
     }
-    most += 2 * crossed;
+    max += 2 * crossed;
     cutter->triangles = malloc((mesh->triangle_count + crossed) * 3 * sizeof(uint32_t));
-    return cutter->triangles && widen(&mesh->positions, most) && widen(&mesh->normals, most) &&
-           widen(&mesh->colors, most);
+    return cutter->triangles && widen(&mesh->positions, max) && widen(&mesh->normals, max) &&
+           widen(&mesh->colors, max);
 }
 
 int head_cut_collar(struct head_mesh* mesh)

@@ -71,7 +71,7 @@ static float limb(point p, point a, point b, float r, float s)
 
 // Skull and scalp ---------------------------------------------------------------------------------
 
-static float skull(point p)
+static float head_sphere(point p)
 {
     return ellipsoid(p, (point){0, 1.63f, 0}, (point){0.077f, 0.098f, 0.096f});
 }
@@ -213,7 +213,7 @@ float head_distance(point p)
 {
     p.x = fabsf(p.x);
     float d = trunk(p);
-    float bone = skull(p);
+    float bone = head_sphere(p);
     if (p.y > 1.36f) {
         float head = bone;
         if (p.z > -0.03f && p.y < 1.70f) head = bones(p, head);

@@ -93,13 +93,13 @@ bool hair_json_object(const struct hair_json* json, const char* name, const json
 }
 
 bool hair_json_array(const struct hair_json* json, const char* name, const json_t* array,
-                     const struct hair_json_entry* entries, void* out, size_t size, uint32_t most,
+                     const struct hair_json_entry* entries, void* out, size_t size, uint32_t max,
                      uint32_t* count)
 {
     size_t length = json_array_size(array);
-    if (!json_is_array(array) || length > most) {
+    if (!json_is_array(array) || length > max) {
         char must[64];
-        snprintf(must, sizeof must, "an array of at most %u objects", most);
+        snprintf(must, sizeof must, "an array of at most %u objects", max);
         return hair_json_wrong(json, name, must);
     }
     for (size_t i = 0; i < length; ++i) {

@@ -70,7 +70,7 @@ bool hair_json_object(const struct hair_json* json, const char* name, const json
 // Read an array of at most `most` objects into elements of `size` bytes. The caller has set the
 // elements to their defaults.
 bool hair_json_array(const struct hair_json* json, const char* name, const json_t* array,
-                     const struct hair_json_entry* entries, void* out, size_t size, uint32_t most,
+                     const struct hair_json_entry* entries, void* out, size_t size, uint32_t max,
                      uint32_t* count);
 
 // Compute the path of a file whose name is relative to the folder of the JSON file.

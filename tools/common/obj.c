@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_BYTES ((size_t)2 << 30)
-#define MOST 16777216u // maximum number of vertices and of triangles
+#define MAX_BYTES ((size_t)2 << 30)
+#define MAX 16777216u // maximum number of vertices and of triangles
 
 // State of the parser.
 struct place {
@@ -27,7 +27,7 @@ static bool wrong(const struct place* place, const char* what)
 static bool reserve(const struct place* place, void** array, size_t* room, size_t count, size_t size)
 {
     if (count < *room) return true;
-    if (count >= MOST) return wrong(place, "is one more than 16777216 vertices or triangles");
+    if (count >= MAX) return wrong(place, "is one more than 16777216 vertices or triangles");
     size_t more = count < 512 ? 1024 : 2 * count;
     void* grown = realloc(*array, more * size);
     if (!grown) return wrong(place, "is one too many for the memory there is");
@@ -109,7 +109,7 @@ bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out)
     struct hair_bytes bytes;
     struct place place = {.tool = tool, .path = path, .out = out};
     memset(out, 0, sizeof *out);
-    if (!hair_file_read(tool, path, MOST_BYTES, &bytes)) return false;
+    if (!hair_file_read(tool, path, MAX_BYTES, &bytes)) return false;
     char* text = realloc(bytes.data, bytes.size + 1);
     bool ok = text;
     if (!ok) hair_complain(tool, "%s: out of memory", path);

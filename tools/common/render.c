@@ -4,7 +4,7 @@
 #include "tools/common/file.h"
 #include "tools/common/frame_lights.h"
 #include "tools/common/shaders.h"
-#include "tools/common/subject.h"
+#include "tools/common/groom_source.h"
 #include "tools/common/targets.h"
 
 #include <epoxy/gl.h>
@@ -40,7 +40,7 @@ struct hair_render {
 static bool make_programs(struct hair_render* render)
 {
     static const char* const text[PROGRAM_COUNT][2] = {[BACKGROUND] = {hair_whole_vert, hair_background_frag},
-                                                       [SKIN] = {hair_mesh_vert, hair_skin_frag},
+                                                       [SKIN] = {hair_mesh_vert, hair_scalp_motion_frag},
                                                        [DEPTH] = {hair_mesh_vert, hair_nothing_frag},
                                                        [TONE] = {hair_whole_vert, hair_tone_frag}};
     for (int i = 0; i < PROGRAM_COUNT; ++i) {
@@ -147,8 +147,8 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
     render->buffer[NORMALS] = make_buffer(mesh->normals, bytes);
     render->buffer[COLORS] = make_buffer(mesh->colors, bytes);
     render->buffer[TRIANGLES] = make_buffer(mesh->triangles, render->indices * sizeof(uint32_t));
-    render->bend[0] = whole ? -1e9f : HAIR_RIG_MOVES;
-    render->bend[1] = HAIR_RIG_RESTS;
+    render->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
+    render->bend[1] = HAIR_HEAD_RIG_RESTS;
     for (GLuint i = POSITIONS; i <= COLORS; ++i) attach(render, i);
     glVertexArrayElementBuffer(render->vertex_array, render->buffer[TRIANGLES]);
 }

@@ -5,7 +5,7 @@
 
 #include "tools/common/camera.h"
 #include "tools/common/image.h"
-#include "tools/common/rig.h"
+#include "tools/common/head_rig.h"
 
 struct hair_render_desc {
     uint32_t width, height;

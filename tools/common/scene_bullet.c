@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_OBJECTS 100000u
-#define MOST_ROWS 1048576u
+#define MAX_OBJECTS 100000u
+#define MAX_ROWS 1048576u
 #define DEEPEST 8 // maximum depth of nested compounds
 
 typedef struct hair_json place;
@@ -87,10 +87,10 @@ static bool read_table(const place* json, const char* key, const json_t* value, 
 {
     size_t rows = json_array_size(value), each = columns;
     if (!columns) each = json_array_size(json_array_get(value, 0));
-    if (rows < fewest || rows > MOST_ROWS || each < fewest || rows * each > 4 * (size_t)MOST_ROWS) {
+    if (rows < fewest || rows > MAX_ROWS || each < fewest || rows * each > 4 * (size_t)MAX_ROWS) {
         char must[96];
         snprintf(must, sizeof must, "an array of %u to %u arrays of numbers, at least %u each", fewest,
-                 MOST_ROWS, columns ? columns : fewest);
+                 MAX_ROWS, columns ? columns : fewest);
         return hair_json_wrong(json, key, must);
     }
     *out = (struct hair_bullet_table){calloc(rows * each, sizeof(float)), (uint32_t)rows, (uint32_t)each};
@@ -229,7 +229,7 @@ static bool read_children(const place* json, const char* key, const json_t* valu
     shape* own = out;
     size_t count = json_array_size(value), depth = 0;
     for (const char* at = json->place; (at = strstr(at, "children")); ++at) ++depth;
-    if (!json_is_array(value) || count < 1 || count > MOST_OBJECTS || depth >= DEEPEST)
+    if (!json_is_array(value) || count < 1 || count > MAX_OBJECTS || depth >= DEEPEST)
         return hair_json_wrong(json, key, "an array of 1 to 100000 objects, at most 8 deep");
     own->children = calloc(count, sizeof *own->children);
     if (!own->children) return hair_json_wrong(json, key, "shorter: memory ran out");
@@ -245,7 +245,7 @@ bool hair_scene_read_bullet(const place* json, const char* key, const json_t* va
                             struct hair_bullet_list* out)
 {
     size_t count = json_array_size(value);
-    if (!json_is_array(value) || count > MOST_OBJECTS)
+    if (!json_is_array(value) || count > MAX_OBJECTS)
         return hair_json_wrong(json, key, "an array of at most 100000 objects");
     out->object = calloc(count + 1, sizeof *out->object);
     if (!out->object) return hair_json_wrong(json, key, "shorter: memory ran out");

@@ -25,14 +25,14 @@ static bool read_shape(const place* json, const char* key, const json_t* value, 
 }
 
 bool hair_scene_read_keys(const place* json, const char* key, const json_t* value, struct hair_key* keys,
-                          uint32_t most, uint32_t* count)
+                          uint32_t max, uint32_t* count)
 {
     static const entry entries[] = {
         HAIR_NUMBERS("time", offsetof(struct hair_key, time), 1, 0, HAIR_SCENE_FAR),
         HAIR_NUMBERS("rotation", offsetof(struct hair_key, rotation), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
         HAIR_NUMBERS("position", offsetof(struct hair_key, position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
         HAIR_END};
-    if (!hair_json_array(json, key, value, entries, keys, sizeof *keys, most, count)) return false;
+    if (!hair_json_array(json, key, value, entries, keys, sizeof *keys, max, count)) return false;
     for (uint32_t i = 1; i < *count; ++i)
         if (keys[i].time <= keys[i - 1].time) return hair_json_wrong(json, key, "in order of time");
     return true;
@@ -46,7 +46,7 @@ static bool read_motion(const place* json, const char* key, const json_t* value,
 }
 
 bool hair_scene_read_colliders(const place* json, const char* key, const json_t* value,
-                               struct hair_scene_collider* colliders, uint32_t most, uint32_t* count)
+                               struct hair_scene_collider* colliders, uint32_t max, uint32_t* count)
 {
     static const entry entries[] = {
         HAIR_OTHER("shape", read_shape),
@@ -62,25 +62,25 @@ bool hair_scene_read_colliders(const place* json, const char* key, const json_t*
         HAIR_OTHER("motion", read_motion),
         HAIR_BOOLEAN("stays", AT(stays)),
         HAIR_END};
-    for (uint32_t i = 0; i < most; ++i) {
+    for (uint32_t i = 0; i < max; ++i) {
         colliders[i] = (struct hair_scene_collider){.collider = hair_collider_default()};
         for (int k = 0; k < 3; ++k) colliders[i].collider.size[k] = 0.1f;
     }
-    return hair_json_array(json, key, value, entries, colliders, sizeof *colliders, most, count);
+    return hair_json_array(json, key, value, entries, colliders, sizeof *colliders, max, count);
 }
 
-void hair_collider_carry(const float transform[16], float share, hair_collider* collider)
+void hair_collider_carry(const float transform[16], float fraction, hair_collider* collider)
 {
     mat4 m;
     versor turn, none = GLM_QUAT_IDENTITY_INIT, own;
     vec3 rest = {collider->position[0], collider->position[1], collider->position[2]}, moved;
     memcpy(m, transform, sizeof m);
     glm_mat4_mulv3(m, rest, 1, moved);
-    glm_vec3_lerp(rest, moved, share, moved);
+    glm_vec3_lerp(rest, moved, fraction, moved);
     memcpy(collider->position, moved, sizeof collider->position);
 
     glm_mat4_quat(m, turn);
-    glm_quat_slerp(none, turn, share, turn);
+    glm_quat_slerp(none, turn, fraction, turn);
     memcpy(own, collider->rotation, sizeof own);
     glm_quat_mul(turn, own, own);
     glm_quat_normalize(own);

@@ -22,15 +22,15 @@ struct hair_scene_collider {
 
 // Read the keys of a motion, in order of time.
 bool hair_scene_read_keys(const struct hair_json* json, const char* key, const json_t* value,
-                          struct hair_key* keys, uint32_t most, uint32_t* count);
+                          struct hair_key* keys, uint32_t max, uint32_t* count);
 // Read an array of colliders.
 bool hair_scene_read_colliders(const struct hair_json* json, const char* key, const json_t* value,
-                               struct hair_scene_collider* colliders, uint32_t most, uint32_t* count);
+                               struct hair_scene_collider* colliders, uint32_t max, uint32_t* count);
 
 // Compute the collider at a time, in s.
 hair_collider hair_scene_collider_at(const struct hair_scene_collider* from, float time);
 
 // Apply a fraction of a rigid motion to a collider.
-void hair_collider_carry(const float transform[16], float share, hair_collider* collider);
+void hair_collider_carry(const float transform[16], float fraction, hair_collider* collider);
 
 #endif

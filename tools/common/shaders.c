@@ -59,7 +59,7 @@ const char hair_nothing_frag[] = HEAD "void main() {}\n";
 // first light has a faint, wide gloss. The shadow of the body and of hair in front of it is
 // averaged over Vogel's spiral. The spiral is rotated per pixel by interleaved gradient noise
 // (Jimenez 2014). `tone` keeps the bust darker than its paint, so that the hair stands out.
-const char hair_skin_frag[] = HEAD
+const char hair_scalp_motion_frag[] = HEAD
     AT(HAIR_AT_EYE) "vec3 eye;\n"
     AT(HAIR_AT_TAPS) "int taps;\n"
     AT(HAIR_AT_LIGHTS) "int lights;\n"

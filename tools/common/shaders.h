@@ -32,7 +32,7 @@
 extern const char hair_whole_vert[]; // whole picture, without vertices
 extern const char hair_background_frag[]; // gradient
 extern const char hair_mesh_vert[]; // mesh that moves with the head
-extern const char hair_skin_frag[]; // skin with shadows of itself and of hair
+extern const char hair_scalp_motion_frag[]; // skin with shadows of itself and of hair
 extern const char hair_nothing_frag[]; // depth only
 extern const char hair_tone_frag[]; // tone mapping to 8 bits
 

@@ -28,9 +28,9 @@ bool hair_targets_make(struct hair_targets* targets, uint32_t width, uint32_t he
 {
     GLsizei w = (GLsizei)width, h = (GLsizei)height, wide = w * (GLsizei)supersample,
             high = h * (GLsizei)supersample;
-    GLint most = 1;
-    glGetIntegerv(GL_MAX_SAMPLES, &most);
-    GLsizei count = (GLint)samples < most ? (GLsizei)samples : most;
+    GLint max = 1;
+    glGetIntegerv(GL_MAX_SAMPLES, &max);
+    GLsizei count = (GLint)samples < max ? (GLsizei)samples : max;
     if (count == 1) count = 0;
 
     glCreateFramebuffers(HAIR_TARGET_COUNT, targets->framebuffer);

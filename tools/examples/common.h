@@ -1,5 +1,5 @@
-// common.h - Helpers of the examples for errors, haircuts, GLSL programs, and pictures. Pictures are
-// drawn off-screen and written as PPM files. Nothing here is part of the library.
+// common.h - Helpers of the examples for errors, haircuts, GLSL programs, and pictures. Pictures
+// are drawn off-screen and written as PPM files. Nothing here is part of the library.
 #ifndef TOOLS_EXAMPLES_COMMON_H
 #define TOOLS_EXAMPLES_COMMON_H
 

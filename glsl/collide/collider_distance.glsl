@@ -1,0 +1,74 @@
+// collide/collider_distance.glsl - the exact signed distance to the surface of a shape in its own space,
+// without rounding, and the unit gradient. lib/collide/distance.c has the same functions for the
+// CPU.
+// Values of hair_shape.
+#define SHAPE_SPHERE 0u
+#define SHAPE_CAPSULE 1u
+#define SHAPE_BOX 2u
+#define SHAPE_CYLINDER 3u
+#define SHAPE_CONE 4u
+#define SHAPE_PLANE 5u
+
+float box_distance(vec3 size, vec3 p, out vec3 gradient)
+{
+    vec3  q = abs(p) - size, beyond = max(q, 0.0), side = vec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
+    float away = length(beyond), deepest = max(q.x, max(q.y, q.z));
+    vec3  face = q.x == deepest ? vec3(1.0, 0.0, 0.0) : q.y == deepest ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+    gradient   = side * (away > 1e-12 ? beyond / away : face);
+    return away + min(deepest, 0.0);
+}
+
+// Return the vector from the nearest point of the segment (a, b) to p.
+vec2 from_segment(vec2 p, vec2 a, vec2 b)
+{
+    vec2 d = b - a;
+    return p - a - clamp(dot(p - a, d) / max(dot(d, d), 1e-30), 0.0, 1.0) * d;
+}
+
+// Distances to shapes of revolution about the y axis, in the half-plane (distance from the axis,
+// height).
+float cylinder_distance(vec2 size, vec2 p, out vec2 gradient)
+{
+    vec2  q = vec2(p.x, abs(p.y)) - size, beyond = max(q, 0.0);
+    float away = length(beyond), deepest = max(q.x, q.y);
+    gradient   = away > 1e-12 ? beyond / away : q.x >= q.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0);
+    gradient.y = p.y < 0.0 ? -gradient.y : gradient.y;
+    return away + min(deepest, 0.0);
+}
+
+float cone_distance(vec2 size, vec2 p, out vec2 gradient)
+{
+    vec2  base = from_segment(p, vec2(0.0, -size.y), vec2(size.x, -size.y));
+    vec2  side = from_segment(p, vec2(size.x, -size.y), vec2(0.0, size.y));
+    vec2  flank = normalize(vec2(2.0 * size.y, size.x) + vec2(1e-30, 0.0));
+    bool  within = p.y > -size.y && dot(p - vec2(0.0, size.y), flank) < 0.0;
+    vec2  away = dot(base, base) <= dot(side, side) ? base : side;
+    float far = length(away), outwards = within ? -1.0 : 1.0;
+    gradient = far > 1e-12 ? outwards / far * away : flank;
+    return outwards * far;
+}
+
+float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
+{
+    if (shape <= SHAPE_CAPSULE) {
+        vec3  axis = vec3(0.0, shape == SHAPE_CAPSULE ? clamp(p.y, -size.y, size.y) : 0.0, 0.0);
+        float away = length(p - axis);
+        gradient   = away > 1e-12 ? (p - axis) / away : shape == SHAPE_CAPSULE ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+        return away - size.x;
+    }
+    if (shape == SHAPE_BOX) return box_distance(size, p, gradient);
+    gradient = vec3(0.0, 1.0, 0.0);
+    if (shape >= SHAPE_PLANE) return p.y;
+    float around = length(p.xz);
+    vec2  slope, radial = around > 1e-12 ? p.xz / around : vec2(1.0, 0.0);
+    float distance = shape == SHAPE_CONE ? cone_distance(size.xy, vec2(around, p.y), slope)
+                                         : cylinder_distance(size.xy, vec2(around, p.y), slope);
+    gradient       = vec3(slope.x * radial.x, slope.y, slope.x * radial.y);
+    return distance;
+}
+
+float shape_distance(uint shape, vec3 size, vec3 p)
+{
+    vec3 gradient;
+    return shape_distance(shape, size, p, gradient);
+}

@@ -1,0 +1,116 @@
+// draw/raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
+// vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
+// that of ribbon.geom.
+#include "draw/vertex_cache.glsl"
+#include "draw/ribbon.glsl"
+
+layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
+layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
+
+// A ribbon in the window, times w. It has a middle at both ends, and vectors from there to a side.
+struct raster_ribbon {
+    vec4 middle[2], side[2];
+    vec2 seen; // Range in [0, 1] that is in front of the eye.
+};
+
+// Return the index of a segment's first vertex. `width` is the factor of its width. `there` is
+// whether its strand has the segment.
+int vertex_of(uint segment, out float width, out bool there)
+{
+    uint  each   = draw.segments, k = segment % each;
+    uvec4 record = texelFetch(strand_texture, int(segment / each)); // hair_strand
+    there        = float(k) < uintBitsToFloat(record.w);
+#ifdef HAIR_WIDENED
+    width = 1.0;
+    return int(segment / each * (each + 1u) + k);
+#else
+    width = uintBitsToFloat(record.y);
+    return int(record.x * (each + 1u) + k);
+#endif
+}
+
+// Clip the range `seen` of [0, 1] to where a linear function with the end values a and b is not
+// negative.
+void keep(float a, float b, inout vec2 seen)
+{
+    float at = a / (a - b); // Not used where a and b are equal.
+    if (a < 0.0) seen.x = b > 0.0 ? max(seen.x, at) : 2.0;
+    else if (b < 0.0) seen.y = min(seen.y, at);
+}
+
+raster_ribbon ribbon_of(uint segment)
+{
+    raster_ribbon r;
+    float         width;
+    bool          there;
+    int           at = vertex_of(segment, width, there);
+    for (int end = 0; end < 2; ++end) {
+        vec4 strand   = texelFetch(cached_position_texture, at + end);
+        vec3 tangent  = texelFetch(cached_tangent_texture, at + end).xyz * 2.0 - 1.0;
+        r.middle[end] = raster.to_window * vec4(strand.xyz, 1.0);
+        r.side[end]   = raster.to_window * vec4(side_of(vec4(strand.xyz, strand.w * width), tangent), 0.0);
+    }
+    vec4  a = r.middle[0], b = r.middle[1];
+    float min_value = 1e-6 * max(abs(a.w), abs(b.w));
+    r.seen = there ? vec2(0.0, 1.0) : vec2(2.0);
+    keep(a.w - min_value, b.w - min_value, r.seen);
+    if (raster.clamps == 0u) {
+        keep(a.z, b.z, r.seen);
+        keep(a.w - a.z, b.w - b.z, r.seen);
+    }
+    return r;
+}
+
+// Visible part of a ribbon in pixels: two corners at each end, with their depth.
+struct raster_outline {
+    vec3 corner[4];
+};
+
+raster_outline outline_of(raster_ribbon r)
+{
+    raster_outline o;
+    for (int k = 0; k < 4; ++k) {
+        float seen = r.seen[k / 2], across = (k & 1) == 0 ? -1.0 : 1.0;
+        vec4  at   = mix(r.middle[0], r.middle[1], seen) + across * mix(r.side[0], r.side[1], seen);
+        o.corner[k] = at.xyz / at.w;
+    }
+    return o;
+}
+
+// Return the position of a sample in its pixel.
+vec2 sample_at(uint number)
+{
+    vec4 pair = raster.at[number / 2u];
+    return (number & 1u) == 0u ? pair.xy : pair.zw;
+}
+
+float turn(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+
+// Return whether a point is within a triangle of non-zero area. `e` holds the cross products from
+// the point to consecutive corners. They are of one sign if the point is inside.
+bool is_within(vec3 e) { return e.x + e.y + e.z != 0.0 && (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0)))); }
+
+// Find a ribbon, drawn as two triangles, at a pixel position. `share` is the fraction from one end
+// to the other, and `depth` is the depth there. Return false if neither triangle covers the
+// position.
+bool sees(raster_outline o, vec2 place, out float fraction, out float depth)
+{
+    vec2 a = o.corner[0].xy - place, b = o.corner[1].xy - place, c = o.corner[2].xy - place, d = o.corner[3].xy - place;
+    vec3 first = vec3(turn(b, c), turn(c, a), turn(a, b)), second = vec3(-first.x, turn(d, c), turn(b, d));
+    bool there = is_within(first);
+    fraction = depth = 0.0;
+    if (there) {
+        first /= first.x + first.y + first.z;
+        fraction = first.z;
+        depth = dot(first, vec3(o.corner[0].z, o.corner[1].z, o.corner[2].z));
+    }
+    if (!is_within(second)) return there;
+    second /= second.x + second.y + second.z;
+    float other = dot(second, vec3(o.corner[3].z, o.corner[1].z, o.corner[2].z));
+    // A ribbon may be folded, so that its triangles overlap.
+    if (!there || (raster.flips == 0u ? other < depth : other > depth)) {
+        fraction = 1.0 - second.y;
+        depth = other;
+    }
+    return true;
+}

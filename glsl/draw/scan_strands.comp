@@ -1,0 +1,77 @@
+// scan_strands.comp - a prefix sum of the number of drawn strands over patches, and the commands
+// that draw the list of strands. The sum gives each patch's first strand in the list. One work
+// group, in which each thread counts a run of patches.
+#version 450 core
+#include "strands/patch.glsl"
+#include "workgroup.glsl"
+layout(local_size_x = HAIR_COUNT_THREADS) in;
+
+layout(std430, binding = HAIR_BIND_START) restrict buffer start_buffer { uint start[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer { hair_draw_command command[]; };
+
+shared uint sums[HAIR_COUNT_THREADS];
+shared uint max_value; // Maximum segments of a strand.
+
+// Return the smallest segment count that has indices and is enough for all strands. There are
+// indices for all segments, half as many, and so on (lib/draw/strand_list.c). `before` is the
+// number of indices before those, for one corner per segment.
+uint find_indices(out uint before)
+{
+    uint each = draw.segments;
+    before    = 0u;
+    while (each > 1u && max_value <= (each + 1u) / 2u) {
+        before += HAIR_INSTANCE_STRANDS * each;
+        each = (each + 1u) / 2u;
+    }
+    return each;
+}
+
+// Write a command for full instances of HAIR_INSTANCE_STRANDS strands and one for the remaining
+// strands. A segment has `corners` indices, and each of its ends has `ends` vertices.
+void write_commands(uint at, uint strands, uint each, uint before, uint corners, uint ends)
+{
+    uint indices = corners * each, first = corners * before;
+    uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left;
+    command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u, 0u, strands, 0u, 0u);
+    command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
+}
+
+// Write the dispatch of one thread per indexed vertex, in the dimensions of workgroup.glsl.
+void write_expand_view_command(uint strands, uint each)
+{
+    uint  groups = (strands * each + HAIR_GROUP_SIZE - 1u) / HAIR_GROUP_SIZE;
+    uvec2 size = uvec2(min(groups, HAIR_MAX_GROUPS), (groups + HAIR_MAX_GROUPS - 1u) / HAIR_MAX_GROUPS);
+    command[HAIR_EXPAND_VIEW_COMMAND] = hair_draw_command(size.x, size.y, 1u, 0u, 0u, strands, each, 0u);
+}
+
+void main()
+{
+    uint i       = gl_LocalInvocationID.x;
+    uint patches = uint(textureSize(patch_texture)) / HAIR_PATCH_TEXELS;
+    uint each    = (patches + HAIR_COUNT_THREADS - 1u) / HAIR_COUNT_THREADS;
+    uint first   = min(i * each, patches), end = min(first + each, patches), sum = 0u, longest = 0u;
+    for (uint number = first; number < end; ++number) {
+        hair_patch_lines lines = find_lines(number);
+        start[number]          = sum;
+        sum += lines.strands;
+        if (lines.strands > 0u) longest = max(longest, lines.segments);
+    }
+
+    // Inclusive prefix sum over the threads (Hillis and Steele 1986).
+    sums[i] = sum;
+    if (i == 0u) max_value = 0u;
+    for (uint reach = 1u; reach < HAIR_COUNT_THREADS; reach *= 2u) {
+        synchronise();
+        uint more = i >= reach ? sums[i - reach] : 0u;
+        synchronise();
+        sums[i] += more;
+    }
+    atomicMax(max_value, longest);
+    synchronise();
+    for (uint number = first; number < end; ++number) start[number] += sums[i] - sum;
+    if (i != HAIR_COUNT_THREADS - 1u) return;
+    uint before, segments = find_indices(before);
+    write_commands(0u, sums[i], segments, before, 2u, 1u);
+    write_commands(HAIR_PAIRED_COMMAND, sums[i], segments, before, HAIR_PAIRED_INDICES, 2u);
+    write_expand_view_command(sums[i], segments + 1u);
+}

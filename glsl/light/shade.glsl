@@ -1,0 +1,105 @@
+// light/shade.glsl - light that a strand reflects to the eye.
+#include "draw_params.glsl"
+#include "light/lights.glsl"
+#include "light/shadow.glsl"
+#include "light/strand_color.glsl"
+#ifdef HAIR_FIBRES
+#include "light/fibre.glsl"
+#endif
+
+struct hair_fragment {
+    vec3  position; // m, from the head's origin.
+    vec3  tangent;  // Unit, from root to tip.
+    vec3  to_eye;   // Unit.
+    float t;        // From root to tip, [0, 1].
+    float random;   // The strand's own, [0, 1).
+    uint  seed;     // The strand's own.
+    uint  lock;     // The strand's guide.
+    uint  strand;   // Number of the follower.
+    vec2  uv;       // Texture coordinates of its root on the scalp. 0 if there are none.
+    float across; // From -1 at one edge of a ribbon to 1 at the other. 0 when vertices are shaded.
+    vec3  color;    // Reflectance.
+};
+
+vec3 albedo_of(hair_fragment f) { return f.color; }
+
+// Return the normal of the ribbon.
+vec3 normal_of(hair_fragment f)
+{
+    return normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6);
+}
+
+vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
+{
+    vec4 through;
+    if (draw.light_values > 0u)
+        through = light_through_strands(number, f.strand, f.t, taken, met);
+    else
+        through = light_through_depth(number, f.position, f.seed, taken, met);
+    return light_past_bodies(number, f.position) * through;
+}
+
+// Return the fraction of the sky's light that comes through hair, or an estimate from `otherwise`
+// where it is unknown. Light hair transmits more.
+vec3 sky_through(hair_fragment f, vec3 otherwise)
+{
+    if (draw.light_values == 0u) return 0.25 + 0.75 * sqrt(otherwise);
+    return pow(vec3(max(light_found(0u, f.strand, f.t).x, 1e-3)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)));
+}
+
+vec3 sky_of(hair_fragment f)
+{
+    vec3 normal = normal_of(f);
+    return sky_round(normal, cross(f.tangent, normal));
+}
+
+#ifdef HAIR_FIBRES
+vec3 hair_shade(hair_fragment f)
+{
+    vec3  albedo = albedo_of(f), mu = absorption_of(albedo), sum = vec3(0.0), open = vec3(1.0);
+    float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
+    for (uint i = 0u; i < draw.lights; ++i) {
+        hair_beam    beam  = beam_at(i, f.position);
+        fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
+        fibre_scattering multiple = find_scattering(a, mu);
+        float        met;
+        vec4         light = light_through(f, i, 1.0 - multiple.on, met);
+        vec3         once  = scatter_once(a, mu, tilt, variance);
+        sum += beam.irradiance * (a.light.y * scatter_often(a, multiple, once, light.x, light.yzw, met));
+        if (i == 0u) open = light.yzw; // Occluders of the first light also occlude the sky.
+    }
+    return sum + sky_of(f) * albedo * sky_through(f, open) * 0.31830989;
+}
+#else
+// Shading after Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as
+// Scheuermann 2004 approximates them. The white highlight is shifted towards the root, the coloured
+// one towards the tip.
+
+float lobe(vec3 tangent, vec3 halfway, float exponent)
+{
+    float along = dot(tangent, halfway);
+    return pow(max(1.0 - along * along, 0.0), 0.5 * exponent);
+}
+
+vec3 hair_shade(hair_fragment f)
+{
+    vec3  albedo  = albedo_of(f), normal = normal_of(f), sum = vec3(0.0);
+    float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0), open = 1.0;
+    vec2  glossy  = draw.specular.zw / variance_of(f.seed);
+    vec3  to_root = normalize(f.tangent + shift * normal), to_tip = normalize(f.tangent - 1.5 * shift * normal);
+    vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
+    for (uint i = 0u; i < draw.lights; ++i) {
+        hair_beam beam = beam_at(i, f.position);
+        float     met, light = light_through(f, i, vec3(1.0), met).x;
+        vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
+        float     along   = dot(f.tangent, beam.to);
+        float     diffuse = sqrt(max(1.0 - along * along, 0.0));
+        vec3      glints  = draw.specular.x * lobe(to_root, halfway, glossy.x) + tinted * lobe(to_tip, halfway, glossy.y);
+        // Light from behind passes through the fibre but does not glint on its near side.
+        float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
+        sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
+        if (i == 0u) open = light; // Occluders of the first light also occlude the sky.
+    }
+    return sum + sky_of(f) * albedo * sky_through(f, vec3(open));
+}
+#endif

@@ -1,0 +1,96 @@
+// light/shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
+// of a point.
+//
+// The fraction through hair is that of vertex_transmittance.comp for strand vertices, where it is
+// known. Otherwise it is exponential in the depth of hair that the light's shadow map shows (Beer
+// 1852), averaged over taps around the point. The fraction past opaque geometry is 0 or 1, filtered
+// over the texels around the point.
+#include "draw_params.glsl"
+#include "light/shadow_map.glsl"
+
+layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW_MAPS];
+layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
+
+#define SHADOW_TAPS 8
+#define SHADOW_RADIUS 5.0 // Texels.
+
+// Rotation by the golden angle, 2.399963 radians.
+const mat2 GOLDEN_TURN = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688);
+
+// Return the fraction of the sky, 0, or of a light, from 1, that meets no strand. y is the number
+// of strands met.
+vec2 light_found(uint which, uint strand, float t)
+{
+    float at = clamp(t, 0.0, 1.0) * float(draw.segments), k = min(floor(at), float(draw.segments) - 1.0);
+    int   i  = int((strand * (draw.segments + 1u) + uint(k)) * draw.light_values + which);
+    vec2  a  = unpackHalf2x16(texelFetch(light_texture, i).x);
+    return mix(a, unpackHalf2x16(texelFetch(light_texture, i + int(draw.light_values)).x), at - k);
+}
+
+// Return the fractions of a light that reach a strand. x is the fraction that meets no strand on
+// its way. yzw are the fractions that arrive if each strand that is met absorbs the fraction
+// `taken`. `met` is the number of strands met. If light meets any, a Poisson process has at
+// least one.
+vec4 light_through_strands(uint number, uint strand, float t, vec3 taken, out float met)
+{
+    vec2  found = light_found(number + 1u, strand, t);
+    float none  = exp(-found.y);
+    vec3  if_any = found.y > 1e-3 ? (exp(-found.y * taken) - none) / (1.0 - none) : 1.0 - taken;
+    met          = found.y;
+    return vec4(found.x, found.x + (1.0 - found.x) * if_any);
+}
+
+vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out float met)
+{
+    vec4 more = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE];
+    uint map  = uint(more.w);
+    met       = 0.0;
+    // The number of taps is not constant, because some compilers would unroll the loop for each of
+    // the maps.
+    int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
+    if (taps == 0) return vec4(1.0);
+    vec3  at    = find_place_in_map(map, position);
+    vec2  texel = 1.0 / vec2(textureSize(hair_shadow_map[map], 0));
+    float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034), from_light = distance_to_light(number, position);
+    vec2  arm   = texel * vec2(cos(angle), sin(angle));
+    vec4  sum   = vec4(0.0);
+    for (int i = 0; i < taps; ++i) {
+        // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
+        float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
+        float depth = textureLod(hair_shadow_map[map], at.xy + r * arm, 0.0).r;
+        float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
+        sum += exp(-n * vec4(1.0, taken));
+        met += n;
+        arm = GOLDEN_TURN * arm;
+    }
+    met /= float(SHADOW_TAPS);
+    return sum / float(SHADOW_TAPS);
+}
+
+#ifdef HAIR_OPAQUE_SHADOWS
+layout(binding = HAIR_UNIT_BODY) uniform sampler2D opaque_shadow_map[HAIR_SHADOW_MAPS];
+
+// Return the fraction of a light that passes opaque geometry, from 3 x 3 texels with the weights of
+// a quadratic B-spline. A point that is nearer to its occluder than the bias is lit. Texels are
+// read one by one, because Mesa's llvmpipe aborts on gathers from arrays of textures.
+float light_past_bodies(uint number, vec3 position)
+{
+    vec4 own = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MAP];
+    uint map = uint(own.x);
+    int  taps = map < uint(HAIR_SHADOW_MAPS) ? 9 : 0; // Not constant, as above.
+    if (taps == 0) return 1.0;
+    vec3  at    = find_place_in_map(map, position);
+    float min_value = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)), sum = 0.0;
+    vec2  size  = vec2(textureSize(opaque_shadow_map[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
+    vec2  first = floor(place), part = place - first, rest = 1.0 - part;
+    mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);
+    for (int i = 0; i < taps; ++i) {
+        ivec2 k = ivec2(i % 3, i / 3);
+        float depth = textureLod(opaque_shadow_map[map], (first + vec2(k) - 0.5) / size, 0.0).r;
+        sum += min_value <= depth ? weight[k.x].x * weight[k.y].y : 0.0;
+    }
+    return sum;
+}
+#else
+float light_past_bodies(uint number, vec3 position) { return 1.0; }
+#endif

@@ -1,0 +1,102 @@
+// strands/look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
+// offsets across the strand in its guide's frame. Kinks, curls and cuts need HAIR_STYLED.
+#include "draw_params.glsl"
+#include "random.glsl"
+#include "strands/spline.glsl"
+
+// Intervals of a stray over the length.
+#define STRAY_WAVES 6.0
+
+// Return value and derivative by t of a curve at t in [0, 1].
+vec2 curve_at(int curve, float t)
+{
+    float at = t * float(HAIR_CURVE_INTERVALS);
+    int   k  = min(int(at), HAIR_CURVE_INTERVALS - 1);
+    float x  = at - float(k);
+    vec4  c  = draw.strand.curve[curve * HAIR_CURVE_INTERVALS + k];
+    return vec2(c.x + x * (c.y + x * (c.z + x * c.w)),
+                float(HAIR_CURVE_INTERVALS) * (c.y + x * (2.0 * c.z + 3.0 * x * c.w)));
+}
+
+struct aside {
+    vec2 at;    // Offset along x and z of the frame, m.
+    vec2 slope; // Derivative by t.
+};
+
+aside scaled(aside a, vec2 curve) { return aside(curve.x * a.at, curve.x * a.slope + curve.y * a.at); }
+
+// Return two random numbers in [0, 1).
+vec2 random_pair(uint seed)
+{
+    uint h = hash(seed);
+    return vec2(h & 0xffffu, h >> 16) * (1.0 / 65536.0);
+}
+
+// Return a point of a smooth random path within the square [-1, 1]^2. It is a B-spline of random
+// control points, with `waves` intervals for t from 0 to 1.
+aside wander(uint seed, float t, float waves)
+{
+    float  along = t * waves, k = floor(along);
+    mat4x2 control;
+    for (uint i = 0u; i < 4u; ++i) control[i] = unpackSnorm2x16(hash(seed + uint(k) + i));
+    return aside(control * spline(along - k), waves * (control * spline_slope(along - k)));
+}
+
+aside stray(uint seed, float t, float length_)
+{
+    vec2 own = random_pair(seed + 1u), by = vec2(0.0);
+    if (own.x < draw.strand.tip_stray_fraction) by += curve_at(HAIR_CURVE_TIP_STRAY, t);
+    if (own.y < draw.strand.stray_fraction) by += curve_at(HAIR_CURVE_STRAY, t);
+    if (by == vec2(0.0)) return aside(vec2(0.0), vec2(0.0));
+    return scaled(wander(seed + 16u, t, STRAY_WAVES), length_ * by);
+}
+
+#ifdef HAIR_STYLED
+// Return the offset of a kinked strand. Its seed is a third of the 32-bit range away from that of
+// strays, which have few control points.
+aside kink(uint seed, float t, float length_)
+{
+    return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks), curve_at(HAIR_CURVE_FRIZZ, t));
+}
+
+// Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
+aside curl(uint guide, uint seed, float t, float length_)
+{
+    vec2  lock = random_pair(guide), own = random_pair(seed + 2u);
+    float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
+    float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / (1.0 + spread);
+    float places = float(HAIR_TURN_PLACES);
+    float at = places * fract(t * turns + draw.strand.curl_guide_phase * lock.x + draw.strand.curl_strand_phase * own.x);
+    int   k  = min(int(at), HAIR_TURN_PLACES - 1);
+    float x  = at - float(k);
+    mat2x4 c = mat2x4(draw.strand.loop[k], draw.strand.loop[HAIR_TURN_PLACES + k]);
+    if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
+    aside a = aside(vec4(1.0, x, x * x, x * x * x) * c, turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
+    return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));
+}
+
+// Cut a follower to the fraction of its length that is drawn. The offsets' curve is cut by de
+// Casteljau's algorithm.
+void cut(inout hair_follower follower)
+{
+    float fraction = draw.strand.drawn * (1.0 - draw.strand.length_variation * random(follower.seed + 3u));
+    vec3  a = follower.offset[0].xyz, b = follower.offset[1].xyz, c = follower.offset[2].xyz, d = follower.offset[3].xyz;
+    vec3  ab = mix(a, b, fraction), bc = mix(b, c, fraction), cd = mix(c, d, fraction);
+    vec3  abc = mix(ab, bc, fraction), bcd = mix(bc, cd, fraction);
+    follower.offset[1].xyz = ab;
+    follower.offset[2].xyz = abc;
+    follower.offset[3].xyz = mix(abc, bcd, fraction);
+    follower.length_ratio *= fraction;
+}
+#endif
+
+// Return the offset by which the look moves a strand of a guide.
+aside find_aside(uint guide, uint seed, float t, float length_)
+{
+    aside a = stray(seed, t, length_);
+#ifdef HAIR_STYLED
+    aside kinked = kink(seed, t, length_), curled = curl(guide, seed, t, length_);
+    a = aside(a.at + kinked.at + curled.at, a.slope + kinked.slope + curled.slope);
+#endif
+    return a;
+}

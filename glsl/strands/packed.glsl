@@ -1,0 +1,15 @@
+// strands/packed.glsl - packing of strand vertices for storage. See HAIR_BIND_CACHED_TANGENT and
+// HAIR_BIND_SHADED.
+#include "shared.h"
+
+uvec2 pack_tangent(vec3 tangent)
+{
+    vec3 fraction = tangent * 0.5 + 0.5;
+    return uvec2(packUnorm2x16(fraction.xy), packUnorm2x16(vec2(fraction.z, 0.0)));
+}
+
+uvec2 pack_color(vec3 color)
+{
+    color = min(color, HAIR_MAX_LIGHT);
+    return uvec2(packHalf2x16(color.rg), packHalf2x16(vec2(color.b, 1.0)));
+}

@@ -1,0 +1,70 @@
+// view_textures.c - checks of the textures that the application passes to a view. A texture of
+// another kind would raise the application's error flag, or stay bound.
+#include "lib/api/api.h"
+
+// Return the target of a texture, or 0 if there is no such texture. Mesa raises an error if asked
+// for the target of a buffer texture.
+static GLenum find_target(const struct hair_gl* gl, GLuint texture)
+{
+    GLint target = 0, buffer = 0;
+    if (!gl->IsTexture(texture)) return 0;
+    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
+    if (buffer) return GL_TEXTURE_BUFFER;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    return (GLenum)target;
+}
+
+static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
+{
+    const struct hair_gl* gl = &hair->context->gl;
+    if (!texture || find_target(gl, texture) == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture",
+                     hair->label, light, name, texture);
+}
+
+static hair_result check_maps(const hair_instance* hair, const hair_view* view)
+{
+    hair_result result = HAIR_OK;
+    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
+        result = check_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map");
+        if (!result) result = check_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map");
+    }
+    return result;
+}
+
+static hair_result check_color(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl = &hair->context->gl;
+    if (!view->color_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
+    if (find_target(gl, view->color_texture) == GL_TEXTURE_2D) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
+                     hair->label, view->color_texture);
+}
+
+// Return whether shaders read depth from the texture.
+static int is_depth(const struct hair_gl* gl, GLuint texture)
+{
+    GLint base = 0, type = GL_NONE, stencil = 0, reads = GL_DEPTH_COMPONENT;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_TYPE, &type);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_STENCIL_SIZE, &stencil);
+    if (stencil) gl->GetTextureParameteriv(texture, GL_DEPTH_STENCIL_TEXTURE_MODE, &reads);
+    return type != GL_NONE && reads == GL_DEPTH_COMPONENT;
+}
+
+static hair_result check_depth(const hair_instance* hair, const hair_view* view)
+{
+    const struct hair_gl* gl = &hair->context->gl;
+    GLuint texture = view->occluder_depth;
+    if (!hair_draw_uses_occlusion(view)) return HAIR_OK;
+    if (find_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                     "%s: hair_view.occluder_depth is %u, not a 2D texture of depth", hair->label, texture);
+}
+
+hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view)
+{
+    hair_result result = check_maps(hair, view);
+    if (!result) result = check_color(hair, view);
+    return result ? result : check_depth(hair, view);
+}

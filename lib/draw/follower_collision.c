@@ -1,0 +1,118 @@
+// follower_collision.c - follower collision, which finds the followers inside colliders and pushes
+// them out.
+#include "lib/draw/draw.h"
+#include "lib/draw/params.h"
+
+#include <string.h>
+
+// Distance in metres, beyond the margin of guides, to which followers are pushed out.
+#define OUTSIDE 5e-4f
+
+// Return the pass that finds hits. GPUs need many threads with short loops. A software rasteriser
+// needs the least total work.
+static hair_gl_pass pass_of(const struct hair_draw* draw)
+{
+    if (draw->follower_collision.prepass) return HAIR_GL_PREPASS_HIT;
+    return hair_draw_styled(draw, draw->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP);
+}
+
+hair_result hair_draw_ensure_hit_programs(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    hair_result result = hair_gl_ensure_program(gl, pass_of(draw));
+    if (!result && draw->follower_collision.prepass)
+        result = hair_gl_ensure_program(gl, hair_draw_styled(draw, HAIR_GL_PREPASS));
+    if (!result && draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+        result = hair_gl_ensure_program(gl, hair_draw_styled(draw, HAIR_GL_REPAIR));
+    return result;
+}
+
+static hair_result make(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
+    hair_result result = HAIR_OK;
+    size_t count = draw->followers;
+    int pushes = draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT;
+    if (!follower_collision->hit)
+        result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &follower_collision->hit);
+    if (!result && !follower_collision->hit_texture)
+        result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, follower_collision->hit,
+                                        &follower_collision->hit_texture);
+    if (!result && !follower_collision->list)
+        result = hair_gl_storage(gl, "hair hit list", (count + 2) * sizeof(uint32_t), NULL,
+                                 &follower_collision->list);
+    if (!result && pushes && !follower_collision->repair)
+        result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL,
+                                 &follower_collision->repair);
+    if (!result && pushes && !follower_collision->repair_texture)
+        result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, follower_collision->repair,
+                                        &follower_collision->repair_texture);
+    if (!result && follower_collision->prepass) result = hair_draw_make_prepass(draw);
+    return result ? result : hair_draw_ensure_hit_programs(draw);
+}
+
+void hair_draw_free_follower_collision(struct hair_draw* draw)
+{
+    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
+    hair_gl_free_buffer_texture(draw->gl, &follower_collision->hit_texture);
+    hair_gl_free_buffer_texture(draw->gl, &follower_collision->repair_texture);
+    hair_gl_free_buffer(draw->gl, &follower_collision->hit);
+    hair_gl_free_buffer(draw->gl, &follower_collision->repair);
+    hair_gl_free_buffer(draw->gl, &follower_collision->list);
+    if (follower_collision->frame) draw->gl->DeleteFramebuffers(1, &follower_collision->frame);
+    follower_collision->frame = 0;
+    hair_gl_free_texture(draw->gl, &follower_collision->image);
+}
+
+static void run(struct hair_draw* draw, const struct hair_smooth* smooth,
+                const struct hair_collider_field* field, float margin)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
+    struct hair_draw_params params;
+    hair_draw_write_params(draw, NULL, NULL, &params);
+    HAIR_ASSERT(follower_collision->parity < 2 && follower_collision->hit && follower_collision->list);
+    follower_collision->parity = 1 - follower_collision->parity;
+    params.parity = follower_collision->parity;
+    params.collision_margin = margin + OUTSIDE;
+    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
+    hair_draw_bind(draw, smooth);
+    hair_field_bind(field);
+    GLuint buffers[] = {follower_collision->hit, follower_collision->repair, follower_collision->list};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
+    if (follower_collision->prepass) hair_draw_run_prepass(draw);
+    int by_group = !follower_collision->prepass && !gl->software;
+    uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
+    if (by_group) {
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, smooth->buffer);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &draw->follower);
+    }
+    hair_gl_run(gl, pass_of(draw), (draw->followers + each - 1) / each);
+    // Work groups beyond the end of the list return at once.
+    if (draw->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+        hair_gl_run(gl, hair_draw_styled(draw, HAIR_GL_REPAIR),
+                    (draw->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
+}
+
+bool hair_draw_has_follower_collision(const struct hair_draw* draw, const struct hair_smooth* smooth)
+{
+    return draw->follower_collision.valid && draw->follower_collision.smooth_run == smooth->runs;
+}
+
+hair_result hair_draw_update_follower_collision(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                                const struct hair_collider_field* field, float margin)
+{
+    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
+    follower_collision->active = field != NULL;
+    follower_collision->field = field;
+    if (field) {
+        hair_result result = make(draw);
+        if (result) return result;
+        run(draw, smooth, field, margin);
+    }
+    ++follower_collision->generation;
+    follower_collision->valid = 1;
+    follower_collision->smooth_run = smooth->runs;
+    return HAIR_OK;
+}

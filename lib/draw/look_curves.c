@@ -1,0 +1,133 @@
+// look_curves.c - curves of a look along a strand, as cubic polynomials for shaders.
+#include "lib/draw/params.h"
+
+// Iterations of Gauss-Seidel over a turn. The remaining error is below float precision.
+#define SWEEPS 24
+
+// Return the cubic from a to b with these slopes at both ends. The slopes are per interval.
+static hair_vec4 hermite(float a, float b, float slope_a, float slope_b)
+{
+    float rise = b - a;
+    return (hair_vec4){a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise};
+}
+
+// Return the slope between two intervals as the harmonic mean of their rises, which prevents
+// overshoot (Fritsch and Butland 1984).
+static float inner_slope(float before, float after)
+{
+    return before * after > 0 ? 2 * before * after / (before + after) : 0;
+}
+
+// Return the slope at an end, from the parabola that meets the slope next to it. A slope against
+// the rise becomes 0.
+static float end_slope(float rise, float next)
+{
+    float slope = 1.5f * rise - 0.5f * next;
+    return slope * rise > 0 ? slope : 0;
+}
+
+static void write_curve(hair_curve curve, struct hair_strand_look* out, int number)
+{
+    float slope[HAIR_CURVE_INTERVALS + 1], rise[HAIR_CURVE_INTERVALS];
+    int last = HAIR_CURVE_INTERVALS;
+    HAIR_ASSERT((size_t)((number + 1) * last) <= sizeof out->curve / sizeof *out->curve);
+    for (int i = 0; i < last; ++i) rise[i] = curve.at[i + 1] - curve.at[i];
+    for (int i = 1; i < last; ++i) slope[i] = inner_slope(rise[i - 1], rise[i]);
+    slope[0] = end_slope(rise[0], slope[1]);
+    slope[last] = end_slope(rise[last - 1], slope[last - 1]);
+    for (int i = 0; i < last; ++i)
+        out->curve[number * last + i] = hermite(curve.at[i], curve.at[i + 1], slope[i], slope[i + 1]);
+}
+
+// Write the periodic spline with two continuous derivatives through equally spaced values.
+static void write_turn(const float at[HAIR_TURN_PLACES], float scale, hair_vec4* out)
+{
+    float slope[HAIR_TURN_PLACES] = {0};
+    for (int sweep = 0; sweep < SWEEPS; ++sweep)
+        for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+            int before = (i + HAIR_TURN_PLACES - 1) % HAIR_TURN_PLACES, after = (i + 1) % HAIR_TURN_PLACES;
+            slope[i] = 0.25f * (3 * (at[after] - at[before]) - slope[before] - slope[after]);
+        }
+    for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+        int after = (i + 1) % HAIR_TURN_PLACES;
+        out[i] = hermite(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
+    }
+}
+
+static void write_turns(const hair_look* look, struct hair_strand_look* out)
+{
+    float circle[2][HAIR_TURN_PLACES];
+    for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
+        circle[0][i] = cosf(6.2831853f * (float)i / HAIR_TURN_PLACES);
+        circle[1][i] = sinf(6.2831853f * (float)i / HAIR_TURN_PLACES);
+    }
+    int like = look->curl_shape == HAIR_CURL_SHAPE_EXAMPLE;
+    write_turn(like ? look->curl_profile_x : circle[0], 1, out->loop);
+    write_turn(like ? look->curl_profile_z : circle[1], 1 - look->curl_flatness,
+               out->loop + HAIR_TURN_PLACES);
+}
+
+// Return the clump curve. Single and multi interpolation are its limits 1 and 0.
+static hair_curve clump_of(const hair_look* look)
+{
+    if (look->interpolation == HAIR_INTERPOLATION_SINGLE) return hair_curve_line(1, 1);
+    if (look->interpolation == HAIR_INTERPOLATION_MULTI) return hair_curve_line(0, 0);
+    return look->clump;
+}
+
+float hair_curve_max(const hair_curve* curve)
+{
+    float max = curve->at[0];
+    for (int i = 1; i <= HAIR_CURVE_INTERVALS; ++i) max = fmaxf(max, curve->at[i]);
+    return max;
+}
+
+// Length of a displacement by 1 along both of the axes across a strand.
+#define DIAGONAL 1.4142136f
+
+float hair_look_max_stray(const hair_look* look)
+{
+    float tip = look->tip_stray_fraction > 0 ? hair_curve_max(&look->tip_stray_distance) : 0;
+    float all = look->stray_fraction > 0 ? hair_curve_max(&look->stray_distance) : 0;
+    return DIAGONAL * (tip + all);
+}
+
+float hair_look_max_offset(const hair_look* look)
+{
+    float curl = look->curl_radius * (1 + look->curl_spread) * hair_curve_max(&look->curl_profile);
+    return DIAGONAL * (curl + hair_curve_max(&look->frizz));
+}
+
+void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
+{
+    write_curve(look->taper, out, HAIR_CURVE_TAPER);
+    write_curve(clump_of(look), out, HAIR_CURVE_CLUMP);
+    write_curve(look->clump_width, out, HAIR_CURVE_CLUMP_WIDTH);
+    write_curve(look->tip_stray_distance, out, HAIR_CURVE_TIP_STRAY);
+    write_curve(look->stray_distance, out, HAIR_CURVE_STRAY);
+    write_curve(look->frizz, out, HAIR_CURVE_FRIZZ);
+    write_curve(look->curl_profile, out, HAIR_CURVE_CURL);
+    write_turns(look, out);
+    out->tip_stray_fraction = look->tip_stray_fraction;
+    out->stray_fraction = look->stray_fraction;
+    HAIR_ASSERT(look->frizz_wavelength > 0 && look->curl_wavelength > 0);
+    out->kinks = 1 / look->frizz_wavelength;
+    out->drawn = look->length;
+    out->length_variation = look->length_variation;
+    out->curl_radius = look->curl_radius;
+    out->curl_waves = 1 / look->curl_wavelength;
+    out->curl_turns = look->curl_turns;
+    out->curl_guide_phase = look->curl_guide_phase;
+    out->curl_strand_phase = look->curl_strand_phase;
+    out->curl_spread = look->curl_spread;
+    out->curl_left_fraction = look->curl_left_fraction;
+    out->max_stray = hair_look_max_stray(look);
+    out->max_offset = hair_look_max_offset(look);
+    out->max_width = fmaxf(hair_curve_max(&look->clump_width), 1);
+}
+
+bool hair_look_is_styled(const hair_look* look)
+{
+    return look->length < 1 || look->length_variation > 0 || hair_curve_max(&look->frizz) > 0 ||
+           look->curl_radius * hair_curve_max(&look->curl_profile) > 0;
+}

@@ -1,0 +1,73 @@
+// sorted_segments.c - segments sorted by compute with a histogram of distances from the eye, and
+// blended. OpenGL blends primitives in the order of the draw's indices.
+#include "lib/draw/draw.h"
+
+static hair_result make_index(struct hair_draw* draw, size_t segments)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
+    hair_gl_free_buffer(gl, &sorted_segments->index);
+    sorted_segments->segments = 0;
+    hair_result result =
+        hair_gl_storage(gl, "hair sorted segments", 8 * segments, NULL, &sorted_segments->index);
+    if (result) return result;
+    if (!sorted_segments->vertex_array) gl->CreateVertexArrays(1, &sorted_segments->vertex_array);
+    if (!sorted_segments->vertex_array)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "the driver makes no vertex array for sorted segments");
+    gl->VertexArrayElementBuffer(sorted_segments->vertex_array, sorted_segments->index);
+    sorted_segments->segments = segments;
+    return HAIR_OK;
+}
+
+hair_result hair_draw_ensure_sorted_segments(struct hair_draw* draw)
+{
+    draw->used[HAIR_DRAW_SORTED_SEGMENTS] = draw->frame;
+    struct hair_gl* gl = draw->gl;
+    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
+    size_t segments = (size_t)draw->followers * draw->look.segments;
+    hair_result result = HAIR_OK;
+    if (!sorted_segments->bucket)
+        result = hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL,
+                                 &sorted_segments->bucket);
+    if (!result && sorted_segments->segments != segments) result = make_index(draw, segments);
+    if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
+    return result;
+}
+
+void hair_draw_free_sorted_segments(struct hair_draw* draw)
+{
+    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
+    if (sorted_segments->vertex_array) draw->gl->DeleteVertexArrays(1, &sorted_segments->vertex_array);
+    sorted_segments->vertex_array = 0;
+    sorted_segments->segments = 0;
+    hair_gl_free_buffer(draw->gl, &sorted_segments->bucket);
+    hair_gl_free_buffer(draw->gl, &sorted_segments->index);
+}
+
+void hair_draw_sort(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
+    HAIR_ASSERT(sorted_segments->segments == (size_t)draw->followers * draw->look.segments);
+    GLuint sorts[] = {sorted_segments->bucket, sorted_segments->index};
+    GLuint strands[] = {draw->strand_list.strand, draw->strand_list.command};
+    uint32_t groups = (uint32_t)((sorted_segments->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    gl->ClearNamedBufferData(sorted_segments->bucket, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STRAND, 2, strands);
+    hair_gl_run(gl, HAIR_GL_HISTOGRAM, groups);
+    hair_gl_run(gl, HAIR_GL_PREFIX_SUM, 1);
+    hair_gl_run(gl, HAIR_GL_SCATTER, groups);
+}
+
+void hair_draw_issue_sorted_segments(struct hair_draw* draw)
+{
+    struct hair_gl* gl = draw->gl;
+    const char* first = (const char*)NULL + HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
+    gl->BindVertexArray(draw->sorted_segments.vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->strand_list.command);
+    gl->Disable(GL_PRIMITIVE_RESTART);
+    gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_INT, first, 1, 0);
+}

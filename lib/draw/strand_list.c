@@ -1,0 +1,154 @@
+// strand_list.c - strands drawn without a tessellator. Compute shaders list the strands that
+// patches draw. Each strand is drawn by the ends of its segments. The driver shades the end that
+// two segments share only once.
+#include "lib/draw/draw.h"
+
+#include <string.h>
+
+static hair_result make_lists(struct hair_draw* draw, int occlusion)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_strand_list* strand_list = &draw->strand_list;
+    hair_result result = HAIR_OK;
+    if (!strand_list->key) strand_list->key = hair_alloc(&gl->host, 1, sizeof *strand_list->key);
+    if (!strand_list->key) return hair_fail_memory(&gl->host, "the list of strands");
+    if (!strand_list->start)
+        result = hair_gl_storage(gl, "hair strand starts", draw->patches * sizeof(uint32_t), NULL,
+                                 &strand_list->start);
+    if (!result && !strand_list->strand)
+        result = hair_gl_storage(gl, "hair strands", draw->followers * sizeof(struct hair_strand), NULL,
+                                 &strand_list->strand);
+    if (!result && !strand_list->strand_texture)
+        result = hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, strand_list->strand,
+                                        &strand_list->strand_texture);
+    if (!result && !strand_list->command)
+        result = hair_gl_storage(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command), NULL,
+                                 &strand_list->command);
+    return result ? result
+                  : hair_gl_ensure_programs(gl, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS,
+                                            occlusion ? HAIR_GL_WITH(OCCLUSION) : 0);
+}
+
+// Return the indices of one instance of 64 strands for each segment count n, n/2, ... 1, from which
+// scan_strands.comp selects. There are two per segment for lines, and six for ribbons of paired
+// vertices. 16 bits suffice, because 64 strands of 256 segments have 16,448 vertices, or twice as
+// many if paired.
+static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int paired, size_t* count)
+{
+    static const uint32_t corners[2][HAIR_PAIRED_INDICES] = {{0, 1}, {0, 1, 2, 2, 1, 3}};
+    uint32_t corner_count = paired ? HAIR_PAIRED_INDICES : 2, each_end = paired ? 2 : 1;
+    size_t at = 0;
+    *count = HAIR_INSTANCE_STRANDS;
+    for (uint32_t each = segments; each > 1; each = (each + 1) / 2) *count += HAIR_INSTANCE_STRANDS * each;
+    *count *= corner_count;
+    uint16_t* indices = hair_alloc(&gl->host, *count, sizeof *indices);
+    for (uint32_t each = segments; indices && each; each = each > 1 ? (each + 1) / 2 : 0)
+        for (uint32_t strand = 0; strand < HAIR_INSTANCE_STRANDS; ++strand)
+            for (uint32_t i = 0; i < each; ++i)
+                for (uint32_t k = 0; k < corner_count; ++k)
+                    indices[at++] = (uint16_t)((strand * (segments + 1) + i) * each_end + corners[paired][k]);
+    HAIR_ASSERT(!indices || at == *count);
+    HAIR_ASSERT(HAIR_INSTANCE_STRANDS * (segments + 1) * each_end <= 65536);
+    return indices;
+}
+
+hair_result hair_draw_ensure_indices(struct hair_draw* draw, int paired)
+{
+    struct hair_gl* gl = draw->gl;
+    HAIR_ASSERT(paired == 0 || paired == 1);
+    struct hair_strand_list_indices* own = &draw->strand_list.indices[paired];
+    uint32_t segments = draw->look.segments;
+    if (own->segments == segments) return HAIR_OK;
+    own->segments = 0;
+    hair_gl_free_buffer(gl, &own->index);
+    size_t count;
+    uint16_t* indices = write_indices(gl, segments, paired, &count);
+    if (!indices) return hair_fail_memory(&gl->host, "the segments of strands");
+    hair_result result = hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &own->index);
+    hair_free(&gl->host, indices);
+    if (result) return result;
+    if (!own->vertex_array) gl->CreateVertexArrays(1, &own->vertex_array);
+    if (!own->vertex_array)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no vertex array for strands");
+    gl->VertexArrayElementBuffer(own->vertex_array, own->index);
+    own->segments = segments;
+    return HAIR_OK;
+}
+
+hair_result hair_draw_ensure_strand_list(struct hair_draw* draw, int occlusion)
+{
+    draw->used[HAIR_DRAW_STRAND_LIST] = draw->frame;
+    return make_lists(draw, occlusion);
+}
+
+void hair_draw_free_strand_list(struct hair_draw* draw)
+{
+    struct hair_strand_list* strand_list = &draw->strand_list;
+    struct hair_gl* gl = draw->gl;
+    for (int i = 0; i < 2; ++i) {
+        struct hair_strand_list_indices* own = &strand_list->indices[i];
+        if (own->vertex_array) gl->DeleteVertexArrays(1, &own->vertex_array);
+        own->vertex_array = 0;
+        own->segments = 0;
+        hair_gl_free_buffer(gl, &own->index);
+    }
+    hair_gl_free_buffer_texture(gl, &strand_list->strand_texture);
+    hair_free(&gl->host, strand_list->key);
+    strand_list->key = NULL;
+    hair_gl_free_buffer(gl, &strand_list->start);
+    hair_gl_free_buffer(gl, &strand_list->strand);
+    hair_gl_free_buffer(gl, &strand_list->command);
+}
+
+// Describe the inputs of a strand list. All views share a list if the level of detail does not
+// depend on the view.
+static struct hair_strand_list_key describe(const struct hair_gl* gl, const struct hair_smooth* smooth,
+                                            const struct hair_draw_params* params)
+{
+    struct hair_strand_list_key of;
+    memset(&of, 0, sizeof of);
+    of.program_generation = gl->program_generation;
+    if (params->pixels_per_unit > 0) {
+        of.runs = smooth->runs;
+        of.params = *params;
+        return of;
+    }
+    of.params.density = params->density;
+    of.params.segments = params->segments;
+    of.params.map_weights = params->map_weights;
+    of.params.strand_fraction = params->strand_fraction;
+    of.params.segment_fraction = params->segment_fraction;
+    of.params.width_power = params->width_power;
+    return of;
+}
+
+void hair_draw_update_strand_list(struct hair_draw* draw, const struct hair_smooth* smooth,
+                                  const struct hair_draw_params* params, int occlusion)
+{
+    struct hair_gl* gl = draw->gl;
+    struct hair_strand_list* strand_list = &draw->strand_list;
+    GLuint buffers[] = {strand_list->start, strand_list->strand, strand_list->command};
+    HAIR_ASSERT(strand_list->key && strand_list->command);
+    struct hair_strand_list_key of = describe(gl, smooth, params);
+    hair_gl_pass with = occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
+    if (!occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
+    hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
+    hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, draw->patches);
+    if (occlusion) of.program_generation = 0; // No other view has the same occluded patches.
+    *strand_list->key = of;
+}
+
+void hair_draw_issue_strand_list(struct hair_draw* draw, int paired)
+{
+    struct hair_gl* gl = draw->gl;
+    const char* first =
+        (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
+    HAIR_ASSERT(draw->strand_list.indices[paired].segments == draw->look.segments);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
+    gl->BindVertexArray(draw->strand_list.indices[paired].vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->strand_list.command);
+    gl->Disable(GL_PRIMITIVE_RESTART);
+    gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, first, 2,
+                                  sizeof(struct hair_draw_command));
+}

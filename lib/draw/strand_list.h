@@ -1,0 +1,28 @@
+// strand_list.h - list of the strands that are drawn without a tessellator, in instances of
+// HAIR_INSTANCE_STRANDS.
+#ifndef HAIR_DRAW_STRAND_LIST_H
+#define HAIR_DRAW_STRAND_LIST_H
+
+#include "lib/gl/gl.h"
+
+// Inputs that a list was built from.
+struct hair_strand_list_key {
+    uint32_t program_generation; // Value of hair_gl.made. 0 if there is no list.
+    uint32_t runs; // Run of smooth.comp, if the list depends on the positions of hair.
+    struct hair_draw_params params; // Parameters that the list depends on. All others are 0.
+};
+
+// Indices of every segment of an instance.
+struct hair_strand_list_indices {
+    GLuint index, vertex_array;
+    uint32_t segments; // Segments per strand of the indices.
+};
+
+struct hair_strand_list {
+    struct hair_strand_list_key* key;
+    GLuint start, strand, command; // Buffers, as in shared.h. 0 until needed.
+    GLuint strand_texture; // Buffer texture of `strand`, for drawing.
+    struct hair_strand_list_indices indices[2]; // Indices of single vertices, then of paired vertices.
+};
+
+#endif

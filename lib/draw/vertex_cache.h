@@ -1,0 +1,18 @@
+// vertex_cache.h - vertex cache of followers, shared by all views. Its memory and its pass exist
+// only on demand.
+#ifndef HAIR_DRAW_VERTEX_CACHE_H
+#define HAIR_DRAW_VERTEX_CACHE_H
+
+#include "lib/gl/gl.h"
+
+struct hair_vertex_cache {
+    GLuint position, tangent, shaded; // Buffers, as in shared.h. 0 until needed.
+    GLuint position_texture, tangent_texture, shaded_texture; // Their buffer textures, for drawing.
+    size_t vertices; // Capacity in vertices.
+    int is_complete; // Nonzero if the vertices of all followers are written.
+    uint32_t generation,
+        program_generation; // Values of hair_follower_collision_state.met and hair_gl.made at the last write.
+    uint32_t writes; // Number of writes so far.
+};
+
+#endif

@@ -1,0 +1,19 @@
+// view_cache.h - per-view vertices of the listed strands, for a level of detail. They take memory
+// only while a view uses them.
+#ifndef HAIR_DRAW_VIEW_CACHE_H
+#define HAIR_DRAW_VIEW_CACHE_H
+
+#include "lib/gl/gl.h"
+
+enum { HAIR_VIEW_CACHE_POSITION, HAIR_VIEW_CACHE_TANGENT, HAIR_VIEW_CACHE_SHADED, HAIR_VIEW_CACHE_PARTS };
+
+struct hair_view_cache {
+    // Buffers, as at HAIR_BIND_CACHED_POSITION and the two bindings after it in shared.h. 0 until
+    // needed.
+    GLuint buffer[HAIR_VIEW_CACHE_PARTS];
+    GLuint texture[HAIR_VIEW_CACHE_PARTS]; // Buffer textures of `buffer`.
+    size_t size[HAIR_VIEW_CACHE_PARTS]; // Size of each buffer in bytes.
+    size_t vertices; // Capacity in vertices.
+};
+
+#endif

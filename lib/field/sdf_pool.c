@@ -1,0 +1,114 @@
+// sdf_pool.c - distance grids of collision meshes, pooled in one buffer. Unused grids are dropped
+// when the buffer grows, and the buffer is freed with the last one.
+#include "lib/field/sdf_pool.h"
+
+#include <string.h>
+
+#define MIN_ROOM 65536 // Minimum capacity, in nodes.
+
+static size_t count_nodes(const hair_collision_mesh* mesh)
+{
+    return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
+}
+
+static void upload(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled_sdf* pooled)
+{
+    size_t count = count_nodes(pooled->mesh);
+    HAIR_ASSERT(pool->used + count <= pool->room);
+    pooled->first = (uint32_t)pool->used;
+    pool->gl->NamedBufferSubData(buffer, (GLintptr)(pool->used * sizeof(float)),
+                                 (GLsizeiptr)(count * sizeof(float)), pooled->mesh->distance);
+    pool->used += count;
+}
+
+// Make a buffer that holds all used grids and `more` nodes.
+static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
+{
+    if (pool->nodes && pool->used + more <= pool->room) return HAIR_OK;
+    GLuint buffer = 0;
+    size_t used = 0;
+    for (uint32_t i = 0; i < pool->count; ++i)
+        if (pool->pooled[i].mesh) used += count_nodes(pool->pooled[i].mesh);
+    size_t room = used + more + (used + more) / 2;
+    if (room < MIN_ROOM) room = MIN_ROOM;
+    hair_result result =
+        hair_gl_storage(pool->gl, "hair collision meshes", room * sizeof(float), NULL, &buffer);
+    if (result) return result;
+    hair_gl_free_buffer_texture(pool->gl, &pool->texture);
+    hair_gl_free_buffer(pool->gl, &pool->nodes);
+    pool->nodes = buffer;
+    pool->room = room;
+    pool->used = 0;
+    for (uint32_t i = 0; i < pool->count; ++i)
+        if (pool->pooled[i].mesh) upload(pool, buffer, &pool->pooled[i]);
+    return HAIR_OK;
+}
+
+// Find a free place, or append one.
+static hair_result find_place(struct hair_sdf_pool* pool, uint32_t* place)
+{
+    HAIR_ASSERT(pool->count <= pool->capacity);
+    for (*place = 0; *place < pool->count; ++*place)
+        if (!pool->pooled[*place].mesh) return HAIR_OK;
+    if (pool->count == pool->capacity) {
+        const hair_host* host = &pool->gl->host;
+        uint32_t capacity = 2 * pool->capacity + 8;
+        struct hair_pooled_sdf* pooled = hair_alloc(host, capacity, sizeof *pooled);
+        if (!pooled) return hair_fail_memory(host, "the collision meshes of colliders");
+        if (pool->count) memcpy(pooled, pool->pooled, pool->count * sizeof *pooled);
+        hair_free(host, pool->pooled);
+        pool->pooled = pooled;
+        pool->capacity = capacity;
+    }
+    ++pool->count;
+    return HAIR_OK;
+}
+
+static void free_if_empty(struct hair_sdf_pool* pool)
+{
+    for (uint32_t i = 0; i < pool->count; ++i)
+        if (pool->pooled[i].mesh) return;
+    hair_gl_free_buffer_texture(pool->gl, &pool->texture);
+    hair_gl_free_buffer(pool->gl, &pool->nodes);
+    hair_free(&pool->gl->host, pool->pooled);
+    *pool = (struct hair_sdf_pool){.gl = pool->gl};
+}
+
+hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
+                                  uint32_t* place)
+{
+    HAIR_ASSERT(mesh && mesh->distance);
+    for (uint32_t i = 0; i < pool->count; ++i)
+        if (pool->pooled[i].mesh == mesh) {
+            ++pool->pooled[i].users;
+            *place = i;
+            return HAIR_OK;
+        }
+    hair_result result = make_room(pool, count_nodes(mesh));
+    if (!result) result = find_place(pool, place);
+    if (result) {
+        free_if_empty(pool);
+        return result;
+    }
+    hair_collision_mesh_hold(mesh);
+    pool->pooled[*place] = (struct hair_pooled_sdf){.mesh = mesh, .users = 1};
+    upload(pool, pool->nodes, &pool->pooled[*place]);
+    return HAIR_OK;
+}
+
+void hair_sdf_pool_release(struct hair_sdf_pool* pool, uint32_t place)
+{
+    HAIR_ASSERT(place < pool->count);
+    struct hair_pooled_sdf* pooled = &pool->pooled[place];
+    HAIR_ASSERT(pooled->mesh && pooled->users > 0);
+    if (--pooled->users) return;
+    hair_collision_mesh_release(pooled->mesh);
+    pooled->mesh = NULL;
+    free_if_empty(pool);
+}
+
+hair_result hair_sdf_pool_ensure_texture(struct hair_sdf_pool* pool)
+{
+    if (pool->texture || !pool->nodes) return HAIR_OK;
+    return hair_gl_buffer_texture(pool->gl, "hair collision meshes", GL_R32F, pool->nodes, &pool->texture);
+}

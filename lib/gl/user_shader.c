@@ -1,0 +1,67 @@
+// user_shader.c - programs with the application's text in place of light/user_shader.glsl. Only requested
+// programs are compiled and take memory.
+#include "lib/gl/gl.h"
+
+#include <string.h>
+
+hair_result hair_gl_create_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
+                                  struct hair_gl_shader* out)
+{
+    HAIR_ASSERT(!out->label && !out->text && !out->programs);
+    size_t name = strlen(label) + 1, size = strlen(text) + 1;
+    out->label = hair_alloc(&gl->host, name, 1);
+    out->text = hair_alloc(&gl->host, size, 1);
+    if (!out->label || !out->text) return hair_fail_memory(&gl->host, "a shader's text");
+    memcpy(out->label, label, name);
+    memcpy(out->text, text, size);
+    out->pixels = pixels;
+    return HAIR_OK;
+}
+
+static void free_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
+{
+    for (uint32_t i = 0; i < shader->count; ++i) gl->DeleteProgram(shader->programs[i].program);
+    shader->count = 0;
+}
+
+void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader)
+{
+    free_programs(gl, shader);
+    hair_free(&gl->host, shader->programs);
+    hair_free(&gl->host, shader->label);
+    hair_free(&gl->host, shader->text);
+    memset(shader, 0, sizeof *shader);
+}
+
+static hair_result make_room(struct hair_gl* gl, struct hair_gl_shader* shader)
+{
+    if (shader->count < shader->room) return HAIR_OK;
+    uint32_t room = shader->room ? 2 * shader->room : 4;
+    struct hair_gl_user_program* more = hair_alloc(&gl->host, room, sizeof *more);
+    if (!more) return hair_fail_memory(&gl->host, "a shader's programs");
+    if (shader->count) memcpy(more, shader->programs, shader->count * sizeof *more);
+    hair_free(&gl->host, shader->programs);
+    shader->programs = more;
+    shader->room = room;
+    return HAIR_OK;
+}
+
+hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
+                                        GLuint* out)
+{
+    // The run time counts as that of the pass.
+    if (!hair_gl_get_or_add(gl, pass)) return HAIR_ERROR_MEMORY;
+    // All shaders have been compiled again.
+    if (shader->program_generation != gl->program_generation) free_programs(gl, shader);
+    shader->program_generation = gl->program_generation;
+    for (uint32_t i = 0; i < shader->count; ++i)
+        if (shader->programs[i].pass == pass) {
+            *out = shader->programs[i].program;
+            return HAIR_OK;
+        }
+    hair_result result = make_room(gl, shader);
+    if (!result) result = hair_gl_link_pass(gl, shader, pass, out);
+    HAIR_ASSERT(result || shader->count < shader->room);
+    if (!result) shader->programs[shader->count++] = (struct hair_gl_user_program){pass, *out};
+    return result;
+}

@@ -1,0 +1,60 @@
+// root_bins.c - root bins, which followers grow on. They are guides or scalp triangles.
+#include "lib/groom/groom_builder.h"
+
+static hair_result make_room(struct hair_groom_builder* builder, uint32_t count)
+{
+    builder->bin_count = count;
+    builder->bin_candidates = hair_alloc(builder->host, count, sizeof *builder->bin_candidates);
+    builder->bin_first = hair_alloc(builder->host, count, sizeof *builder->bin_first);
+    builder->bin_centres = hair_alloc(builder->host, count, 3 * sizeof *builder->bin_centres);
+    if (!builder->bin_candidates || !builder->bin_first || !builder->bin_centres)
+        return hair_fail_memory(builder->host, "followers");
+    return HAIR_OK;
+}
+
+hair_result hair_guide_bins(struct hair_groom_builder* builder)
+{
+    uint32_t guides = builder->groom->info.guide_count;
+    hair_result result = make_room(builder, guides);
+    if (result) return result;
+    for (uint32_t i = 0; i < guides; ++i)
+        hair_store3(builder->bin_centres + 3 * (size_t)i, hair_guide_root(builder->groom, i));
+    return HAIR_OK;
+}
+
+hair_result hair_scalp_bins(struct hair_groom_builder* builder)
+{
+    uint32_t triangles = builder->desc->scalp_triangle_count;
+    hair_result result = make_room(builder, triangles);
+    if (result) return result;
+    builder->bin_density = builder->density;
+    for (uint32_t i = 0; i < triangles; ++i) {
+        hair_vec3 a = hair_scalp_corner(builder, i, 0), b = hair_scalp_corner(builder, i, 1);
+        hair_vec3 sum = hair_add(hair_scalp_corner(builder, i, 2), hair_add(a, b));
+        hair_store3(builder->bin_centres + 3 * (size_t)i, hair_scale(sum, 1.0f / 3));
+    }
+    return HAIR_OK;
+}
+
+void hair_number_candidates(struct hair_groom_builder* builder)
+{
+    HAIR_ASSERT(builder->candidate_count == 0);
+    for (uint32_t i = 0; i < builder->bin_count; ++i) {
+        builder->bin_first[i] = builder->candidate_count;
+        builder->candidate_count += builder->bin_candidates[i];
+    }
+}
+
+hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide)
+{
+    HAIR_ASSERT(guide < groom->info.guide_count);
+    hair_vec4 p = groom->rest[groom->guides[guide].first].position;
+    return hair_v3(p.x, p.y, p.z);
+}
+
+hair_vec3 hair_scalp_corner(const struct hair_groom_builder* builder, uint32_t triangle, uint32_t corner)
+{
+    HAIR_ASSERT(triangle < builder->desc->scalp_triangle_count && corner < 3);
+    uint32_t vertex = builder->desc->scalp_triangles[3 * (size_t)triangle + corner];
+    return hair_load3(builder->scalp + 3 * (size_t)vertex);
+}

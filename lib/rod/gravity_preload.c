@@ -1,0 +1,236 @@
+// gravity_preload.c - how guides hold their groom against gravity.
+//
+// A clamped strand is statically determinate. In any pose, the stress that balances all forces
+// follows from the pose alone, and so does the rest strain that gives this stress. The groom can
+// therefore always be made an equilibrium. Two things can still be wrong with it: it may be
+// unstable, and the rest strain may be far from the groom's own strain. Both get better with more
+// stiffness, at any vertex.
+//
+// Stiffness is a property of the material. As little as possible is added, and the result is never
+// more than three times the original. Vertex i becomes min(3, 1 + c e_i) times as stiff, with the
+// smallest c that suffices. The lever of vertex i is
+//
+//   e_i = sum_(k > i) m_k (s_k - s_i)
+//
+// where m is the mass of a vertex and s its arc length. The lever e_i is the moment that all beyond
+// vertex i would exert on it if it stood out straight. On the built-in haircuts, this lever adds
+// about half as much stiffness as one multiple for all vertices.
+//
+// Where three times is not enough, the guide holds another pose, which sags. The candidates are the
+// poses y(t) of rest of a guide three times as stiff under t times the gravity, with the groom as
+// its rest shape. y(0) is the groom, and y(1) is stable because it is at rest. In the pose y(t) the
+// rest strain again balances the whole gravity, with the 2 w0 of rod.h from that pose. This balance
+// is exact however roughly y(t) was computed, so one step of Newton's method for each t is enough.
+// The smallest t is taken whose pose is stable and is reached by the guide when released from its
+// groom. Other ways from the groom to a hanging pose sag farther on the built-in haircuts. Examples
+// are gravity on a part of the strand only, and a pull to the groom that weakens.
+#include "lib/rod/statics.h"
+
+#include <string.h>
+
+#define MARGIN 1.05 // Multiple of gravity under which a pose must be stable.
+// Minimum frequency about a pose, rad/s. The default damping of 4/s damps this frequency
+// critically.
+#define SLOWEST 2.0
+#define FINENESS 1.02 // Precision of 1 + c, as a ratio.
+#define STEP 0.125 // Step of t.
+#define BISECTIONS 3 // Number of bisections of a step of t.
+#define STEPS 1 // Steps of Newton's method for each t below 1.
+#define LAST_STEPS 60 // Maximum steps of Newton's method where it must converge.
+#define SAME 1e-4 // Maximum distance between equal poses, as a fraction of the length.
+
+struct search {
+    struct hair_rod_shape* shape;
+    struct hair_rod_pose pose;
+    double bend[HAIR_MAX_GUIDE_VERTICES]; // Stiffness of the material.
+    double lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
+    hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // Rest shape equal to the groom.
+    hair_rod_rest rest[HAIR_MAX_GUIDE_VERTICES]; // Rest shape that balances the pose.
+};
+
+static void find_levers(const struct hair_rod_shape* s, double* lever)
+{
+    double beyond = 0;
+    lever[s->count - 1] = 0;
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        beyond += s->mass[i + 1];
+        lever[i] = lever[i + 1] + beyond * s->length[i];
+    }
+    HAIR_ASSERT(lever[0] > 0);
+    for (uint32_t i = s->count; i-- > 0;) lever[i] /= lever[0];
+}
+
+static void stiffen(struct search* a, double c)
+{
+    HAIR_ASSERT(c >= 0);
+    struct hair_rod_shape* s = a->shape;
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MAX_STIFFEN, 1 + c * a->lever[i]);
+}
+
+// Return the difference of the groom's own strain and the rest strain.
+static hair_dvec3 strain_off(const struct search* a, uint32_t i)
+{
+    hair_rod_rest own = a->own[i], rest = a->rest[i];
+    HAIR_ASSERT(i + 1 < a->shape->count);
+    return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
+}
+
+// Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
+static bool holds(struct search* a, double margin)
+{
+    const struct hair_rod_shape* s = a->shape;
+    hair_rod_load(s, 1, &a->pose);
+    hair_rod_balance(s, &a->pose);
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
+        hair_dquat t = a->pose.turn[i];
+        a->rest[i] = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
+                                     2 * t.z - g.z / s->ratio[2], 2 * t.w};
+        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MAX_STRAIN)) return false;
+    }
+    hair_rod_load(s, margin, &a->pose);
+    hair_rod_balance(s, &a->pose);
+    return hair_rod_is_stable(s, &a->pose, SLOWEST * SLOWEST);
+}
+
+// Return the smallest c with which the groom holds. The groom holds with c = `does`.
+static double min_stiffening(struct search* a, double does)
+{
+    HAIR_ASSERT(does >= 0);
+    double fails = 1; // 1 + c
+    for (does += 1; does > FINENESS * fails;) {
+        double middle = sqrt(fails * does);
+        stiffen(a, middle - 1);
+        if (holds(a, MARGIN))
+            does = middle;
+        else
+            fails = middle;
+    }
+    return does - 1;
+}
+
+// Move the pose to y(t). Return whether the pose holds.
+static bool holds_at(struct search* a, double t)
+{
+    hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
+    return holds(a, MARGIN);
+}
+
+// Find the smallest t whose pose holds, and set the pose. Return more than 1 if no pose holds.
+static double find_pose(struct search* a)
+{
+    hair_dquat failed[HAIR_MAX_GUIDE_VERTICES], found[HAIR_MAX_GUIDE_VERTICES];
+    size_t size = a->shape->count * sizeof *failed;
+    double fails = 0, does = STEP;
+    memcpy(failed, a->shape->frame, size);
+    for (; !holds_at(a, does); does += STEP) {
+        if (does >= 1) return does + STEP;
+        memcpy(failed, a->pose.frame, size);
+        fails = does;
+    }
+    memcpy(found, a->pose.frame, size);
+    for (int k = 0; k < BISECTIONS; ++k) {
+        double middle = (fails + does) / 2;
+        hair_rod_pose_at(a->shape, failed, &a->pose);
+        int here = holds_at(a, middle);
+        memcpy(here ? found : failed, a->pose.frame, size);
+        *(here ? &does : &fails) = middle;
+    }
+    hair_rod_pose_at(a->shape, found, &a->pose);
+    return does;
+}
+
+// Return the maximum distance of a vertex of the pose from its position in `place`.
+static double distance(const struct search* a, const hair_dvec3* place)
+{
+    double max = 0;
+    for (uint32_t i = 1; i < a->shape->count; ++i)
+        max = fmax(max, hair_dlength(hair_dadd(a->pose.place[i], hair_dscale(place[i], -1))));
+    return max;
+}
+
+// Return whether the guide comes to rest in the pose when released from its groom.
+static bool is_reached(const struct search* a)
+{
+    struct hair_rod_pose released;
+    double length = 0;
+    for (uint32_t i = 0; i + 1 < a->shape->count; ++i) length += a->shape->length[i];
+    hair_rod_pose_at(a->shape, a->shape->frame, &released);
+    hair_rod_settle(a->shape, a->rest, 1, LAST_STEPS, &released);
+    return distance(a, released.place) < SAME * length;
+}
+
+// Find the pose to hold and its rest shape. Return the distance of that pose from the groom.
+static double sag(struct search* a)
+{
+    double t = find_pose(a);
+    while (t <= 1) {
+        if (holds(a, MARGIN) && is_reached(a)) return distance(a, a->shape->place);
+        if (t >= 1) break;
+        t = fmin(t + STEP, 1);
+        holds_at(a, t);
+    }
+    // No pose can be held. The rest shape balances no gravity, and the guide hangs.
+    memcpy(a->rest, a->own, sizeof a->rest);
+    hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
+    hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
+    return distance(a, a->shape->place);
+}
+
+static bool resists(const struct hair_rod_shape* s)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        if (!(hair_rod_stiffness(s, i) > 0)) return false;
+    return true;
+}
+
+static void start(struct search* a, struct hair_rod_shape* s)
+{
+    a->shape = s;
+    memcpy(a->bend, s->bend, s->count * sizeof *a->bend);
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        a->own[i] = (hair_rod_rest){2 * s->turn[i].x, 2 * s->turn[i].y, 2 * s->turn[i].z, 2 * s->turn[i].w};
+    find_levers(s, a->lever);
+    hair_rod_pose_at(s, s->frame, &a->pose);
+}
+
+// Set the stress that the rest strain causes in the groom. Set rest_real to the rest shape.
+static void finish(struct search* a)
+{
+    struct hair_rod_shape* s = a->shape;
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        hair_dvec3 u = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
+        s->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        s->rest_real[i] = a->rest[i].w;
+    }
+}
+
+struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
+{
+    struct hair_rod_preload held = {.stiffest = 1};
+    struct search a;
+    if (hair_ddot(s->load, s->load) == 0) return held;
+    start(&a, s);
+    if (!resists(s)) { // No multiple of the stiffness helps.
+        hair_rod_load(s, 1, &a.pose);
+        hair_rod_balance(s, &a.pose);
+        memcpy(s->stress, a.pose.stress, (s->count - 1) * sizeof *s->stress);
+        return held;
+    }
+    if (!holds(&a, MARGIN)) {
+        double max = (HAIR_ROD_MAX_STIFFEN - 1) / a.lever[s->count - 2], c = max;
+        stiffen(&a, max);
+        held.sags = !holds(&a, MARGIN);
+        if (!held.sags) c = min_stiffening(&a, max);
+        stiffen(&a, c);
+        held.stiffest = s->bend[0] / a.bend[0];
+        HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
+        if (held.sags)
+            held.sag = sag(&a);
+        else
+            holds(&a, MARGIN);
+    }
+    finish(&a);
+    return held;
+}

@@ -1,0 +1,119 @@
+// rod.h - guides as rods, vertex by vertex, for the solvers of Kirchhoff's equations. No OpenGL.
+//
+// Everything is divided by the mass of a metre of hair, so that masses are lengths. The arithmetic
+// is in double precision. Let q_i be the frame of the segment after vertex i, and q_-1 that of the
+// scalp. The product conj(q_(i-1)) q_i has the real part w, with the sign chosen so that w is
+// positive. Let u = 2 Im(conj(q_(i-1)) q_i). The energy of vertex i is
+//
+//   strain.w / 2 ((u - strain) . R (u - strain) + R_z (2 w - 2 w0)^2),   R = diag(ratio)
+//
+// where 2 w0 is the value of 2 w at rest. The scheme of straight rods omits the last term. See
+// glsl/sim/mixed.glsl for the purpose of that term.
+#ifndef HAIR_ROD_ROD_H
+#define HAIR_ROD_ROD_H
+
+#include <hair/hair.h>
+
+#include "glsl/shared.h"
+#include "lib/base/assert.h"
+
+#include <stdbool.h>
+
+// A pin whose vertex has been found.
+struct hair_resolved_pin {
+    uint32_t guide, vertex;
+    int world; // 1 if `place` is in the world, 0 if in the head's frame.
+    double place[3]; // Position of the vertex, m.
+    uint32_t given; // Index of the pin in the application's array.
+};
+
+// Compute R, the stiffness of bending about the frame's x axis, of twist, and of bending about its
+// z axis. The stiffness is relative to the bending stiffness of a round section of the same area. A
+// strand bends most easily about x, the long axis of the section.
+void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
+
+// Gravity preload of a guide vertex, by which the guide holds its groom.
+struct hair_rod_borne {
+    double stress[3]; // Derivative of the vertex's energy by its strain in the groom.
+    double rest_real; // 2 w0, the value of 2 w in the pose that the guide holds.
+    double stiffen; // Multiple of the stiffness, 1 to 3.
+};
+
+// Guides whose stiffness is reduced to what the solver can solve at its substep in single
+// precision.
+struct hair_rods_softened {
+    uint32_t guides;
+    uint32_t worst; // Index of the guide that is softened most.
+    float factor; // Stiffness factor of its most softened vertex. 1 if no guide is softened.
+};
+
+struct hair_rods_report {
+    uint32_t stiffened; // Number of guides with a stiffened vertex.
+    float stiffest; // Largest multiple of the stiffness. 1 if no guide is stiffened.
+    uint32_t sagging; // Number of guides that cannot hold their groom even when stiffened.
+    float farthest_sag; // Largest distance of their vertices at rest from the groom, m.
+    struct hair_rods_softened softened;
+};
+
+static inline struct hair_rods_report hair_rods_report_none(void)
+{
+    return (struct hair_rods_report){.stiffest = 1, .softened = {.factor = 1}};
+}
+
+// Compute the gravity preload of guides, as gravity_preload.c describes. The preload depends on no
+// solver and no substep.
+//
+// The rest strain of a guide with a clamped root balances the fraction `gravity_preload` of
+// gravity. With 1 the groom is in equilibrium. A strand that is too soft would still buckle out of
+// the groom, or need a rest strain further than 1 from the groom's own. Such a guide is made up to
+// 3 times as stiff, by as little as keeps it stable. A guide that needs more stiffness sags to a
+// pose that it can keep.
+void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
+                               const hair_physics* physics, struct hair_rod_borne* out,
+                               struct hair_rods_report* report);
+
+// Write one hair_rod per guide vertex for substeps of the given length. `borne` comes from
+// hair_rods_preload_gravity(). Limit the distance of the rest strain from the groom's own to 1.
+// Return how guides are softened.
+struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
+                                          const struct hair_rod_borne* borne, uint32_t count,
+                                          const hair_physics* physics, hair_solver solver, int mixed,
+                                          double substep, struct hair_rod* out);
+
+// Write the pinned guides again. The pins are in the order of guides and their vertices.
+void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
+                   const struct hair_rod_borne* borne, const struct hair_resolved_pin* resolved_pin,
+                   uint32_t count, const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                   struct hair_rod* out);
+
+// Return whether the mixed scheme is to solve the guides under direct and accurate. The mixed
+// scheme is needed when some guides are curved at rest. It is also needed when segments are too
+// short or a tip is too heavy for the scheme of straight rods. Under direct it is needed for more
+// than 32 vertices too. A substep of 0 stands for direct's own substep.
+bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, double substep);
+
+// Return a solver's own substep length, s. Direct takes 1/240, and down to 1/960 for heavy tips.
+// Accurate takes 1/1080, or less where explicit bending is only stable with less, down to 1/6000.
+// Guides that need even shorter substeps are solved by BDF2. The mixed scheme takes 1/240 under
+// direct and 1/1440 under accurate.
+double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
+                         hair_solver solver, int mixed);
+
+// Return the maximum number of rounds of cyclic reduction for a guide of `most_vertices` vertices.
+uint32_t hair_rods_rounds(uint32_t max_vertices);
+
+// Reduce the systems of the solver's own method for work groups. Write one vec4 per vertex and
+// round to `out`, round after round. A guide without such a system leaves zeros. `out` and the
+// scratch memory `last` hold hair_rods_rounds() rounds of zeros on entry. Return the number of
+// rounds before the last.
+uint32_t hair_rods_write_reduction(const struct hair_guide* guides, uint32_t count,
+                                   const struct hair_rod* rod, uint32_t vertices, double substep,
+                                   hair_vec4* out, hair_vec4* last);
+
+// Return whether physics `a` and `b` need different rods.
+bool hair_rods_differ(const hair_physics* a, const hair_physics* b);
+
+#endif

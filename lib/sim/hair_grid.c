@@ -1,0 +1,354 @@
+// hair_grid.c - the hair-hair grid. The groom at rest determines its size and limits. The grid is
+// filled and read at the start of every block.
+#include "lib/sim/hair_grid.h"
+
+#include "lib/sim/sim.h"
+
+#define BLOCK (1.0 / 120) // Length of a block, s. A block is at least a substep long.
+// Minimum distance between nodes, m. Cells smaller than the spacing of guides would hold no
+// neighbours.
+#define MIN_CELL 0.01f
+#define MAX_IN_BIN 32 // Maximum number of vertices sampled in a cell.
+// Maximum length of a strand at a node, in cells, that the grid's units can hold. More counts as
+// this.
+#define MAX_OF_STRAND 16
+
+// Place the grid around all that hair of its rest length can reach.
+static void place_grid(struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest)
+{
+    struct hair_grid* hair_grid = &sim->hair_grid;
+    float lower[3] = {INFINITY, INFINITY, INFINITY};
+    float upper[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    for (uint32_t i = 0; i < sim->guides; ++i) {
+        const float* root = &rest[guides[i].first].position.x;
+        for (int k = 0; k < 3; ++k) {
+            lower[k] = fminf(lower[k], root[k] - guides[i].arc_length);
+            upper[k] = fmaxf(upper[k], root[k] + guides[i].arc_length);
+            widest = fmaxf(widest, upper[k] - lower[k]);
+        }
+    }
+    hair_grid->lower = hair_load3(lower);
+    hair_grid->cell = fmaxf(MIN_CELL, widest / (HAIR_GRID_NODES - 1));
+    HAIR_ASSERT(hair_grid->cell >= MIN_CELL);
+    for (int k = 0; k < 3; ++k) {
+        uint32_t nodes = (uint32_t)ceilf((upper[k] - lower[k]) / hair_grid->cell) + 1;
+        hair_grid->nodes[k] = nodes < 2 ? 2 : nodes < HAIR_GRID_NODES ? nodes : HAIR_GRID_NODES;
+    }
+}
+
+static uint32_t node_count(const struct hair_grid* hair_grid)
+{
+    return hair_grid->nodes[0] * hair_grid->nodes[1] * hair_grid->nodes[2];
+}
+
+// Return the number of vectors of four numbers, the unit in which the grid is cleared.
+static uint32_t grid_fours(const struct hair_grid* hair_grid)
+{
+    return (HAIR_GRID_NODE_NUMBERS * node_count(hair_grid) + 3) / 4;
+}
+
+struct spot {
+    uint32_t node[3]; // The lowest of the eight nodes around.
+    float part[3]; // Fraction of the way to the next node, per axis.
+};
+
+static struct spot spot_of(const struct hair_grid* hair_grid, const hair_vec4* position)
+{
+    const float at[3] = {position->x - hair_grid->lower.x, position->y - hair_grid->lower.y,
+                         position->z - hair_grid->lower.z};
+    struct spot spot;
+    for (int k = 0; k < 3; ++k) {
+        float g = fminf(fmaxf(at[k] / hair_grid->cell, 0), (float)(hair_grid->nodes[k] - 1));
+        uint32_t n = (uint32_t)g;
+        spot.node[k] = n < hair_grid->nodes[k] - 2 ? n : hair_grid->nodes[k] - 2;
+        spot.part[k] = g - (float)spot.node[k];
+        HAIR_ASSERT(0 <= spot.part[k] && spot.part[k] <= 1);
+    }
+    return spot;
+}
+
+static uint32_t node_at(const struct hair_grid* hair_grid, uint32_t x, uint32_t y, uint32_t z)
+{
+    HAIR_ASSERT(x < hair_grid->nodes[0] && y < hair_grid->nodes[1] && z < hair_grid->nodes[2]);
+    return x + hair_grid->nodes[0] * (y + hair_grid->nodes[1] * z);
+}
+
+// Arrays for the computation of the grid at rest.
+struct layout {
+    double* mass; // Mass of every vertex, half the length of its adjacent segments, m.
+    double* volume; // Volume of every vertex, in cells.
+    double* filled; // Volume at every node, in cells.
+    uint32_t* bin; // Start of every cell in `vertex`.
+    uint32_t* vertex; // Vertices sorted by cell.
+};
+
+static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest,
+                  double* mass)
+{
+    for (uint32_t g = 0; g < sim->guides; ++g)
+        for (uint32_t i = 0; i < guides[g].count; ++i) {
+            uint32_t at = guides[g].first + i;
+            double before = i > 0 ? (double)rest[at - 1].position.w : 0;
+            mass[at] = (before + (double)rest[at].position.w) / 2;
+        }
+}
+
+static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struct layout* layout)
+{
+    const struct hair_grid* hair_grid = &sim->hair_grid;
+    for (int place = 0; place < 2; ++place) {
+        for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
+            struct spot s = spot_of(hair_grid, &rest[i].position);
+            uint32_t bin = node_at(hair_grid, s.node[0], s.node[1], s.node[2]);
+            if (place)
+                layout->vertex[layout->bin[bin + 1]++] = i;
+            else
+                ++layout->bin[bin + 2];
+        }
+        for (uint32_t n = 2; !place && n < node_count(hair_grid) + 2; ++n)
+            layout->bin[n] += layout->bin[n - 1];
+    }
+}
+
+// Return the mass around a vertex, with the weights that a node at the vertex would have. The
+// minimum is the mass of a straight strand along an axis, the direction that puts the most mass
+// into a node. A strand by itself thus fills no node, whatever its position and direction.
+static double mass_around(const struct hair_sim* sim, const struct hair_rest* rest,
+                          const struct layout* layout, uint32_t i)
+{
+    const struct hair_grid* hair_grid = &sim->hair_grid;
+    struct spot s = spot_of(hair_grid, &rest[i].position);
+    double sum = 0, cell = (double)hair_grid->cell;
+    for (uint32_t n = 0; n < 27; ++n) {
+        uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
+        // A coordinate of -1 wraps to UINT32_MAX.
+        if (x >= hair_grid->nodes[0] || y >= hair_grid->nodes[1] || z >= hair_grid->nodes[2]) continue;
+        uint32_t bin = node_at(hair_grid, x, y, z), end = layout->bin[bin + 1];
+        uint32_t stride = (end - layout->bin[bin] + MAX_IN_BIN - 1) / MAX_IN_BIN;
+        for (uint32_t k = layout->bin[bin]; k < end; k += stride) {
+            const hair_vec4 *a = &rest[i].position, *b = &rest[layout->vertex[k]].position;
+            double wx = 1 - fabs((double)(a->x - b->x)) / cell, wy = 1 - fabs((double)(a->y - b->y)) / cell;
+            double wz = 1 - fabs((double)(a->z - b->z)) / cell;
+            if (wx > 0 && wy > 0 && wz > 0) sum += stride * layout->mass[layout->vertex[k]] * wx * wy * wz;
+        }
+    }
+    HAIR_ASSERT(sum >= 0);
+    return fmax(sum, fmax(cell, layout->mass[i]));
+}
+
+static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struct layout* layout)
+{
+    const struct hair_grid* hair_grid = &sim->hair_grid;
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
+        struct spot s = spot_of(hair_grid, &rest[i].position);
+        layout->volume[i] = layout->mass[i] / mass_around(sim, rest, layout, i);
+        for (uint32_t c = 0; c < 8; ++c) {
+            double weight = layout->volume[i];
+            for (int k = 0; k < 3; ++k) weight *= (c >> k & 1) ? (double)s.part[k] : 1 - (double)s.part[k];
+            layout->filled[node_at(hair_grid, s.node[0] + (c & 1), s.node[1] + (c >> 1 & 1),
+                                   s.node[2] + (c >> 2))] += weight;
+        }
+    }
+}
+
+// Upload the contributions of vertices in the grid's units. NULL for `volume` means 0.
+static hair_result upload_splats(struct hair_sim* sim, const struct hair_guide* guides, const double* mass,
+                                 const double* volume, GLuint* out)
+{
+    const hair_host* host = &sim->gl->host;
+    uint32_t vertices = sim->guide_vertices;
+    struct hair_grid_splat* splat = hair_alloc(host, vertices, sizeof *splat);
+    double masses = 0, volumes = 0;
+    if (!splat) return hair_fail_memory(host, "the hair grid");
+    for (uint32_t i = 0; i < vertices; ++i) masses += mass[i], volumes += volume ? volume[i] : 0;
+    HAIR_ASSERT(masses > 0);
+    for (uint32_t i = 0; i < vertices; ++i) {
+        splat[i].mass = (uint32_t)(mass[i] * (HAIR_GRID_UNITS / masses) + 0.5);
+        splat[i].volume = volume ? (uint32_t)(volume[i] * (HAIR_GRID_UNITS / volumes) + 0.5) : 0;
+    }
+    for (uint32_t g = 0; g < sim->guides; ++g)
+        for (uint32_t i = 0, first = guides[g].first; i < guides[g].count; ++i)
+            splat[first + i].first = first, splat[first + i].end = first + guides[g].count;
+    hair_result result = hair_gl_storage(sim->gl, "hair grid splat", vertices * sizeof *splat, splat, out);
+    hair_free(host, splat);
+    return result;
+}
+
+// Upload the contributions of vertices and the volume limit of each node. A node exerts pressure
+// above the volume of a full cell, or above its volume at rest if that is greater.
+static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct layout* layout)
+{
+    const hair_host* host = &sim->gl->host;
+    struct hair_grid* hair_grid = &sim->hair_grid;
+    uint32_t nodes = node_count(hair_grid);
+    float* rest_density = hair_alloc(host, nodes, sizeof *rest_density);
+    double volume = 0;
+    hair_result result = rest_density ? HAIR_OK : hair_fail_memory(host, "the hair grid");
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) volume += layout->volume[i];
+    HAIR_ASSERT(volume > 0);
+    for (uint32_t n = 0; n < nodes && !result; ++n)
+        rest_density[n] = (float)(fmax(layout->filled[n], 1) * (HAIR_GRID_UNITS / volume));
+    if (!result) result = upload_splats(sim, guides, layout->mass, layout->volume, &hair_grid->splat);
+    if (!result)
+        result = hair_gl_storage(sim->gl, "hair grid rest density", nodes * sizeof *rest_density,
+                                 rest_density, &hair_grid->rest_density);
+    hair_free(host, rest_density);
+    return result;
+}
+
+static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guides,
+                             const struct hair_rest* rest)
+{
+    const hair_host* host = &sim->gl->host;
+    uint32_t vertices = sim->guide_vertices, nodes;
+    place_grid(sim, guides, rest);
+    nodes = node_count(&sim->hair_grid);
+    struct layout layout = {0};
+    layout.mass = hair_alloc(host, vertices, sizeof *layout.mass);
+    layout.volume = hair_alloc(host, vertices, sizeof *layout.volume);
+    layout.filled = hair_alloc(host, nodes, sizeof *layout.filled);
+    layout.bin = hair_alloc(host, nodes + 2, sizeof *layout.bin);
+    layout.vertex = hair_alloc(host, vertices, sizeof *layout.vertex);
+    int whole = layout.mass && layout.volume && layout.filled && layout.bin && layout.vertex;
+    hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the hair grid");
+    if (!result) {
+        weigh(sim, guides, rest, layout.mass);
+        sim->hair_grid.metres = 0;
+        for (uint32_t i = 0; i < vertices; ++i) sim->hair_grid.metres += layout.mass[i];
+        sort(sim, rest, &layout);
+        HAIR_ASSERT(layout.bin[nodes] == vertices);
+        fill(sim, rest, &layout);
+        result = upload(sim, guides, &layout);
+    }
+    hair_free(host, layout.mass);
+    hair_free(host, layout.volume);
+    hair_free(host, layout.filled);
+    hair_free(host, layout.bin);
+    hair_free(host, layout.vertex);
+    return result;
+}
+
+hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
+{
+    const hair_host* host = &sim->gl->host;
+    const struct hair_rest* rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
+    double* mass = hair_alloc(host, sim->guide_vertices, sizeof *mass);
+    if (!mass) return hair_fail_memory(host, "the lengths of guides");
+    weigh(sim, guides, rest, mass);
+    *metres = 0;
+    for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += mass[i] / HAIR_GRID_UNITS;
+    hair_result result = upload_splats(sim, guides, mass, NULL, splat);
+    hair_free(host, mass);
+    return result;
+}
+
+hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guides,
+                             const struct hair_rest* rest)
+{
+    struct hair_gl* gl = sim->gl;
+    struct hair_grid* hair_grid = &sim->hair_grid;
+    if (!hair_grid_is_on(sim) || hair_grid->texture) return HAIR_OK;
+    hair_result result = make_rest(sim, guides, rest);
+    if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0);
+    size_t grid = (size_t)grid_fours(hair_grid) * 4 * sizeof(int32_t);
+    if (!result)
+        result = hair_gl_uniform(gl, "hair grid", sizeof(struct hair_grid_params), &hair_grid->params);
+    if (!result) result = hair_gl_storage(gl, "hair grid", grid, NULL, &hair_grid->grid);
+    if (!result)
+        result = hair_gl_storage(gl, "hair grid accelerations", sim->guide_vertices * sizeof(hair_vec4), NULL,
+                                 &hair_grid->acceleration);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair grid accelerations", GL_RGBA32F, hair_grid->acceleration,
+                                        &hair_grid->texture);
+    if (result) hair_grid_free(sim);
+    return result;
+}
+
+hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim)
+{
+    return sim->rods ? hair_grid_create(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
+}
+
+void hair_grid_free(struct hair_sim* sim)
+{
+    struct hair_grid* hair_grid = &sim->hair_grid;
+    hair_gl_free_buffer_texture(sim->gl, &hair_grid->texture);
+    hair_gl_free_buffer(sim->gl, &hair_grid->params);
+    hair_gl_free_buffer(sim->gl, &hair_grid->grid);
+    hair_gl_free_buffer(sim->gl, &hair_grid->splat);
+    hair_gl_free_buffer(sim->gl, &hair_grid->rest_density);
+    hair_gl_free_buffer(sim->gl, &hair_grid->acceleration);
+}
+
+static uint32_t block_length(const struct hair_sim* sim)
+{
+    HAIR_ASSERT(sim->substep > 0);
+    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
+    return substeps < 1 ? 1 : substeps;
+}
+
+static void write_params(const struct hair_sim* sim, struct hair_grid_params* params)
+{
+    const struct hair_grid* hair_grid = &sim->hair_grid;
+    double time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
+    float sound = 0.5f * hair_grid->cell / (float)time; // Half a cell per block is stable.
+    hair_quat q = sim->last_after.rotation;
+    hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
+    // The fraction of a relative velocity after a block is exp(-rate time), for any length of the
+    // block.
+    *params = (struct hair_grid_params){
+        .rotation = {q.x, q.y, q.z, q.w},
+        .moved = {moved.x, moved.y, moved.z, (float)(1 / sim->last_substep)},
+        .lower = {hair_grid->lower.x, hair_grid->lower.y, hair_grid->lower.z, hair_grid->cell},
+        .nodes_x = hair_grid->nodes[0],
+        .nodes_y = hair_grid->nodes[1],
+        .nodes_z = hair_grid->nodes[2],
+        .vertices = sim->guide_vertices,
+        .cohesion = (float)(-expm1(-rate * time) / time),
+        .pressure_stiffness = fminf(sim->physics.pressure_stiffness, sound * sound),
+        .per_strand = (float)(hair_grid->metres / HAIR_GRID_UNITS) / (MAX_OF_STRAND * hair_grid->cell),
+        .ahead = HAIR_GRID_SPEED * 0.5f * (float)time / hair_grid->cell,
+    };
+}
+
+static void find_acceleration(struct hair_sim* sim)
+{
+    struct hair_gl* gl = sim->gl;
+    struct hair_grid* hair_grid = &sim->hair_grid;
+    struct hair_grid_params params;
+    GLuint storage[] = {sim->state,       hair_grid->grid,         sim->history,
+                        hair_grid->splat, hair_grid->rest_density, hair_grid->acceleration};
+    uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
+    HAIR_ASSERT(hair_grid->texture && sim->last_substep > 0);
+    write_params(sim, &params);
+    hair_gl_write_uniform(gl, hair_grid->params, sizeof params, &params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);
+    hair_gl_run(gl, HAIR_GL_HAIR_GRID_CLEAR, (grid_fours(hair_grid) + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, HAIR_GL_HAIR_GRID_SPLAT, groups);
+    hair_gl_run(gl, HAIR_GL_HAIR_GRID_GATHER, groups);
+}
+
+uint32_t hair_grid_substeps_left(struct hair_sim* sim)
+{
+    uint32_t length = block_length(sim);
+    if (sim->hair_grid.substeps_done >= length)
+        sim->hair_grid.substeps_done = 0; // Substeps have become longer.
+    if (sim->hair_grid.substeps_done == 0) {
+        find_acceleration(sim);
+        hair_sim_bind(sim);
+        hair_sim_bind_rods(sim);
+    }
+    return length - sim->hair_grid.substeps_done;
+}
+
+void hair_grid_bind(struct hair_sim* sim)
+{
+    sim->gl->BindTextureUnit(HAIR_UNIT_ACCELERATION, sim->hair_grid.texture);
+}
+
+void hair_grid_count(struct hair_sim* sim, uint32_t substeps)
+{
+    sim->hair_grid.substeps_done = (sim->hair_grid.substeps_done + substeps) % block_length(sim);
+}

@@ -1,0 +1,190 @@
+// wind_coupling.c - the fluid of a simulation. The wind's settings decide its size and method. The
+// fluid is stepped at the start of every block of substeps.
+#include "lib/sim/wind_coupling.h"
+
+#include "lib/sim/sim.h"
+
+#define BLOCK (1.0 / 60) // Length of a block, s. A block is at least a substep long.
+// Default side of the fluid's box, as a multiple of the distance field's longest side.
+#define AROUND 1.5f
+
+bool hair_wind_coupling_is_on(const struct hair_sim* sim)
+{
+    return sim->rods && sim->wind.model == HAIR_WIND_FLUID && hair_wind_is_on(&sim->wind);
+}
+
+static hair_vec3 field_size(const struct hair_field_box* box)
+{
+    float side = HAIR_BRICK * box->voxel;
+    return hair_v3(side * (float)box->bricks[0], side * (float)box->bricks[1], side * (float)box->bricks[2]);
+}
+
+// Return the number of cycles or sweeps that reduce the divergence to a thousandth.
+static uint32_t enough(hair_projection projection, uint32_t cells)
+{
+    if (projection == HAIR_PROJECTION_MULTIGRID) return 4;
+    return projection == HAIR_PROJECTION_RELAXATION ? 5 * cells / 2 : cells * cells / 2;
+}
+
+static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
+{
+    const hair_wind* wind = &sim->wind;
+    hair_vec3 size = field_size(&sim->wind_coupling.field->box);
+    struct hair_fluid_desc desc = {.cells = (wind->resolution + 15) / 16 * 16,
+                                   .side = wind->grid_size,
+                                   .method = (hair_fluid_method)wind->projection,
+                                   .cycles = wind->projection_iterations};
+    if (desc.side == 0) desc.side = AROUND * fmaxf(size.x, fmaxf(size.y, size.z));
+    if (desc.cycles == 0) desc.cycles = enough(wind->projection, desc.cells);
+    return desc;
+}
+
+static void free_hair(struct hair_wind_coupling* wind_coupling, struct hair_gl* gl)
+{
+    hair_gl_free_buffer(gl, &wind_coupling->splat);
+    hair_gl_free_buffer(gl, &wind_coupling->params);
+}
+
+static bool is_porous(const struct hair_sim* sim)
+{
+    return sim->wind.drag_strand_count > 0 && sim->physics.drag > 0;
+}
+
+static hair_result ensure_hair(struct hair_sim* sim)
+{
+    struct hair_wind_coupling* wind_coupling = &sim->wind_coupling;
+    int wanted = is_porous(sim);
+    if (!wanted) free_hair(wind_coupling, sim->gl);
+    hair_result result = hair_fluid_ensure_hair(&wind_coupling->fluid, wanted);
+    if (!result && wanted && !wind_coupling->splat)
+        result = hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres);
+    if (!result && wanted && !wind_coupling->params)
+        result = hair_gl_uniform(sim->gl, "hair grid of the fluid", sizeof(struct hair_grid_params),
+                                 &wind_coupling->params);
+    return result;
+}
+
+hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim)
+{
+    if (!hair_wind_coupling_is_on(sim)) return HAIR_OK;
+    return hair_fluid_ensure_programs(sim->gl, (hair_fluid_method)sim->wind.projection, is_porous(sim));
+}
+
+hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
+{
+    struct hair_fluid* fluid = &sim->wind_coupling.fluid;
+    if (!hair_wind_coupling_is_on(sim)) {
+        hair_wind_coupling_free(sim);
+        return HAIR_OK;
+    }
+    struct hair_fluid_desc desc = desc_of(sim), was = fluid->desc;
+    int same = fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method;
+    fluid->desc.cycles = desc.cycles;
+    hair_result result = HAIR_OK;
+    if (!same) {
+        hair_wind_coupling_free(sim);
+        result = hair_fluid_create(fluid, sim->gl, &desc);
+    }
+    if (!result) result = ensure_hair(sim);
+    return result ? result : hair_fluid_make_room(fluid, sim->colliders.current.count);
+}
+
+void hair_wind_coupling_free(struct hair_sim* sim)
+{
+    free_hair(&sim->wind_coupling, sim->gl);
+    hair_fluid_destroy(&sim->wind_coupling.fluid);
+    sim->wind_coupling.substeps_done = 0;
+}
+
+void hair_wind_coupling_reset(struct hair_sim* sim)
+{
+    if (sim->wind_coupling.fluid.gl) hair_fluid_reset(&sim->wind_coupling.fluid);
+    sim->wind_coupling.substeps_done = 0;
+}
+
+static uint32_t block_length(const struct hair_sim* sim)
+{
+    HAIR_ASSERT(sim->substep > 0);
+    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
+    return substeps < 1 ? 1 : substeps;
+}
+
+// Gather the mass and momentum of hair in the fluid's box.
+static void gather_hair(struct hair_sim* sim)
+{
+    struct hair_gl* gl = sim->gl;
+    const struct hair_fluid* fluid = &sim->wind_coupling.fluid;
+    HAIR_ASSERT(fluid->hair.grid.buffer && sim->wind_coupling.splat && sim->last_substep > 0);
+    uint32_t nodes = hair_fluid_nodes(fluid), fours = nodes * nodes * nodes;
+    float cell = fluid->desc.side / (float)nodes, half = 0.5f * cell;
+    hair_vec3 lower = hair_add(fluid->lower, hair_v3(half, half, half));
+    struct hair_grid_params params = {.rotation = {0, 0, 0, 1},
+                                      .moved = {0, 0, 0, (float)(1 / sim->last_substep)},
+                                      .lower = {lower.x, lower.y, lower.z, cell},
+                                      .nodes_x = nodes,
+                                      .nodes_y = nodes,
+                                      .nodes_z = nodes,
+                                      .vertices = sim->guide_vertices};
+    GLuint storage[] = {sim->state, fluid->hair.grid.buffer, sim->history, sim->wind_coupling.splat};
+    hair_gl_write_uniform(gl, sim->wind_coupling.params, sizeof params, &params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &sim->wind_coupling.params);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 4, storage);
+    hair_gl_run(gl, HAIR_GL_FLUID_CLEAR, (fours + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    hair_gl_run(gl, HAIR_GL_FLUID_SPLAT, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+}
+
+// Return the drag of the hair on the air, from the drag of the air on guides. The guides gain the
+// momentum that the air loses.
+static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
+{
+    const hair_wind* wind = &sim->wind;
+    HAIR_ASSERT(sim->guides > 0 && sim->wind_coupling.metres > 0);
+    double viscosity = (double)wind->viscosity / (double)wind->density;
+    return (struct hair_fluid_strands){
+        .metres = sim->wind_coupling.metres * wind->drag_strand_count / sim->guides,
+        .per_speed = (float)(2 * (double)sim->physics.fiber_radius / viscosity),
+        .viscous = (float)((double)sim->physics.drag * viscosity),
+    };
+}
+
+uint32_t hair_wind_coupling_substeps_left(struct hair_sim* sim, double dt)
+{
+    struct hair_wind_coupling* wind_coupling = &sim->wind_coupling;
+    const struct hair_field_box* box = &wind_coupling->field->box;
+    uint32_t length = block_length(sim);
+    if (wind_coupling->substeps_done >= length)
+        wind_coupling->substeps_done = 0; // Substeps have become longer.
+    if (wind_coupling->substeps_done != 0) return length - wind_coupling->substeps_done;
+    HAIR_ASSERT(wind_coupling->fluid.gl && dt > 0);
+    struct hair_fluid_now now = {.head = sim->last_after,
+                                 .middle = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
+                                 .wind = hair_load3(sim->wind.velocity),
+                                 .gusts =
+                                     hair_wind_find_gusts(&sim->wind_state, &sim->wind, &sim->last_after),
+                                 .dt = length * sim->substep,
+                                 .field = wind_coupling->field,
+                                 .colliders = &sim->colliders,
+                                 .colliders_dt = dt};
+    if (wind_coupling->splat) now.strands = strands_of(sim);
+    hair_fluid_place(&wind_coupling->fluid, &now);
+    if (wind_coupling->splat) gather_hair(sim);
+    hair_fluid_move(&wind_coupling->fluid);
+    hair_sim_bind(sim);
+    hair_sim_bind_rods(sim);
+    if (sim->contacts.any) hair_contacts_bind(sim);
+    return length;
+}
+
+void hair_wind_coupling_count(struct hair_sim* sim, uint32_t substeps)
+{
+    HAIR_ASSERT(sim->wind_coupling.substeps_done + substeps <= block_length(sim));
+    sim->wind_coupling.substeps_done = (sim->wind_coupling.substeps_done + substeps) % block_length(sim);
+}
+
+hair_vec4 hair_wind_coupling_box(const struct hair_sim* sim)
+{
+    const struct hair_fluid* fluid = &sim->wind_coupling.fluid;
+    double cell = (double)hair_fluid_cell(fluid), lower[3];
+    for (int k = 0; k < 3; ++k) lower[k] = fluid->origin[k] * cell - sim->last_after.position[k];
+    return (hair_vec4){(float)lower[0], (float)lower[1], (float)lower[2], 1 / fluid->desc.side};
+}

@@ -1,0 +1,46 @@
+// smooth.c - smoothed guides as a structure of arrays, with a buffer and a texture for each.
+#include "lib/strands/smooth.h"
+
+hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
+{
+    static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
+    smooth->gl = gl;
+    smooth->vertices = sim->guides * sim->smooth_vertices;
+    HAIR_ASSERT(smooth->vertices > 0 && sim->smooth_vertices <= HAIR_MAX_SMOOTH_VERTICES);
+    smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
+    hair_result result = hair_gl_ensure_program(gl, smooth->pass);
+    for (int i = 0; i < 3 && !result; ++i) {
+        result =
+            hair_gl_storage(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
+        if (!result)
+            result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
+    }
+    return result;
+}
+
+void hair_smooth_destroy(struct hair_smooth* smooth)
+{
+    if (!smooth->gl) return;
+    for (int i = 0; i < 3; ++i) {
+        hair_gl_free_buffer_texture(smooth->gl, &smooth->texture[i]);
+        hair_gl_free_buffer(smooth->gl, &smooth->buffer[i]);
+    }
+}
+
+void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
+{
+    HAIR_ASSERT(smooth->vertices == sim->guides * sim->smooth_vertices);
+    HAIR_ASSERT(smooth->buffer[0] && smooth->buffer[1] && smooth->buffer[2]);
+    hair_sim_bind(sim);
+    smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
+    hair_gl_pass pass = smooth->pass;
+    if (hair_scalp_motion_is_on(sim)) pass |= HAIR_GL_WITH(SKINNED);
+    hair_gl_run(smooth->gl, pass, sim->guides);
+    ++smooth->runs;
+    smooth->done = 1;
+}
+
+void hair_smooth_ensure(struct hair_smooth* smooth, struct hair_sim* sim)
+{
+    if (!smooth->done) hair_smooth_run(smooth, sim);
+}

@@ -1,0 +1,27 @@
+// smooth.h - guides smoothed into buffers that every draw reads.
+#ifndef HAIR_STRANDS_SMOOTH_H
+#define HAIR_STRANDS_SMOOTH_H
+
+#include "lib/gl/gl.h"
+#include "lib/sim/sim.h"
+
+struct hair_smooth {
+    struct hair_gl* gl;
+    GLuint buffer[3]; // Position, tangent and frame.
+    GLuint texture[3]; // Their buffer textures, for stages without storage buffers.
+    hair_gl_pass pass; // Variant of smooth.comp in the size that the longest guide needs.
+    uint32_t vertices; // Total number of vertices.
+    uint32_t runs; // Number of runs so far.
+    int done; // Nonzero if the guides have not moved since the last run.
+};
+
+hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim);
+void hair_smooth_destroy(struct hair_smooth* smooth);
+
+// Smooth the guides as the last step left them. This reads the step buffer.
+void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim);
+// Smooth the guides unless `done` is nonzero. Code that moves the guides sets `done` to 0, so that
+// guides are smoothed only if drawn or read.
+void hair_smooth_ensure(struct hair_smooth* smooth, struct hair_sim* sim);
+
+#endif

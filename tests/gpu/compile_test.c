@@ -1,0 +1,434 @@
+// compile_test.c - programs, buffers and textures are made when they are first needed, cached by
+// the application, and freed when they are no longer needed. Their size stays within a limit.
+#define _POSIX_C_SOURCE 200809L
+#include "tests/support/passes.h"
+#include "tests/support/support.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "lib/api/api.h"
+#include "tests/support/frame.h"
+#include "tests/support/handmade.h"
+#include "tests/support/trace.h"
+
+enum { SIZE = 48, KEPT = 32, FLIPS = 60 };
+
+// The application's cache, in memory --------------------------------------------------------------
+
+struct kept {
+    uint64_t key;
+    unsigned char* bytes;
+    size_t size;
+};
+
+struct cache {
+    struct kept kept[KEPT];
+    uint32_t count, puts;
+};
+
+static struct kept* find(struct cache* cache, uint64_t key)
+{
+    for (uint32_t i = 0; i < cache->count; ++i)
+        if (cache->kept[i].key == key) return &cache->kept[i];
+    return NULL;
+}
+
+static size_t get(uint64_t key, void* bytes, size_t capacity, void* user)
+{
+    const struct kept* kept = find(user, key);
+    if (kept && kept->size <= capacity) memcpy(bytes, kept->bytes, kept->size);
+    return kept ? kept->size : 0;
+}
+
+static void put(uint64_t key, const void* bytes, size_t size, void* user)
+{
+    struct cache* cache = user;
+    struct kept* kept = find(cache, key);
+    if (!kept) {
+        assert_true(cache->count < KEPT);
+        kept = &cache->kept[cache->count++];
+    }
+    free(kept->bytes);
+    *kept = (struct kept){key, malloc(size), size};
+    memcpy(kept->bytes, bytes, size);
+    ++cache->puts;
+}
+
+static void empty(struct cache* cache)
+{
+    for (uint32_t i = 0; i < cache->count; ++i) free(cache->kept[i].bytes);
+}
+
+// Hair --------------------------------------------------------------------------------------------
+
+struct fixture {
+    struct hair_test* test;
+    hair_context* context;
+    hair_instance* hair;
+    struct hair_test_frame frame;
+};
+
+static hair_context* make_context(struct hair_test* test, struct cache* cache)
+{
+    hair_context* context = NULL;
+    hair_cache own = {get, put, cache};
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.cache = cache ? &own : NULL;
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    return context;
+}
+
+static hair_result create(struct fixture* f, hair_instance** out)
+{
+    hair_desc desc = hair_desc_default();
+    hair_physics physics = hair_physics_default();
+    hair_groom* groom = hair_test_groom(&f->test->host.host, hair_test_handmade_default());
+    physics.sleep_threshold = 0;
+    desc.physics = &physics;
+    hair_result result = hair_create(f->context, groom, &desc, out);
+    hair_groom_destroy(groom);
+    return result;
+}
+
+static struct fixture start(struct hair_test* test, struct cache* cache)
+{
+    struct fixture f = {.test = test};
+    f.context = make_context(test, cache);
+    hair_test_ok(test, create(&f, &f.hair));
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    return f;
+}
+
+static void finish(struct fixture* f)
+{
+    hair_test_frame_free(&f->frame);
+    hair_destroy(f->hair);
+    hair_context_destroy(f->context);
+}
+
+static hair_view view_of(hair_render_path path)
+{
+    hair_view view = hair_view_default();
+    view.render_path = path;
+    view.projection[0] = view.projection[5] = view.projection[10] = 3;
+    return view;
+}
+
+static void draw(struct fixture* f, const hair_view* view, float* pixels)
+{
+    hair_test_frame_clear(&f->frame);
+    hair_test_ok(f->test, hair_draw(f->hair, view));
+    hair_test_frame_read(&f->frame, pixels);
+}
+
+// Programs ----------------------------------------------------------------------------------------
+
+static void each_program_is_compiled_when_something_first_needs_it(void** state)
+{
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = {.test = *state};
+    hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+    const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
+    f.context = make_context(f.test, NULL);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
+    hair_test_ok(f.test, create(&f, &f.hair));
+    // The instance is placed, solved and smoothed.
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 3);
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    hair_test_ok(f.test, hair_step(f.hair, 0.05f));
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 3);
+    draw(&f, &view, pixels);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 4);
+    hair_test_ok(f.test, hair_teleport(f.hair, head));
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 5);
+    view.pass = HAIR_PASS_GUIDES;
+    draw(&f, &view, pixels);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 6);
+    view.pass = HAIR_PASS_COLLIDERS;
+    draw(&f, &view, pixels);
+    assert_int_equal(hair_test_count_programs(&f.context->gl), 7);
+    finish(&f);
+}
+
+static int has_binaries(void)
+{
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    if (!formats) print_message("    this driver gives no programs away\n");
+    return formats > 0;
+}
+
+static double now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
+static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** state)
+{
+    static float pixels[2][4 * SIZE * SIZE];
+    struct cache cache = {0};
+    uint32_t puts = 0;
+    if (!has_binaries()) return;
+    for (int run = 0; run < 2; ++run) {
+        hair_test_trace_clear();
+        double begin = now_ms();
+        struct fixture f = start(*state, &cache);
+        hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+        hair_test_ok(f.test, hair_step(f.hair, 0.05f));
+        draw(&f, &view, pixels[run]);
+        print_message("    the first picture %s the cache after %.0f ms\n", run ? "with" : "without",
+                      now_ms() - begin);
+        assert_int_equal(hair_test_trace_count("glLinkProgram"), run ? 0 : cache.puts);
+        assert_int_equal(hair_test_trace_count("glCompileShader") > 0, !run);
+        if (!run) puts = cache.puts;
+        assert_int_equal(cache.puts, puts);
+        assert_int_equal(cache.count, puts);
+        finish(&f);
+    }
+    assert_true(puts >= 5); // Four programs and the self-test.
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    empty(&cache);
+}
+
+// Link the program of the smallest shader, from the cache if possible. Return the number of links.
+static uint32_t count_links(struct hair_gl* gl)
+{
+    GLuint program = 0;
+    hair_test_trace_clear();
+    hair_gl_enter(gl);
+    assert_int_equal(hair_gl_link(gl, "activity", "sim/activity.comp", NULL, &program), HAIR_OK);
+    hair_gl_leave(gl);
+    assert_true(glIsProgram(program));
+    glDeleteProgram(program);
+    return hair_test_trace_count("glLinkProgram");
+}
+
+static void what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew(void** state)
+{
+    struct cache cache = {0};
+    hair_context* context = make_context(*state, &cache);
+    uint32_t random = 5, before = cache.count;
+    if (has_binaries()) {
+        assert_int_equal(count_links(&context->gl), 1);
+        assert_int_equal(count_links(&context->gl), 0);
+        struct kept* kept = &cache.kept[before];
+        size_t size = kept->size;
+        for (uint32_t i = 0; i < FLIPS; ++i) {
+            size_t at = i < 28 ? i : (size_t)(hair_random(&random) * (float)(size - 1));
+            if (i >= 48) at = size - 1 - (i - 48);
+            kept->bytes[at] ^= (unsigned char)(1u << i % 8);
+            assert_int_equal(count_links(&context->gl), 1);
+            assert_int_equal(count_links(&context->gl), 0);
+        }
+        const size_t sizes[] = {0, 1, 27, 28, 29, size / 2, size - 1};
+        for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i) {
+            kept->size = sizes[i];
+            assert_int_equal(count_links(&context->gl), 1);
+            assert_int_equal(count_links(&context->gl), 0);
+        }
+        // The binary of another program, under the key of this one.
+        kept->size = cache.kept[0].size < size ? cache.kept[0].size : size;
+        memcpy(kept->bytes, cache.kept[0].bytes, kept->size);
+        assert_int_equal(count_links(&context->gl), 1);
+    }
+    hair_context_destroy(context);
+    empty(&cache);
+}
+
+static void a_cache_without_both_functions_is_refused(void** state)
+{
+    struct hair_test* test = *state;
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    hair_cache cache = {get, NULL, NULL};
+    desc.host = &test->host.host;
+    desc.get_proc = hair_test_trace_proc;
+    desc.cache = &cache;
+    hair_test_refused(test, hair_context_create(&desc, &context), HAIR_ERROR_ARGUMENT,
+                      "hair_cache.put is NULL");
+    cache = (hair_cache){NULL, put, NULL};
+    hair_test_refused(test, hair_context_create(&desc, &context), HAIR_ERROR_ARGUMENT,
+                      "hair_cache.get is NULL");
+}
+
+// Memory ------------------------------------------------------------------------------------------
+
+static hair_memory memory_of(struct fixture* f)
+{
+    hair_memory memory = hair_memory_default();
+    hair_test_ok(f->test, hair_get_memory(f->context, &memory));
+    return memory;
+}
+
+static uint64_t reported(struct fixture* f)
+{
+    hair_report_info info = hair_report_info_default();
+    uint32_t count;
+    hair_test_ok(f->test, hair_report(f->hair, 0, &info, NULL, 0, 0, &count));
+    return info.bytes;
+}
+
+// Check that everything an instance can have is counted once, and freed.
+static void memory_is_what_instances_report_and_all_comes_back(void** state)
+{
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_collider collider = hair_collider_default();
+    hair_wind wind = hair_wind_default();
+    hair_physics physics = hair_physics_default();
+    hair_pin pin = hair_pin_default();
+    hair_lod lod = hair_lod_default();
+    uint64_t plain, all;
+    hair_test_ok(f.test, hair_step(f.hair, 0.02f));
+    assert_int_equal(memory_of(&f).bytes, reported(&f));
+    plain = memory_of(&f).bytes;
+    collider.size[0] = 0.05f, collider.position[1] = -0.1f;
+    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.turbulence_intensity = 0.2f,
+    wind.resolution = 16;
+    physics.cohesion = physics.pressure_stiffness = 1;
+    pin.position[0] = 0.1f;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
+    hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    hair_test_ok(f.test, hair_set_pins(f.hair, &pin, 1, sizeof pin));
+    for (int i = 0; i < 3; ++i) {
+        collider.position[0] += 0.01f;
+        hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
+        hair_test_ok(f.test, hair_step(f.hair, 0.02f));
+        view.pass = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
+        view.coverage = i == 2 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
+        view.render_path = i == 0 ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED;
+        draw(&f, &view, pixels);
+        view.lod = i == 0 ? &lod : NULL;
+        if (view.lod) draw(&f, &view, pixels);
+        view.lod = NULL;
+        assert_int_equal(memory_of(&f).bytes, reported(&f));
+    }
+    all = memory_of(&f).bytes;
+    print_message("    %llu bytes, %llu with all that there is\n", (unsigned long long)plain,
+                  (unsigned long long)all);
+    assert_true(all > 4 * plain);
+    assert_true(memory_of(&f).peak >= all);
+    hair_destroy(f.hair);
+    f.hair = NULL;
+    assert_int_equal(memory_of(&f).bytes, 0);
+    finish(&f);
+}
+
+static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes(void** state)
+{
+    static float pixels[2][4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_instance* other = NULL;
+    draw(&f, &plain, pixels[0]);
+    uint64_t bytes = memory_of(&f).bytes, used = bytes;
+    hair_test_ok(f.test, hair_set_memory_limit(f.context, bytes + 1000));
+    assert_int_equal(memory_of(&f).limit, bytes + 1000);
+    hair_test_refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_MEMORY,
+                      "in use would be beyond the limit of");
+    hair_test_refused(f.test, create(&f, &other), HAIR_ERROR_MEMORY, "in use would be beyond the limit of");
+    assert_null(other);
+    assert_true(memory_of(&f).bytes <= bytes + 1000);
+    hair_test_ok(f.test, hair_step(f.hair, 0.05f)); // The instance has all that it needs.
+    hair_test_ok(f.test, hair_reset(f.hair));
+    draw(&f, &plain, pixels[1]);
+    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
+    hair_test_ok(f.test, hair_set_memory_limit(f.context, 0));
+    hair_test_ok(f.test, hair_draw(f.hair, &view));
+    hair_test_ok(f.test, create(&f, &other));
+    hair_destroy(other);
+    assert_true(memory_of(&f).bytes > used);
+    assert_int_equal(hair_get_memory(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_set_memory_limit(NULL, 0), HAIR_ERROR_ARGUMENT);
+    finish(&f);
+}
+
+// Compare the pictures before, meanwhile and after, on every render path.
+static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
+{
+    static float pixels[2][4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_look look = f.hair->draw.look;
+    look.shading = HAIR_SHADING_LINES;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    draw(&f, &plain, pixels[0]);
+    uint64_t min = memory_of(&f).bytes;
+    for (int kind = 0; kind < 4; ++kind) {
+        view.pass = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
+        view.coverage = kind == 1 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
+        look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
+        for (int turn = 0; turn < 2; ++turn) {
+            hair_test_ok(f.test, hair_reset(f.hair));
+            hair_test_ok(f.test, hair_set_look(f.hair, &look));
+            draw(&f, &view, pixels[turn]);
+            assert_true(memory_of(&f).bytes > min);
+            look.shading = HAIR_SHADING_LINES;
+            hair_test_ok(f.test, hair_set_look(f.hair, &look));
+            for (int i = 0; i < 250; ++i) {
+                hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
+                // The memory is not freed at once.
+                if (i == 100) assert_true(memory_of(&f).bytes > min);
+                if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &plain));
+            }
+            assert_int_equal(memory_of(&f).bytes, min);
+            look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
+        }
+        // Equally distant fragments of segments are blended in any order.
+        double max = 0;
+        for (int i = 0; i < 4 * SIZE * SIZE; ++i)
+            max = fmax(max, fabs((double)pixels[0][i] - (double)pixels[1][i]));
+        assert_true(max <= (kind == 1 ? 0.05 : 0));
+    }
+    finish(&f);
+}
+
+// Check a depth pass after colour. It draws the vertices that the colour pass wrote, and does not
+// keep their shaded colours.
+static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(void** state)
+{
+    static float pixels[4 * SIZE * SIZE];
+    struct fixture f = start(*state, NULL);
+    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_look look = f.hair->draw.look;
+    look.shading = HAIR_SHADING_LINES;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    view.pass = HAIR_PASS_DEPTH;
+    draw(&f, &view, pixels);
+    uint64_t min = memory_of(&f).bytes;
+    view.pass = HAIR_PASS_COLOR;
+    draw(&f, &view, pixels);
+    assert_true(memory_of(&f).bytes > min);
+    view.pass = HAIR_PASS_DEPTH;
+    for (int i = 0; i < 250; ++i) {
+        hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
+        if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &view));
+    }
+    assert_int_equal(memory_of(&f).bytes, min);
+    finish(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(each_program_is_compiled_when_something_first_needs_it),
+        HAIR_TEST(what_a_host_keeps_is_not_compiled_again_and_draws_the_same),
+        HAIR_TEST(what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew),
+        HAIR_TEST(a_cache_without_both_functions_is_refused),
+        HAIR_TEST(memory_is_what_instances_report_and_all_comes_back),
+        HAIR_TEST(what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes),
+        HAIR_TEST(what_no_view_asks_for_any_more_is_freed_and_made_again),
+        HAIR_TEST(vertices_that_depth_goes_on_asking_for_stay_without_their_colours),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}

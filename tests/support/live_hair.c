@@ -1,0 +1,351 @@
+#include "tests/support/live_hair.h"
+#include "lib/api/api.h"
+#include "lib/collide/distance.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+void hair_test_live(struct hair_test* test, const struct hair_test_strands* strands, const hair_desc* desc,
+                    struct hair_test_living* out)
+{
+    *out = (struct hair_test_living){
+        .test = test, .physics = hair_physics_default(), .wind = hair_wind_default()};
+    hair_groom_desc of = hair_test_groom_desc(&test->host, strands);
+    of.strand_set = HAIR_STRAND_SET_GUIDES;
+    of.follower_count = strands->count;
+    of.guide_vertices = 2;
+    for (uint32_t i = 0; i < strands->count; ++i)
+        if (strands->vertices[i] > of.guide_vertices) of.guide_vertices = strands->vertices[i];
+    hair_test_ok(test, hair_groom_create(&of, &out->groom));
+    if (desc->physics) out->physics = *desc->physics;
+    hair_test_ok(test, hair_create(test->context, out->groom, desc, &out->hair));
+    out->vertices = out->groom->info.guide_vertex_count;
+    out->positions = calloc(out->vertices, 3 * sizeof *out->positions);
+    out->before = calloc(out->vertices, 3 * sizeof *out->before);
+    assert_int_equal(out->vertices, strands->vertex_count);
+    hair_test_read_guides(out);
+}
+
+void hair_test_die(struct hair_test_living* living)
+{
+    hair_destroy(living->hair);
+    hair_groom_destroy(living->groom);
+    free(living->positions);
+    free(living->before);
+    memset(living, 0, sizeof *living);
+}
+
+void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices, hair_vec3 root,
+                            hair_vec3 way, float length)
+{
+    hair_vec3 step = hair_scale(hair_normalize(way, hair_v3(0, 1, 0)), length / (float)(vertices - 1));
+    for (uint32_t i = 0; i < vertices; ++i)
+        hair_store3(strands->positions + 3 * (size_t)strands->vertex_count++,
+                    hair_add(root, hair_scale(step, (float)i)));
+    strands->vertices[strands->count++] = vertices;
+}
+
+struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, hair_vec3 way, float length)
+{
+    struct hair_test_strands strands = hair_test_strands_make(1, vertices);
+    hair_test_add_straight(&strands, vertices, root, way, length);
+    return strands;
+}
+
+static void write_matrix(const struct hair_reference_rod_pose* pose, float out[16])
+{
+    static const hair_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double* q = pose->rotation;
+    hair_quat turn = {(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+    memset(out, 0, 16 * sizeof *out);
+    for (int i = 0; i < 3; ++i) hair_store3(out + 4 * i, hair_rotate(turn, axes[i]));
+    for (int i = 0; i < 3; ++i) out[12 + i] = (float)pose->position[i];
+    out[15] = 1;
+}
+
+void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head, double dt)
+{
+    float transform[16];
+    if (head) {
+        write_matrix(head, transform);
+        hair_test_ok(living->test, hair_set_transform(living->hair, transform));
+    }
+    hair_test_ok(living->test, hair_step(living->hair, (float)dt));
+}
+
+void hair_test_wind_coupling(struct hair_test_living* living, const hair_wind* wind)
+{
+    living->wind = wind ? *wind : hair_wind_default();
+    hair_test_ok(living->test, hair_set_wind(living->hair, wind));
+}
+
+void hair_test_wait(struct hair_test_living* living, uint32_t frames)
+{
+    for (uint32_t i = 0; i < frames; ++i) hair_test_advance(living, NULL, 1.0 / 60);
+}
+
+void hair_test_read_guides(struct hair_test_living* living)
+{
+    float* later = living->before;
+    uint32_t count = 0;
+    living->before = living->positions;
+    living->positions = later;
+    hair_test_ok(living->test,
+                 hair_read_positions(living->hair, HAIR_READ_GUIDES, later, living->vertices, &count));
+    assert_int_equal(count, living->vertices);
+    for (uint32_t i = 0; i < 3 * count; ++i)
+        if (!isfinite(later[i])) fail_msg("coordinate %u of vertex %u is %g", i % 3, i / 3, (double)later[i]);
+}
+
+hair_vec3 hair_test_at(const struct hair_test_living* living, uint32_t guide, uint32_t vertex)
+{
+    return hair_load3(living->positions + 3 * (size_t)(living->groom->guides[guide].first + vertex));
+}
+
+hair_vec3 hair_test_tip(const struct hair_test_living* living, uint32_t guide)
+{
+    return hair_test_at(living, guide, living->groom->guides[guide].count - 1);
+}
+
+double hair_test_length(const struct hair_test_living* living, uint32_t guide)
+{
+    return (double)living->groom->guides[guide].arc_length;
+}
+
+static double distance(const float* a, const float* b)
+{
+    double x = (double)a[0] - (double)b[0], y = (double)a[1] - (double)b[1], z = (double)a[2] - (double)b[2];
+    return sqrt(x * x + y * y + z * z);
+}
+
+double hair_test_stretch(const struct hair_test_living* living)
+{
+    double max = 0;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g) {
+        const struct hair_guide* guide = &living->groom->guides[g];
+        for (uint32_t i = guide->first; i + 1 < guide->first + guide->count; ++i) {
+            const float* p = living->positions + 3 * (size_t)i;
+            max = fmax(max, fabs(distance(p, p + 3) / (double)living->groom->rest[i].position.w - 1));
+        }
+    }
+    return max;
+}
+
+double hair_test_moved(const struct hair_test_living* living)
+{
+    double max = 0;
+    for (size_t i = 0; i < 3 * (size_t)living->vertices; i += 3)
+        max = fmax(max, distance(living->positions + i, living->before + i));
+    return max;
+}
+
+double hair_test_from_rest(const struct hair_test_living* living)
+{
+    double max = 0;
+    for (size_t i = 0; i < living->vertices; ++i)
+        max = fmax(max, distance(living->positions + 3 * i, &living->groom->rest[i].position.x));
+    return max;
+}
+
+hair_collider hair_test_body(hair_shape shape, float x, float y, float z)
+{
+    hair_collider collider = hair_collider_default();
+    collider.shape = shape;
+    collider.position[0] = x;
+    collider.position[1] = y;
+    collider.position[2] = z;
+    return collider;
+}
+
+void hair_test_turn(hair_collider* collider, int axis, double angle)
+{
+    for (int k = 0; k < 3; ++k) collider->rotation[k] = k == axis ? (float)sin(angle / 2) : 0;
+    collider->rotation[3] = (float)cos(angle / 2);
+}
+
+void hair_test_set_colliders(struct hair_test_living* living, const hair_collider* colliders, uint32_t count)
+{
+    hair_test_ok(living->test, hair_set_colliders(living->hair, colliders, count, sizeof *colliders));
+}
+
+double hair_test_depth(const struct hair_test_living* living, const hair_collider* collider)
+{
+    double max = -INFINITY;
+    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
+        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
+             ++i) {
+            hair_vec3 p = hair_test_at(living, g, i);
+            const double xyz[] = {(double)p.x, (double)p.y, (double)p.z};
+            max = fmax(max, -hair_distance_to_collider(collider, xyz, NULL));
+        }
+    return max;
+}
+
+hair_solver_stats hair_test_solver_stats(struct hair_test_living* living)
+{
+    hair_solver_stats solver_stats = hair_solver_stats_default();
+    hair_test_ok(living->test, hair_get_solver_stats(living->hair, &solver_stats));
+    return solver_stats;
+}
+
+void hair_test_healthy(struct hair_test_living* living)
+{
+    hair_solver_stats solver_stats = hair_test_solver_stats(living);
+    assert_int_equal(solver_stats.euler_fallbacks, 0);
+    assert_int_equal(solver_stats.parts, 0);
+    assert_int_equal(solver_stats.overstretched, 0);
+    assert_int_equal(solver_stats.follow_fallbacks, 0);
+    assert_int_equal(solver_stats.reset, 0);
+}
+
+// Arrays that hair_reference_rod_desc points to.
+struct arrays {
+    double positions[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], lengths[HAIR_REFERENCE_ROD_MAX_VERTICES];
+    double scale[HAIR_REFERENCE_ROD_MAX_VERTICES], pull[HAIR_REFERENCE_ROD_MAX_VERTICES];
+    double strain[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], real[HAIR_REFERENCE_ROD_MAX_VERTICES];
+};
+
+static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair_physics* physics,
+                        struct arrays* out)
+{
+    double total = 0, so_far = 0;
+    for (uint32_t i = 0; i + 1 < count; ++i) total += (double)rest[i].position.w;
+    for (uint32_t i = 0; i < count; ++i) {
+        double root = (double)physics->stiffness_root, pull = (double)physics->shape_frequency_root;
+        out->positions[3 * i] = (double)rest[i].position.x;
+        out->positions[3 * i + 1] = (double)rest[i].position.y;
+        out->positions[3 * i + 2] = (double)rest[i].position.z;
+        out->lengths[i] = (double)rest[i].position.w;
+        out->scale[i] = root + so_far / total * ((double)physics->stiffness_tip - root);
+        out->pull[i] = 6.283185307179586 *
+                       (pull + (double)i / (count - 1) * ((double)physics->shape_frequency_tip - pull));
+        so_far += (double)rest[i].position.w;
+    }
+}
+
+// Fill in the material, with the mass of a metre of hair as the unit of mass, as in lib/rod/rod.h.
+static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
+{
+    double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
+    double bend = (double)physics->youngs_modulus * radius * radius / (4 * (double)physics->fiber_density);
+    out->line_density = 1;
+    out->tip_mass = (double)physics->tip_mass * length;
+    out->bend[0] = bend * flat;
+    out->bend[1] = bend / flat;
+    out->twist = bend * 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
+    out->damping = (double)physics->damping;
+    for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
+}
+
+static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct hair_reference_rod_desc* out)
+{
+    double radius = (double)physics->fiber_radius;
+    for (int k = 0; k < 3; ++k) out->wind[k] = (double)wind->velocity[k];
+    if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0 && !wind->still_air)
+        return;
+    out->drag = (double)physics->drag / ((double)physics->fiber_density * 3.14159265358979 * radius * radius);
+    out->diameter = 2 * radius;
+    out->air = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
+}
+
+struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
+                                               const struct hair_reference_rod_pose* head)
+{
+    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
+    const struct hair_guide* of = &living->groom->guides[guide];
+    const hair_physics* physics = &living->physics;
+    const hair_vec4 frame = of->root_frame;
+    struct arrays* arrays = calloc(1, sizeof *arrays);
+    fill_arrays(living->groom->rest + of->first, of->count, physics, arrays);
+    fill_material(physics, (double)of->arc_length, &desc);
+    fill_wind(physics, &living->wind, &desc);
+    desc.vertices = of->count;
+    desc.positions = arrays->positions;
+    desc.lengths = arrays->lengths;
+    desc.scale = arrays->scale;
+    if (physics->shape_frequency_root > 0 || physics->shape_frequency_tip > 0) desc.pull = arrays->pull;
+    desc.root = (enum hair_reference_rod_root)physics->root;
+    desc.root_frame[0] = (double)frame.x, desc.root_frame[1] = (double)frame.y;
+    desc.root_frame[2] = (double)frame.z, desc.root_frame[3] = (double)frame.w;
+    if (head) desc.head = *head;
+    desc.rest_strain = arrays->strain;
+    if (physics->gravity_preload > 0) {
+        assert_true(hair_reference_rod_hold(&desc, arrays->strain, arrays->real));
+        desc.rest_real = arrays->real;
+    } else
+        hair_reference_rod_strain(of->count, arrays->positions, desc.root_frame, arrays->strain);
+    double max = 0;
+    for (uint32_t i = 0; i < 3 * (of->count - 1); ++i) max = fmax(max, fabs(arrays->strain[i]));
+    // The mixed scheme solves straight guides with the energy of curved ones.
+    desc.straight = max < 2e-5 && physics->flatness == 1 && !hair_sim_is_mixed(&living->hair->sim);
+    struct hair_reference_rod* rod = hair_reference_rod_create(&desc);
+    free(arrays);
+    assert_non_null(rod);
+    return rod;
+}
+
+double hair_test_off(const struct hair_test_living* living, uint32_t guide,
+                     const struct hair_reference_rod* rod)
+{
+    double x[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], max = 0;
+    uint32_t count = hair_reference_rod_vertices(rod);
+    hair_reference_rod_positions(rod, x);
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_vec3 p = hair_test_at(living, guide, i);
+        double a = (double)p.x - x[3 * i], b = (double)p.y - x[3 * i + 1], c = (double)p.z - x[3 * i + 2];
+        max = fmax(max, sqrt(a * a + b * b + c * c));
+    }
+    return max;
+}
+
+struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 axis, double angle)
+{
+    hair_vec3 unit = hair_normalize(axis, hair_v3(0, 1, 0));
+    double s = sin(angle / 2);
+    return (struct hair_reference_rod_pose){
+        {(double)position.x, (double)position.y, (double)position.z},
+        {s * (double)unit.x, s * (double)unit.y, s * (double)unit.z, cos(angle / 2)}};
+}
+
+hair_physics hair_test_bare(void)
+{
+    hair_physics physics = hair_physics_default();
+    physics.youngs_modulus = 3e9f;
+    physics.fiber_radius = 5e-5f;
+    physics.damping = 1;
+    physics.gravity_preload = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = physics.sleep_threshold = 0;
+    return physics;
+}
+
+hair_physics hair_test_loose(float friction)
+{
+    hair_physics physics = hair_physics_default();
+    physics.gravity_preload = 0;
+    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.friction = friction;
+    return physics;
+}
+
+hair_desc hair_test_rods(hair_solver solver, hair_thread_mapping mapping, double substep,
+                         const hair_physics* physics)
+{
+    hair_desc desc = hair_desc_default();
+    desc.solver = solver;
+    desc.thread_mapping = mapping;
+    desc.substep = (float)substep;
+    desc.physics = physics;
+    return desc;
+}
+
+struct hair_test_strands hair_test_slanting(uint32_t vertices)
+{
+    return hair_test_straight(vertices, hair_v3(0.1f, 0, 0), hair_v3(sqrtf(0.75f), -0.5f, 0), 0.3f);
+}
+
+struct hair_reference_rod_pose hair_test_shaken(double time)
+{
+    double s = sin(3.14159265358979 * time);
+    return hair_test_pose_of(hair_v3(0, 0, 0), hair_v3(0, 1, 0), 0.6 * s * s);
+}

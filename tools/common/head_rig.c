@@ -1,0 +1,85 @@
+// head_rig.c - Meshes and colliders of a scene, which move with the head or stay on the shoulders.
+#include "tools/common/head_rig.h"
+
+#include <cglm/cglm.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#define COLUMNS 96u
+#define ROWS 48u
+
+static void place(float radius, struct head_mesh* mesh)
+{
+    static const float dark[3] = {0.05f, 0.035f, 0.03f};
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        float polar = GLM_PIf * (float)(i / (COLUMNS + 1)) / (float)ROWS;
+        float turn = 2 * GLM_PIf * (float)(i % (COLUMNS + 1)) / (float)COLUMNS;
+        float at[3] = {sinf(polar) * sinf(turn), cosf(polar), sinf(polar) * cosf(turn)};
+        for (uint32_t k = 0; k < 3; ++k) {
+            mesh->normals[3 * i + k] = at[k];
+            mesh->positions[3 * i + k] = radius * at[k];
+            mesh->colors[3 * i + k] = dark[k];
+        }
+    }
+}
+
+static void join(struct head_mesh* mesh)
+{
+    uint32_t* out = mesh->triangles;
+    for (uint32_t row = 0; row < ROWS; ++row)
+        for (uint32_t column = 0; column < COLUMNS; ++column) {
+            uint32_t a = row * (COLUMNS + 1) + column, below = a + COLUMNS + 1;
+            uint32_t quad[6] = {a, below, a + 1, a + 1, below, below + 1};
+            for (int k = 0; k < 6; ++k) *out++ = quad[k];
+        }
+}
+
+int hair_head_rig_ball(float radius, struct head_mesh* out)
+{
+    struct head_mesh mesh = {.vertex_count = (COLUMNS + 1) * (ROWS + 1),
+                             .triangle_count = 2 * COLUMNS * ROWS};
+    size_t size = (size_t)mesh.vertex_count * 3 * sizeof(float);
+    mesh.positions = malloc(size);
+    mesh.normals = malloc(size);
+    mesh.colors = malloc(size);
+    mesh.triangles = malloc(mesh.triangle_count * 3 * sizeof *mesh.triangles);
+    if (!mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles) {
+        head_mesh_free(&mesh);
+        return -1;
+    }
+    place(radius, &mesh);
+    join(&mesh);
+    *out = mesh;
+    return 0;
+}
+
+// Colliders ---------------------------------------------------------------------------------------
+
+// Return the weight of the head's motion at a height, by smoothstep as in the vertex shader of the
+// mesh.
+static float weight(float height)
+{
+    float t = glm_clamp((height - HAIR_HEAD_RIG_RESTS) / (HAIR_HEAD_RIG_MOVES - HAIR_HEAD_RIG_RESTS), 0, 1);
+    return t * t * (3 - 2 * t);
+}
+
+uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
+                                 hair_collider out[HAIR_HEAD_RIG_COLLIDERS])
+{
+    uint32_t count = 0;
+    if (scene->head) count = head_colliders(out, HEAD_COLLIDERS);
+    for (uint32_t i = 0; i < count; ++i) hair_collider_carry(transform, weight(out[i].position[1]), &out[i]);
+
+    if (scene->subject == HAIR_SUBJECT_FUR) {
+        out[count] = hair_collider_default();
+        out[count].size[0] = scene->ball_radius;
+        hair_collider_carry(transform, 1, &out[count++]);
+    }
+    for (uint32_t i = 0; i < scene->collider_count; ++i) {
+        out[count] = hair_scene_collider_at(&scene->colliders[i], time);
+        if (!scene->colliders[i].stays) hair_collider_carry(transform, 1, &out[count]);
+        ++count;
+    }
+    return count;
+}
