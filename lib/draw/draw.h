@@ -3,6 +3,7 @@
 #define HAIR_DRAW_DRAW_H
 
 #include "lib/draw/occlusion.h"
+#include "lib/draw/plan.h"
 #include "lib/draw/raster.h"
 #include "lib/draw/sorted_segments.h"
 #include "lib/draw/strand_list.h"
@@ -79,15 +80,14 @@ void hair_draw_use(struct hair_renderer* renderer, int part);
 // long as one that is drawn. Defined in resource_lru.c.
 hair_result hair_draw_read_vertices(struct hair_renderer* renderer, hair_vec4** out);
 
-// Create the buffers of the strand list and compile its programs. Nonzero `hides` includes
-// occlusion culling. Defined in strand_list.c.
-hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, int occlusion);
+// Create the buffers of the strand list. Defined in strand_list.c.
+hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer);
 // Create the index buffer of an instance of strands. Nonzero `paired` selects two vertices per
 // strand point.
 hair_result hair_draw_ensure_indices(struct hair_renderer* renderer, int paired);
 void hair_draw_free_strand_list(struct hair_renderer* renderer);
 // List the strands that are drawn, unless the list is up to date with `params` and the smoothed
-// guides. Nonzero `hides` leaves out occluded patches and always rebuilds the list. The inputs of
+// guides. Nonzero `occlusion` leaves out occluded patches and always rebuilds the list. The inputs of
 // followers must be bound.
 void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_params* params,
                                   int occlusion);
@@ -95,69 +95,46 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
 // vertices per strand point. Otherwise draw lines.
 void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired);
 
-// Functions of plan.c, for what a view needs.
+// Functions of plan.c.
 
 // Find the row of paths.inl for the driver.
 void hair_draw_find_fastest(struct hair_renderer* renderer);
-// Return the render path of `view`. Call this once per view, because it may query the viewport. All
-// other code reads the path from view->path.
-hair_render_path hair_draw_path(const struct hair_renderer* renderer, const hair_view* view);
-// Return whether the path reads the vertex cache of all followers.
-bool hair_draw_uses_vertex_cache(const hair_view* view);
-// Return whether the path reads per-view vertices.
-bool hair_draw_uses_view_cache(const hair_view* view);
-// Return whether per-view vertices are in clip space, ready to draw.
-bool hair_draw_caches_sides(const hair_view* view);
-// Return whether strands are blended by their coverage of pixels.
-bool hair_draw_uses_alpha(const hair_view* view);
-// Return whether the pass draws coverage, either blended colour or the opacity seen from a
-// light.
+// Make the plan of a view. Call this once per view, because it may query the viewport. `shader` is
+// the application's. NULL selects the built-in shading.
+void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* view,
+                         struct hair_gl_shader* shader, struct hair_draw_plan* out);
+// Return whether the pass draws coverage, either blended colour or the opacity seen from a light.
 bool hair_draw_uses_analytic_coverage(const hair_view* view);
-// Return whether ribbons are drawn without a geometry shader, from two vertices per strand
-// point.
-bool hair_draw_is_paired(const hair_view* view);
-// Return whether vertices of `view` are shaded in a pass before drawing.
-bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader);
 // Return whether `view` has an occluder depth texture.
 bool hair_draw_uses_occlusion(const hair_view* view);
 
-// Functions of variant.c, which chooses the variants of programs.
+// Functions of variant.c.
 
-// Return whether the application's texture colours the strands of `view`.
-bool hair_draw_is_textured(const struct hair_renderer* renderer, const hair_view* view);
-// Return whether the groom's colours colour the strands of `view`.
-bool hair_draw_is_painted(const struct hair_renderer* renderer, const hair_view* view);
-// Return whether the draw needs root uvs and the groom has them.
-bool hair_draw_wants_uvs(const struct hair_renderer* renderer, const hair_view* view,
-                         const struct hair_gl_shader* shader);
-// Return the pass that draws. Set *shade to the pass that shades or writes vertices before it, or
-// to 0 if there is none.
-hair_gl_pass hair_draw_find_passes(const struct hair_renderer* renderer, const hair_view* view,
-                                   const struct hair_gl_shader* shader, hair_gl_pass* shade);
-// Compile the program of a pass, with the application's shading unless `shader` is NULL.
-hair_result hair_draw_ensure_program(struct hair_renderer* renderer, hair_gl_pass pass,
-                                     struct hair_gl_shader* shader, GLuint* out);
+// Write the passes of a plan. `state` has the features OCCLUSION if patches are tested for occlusion,
+// HITS if followers have met colliders, and COLLIDERS if colliders block light.
+void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass state,
+                           struct hair_draw_plan* plan);
+// Compile the passes of a plan.
+hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_plan* plan);
+// Compile all passes that drawing by the plan may need. If `may_collide`, include those for followers
+// that have met colliders.
+hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,
+                                 bool may_collide);
 
-// Select the level of detail for `view`, which is drawn or lit next. NULL selects all followers in
+// Select the level of detail for a plan, which is drawn or lit next. NULL selects all followers in
 // full detail. Followers show their whole collision displacement where it covers two pixels. They
 // show none where it covers one pixel, and then need no collision. Defined in lod.c.
 void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head,
-                          const hair_view* view);
+                          const struct hair_draw_plan* plan);
 // Compute the maximum extent of the hair. Defined in cull.c.
 void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_groom* groom);
 // Return whether hair with attached roots cannot be inside `view`, which must be validated.
 bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view);
 
-// Compile all programs that drawing `view` needs. Nonzero `may_meet` includes those for followers
-// that have met colliders.
-hair_result hair_draw_ensure_programs(struct hair_renderer* renderer, const hair_view* view,
-                                      struct hair_gl_shader* shader, int may_meet);
-
-// Draw `view`, which must be validated, with the head's origin at `head`. `shader` is the
-// application's. NULL selects the built-in shading.
-hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head, const hair_view* view,
-                          struct hair_gl_shader* shader);
+// Draw the view of a plan, which must be validated, with the head's origin at `head`.
+hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head,
+                          struct hair_draw_plan* plan);
 
 // Draw the colliders, and a slice of the field if `view` requests it. A slice needs an up-to-date
 // field.
@@ -176,7 +153,7 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
 // vertex_colors.c.
 void hair_draw_shade(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program, uint32_t chunks);
 
-// Create the buffers of sorted segments and compile their programs. Defined in sorted_segments.c.
+// Create the buffers of sorted segments. Defined in sorted_segments.c.
 hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer);
 void hair_draw_free_sorted_segments(struct hair_renderer* renderer);
 // Sort the segments of the listed strands from far to near.
@@ -185,7 +162,7 @@ void hair_draw_sort(struct hair_renderer* renderer);
 void hair_draw_issue_sorted_segments(struct hair_renderer* renderer);
 
 // Create the buffers of per-view vertices. Defined in view_cache.c.
-hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, const hair_view* view);
+hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 void hair_draw_free_view_cache(struct hair_renderer* renderer);
 // Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
 void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program);
@@ -209,7 +186,7 @@ void hair_draw_free_raster(struct hair_renderer* renderer);
 // occlusion.c.
 bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view, struct hair_occlusion_params* out);
-// Create the buffers and compile the programs of occlusion culling.
+// Create the buffers of occlusion culling.
 hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer,
                                        const struct hair_occlusion_params* params);
 // Find the occluded patches. The inputs of followers must be bound.

@@ -125,9 +125,7 @@ hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer,
     HAIR_ASSERT(params->columns > 0 && params->rows > 0);
     size_t texels = hair_hiz_texels(params->columns, params->rows);
     size_t boxes = (size_t)renderer->geometry->guides * HAIR_OCCLUSION_PARTS * 2;
-    hair_result result =
-        hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES,
-                                renderer->geometry->follower_collision.active ? HAIR_GL_WITH(HITS) : 0);
+    hair_result result = HAIR_OK;
     if (!result && texels > occlusion->room) {
         // Make room for the whole texture, so that hair that comes nearer does not reallocate the
         // buffer.
@@ -155,7 +153,7 @@ void hair_draw_cull_occluded(struct hair_renderer* renderer, const hair_view* vi
     GLuint buffers[] = {occlusion->depth, occlusion->box, renderer->geometry->patch};
     uint32_t parts = renderer->geometry->guides * HAIR_OCCLUSION_PARTS;
     hair_gl_pass patches = HAIR_GL_CULL_PATCHES;
-    if (renderer->geometry->follower_collision.active)
+    if (hair_geometry_has_hits(renderer->geometry))
         patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);

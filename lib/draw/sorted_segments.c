@@ -31,7 +31,6 @@ hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer)
         result = hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL,
                                  &sorted_segments->bucket);
     if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
-    if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
     return result;
 }
 

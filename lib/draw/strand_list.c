@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static hair_result make_lists(struct hair_renderer* renderer, int occlusion)
+static hair_result make_lists(struct hair_renderer* renderer)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_strand_list* strand_list = &renderer->strand_list;
@@ -25,9 +25,7 @@ static hair_result make_lists(struct hair_renderer* renderer, int occlusion)
     if (!result && !strand_list->command)
         result = hair_gl_storage(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command), NULL,
                                  &strand_list->command);
-    return result ? result
-                  : hair_gl_ensure_programs(gl, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS,
-                                            occlusion ? HAIR_GL_WITH(OCCLUSION) : 0);
+    return result;
 }
 
 // Return the indices of one instance of 64 strands for each segment count n, n/2, ... 1, from which
@@ -76,10 +74,10 @@ hair_result hair_draw_ensure_indices(struct hair_renderer* renderer, int paired)
     return HAIR_OK;
 }
 
-hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, int occlusion)
+hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer)
 {
     renderer->used[HAIR_DRAW_STRAND_LIST] = renderer->frame;
-    return make_lists(renderer, occlusion);
+    return make_lists(renderer);
 }
 
 void hair_draw_free_strand_list(struct hair_renderer* renderer)
