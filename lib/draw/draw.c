@@ -3,9 +3,8 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-hair_result hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl,
-                                 const struct hair_groom* groom, struct hair_geometry* geometry,
-                                 struct hair_lighting* lighting)
+void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
+                          struct hair_geometry* geometry, struct hair_lighting* lighting)
 {
     renderer->gl = gl;
     renderer->geometry = geometry;
@@ -13,21 +12,13 @@ hair_result hair_renderer_create(struct hair_renderer* renderer, struct hair_gl*
     renderer->head_sphere = groom->head_sphere;
     hair_draw_find_extent(renderer, groom);
     hair_draw_find_fastest(renderer);
-    return HAIR_OK;
 }
 
 void hair_renderer_destroy(struct hair_renderer* renderer)
 {
     if (!renderer->gl) return;
-    hair_draw_free_strand_list(renderer);
-    hair_draw_free_sorted_segments(renderer);
-    hair_draw_free_occlusion(renderer);
-    hair_draw_free_raster(renderer);
-    hair_draw_free_view_cache(renderer);
+    hair_draw_free_resources(renderer);
 }
-
-// Features of compute rasterisation.
-#define RASTER_FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 
 static void bind(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
@@ -64,14 +55,14 @@ static hair_result draw_guides(struct hair_renderer* renderer, const struct hair
 static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_plan* plan,
                              const struct hair_draw_params* params)
 {
-    if (plan->has_occlusion) hair_draw_cull_occluded(renderer, plan->view, &plan->occlusion);
-    if (plan->has_strand_list) hair_draw_update_strand_list(renderer, params, plan->has_occlusion);
+    if (plan->has_occlusion) hair_draw_cull_occluded(renderer, plan);
+    if (plan->has_strand_list) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->vertices == HAIR_VERTICES_PER_VIEW)
         hair_draw_expand_view(renderer, plan->shade, plan->shade_program);
     else if (plan->shade)
         hair_draw_shade(renderer, plan->shade, plan->shade_program, params->chunks);
-    if (plan->is_computed) hair_draw_rasterise(renderer, plan->draw & RASTER_FEATURES, &plan->raster);
+    if (plan->is_computed) hair_draw_rasterise(renderer, plan);
     if (plan->view->pass == HAIR_PASS_MOTION) hair_geometry_bind_history(renderer->geometry);
     if (plan->blending == HAIR_BLENDING_SORTED) hair_draw_sort(renderer);
 }
@@ -82,7 +73,7 @@ static void submit(struct hair_renderer* renderer, const struct hair_draw_plan* 
     if (plan->blending == HAIR_BLENDING_SORTED)
         hair_draw_issue_sorted_segments(renderer);
     else if (plan->is_computed)
-        hair_draw_resolve_tiles(renderer, &plan->raster);
+        hair_draw_resolve_tiles(renderer, plan);
     else if (plan->has_strand_list)
         hair_draw_issue_strand_list(renderer, plan->is_paired);
     else
@@ -106,95 +97,6 @@ static void draw_followers(struct hair_renderer* renderer, struct hair_draw_plan
     hair_gl_end(gl, plan->draw);
 }
 
-static hair_result ensure_fibres(struct hair_renderer* renderer)
-{
-    hair_draw_use(renderer, HAIR_DRAW_FIBRES);
-    return hair_lighting_ensure_fibres(renderer->lighting, &renderer->geometry->look);
-}
-
-static hair_result ensure_vertex_cache(struct hair_renderer* renderer)
-{
-    hair_draw_use(renderer, HAIR_DRAW_VERTEX_CACHE);
-    return hair_geometry_ensure_vertex_cache(renderer->geometry, NULL);
-}
-
-static hair_result ensure_shaded(struct hair_renderer* renderer)
-{
-    hair_draw_use(renderer, HAIR_DRAW_SHADED);
-    return hair_geometry_ensure_shaded(renderer->geometry);
-}
-
-static hair_result ensure_uvs(struct hair_renderer* renderer)
-{
-    hair_draw_use(renderer, HAIR_DRAW_UVS);
-    return hair_geometry_ensure_uvs(renderer->geometry);
-}
-
-static hair_result ensure_history(struct hair_renderer* renderer)
-{
-    hair_draw_use(renderer, HAIR_DRAW_MOTION);
-    return hair_geometry_ensure_history(renderer->geometry);
-}
-
-// Create or update the buffers that drawing followers needs.
-static hair_result ensure_buffers(struct hair_renderer* renderer, struct hair_draw_plan* plan)
-{
-    const hair_view* view = plan->view;
-    bool has_history = view->pass == HAIR_PASS_MOTION;
-    hair_result result = HAIR_OK;
-    if (view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading == HAIR_SHADING_FIBRES)
-        result = ensure_fibres(renderer);
-    if (!result && plan->has_strand_list) result = hair_draw_ensure_strand_list(renderer);
-    if (!result && plan->has_strand_list && !plan->is_computed)
-        result = hair_draw_ensure_indices(renderer, plan->is_paired);
-    if (!result && plan->has_occlusion) result = hair_draw_ensure_occlusion(renderer, &plan->occlusion);
-    if (!result && plan->vertices == HAIR_VERTICES_CACHED) result = ensure_vertex_cache(renderer);
-    if (!result && plan->is_computed && !plan->is_empty)
-        result = hair_draw_ensure_raster(renderer, plan->draw & RASTER_FEATURES, &plan->raster);
-    if (!result && plan->vertices == HAIR_VERTICES_PER_VIEW)
-        result = hair_draw_ensure_view_cache(renderer, plan);
-    else if (!result && plan->shade)
-        result = ensure_shaded(renderer);
-    if (!result && plan->has_root_uvs) result = ensure_uvs(renderer);
-    if (!result && plan->blending == HAIR_BLENDING_SORTED)
-        result = hair_draw_ensure_sorted_segments(renderer);
-    if (!result && has_history) result = ensure_history(renderer);
-    if (!result && has_history)
-        hair_geometry_begin_history(renderer->geometry, plan->head, view->frame_index);
-    return result;
-}
-
-// Return whether only the vertices that the view draws need light. Strands that a level of
-// detail leaves out need no light. The drawn strands make up for them in the grid. A full vertex
-// cache that views share has all vertices.
-static bool needs_light_of_a_part(const struct hair_renderer* renderer, const hair_view* view)
-{
-    return view->lod && !renderer->geometry->history.buffer &&
-           !hair_geometry_has_vertex_cache(renderer->geometry);
-}
-
-// Compute the light that reaches each vertex, if the look requests self-shadowing for `view`.
-static hair_result find_light(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
-{
-    const hair_view* view = plan->view;
-    const hair_look* look = &renderer->geometry->look;
-    struct hair_lighting* lighting = renderer->lighting;
-    if (lighting->self_shadow.density && look->self_shadow != HAIR_SELF_SHADOW_STRANDS)
-        hair_lighting_free_self_shadow(lighting);
-    if (!plan->light_values) return HAIR_OK;
-    hair_draw_use(renderer, HAIR_DRAW_SELF_SHADOW);
-    hair_draw_use(renderer, HAIR_DRAW_VERTEX_CACHE);
-    struct hair_draw_params params;
-    bool part = needs_light_of_a_part(renderer, view);
-    hair_view whole = *view;
-    whole.lod = NULL; // All views of a step share the grid.
-    hair_draw_write_params(renderer, plan->head, part ? view : &whole, &params);
-    params.drawn_only = part;
-    params.culls = 0; // Hair that is out of view or occluded casts shadows too.
-    params.head_sphere.w = 0;
-    return hair_lighting_update_self_shadow(lighting, renderer->geometry, view, &params);
-}
-
 // Return the features of passes that depend on where the hair is.
 static hair_gl_pass find_state(const struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
@@ -215,10 +117,11 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     plan->head = head;
     plan->has_occlusion = hair_draw_find_occlusion(renderer, head, view, &plan->occlusion);
     plan->is_empty = plan->is_computed && !hair_draw_find_raster(renderer, head, view, &plan->raster);
+    if (renderer->geometry->look.self_shadow != HAIR_SELF_SHADOW_STRANDS)
+        hair_lighting_free_self_shadow(renderer->lighting);
     hair_draw_find_passes(renderer, find_state(renderer, plan), plan);
     hair_result result = hair_draw_compile(renderer, plan);
-    if (!result) result = ensure_buffers(renderer, plan);
-    if (!result) result = find_light(renderer, plan);
+    if (!result) result = hair_draw_ensure_resources(renderer, plan);
     if (result || plan->is_empty) return result;
 
     hair_draw_write_params(renderer, head, view, &params);

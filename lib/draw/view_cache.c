@@ -42,9 +42,8 @@ static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t 
     return result;
 }
 
-hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_VIEW_CACHE] = renderer->frame;
     struct hair_view_cache* view_cache = &renderer->view_cache;
     size_t vertices = hair_geometry_count_vertices(renderer->geometry);
     hair_result result = HAIR_OK;

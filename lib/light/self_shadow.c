@@ -9,6 +9,7 @@
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
     struct hair_self_shadow_state* own = &lighting->self_shadow;
+    if (!own->density) return; // The first buffer that is made.
     hair_gl_free_buffer_texture(lighting->gl, &own->texture);
     hair_gl_free_buffer(lighting->gl, &own->density);
     hair_gl_free_buffer(lighting->gl, &own->box);
