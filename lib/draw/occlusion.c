@@ -136,8 +136,9 @@ hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer, struct ha
         result = hair_gl_storage(gl, "hair Hi-Z", room * sizeof(float), NULL, &occlusion->depth);
         if (!result) occlusion->room = room;
     }
-    if (!result && !occlusion->box)
-        result = hair_gl_storage(gl, "hair guide bounds", boxes * sizeof(hair_vec4), NULL, &occlusion->box);
+    if (!result)
+        result = hair_gl_ensure_array(gl, "hair guide bounds", boxes * sizeof(hair_vec4), &occlusion->box, 0,
+                                      NULL);
     if (!result && !occlusion->params)
         result = hair_gl_uniform(gl, "hair occlusion", sizeof *params, &occlusion->params);
     return result;

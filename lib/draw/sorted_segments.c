@@ -26,10 +26,8 @@ hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer, str
     struct hair_gl* gl = renderer->gl;
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.segments;
-    hair_result result = HAIR_OK;
-    if (!sorted_segments->bucket)
-        result = hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL,
-                                 &sorted_segments->bucket);
+    hair_result result = hair_gl_ensure_array(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t),
+                                              &sorted_segments->bucket, 0, NULL);
     if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
     return result;
 }

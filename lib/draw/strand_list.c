@@ -8,23 +8,18 @@
 static hair_result make_lists(struct hair_renderer* renderer)
 {
     struct hair_gl* gl = renderer->gl;
-    struct hair_strand_list* strand_list = &renderer->strand_list;
-    hair_result result = HAIR_OK;
-    if (!strand_list->key) strand_list->key = hair_alloc(&gl->host, 1, sizeof *strand_list->key);
-    if (!strand_list->key) return hair_fail_memory(&gl->host, "the list of strands");
-    if (!strand_list->start)
-        result = hair_gl_storage(gl, "hair strand starts", renderer->geometry->patches * sizeof(uint32_t),
-                                 NULL, &strand_list->start);
-    if (!result && !strand_list->strand)
-        result =
-            hair_gl_storage(gl, "hair strands", renderer->geometry->followers * sizeof(struct hair_strand),
-                            NULL, &strand_list->strand);
-    if (!result && !strand_list->strand_texture)
-        result = hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, strand_list->strand,
-                                        &strand_list->strand_texture);
-    if (!result && !strand_list->command)
-        result = hair_gl_storage(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command), NULL,
-                                 &strand_list->command);
+    const struct hair_geometry* geometry = renderer->geometry;
+    struct hair_strand_list* own = &renderer->strand_list;
+    if (!own->key) own->key = hair_alloc(&gl->host, 1, sizeof *own->key);
+    if (!own->key) return hair_fail_memory(&gl->host, "the list of strands");
+    hair_result result = hair_gl_ensure_array(gl, "hair strand starts", geometry->patches * sizeof(uint32_t),
+                                              &own->start, 0, NULL);
+    if (!result)
+        result = hair_gl_ensure_array(gl, "hair strands", geometry->followers * sizeof(struct hair_strand),
+                                      &own->strand, GL_RGBA32UI, &own->strand_texture);
+    if (!result)
+        result = hair_gl_ensure_array(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command),
+                                      &own->command, 0, NULL);
     return result;
 }
 

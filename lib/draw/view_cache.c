@@ -22,24 +22,20 @@ static size_t size_of(const struct hair_draw_plan* plan, int part, size_t vertic
 
 static void free_part(struct hair_renderer* renderer, int part)
 {
-    hair_gl_free_buffer_texture(renderer->gl, &renderer->view_cache.texture[part]);
-    hair_gl_free_buffer(renderer->gl, &renderer->view_cache.buffer[part]);
-    renderer->view_cache.size[part] = 0;
+    struct hair_view_cache* own = &renderer->view_cache;
+    hair_gl_free_array(renderer->gl, &own->buffer[part], &own->texture[part]);
+    own->size[part] = 0;
 }
 
 static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t size)
 {
-    struct hair_view_cache* view_cache = &renderer->view_cache;
-    if (view_cache->size[part] >= size) return HAIR_OK;
+    struct hair_view_cache* own = &renderer->view_cache;
+    if (own->size[part] >= size) return HAIR_OK;
     HAIR_ASSERT(0 <= part && part < HAIR_VIEW_CACHE_PARTS);
     free_part(renderer, part);
-    hair_result result =
-        hair_gl_storage(renderer->gl, parts[part].label, size, NULL, &view_cache->buffer[part]);
-    if (!result)
-        result = hair_gl_buffer_texture(renderer->gl, parts[part].label, parts[part].format,
-                                        view_cache->buffer[part], &view_cache->texture[part]);
-    view_cache->size[part] = size;
-    return result;
+    own->size[part] = size;
+    return hair_gl_ensure_array(renderer->gl, parts[part].label, size, &own->buffer[part], parts[part].format,
+                                &own->texture[part]);
 }
 
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)

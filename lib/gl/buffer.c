@@ -281,3 +281,19 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
     gl->DeleteTextures(1, texture);
     *texture = 0;
 }
+
+// Arrays -------------------------------------------------------------------------------------------
+
+hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
+                                 GLenum format, GLuint* texture)
+{
+    hair_result result = *buffer ? HAIR_OK : hair_gl_storage(gl, label, size, NULL, buffer);
+    if (result || !texture || *texture) return result;
+    return hair_gl_buffer_texture(gl, label, format, *buffer, texture);
+}
+
+void hair_gl_free_array(struct hair_gl* gl, GLuint* buffer, GLuint* texture)
+{
+    if (texture) hair_gl_free_buffer_texture(gl, texture);
+    hair_gl_free_buffer(gl, buffer);
+}

@@ -249,6 +249,13 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
 
+// Create a storage buffer unless it exists. Create its buffer texture too unless it exists or `texture`
+// is NULL.
+hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
+                                 GLenum format, GLuint* texture);
+// Free a buffer and its buffer texture. NULL `texture` means that there is none.
+void hair_gl_free_array(struct hair_gl* gl, GLuint* buffer, GLuint* texture);
+
 // Create a 3D texture without mipmaps, with undefined contents and clamped edges. On failure `*out`
 // is unchanged.
 hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],

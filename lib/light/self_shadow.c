@@ -10,11 +10,10 @@ void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     if (!own->density) return; // The first buffer that is made.
-    hair_gl_free_buffer_texture(lighting->gl, &own->texture);
-    hair_gl_free_buffer(lighting->gl, &own->density);
-    hair_gl_free_buffer(lighting->gl, &own->box);
-    hair_gl_free_buffer(lighting->gl, &own->nodes);
-    hair_gl_free_buffer(lighting->gl, &own->light);
+    hair_gl_free_array(lighting->gl, &own->density, NULL);
+    hair_gl_free_array(lighting->gl, &own->box, NULL);
+    hair_gl_free_array(lighting->gl, &own->nodes, NULL);
+    hair_gl_free_array(lighting->gl, &own->light, &own->texture);
     memset(own, 0, sizeof *own);
 }
 
@@ -26,16 +25,17 @@ static hair_result make_light(struct hair_lighting* lighting, const struct hair_
     HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && geometry->vertex_cache.vertices > 0);
     size_t numbers = geometry->vertex_cache.vertices * each;
     if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
-    hair_gl_free_buffer_texture(gl, &own->texture);
-    hair_gl_free_buffer(gl, &own->light);
-    hair_gl_free_buffer(gl, &own->nodes);
+    hair_gl_free_array(gl, &own->light, &own->texture);
+    hair_gl_free_array(gl, &own->nodes, NULL);
     own->frame = 0;
     own->numbers = numbers;
     own->each = each;
     size_t nodes = (size_t)HAIR_DENSITY_NODES * each;
-    hair_result result = hair_gl_storage(gl, "hair light of nodes", nodes * sizeof(float), NULL, &own->nodes);
-    if (!result) result = hair_gl_storage(gl, "hair light", numbers * sizeof(uint32_t), NULL, &own->light);
-    return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
+    hair_result result =
+        hair_gl_ensure_array(gl, "hair light of nodes", nodes * sizeof(float), &own->nodes, 0, NULL);
+    if (result) return result;
+    return hair_gl_ensure_array(gl, "hair light", numbers * sizeof(uint32_t), &own->light, GL_R32UI,
+                                &own->texture);
 }
 
 static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl_pass pass)
@@ -47,12 +47,10 @@ static hair_result make(struct hair_lighting* lighting, const struct hair_geomet
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    hair_result result = HAIR_OK;
-    if (!own->density)
-        result =
-            hair_gl_storage(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t), NULL, &own->density);
-    if (!result && !own->box)
-        result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
+    hair_result result = hair_gl_ensure_array(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t),
+                                              &own->density, 0, NULL);
+    if (!result)
+        result = hair_gl_ensure_array(gl, "hair density box", 6 * sizeof(uint32_t), &own->box, 0, NULL);
     return result ? result : make_light(lighting, geometry, each);
 }
 

@@ -29,39 +29,30 @@ hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
 static hair_result make(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
-    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
-    hair_result result = HAIR_OK;
+    struct hair_follower_collision_state* own = &geometry->follower_collision;
     size_t count = geometry->followers;
-    int pushes = geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT;
-    if (!follower_collision->hit)
-        result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &follower_collision->hit);
-    if (!result && !follower_collision->hit_texture)
-        result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, follower_collision->hit,
-                                        &follower_collision->hit_texture);
-    if (!result && !follower_collision->list)
-        result = hair_gl_storage(gl, "hair hit list", (count + 2) * sizeof(uint32_t), NULL,
-                                 &follower_collision->list);
-    if (!result && pushes && !follower_collision->repair)
-        result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL,
-                                 &follower_collision->repair);
-    if (!result && pushes && !follower_collision->repair_texture)
-        result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, follower_collision->repair,
-                                        &follower_collision->repair_texture);
-    if (!result && follower_collision->prepass) result = hair_geometry_ensure_prepass(geometry);
+    hair_result result =
+        hair_gl_ensure_array(gl, "hair hits", count * sizeof(float), &own->hit, GL_R32F, &own->hit_texture);
+    if (!result)
+        result =
+            hair_gl_ensure_array(gl, "hair hit list", (count + 2) * sizeof(uint32_t), &own->list, 0, NULL);
+    if (!result && geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+        result = hair_gl_ensure_array(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, &own->repair,
+                                      GL_RGBA16F, &own->repair_texture);
+    if (!result && own->prepass) result = hair_geometry_ensure_prepass(geometry);
     return result ? result : hair_geometry_ensure_hit_programs(geometry);
 }
 
 void hair_geometry_free_follower_collision(struct hair_geometry* geometry)
 {
-    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
-    hair_gl_free_buffer_texture(geometry->gl, &follower_collision->hit_texture);
-    hair_gl_free_buffer_texture(geometry->gl, &follower_collision->repair_texture);
-    hair_gl_free_buffer(geometry->gl, &follower_collision->hit);
-    hair_gl_free_buffer(geometry->gl, &follower_collision->repair);
-    hair_gl_free_buffer(geometry->gl, &follower_collision->list);
-    if (follower_collision->frame) geometry->gl->DeleteFramebuffers(1, &follower_collision->frame);
-    follower_collision->frame = 0;
-    hair_gl_free_texture(geometry->gl, &follower_collision->image);
+    struct hair_gl* gl = geometry->gl;
+    struct hair_follower_collision_state* own = &geometry->follower_collision;
+    hair_gl_free_array(gl, &own->hit, &own->hit_texture);
+    hair_gl_free_array(gl, &own->repair, &own->repair_texture);
+    hair_gl_free_array(gl, &own->list, NULL);
+    if (own->frame) gl->DeleteFramebuffers(1, &own->frame);
+    own->frame = 0;
+    hair_gl_free_texture(gl, &own->image);
 }
 
 static void run(struct hair_geometry* geometry, const struct hair_collider_field* field, float margin)

@@ -6,23 +6,15 @@
 
 hair_result hair_geometry_ensure_history(struct hair_geometry* geometry)
 {
-    struct hair_gl* gl = geometry->gl;
-    struct hair_vertex_history* history = &geometry->history;
-    hair_result result = HAIR_OK;
-    HAIR_ASSERT(geometry->vertex_cache.vertices > 0);
-    size_t size = geometry->vertex_cache.vertices * sizeof(hair_vec4);
-    if (!history->buffer)
-        result = hair_gl_storage(gl, "hair vertex cache before", size, NULL, &history->buffer);
-    if (!result && !history->texture)
-        result = hair_gl_buffer_texture(gl, "hair vertex cache before", GL_RGBA32F, history->buffer,
-                                        &history->texture);
-    return result;
+    size_t vertices = geometry->vertex_cache.vertices;
+    HAIR_ASSERT(vertices > 0);
+    return hair_gl_ensure_array(geometry->gl, "hair vertex cache before", vertices * sizeof(hair_vec4),
+                                &geometry->history.buffer, GL_RGBA32F, &geometry->history.texture);
 }
 
 void hair_geometry_free_history(struct hair_geometry* geometry)
 {
-    hair_gl_free_buffer_texture(geometry->gl, &geometry->history.texture);
-    hair_gl_free_buffer(geometry->gl, &geometry->history.buffer);
+    hair_gl_free_array(geometry->gl, &geometry->history.buffer, &geometry->history.texture);
     geometry->history.shown = 0;
 }
 

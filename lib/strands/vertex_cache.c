@@ -7,58 +7,44 @@
 static hair_result make(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
-    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    struct hair_vertex_cache* own = &geometry->vertex_cache;
     size_t vertices = hair_geometry_count_vertices(geometry);
-    if (vertex_cache->vertices == vertices) return HAIR_OK;
+    if (own->vertices == vertices) return HAIR_OK;
     hair_geometry_free_vertex_cache(geometry);
-    hair_result result =
-        hair_gl_storage(gl, "hair vertex cache", vertices * sizeof(hair_vec4), NULL, &vertex_cache->position);
+    hair_result result = hair_gl_ensure_array(gl, "hair vertex cache", vertices * sizeof(hair_vec4),
+                                              &own->position, GL_RGBA32F, &own->position_texture);
     if (!result)
-        result =
-            hair_gl_storage(gl, "hair vertex cache tangents", vertices * 8, NULL, &vertex_cache->tangent);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair vertex cache", GL_RGBA32F, vertex_cache->position,
-                                        &vertex_cache->position_texture);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair vertex cache tangents", GL_RGBA16, vertex_cache->tangent,
-                                        &vertex_cache->tangent_texture);
+        result = hair_gl_ensure_array(gl, "hair vertex cache tangents", vertices * 8, &own->tangent,
+                                      GL_RGBA16, &own->tangent_texture);
     if (result)
         hair_geometry_free_vertex_cache(geometry);
     else
-        vertex_cache->vertices = vertices;
+        own->vertices = vertices;
     return result;
 }
 
 hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry)
 {
-    struct hair_gl* gl = geometry->gl;
-    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
-    HAIR_ASSERT(vertex_cache->vertices > 0);
-    if (vertex_cache->shaded_texture) return HAIR_OK;
-    hair_result result =
-        hair_gl_storage(gl, "hair shaded", vertex_cache->vertices * 8, NULL, &vertex_cache->shaded);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair shaded", GL_RGBA16F, vertex_cache->shaded,
-                                        &vertex_cache->shaded_texture);
+    struct hair_vertex_cache* own = &geometry->vertex_cache;
+    HAIR_ASSERT(own->vertices > 0);
+    hair_result result = hair_gl_ensure_array(geometry->gl, "hair shaded", own->vertices * 8, &own->shaded,
+                                              GL_RGBA16F, &own->shaded_texture);
     if (result) hair_geometry_free_shaded(geometry);
     return result;
 }
 
 void hair_geometry_free_shaded(struct hair_geometry* geometry)
 {
-    hair_gl_free_buffer_texture(geometry->gl, &geometry->vertex_cache.shaded_texture);
-    hair_gl_free_buffer(geometry->gl, &geometry->vertex_cache.shaded);
+    hair_gl_free_array(geometry->gl, &geometry->vertex_cache.shaded, &geometry->vertex_cache.shaded_texture);
 }
 
 void hair_geometry_free_vertex_cache(struct hair_geometry* geometry)
 {
-    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
-    hair_gl_free_buffer_texture(geometry->gl, &vertex_cache->position_texture);
-    hair_gl_free_buffer_texture(geometry->gl, &vertex_cache->tangent_texture);
-    hair_gl_free_buffer(geometry->gl, &vertex_cache->position);
-    hair_gl_free_buffer(geometry->gl, &vertex_cache->tangent);
-    vertex_cache->vertices = 0;
-    vertex_cache->is_complete = 0;
+    struct hair_vertex_cache* own = &geometry->vertex_cache;
+    hair_gl_free_array(geometry->gl, &own->position, &own->position_texture);
+    hair_gl_free_array(geometry->gl, &own->tangent, &own->tangent_texture);
+    own->vertices = 0;
+    own->is_complete = 0;
     hair_geometry_free_shaded(geometry);
     hair_geometry_free_history(geometry);
 }
