@@ -18,8 +18,8 @@ enum hair_vertex_source {
 // How strands are blended into the framebuffer.
 enum hair_blending {
     HAIR_BLENDING_NONE,
-    HAIR_BLENDING_UNSORTED, // By coverage, in any order.
-    HAIR_BLENDING_SORTED, // By coverage, from far to near.
+    HAIR_BLENDING_UNSORTED, // Blended by coverage, in any order.
+    HAIR_BLENDING_SORTED, // Blended by coverage, from far to near.
 };
 
 #define HAIR_DRAW_MAX_PASSES 20

@@ -282,7 +282,7 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
     *texture = 0;
 }
 
-// Arrays -------------------------------------------------------------------------------------------
+// Arrays ------------------------------------------------------------------------------------------
 
 hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
                                  GLenum format, GLuint* texture)

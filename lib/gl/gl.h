@@ -249,8 +249,8 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
 
-// Create a storage buffer unless it exists. Create its buffer texture too unless it exists or `texture`
-// is NULL.
+// Create a storage buffer unless it exists. Create its buffer texture too unless it exists or
+// `texture` is NULL.
 hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
                                  GLenum format, GLuint* texture);
 // Free a buffer and its buffer texture. NULL `texture` means that there is none.

@@ -40,7 +40,8 @@ void hair_geometry_destroy(struct hair_geometry* geometry);
 
 // Return the number of vertices of all followers, look.segments + 1 each.
 size_t hair_geometry_count_vertices(const struct hair_geometry* geometry);
-// Return the number of work groups per patch of a pass over the fraction `fraction` of all vertices.
+// Return the number of work groups per patch of a pass over the fraction `fraction` of all
+// vertices.
 uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction);
 // Write the parameters that place all followers in full detail. All other parameters are 0.
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);
