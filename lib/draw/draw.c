@@ -58,10 +58,7 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
     if (plan->has_occlusion) hair_draw_cull_occluded(renderer, plan);
     if (plan->has_strand_list) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
-    if (plan->vertices == HAIR_VERTICES_PER_VIEW)
-        hair_draw_expand_view(renderer, plan->shade, plan->shade_program);
-    else if (plan->shade)
-        hair_draw_shade(renderer, plan->shade, plan->shade_program, params->chunks);
+    if (plan->shade) hair_draw_write_vertices(renderer, plan, params);
     if (plan->is_computed) hair_draw_rasterise(renderer, plan);
     if (plan->view->pass == HAIR_PASS_MOTION) hair_geometry_bind_history(renderer->geometry);
     if (plan->blending == HAIR_BLENDING_SORTED) hair_draw_sort(renderer);

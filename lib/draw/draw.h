@@ -150,10 +150,6 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
                           const struct hair_field_box* box, const struct hair_pose* head,
                           const hair_view* view);
 
-// Shade the cached vertices with `program`. The inputs of drawing must be bound. Defined in
-// vertex_colors.c.
-void hair_draw_shade(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program, uint32_t chunks);
-
 // Create the buffers of sorted segments. Defined in sorted_segments.c.
 hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 void hair_draw_free_sorted_segments(struct hair_renderer* renderer);
@@ -165,8 +161,10 @@ void hair_draw_issue_sorted_segments(struct hair_renderer* renderer);
 // Create the buffers of per-view vertices. Defined in view_cache.c.
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 void hair_draw_free_view_cache(struct hair_renderer* renderer);
-// Write the per-view vertices of the listed strands and bind them in place of the vertex cache.
-void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program);
+// Run the pass plan->shade, which writes the per-view vertices of the listed strands, or shades the
+// cached vertices. Bind the result. The inputs of drawing must be bound.
+void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                              const struct hair_draw_params* params);
 
 // Find the pixels of the window that hair may cover, and their sample positions. Return false if
 // there are none. Defined in raster.c.

@@ -1,5 +1,4 @@
-// view_cache.c - vertices of listed strands, written and shaded for one view before its pixels are
-// drawn.
+// view_cache.c - vertices of one view, written or shaded before its pixels are drawn.
 #include "lib/draw/draw.h"
 
 static const struct {
@@ -57,7 +56,8 @@ void hair_draw_free_view_cache(struct hair_renderer* renderer)
     renderer->view_cache.vertices = 0;
 }
 
-void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program)
+// Write and shade the vertices of the listed strands, and bind them in place of the vertex cache.
+static void write_listed_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_view_cache* view_cache = &renderer->view_cache;
@@ -66,7 +66,7 @@ void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GL
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1, &renderer->strand_list.command);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
                         view_cache->buffer);
-    hair_gl_run_indirect(gl, pass, program, renderer->strand_list.command,
+    hair_gl_run_indirect(gl, plan->shade, plan->shade_program, renderer->strand_list.command,
                          HAIR_EXPAND_VIEW_COMMAND * sizeof(struct hair_draw_command));
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.
@@ -76,4 +76,28 @@ void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GL
         gl->BindTextureUnit(HAIR_UNIT_CACHED_TANGENT, view_cache->texture[HAIR_VIEW_CACHE_TANGENT]);
     if (view_cache->texture[HAIR_VIEW_CACHE_SHADED])
         gl->BindTextureUnit(HAIR_UNIT_SHADED, view_cache->texture[HAIR_VIEW_CACHE_SHADED]);
+}
+
+// Shade the vertices of the vertex cache.
+static void shade_cached_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                                  uint32_t chunks)
+{
+    struct hair_gl* gl = renderer->gl;
+    HAIR_ASSERT(renderer->geometry->vertex_cache.shaded && chunks > 0);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1,
+                        &renderer->geometry->vertex_cache.shaded);
+    hair_gl_run_with(gl, plan->shade, plan->shade_program, renderer->geometry->patches * chunks);
+    // Unbind the buffer before it can be deleted. Mesa unbinds a deleted buffer with
+    // glBindBufferBase, which also clears the application's generic binding.
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
+    gl->BindTextureUnit(HAIR_UNIT_SHADED, renderer->geometry->vertex_cache.shaded_texture);
+}
+
+void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                              const struct hair_draw_params* params)
+{
+    if (plan->vertices == HAIR_VERTICES_PER_VIEW)
+        write_listed_vertices(renderer, plan);
+    else
+        shade_cached_vertices(renderer, plan, params->chunks);
 }

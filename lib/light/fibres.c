@@ -9,8 +9,8 @@ hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const ha
 {
     struct hair_fibres* fibres = &lighting->fibres;
     struct hair_gl* gl = lighting->gl;
-    struct hair_fibre of = {look->roughness[1], look->roughness[0], REFRACTION};
-    if (fibres->texture && memcmp(&of, &fibres->of, sizeof of) == 0) return HAIR_OK;
+    struct hair_fibre params = {look->roughness[1], look->roughness[0], REFRACTION};
+    if (fibres->texture && memcmp(&params, &fibres->params, sizeof params) == 0) return HAIR_OK;
 
     static const uint32_t size[3] = {HAIR_FIBRE_COLUMNS, HAIR_FIBRE_ROWS, HAIR_FIBRE_LAYERS};
     hair_vec4(*table)[HAIR_FIBRE_ROWS][HAIR_FIBRE_COLUMNS] =
@@ -20,9 +20,9 @@ hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const ha
     if (!fibres->texture)
         result = hair_gl_texture_3d(gl, "hair fibres", GL_RGBA32F, size, GL_LINEAR, &fibres->texture);
     if (!result) {
-        hair_fibre_fill(&of, table);
+        hair_fibre_fill(&params, table);
         hair_gl_fill_texture_3d(gl, fibres->texture, size, table);
-        fibres->of = of;
+        fibres->params = params;
     }
     hair_free(&gl->host, table);
     return result;

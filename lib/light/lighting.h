@@ -11,7 +11,7 @@
 // Texture of the table in fibre.h, created on demand for the fibre parameters requested last.
 struct hair_fibres {
     GLuint texture;
-    struct hair_fibre of;
+    struct hair_fibre params;
 };
 
 struct hair_lighting {

@@ -39,7 +39,7 @@ void hair_geometry_save_history(struct hair_geometry* geometry)
 void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
 {
     struct hair_vertex_history* history = &geometry->history;
-    struct hair_was now = {.turn = {0, 0, 0, 1}};
+    struct hair_history_pose now = {.turn = {0, 0, 0, 1}};
     // This is another view of the same frame.
     if (history->shown && frame && frame == history->frame) return;
     memcpy(now.position, head->position, sizeof now.position);
@@ -58,7 +58,7 @@ void hair_geometry_forget_history(struct hair_geometry* geometry)
 void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct hair_pose* from,
                                     const struct hair_pose* to)
 {
-    struct hair_was* was = &geometry->history.last;
+    struct hair_history_pose* was = &geometry->history.last;
     if (!geometry->history.shown) return;
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
     hair_vec3 away = {(float)(was->position[0] - from->position[0]),

@@ -9,7 +9,7 @@
 
 // Transform from positions relative to the head's origin to the world in an earlier frame. `turn`
 // is the rotation by teleports since then.
-struct hair_was {
+struct hair_history_pose {
     double position[3];
     hair_quat turn;
 };
@@ -19,7 +19,7 @@ struct hair_vertex_history {
     uint32_t frame; // Number of the frame drawn last.
     uint32_t shown; // Value of hair_vertex_cache.writes in that frame. 0 if none was drawn.
     int still; // Nonzero if the vertices have not moved since the previous frame.
-    struct hair_was last, before; // Transforms of the frame drawn last and of the frame before it.
+    struct hair_history_pose last, before; // Transforms of the frame drawn last and of the frame before it.
 };
 
 #endif
