@@ -31,10 +31,11 @@ enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KI
 // The method of each kind of view by render path, without and with a level of detail.
 //
 // A level of detail leaves out many vertices of the vertex cache and places others differently, so
-// it uses per-view vertices. They hold a position, a width and a colour. Other outputs need vertices
-// that the vertex shader computes. Motion vectors compare vertices of the vertex cache, and sorted
-// segments index them. Pixels by compute are opaque, and hold only colour or depth. Lines take the
-// column `cached` in place of `compute`.
+// it uses per-view vertices. They hold a position, a width and a colour. Other outputs need
+// vertices that the vertex shader computes. Motion vectors compare vertices of the vertex cache,
+// and sorted segments index them. Pixels by compute are opaque, and hold only colour or depth.
+// Lines take the column `cached` in place of `compute`.
+
 // clang-format off
 static const uint8_t method_of[KINDS][4][2] = {
     //                 tessellation    instanced       cached          compute

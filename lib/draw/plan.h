@@ -10,7 +10,8 @@
 // Source of the vertices that a view draws.
 enum hair_vertex_source {
     HAIR_VERTICES_TESSELLATED, // The tessellator computes them.
-    HAIR_VERTICES_PROCEDURAL, // The vertex shader computes them, for the strands of the strand list.
+    // The vertex shader computes them, for the strands of the strand list.
+    HAIR_VERTICES_PROCEDURAL,
     HAIR_VERTICES_CACHED, // The vertex cache has those of all followers.
     HAIR_VERTICES_PER_VIEW, // The view cache has those of the strand list.
 };

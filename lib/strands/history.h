@@ -19,7 +19,8 @@ struct hair_vertex_history {
     uint32_t frame; // Number of the frame drawn last.
     uint32_t shown; // Value of hair_vertex_cache.writes in that frame. 0 if none was drawn.
     int still; // Nonzero if the vertices have not moved since the previous frame.
-    struct hair_history_pose last, before; // Transforms of the frame drawn last and of the frame before it.
+    // Transforms of the frame drawn last and of the frame before it.
+    struct hair_history_pose last, before;
 };
 
 #endif
