@@ -16,8 +16,6 @@ LOCAL(uvec2, walked);
 #endif
 bool has_lists = false;
 
-// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion.
-#define FIT 0.02    // m
 // Minimum radius in which `close` is enough.
 #define ABOUT 0.001 // m
 
@@ -121,7 +119,7 @@ void list_colliders(uint i, vec3 middle, float far)
 {
     uvec2 list  = cell_members(middle), all = uvec2(0u), near = uvec2(0u), others = uvec2(0u);
     float about = min(ABOUT + 1.5 * far, params.cells_slack);
-    float reach = FIT + max(0.5 * far, params.cells_slack), nearest = reach;
+    float reach = HAIR_CONTACT_FIT + max(0.5 * far, params.cells_slack), nearest = reach;
     uint  count = min(list.y - list.x, uint(HAIR_CELL_COLLIDERS));
     uint  member[AT_ONCE], next[AT_ONCE], end = list.x + count;
     for (uint a = 0u; a < AT_ONCE; ++a) next[a] = cell_entry(min(list.x + a, end - 1u));

@@ -17,13 +17,12 @@ uint bodies()
 }
 
 // Find the colliders that the guide can touch in this substep, and for each vertex those that it
-// can touch. Later tests use only these. Fitting lengths is assumed to move a vertex at most 2 cm
-// farther than its free motion.
+// can touch. Later tests use only these.
 void find_colliders(vec3 head_moved)
 {
     if (!COLLIDERS) return;
     uint  near    = 0u;
-    float longest = guide_length + length(root_moved - head_moved) + 0.02;
+    float longest = guide_length + length(root_moved - head_moved) + HAIR_CONTACT_FIT;
     // A guide with a free root or with pins may be anywhere.
     if (root_is_free || PINNED) longest = 2.0 * FARTHEST;
     sunk = 0.0;
@@ -45,7 +44,7 @@ void find_colliders(vec3 head_moved)
         local(reachable) = local(met) = 0u;
         if (local(slack) > 0.0) {
             vec3  position = root_now + GET(place) + local(wanted) - root_moved;
-            float reach    = 0.02 + length(local(wanted) - head_moved);
+            float reach    = HAIR_CONTACT_FIT + length(local(wanted) - head_moved);
             EACH_BIT(near) {
                 capsule collider = collider_now(k);
                 vec3    off   = from_axis(position, collider);

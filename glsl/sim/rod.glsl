@@ -98,7 +98,7 @@ void find_edges()
     }
 }
 
-#define MIN_GRANT 3e-7  // Fraction of the guide's length. Rounding of positions is a tenth of it.
+#define MIN_GRANT 6e-8  // Fraction of the guide's length, the rounding of its positions.
 #define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
 
 // Return the permitted error of length of segment i, by the relative `tolerance`. In contact, slow

@@ -20,6 +20,8 @@
 
 #include <stdbool.h>
 
+#define HAIR_CONTACT_SLACK 0.1f // Maximum of half the way of a vertex in a substep, m.
+
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
 // All 0 until an instance first has them.
 struct hair_contacts {

@@ -29,9 +29,8 @@
 #define FRACTION 0.5f
 #define HEAD_FRACTION 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
-// Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
-// for FIT and MAX_SLACK of contacts.c.
-#define AROUND 0.1f
+// Distance from the hair beyond which a collider has no effect, without the margin, m.
+#define AROUND ((float)HAIR_CONTACT_FIT + HAIR_CONTACT_SLACK)
 #define MAX_GROUPS 256
 #define LONGEST_WAIT 1000000000u // Maximum wait of a save, ns. Steps never wait.
 
