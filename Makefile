@@ -91,6 +91,11 @@ report: setup ## build/report/index.html: run time against error on one page, af
 	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
 	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
 
+docs: ## build/docs/index.html: the headers of include/hair and their guide as HTML, by doxygen
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/docs/packages.txt
+	@mkdir -p build && rm -rf build/docs
+	@doxygen tools/docs/Doxyfile
+
 test: setup ## Every test that a change must pass
 	@$(MAKE) -j$(JOBS) all examples $(TESTS)
 	@$(MAKE) check glsl consumer run-tests
@@ -263,4 +268,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols formatted consumer install install-tree format help clean
+.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols formatted consumer install install-tree format help clean

@@ -500,7 +500,7 @@ static void compare(GLuint program, GLenum interface, const char* array, size_t 
     }
 }
 
-static void every_member_is_where_c_puts_it(void** state)
+static void struct_members_have_equal_offsets_in_glsl_and_c(void** state)
 {
     struct hair_test* test = *state;
     for (size_t s = 0; s < STRUCTS; ++s) {
@@ -516,7 +516,7 @@ static void every_member_is_where_c_puts_it(void** state)
     }
 }
 
-static void the_stride_of_every_struct_is_its_size_in_c(void** state)
+static void struct_strides_in_glsl_are_sizes_in_c(void** state)
 {
     struct hair_test* test = *state;
     for (size_t s = 0; s < STRUCTS; ++s) {
@@ -534,7 +534,7 @@ static void the_stride_of_every_struct_is_its_size_in_c(void** state)
 // Check that the table above has every member: none begins after the end of the previous one. For
 // an array of structs the table has only some members, and for an array only some elements. They
 // count for the whole array.
-static void no_member_is_forgotten(void** state)
+static void struct_tables_list_every_member(void** state)
 {
     (void)state;
     for (size_t s = 0; s < STRUCTS; ++s) {
@@ -557,7 +557,7 @@ static void no_member_is_forgotten(void** state)
 
 // Check the binding and size of every buffer. The size of a storage buffer is the size of one
 // element.
-static void the_passes_have_the_buffers_of_shared_h(void** state)
+static void pass_buffers_are_those_of_shared_h(void** state)
 {
     struct hair_test* test = *state;
     static const struct {
@@ -665,7 +665,7 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 
 // Check that a work group has a thread for each vertex of a guide, and is the smallest of the four
 // sizes that does.
-static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
+static void work_group_has_a_thread_per_vertex(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,
                                           HAIR_GL_SMOOTH,
@@ -682,7 +682,7 @@ static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 }
 
 // Check the number of guides per work group that sim.c assumes, for any length of guides.
-static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
+static void thread_per_guide_puts_eight_guides_in_a_work_group(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | COLLIDERS,
@@ -699,12 +699,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_member_is_where_c_puts_it),
-        HAIR_TEST(the_stride_of_every_struct_is_its_size_in_c),
-        HAIR_TEST(no_member_is_forgotten),
-        HAIR_TEST(the_passes_have_the_buffers_of_shared_h),
-        HAIR_TEST(a_guide_has_a_thread_for_each_of_its_vertices),
-        HAIR_TEST(where_a_thread_has_a_whole_guide_eight_share_a_work_group),
+        HAIR_TEST(struct_members_have_equal_offsets_in_glsl_and_c),
+        HAIR_TEST(struct_strides_in_glsl_are_sizes_in_c),
+        HAIR_TEST(struct_tables_list_every_member),
+        HAIR_TEST(pass_buffers_are_those_of_shared_h),
+        HAIR_TEST(work_group_has_a_thread_per_vertex),
+        HAIR_TEST(thread_per_guide_puts_eight_guides_in_a_work_group),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -128,7 +128,7 @@ static hair_result load_with_65(hair_instance* hair, struct hair_test_blob blob,
     return load_sealed(hair, blob);
 }
 
-static void a_refused_load_leaves_the_instance_as_it_was(void** state)
+static void refused_load_changes_nothing(void** state)
 {
     static struct hair_test_seen before, after;
     struct hair_test* test = *state;
@@ -204,7 +204,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     free(good.bytes), free(wrong.bytes);
 }
 
-static void the_state_of_another_haircut_or_substep_is_refused(void** state)
+static void state_of_another_haircut_or_substep_is_refused(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -231,7 +231,7 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     hair_destroy(six);
 }
 
-static void a_state_cut_off_at_any_byte_is_refused(void** state)
+static void truncated_state_is_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_instance* hair = make_small(test, 0);
@@ -298,7 +298,7 @@ static void flip_every_bit(struct hair_test* test, int way)
     free(good.bytes), free(wrong.bytes);
 }
 
-static void any_flipped_bit_is_refused_or_harmless(void** state)
+static void state_with_a_flipped_bit_is_refused_or_harmless(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 3) flip_every_bit(*state, way);
 }
@@ -325,7 +325,7 @@ static void load_the_farthest(struct hair_test* test, int way)
     free(blob.bytes);
 }
 
-static void the_farthest_state_is_drawn_and_stepped_in_finite_numbers(void** state)
+static void state_of_extreme_values_is_stepped_and_drawn_finitely(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) load_the_farthest(*state, way);
 }
@@ -334,11 +334,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_refused_load_leaves_the_instance_as_it_was),
-        HAIR_TEST(the_state_of_another_haircut_or_substep_is_refused),
-        HAIR_TEST(a_state_cut_off_at_any_byte_is_refused),
-        HAIR_TEST(any_flipped_bit_is_refused_or_harmless),
-        HAIR_TEST(the_farthest_state_is_drawn_and_stepped_in_finite_numbers),
+        HAIR_TEST(refused_load_changes_nothing),
+        HAIR_TEST(state_of_another_haircut_or_substep_is_refused),
+        HAIR_TEST(truncated_state_is_refused),
+        HAIR_TEST(state_with_a_flipped_bit_is_refused_or_harmless),
+        HAIR_TEST(state_of_extreme_values_is_stepped_and_drawn_finitely),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
