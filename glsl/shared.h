@@ -91,12 +91,14 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_ROOT_TRANSFORM 3       // hair_root_transform[] per guide.
 #define HAIR_BIND_SCALP 4      // float[]. xyz per scalp vertex, in the space of the application.
 #define HAIR_BIND_SCALP_REST 5 // float[]. xyz per scalp vertex at rest, in groom space. Read-only.
-#define HAIR_BIND_ROOT_BINDING 6       // hair_root_binding[] of guides, then of followers. Read-only.
+// hair_root_binding[] of guides, then of followers. Read-only.
+#define HAIR_BIND_ROOT_BINDING 6
 #define HAIR_BIND_FOLLOWER 7   // hair_follower[]
 
 // Buffers of the passes that find followers inside colliders.
 #define HAIR_BIND_HIT 3    // float[] per follower. First vertex inside, or HAIR_NO_HIT.
-#define HAIR_BIND_REPAIR 4 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
+// uvec2[] per follower and control point of strands/repair.glsl. Four halves.
+#define HAIR_BIND_REPAIR 4
 #define HAIR_BIND_LIST 5 // uint[]. Two counts, used alternately, then the followers to be repaired.
 // Read-only buffers of hit.comp with HAIR_HIT_GROUP and of the pass that writes the vertex cache.
 // They have these in place of textures of guides and followers.
@@ -157,7 +159,8 @@ typedef uint32_t hair_uint;
 
 // float[]. Hi-Z: farthest depth of every texel of every level. See glsl/draw/hiz.glsl.
 #define HAIR_BIND_HIZ 0
-#define HAIR_BIND_GUIDE_BOUNDS 1 // hair_vec4[] per guide and part. Lower corner, then upper corner, m.
+// hair_vec4[] per guide and part. Lower corner, then upper corner, m.
+#define HAIR_BIND_GUIDE_BOUNDS 1
 #define HAIR_BIND_OCCLUSION_PATCH 2 // hair_patch[]
 
 // Buffers of the fluid passes. They read what they do not write as textures.
@@ -392,7 +395,8 @@ typedef uint32_t hair_uint;
 #define HAIR_REPAIR_CONTROLS 10  // Control points stored per follower.
 #define HAIR_REPAIR_THREADS 32   // Threads of a work group.
 #define HAIR_REPAIR_SAMPLES 64   // Maximum segments of a follower that are tested.
-#define HAIR_COLLISION_IS_SINGLE_GUIDE 1 // HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
+// HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
+#define HAIR_COLLISION_IS_SINGLE_GUIDE 1
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -420,10 +424,10 @@ HAIR_SIZE(hair_rest, 48)
 
 // A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. All quantities are
 // divided by the mass of one metre of hair, which makes masses lengths. Follow-the-leader uses
-// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K r + a'
-// and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a damping
-// rate. Its segment.w is the part of this rate that acts against the turn of the segment before,
-// 1/s.
+// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K
+// r + a' and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a
+// damping rate. Its segment.w is the part of this rate that acts against the turn of the segment
+// before, 1/s.
 struct hair_rod {
     // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
     // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it
@@ -1051,7 +1055,8 @@ struct hair_draw_params {
     // Matrices of r, g and b. The irradiance on a plane of unit normal n is (n, 1) sky (n, 1).
     hair_mat4 sky[3];
 };
-HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
-                                HAIR_LIGHTS * HAIR_LIGHT_VECTORS * 16 + (HAIR_SHADOW_MAPS + 3) * 64)
+HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) +
+                                sizeof(struct hair_strand_look) + HAIR_LIGHTS * HAIR_LIGHT_VECTORS * 16 +
+                                (HAIR_SHADOW_MAPS + 3) * 64)
 
 #endif

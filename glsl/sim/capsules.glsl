@@ -1,5 +1,5 @@
-// sim/capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out of
-// them.
+// sim/capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out
+// of them.
 
 struct capsule { // A collider at one moment.
     vec3  start, axis;

@@ -35,12 +35,19 @@ vec3 halfway(vec3 position, vec3 way, float far)
 }
 
 // Return the member of a list for a bit, or 0 for no bit.
-uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
+uint member_at(uint first, uvec2 at)
+{
+    return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u;
+}
 
 uvec2 mask_of(uvec2 at) { return at.x == 0u ? uvec2(at.y, 0u) : uvec2(0u, at.y); }
 
 // Return a sphere with the margin, at a fraction of the step.
-vec4 sphere_at(uint k, float fraction) { return mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), fraction) + vec4(0.0, 0.0, 0.0, params.collision_margin); }
+vec4 sphere_at(uint k, float fraction)
+{
+    return mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), fraction) +
+           vec4(0.0, 0.0, 0.0, params.collision_margin);
+}
 
 struct sphere {
     // The sphere at the end of the step, and its displacement from the time when the list is made.

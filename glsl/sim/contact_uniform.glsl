@@ -29,7 +29,7 @@ void find_colliders(vec3 head_moved)
     for (uint k = lane; k < params.colliders; k += lanes) {
         capsule now = collider_at(k, fraction_now);
         float   off = length(from_axis(root_now, now)) - now.radius;
-        share_collider(k, now);
+        store_collider(k, now);
         if (off < longest + moves_of(k)) near |= 1u << k;
         if ((1u << k & bodies()) == 0u) sunk = max(sunk, -off);
     }
@@ -57,7 +57,8 @@ void find_colliders(vec3 head_moved)
 
 // Push a vertex out of one collider after the other, capsules first. A push out of a second
 // collider may lead into the first. Then all are tested once more.
-void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, inout outcome made, inout uint met)
+void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, inout outcome made,
+             inout uint met)
 {
     vec2 granted  = granted_to(i);
     uint contacts = 2u;
@@ -66,7 +67,8 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
         vec3 normal, surface;
         contacts = 0u;
         EACH_BIT(colliders & ~bodies()) {
-            float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
+            float was,
+                depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
             // The displacement of the surface matters only in contact.
             if (depth > 0.0 || (kept & bit) != 0u) {
                 surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
@@ -77,7 +79,8 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
         }
 #ifdef HAIR_BODIES
         EACH_BIT(colliders & bodies()) {
-            float depth = depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
+            float depth =
+                depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
             if (depth > 0.0 || (kept & bit) != 0u) {
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                 met |= bit;

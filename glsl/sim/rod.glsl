@@ -44,7 +44,10 @@ vec3 clamp_way, clamp_at_rest; // Direction of the clamp, and the same direction
 bool root_is_free;
 bool loose, broken; // Results of measure().
 
-vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
+vec3 rest_from_root(uint i)
+{
+    return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest;
+}
 
 // Seconds of the present motion, which covers a substep or a part of one.
 #ifdef HAIR_MIXED

@@ -13,7 +13,8 @@ extern "C" {
 // A shape that has been met, with its collision mesh.
 struct hair_cached_shape {
     const btCollisionShape* shape;
-    uint64_t fingerprint; // hash of its numbers. Another hash means another shape at the same address.
+    // hash of its numbers. Another hash means another shape at the same address.
+    uint64_t fingerprint;
     hair_collision_mesh* mesh; // NULL if the shape can have none, which the log has said.
     uint32_t round; // number of the hair_bullet_clear() round in which the shape was last met
 };

@@ -13,7 +13,8 @@ struct hair_collision_mesh {
     hair_host host; // owner of the memory
     atomic_uint holders;
     hair_collision_mesh_info info;
-    uint64_t content_hash; // hash of the content. Collision meshes with equal marks have equal shapes.
+    // hash of the content. Collision meshes with equal marks have equal shapes.
+    uint64_t content_hash;
     uint32_t size[3]; // number of nodes along x, y, z
     float origin[3]; // position of the first node, m
     float voxel; // distance between nodes, m

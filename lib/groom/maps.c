@@ -122,7 +122,8 @@ static void read_maps(struct hair_groom_builder* builder, uint32_t sets, uint32_
     float density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], max = 0;
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
         const hair_map_set* set = builder->desc->map_sets[i < sets ? i : sets - 1];
-        density[i] = fminf(fmaxf(value_at(builder, &set->density, scalp_point), 0), 1); // Correct rounding.
+        // Correct rounding.
+        density[i] = fminf(fmaxf(value_at(builder, &set->density, scalp_point), 0), 1);
         thickness[i] = fmaxf(value_at(builder, &set->thickness, scalp_point), 0);
         max = fmaxf(max, thickness[i]);
     }

@@ -65,10 +65,12 @@ struct hair_sim {
     int by_thread; // 1 prefers a thread per guide to a work group per guide.
     int two_pass; // 1 if guides may go through two programs. See main() of glsl/sim/rod.comp.
     uint32_t list; // Guide list of the last dispatch, 0 or 1. Dispatches alternate between them.
-    int had_contact; // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    int had_contact;
     double last_substep; // Length of the last substep done, s. Displacements are over this time.
     double next_substep; // Length of the current substep, s. 0 if unknown, as after loading.
-    uint32_t substep_scale; // Multiple of the solver's own substep length. 0 until rods are first made.
+    // Multiple of the solver's own substep length. 0 until rods are first made.
+    uint32_t substep_scale;
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
     uint32_t max_vertices; // Maximum number of vertices of a guide.

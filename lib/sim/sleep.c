@@ -27,7 +27,8 @@
 // Fraction of hair_physics.sleep_threshold that the distance still to go may have. The head may
 // move a quarter. The rest is for motion between measurements.
 #define FRACTION 0.5f
-#define HEAD_FRACTION 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
+// Fraction of hair_physics.sleep_threshold that motion of the head may have.
+#define HEAD_FRACTION 0.25f
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 // Distance from the hair beyond which a collider has no effect, without the margin, m.
 #define AROUND ((float)HAIR_CONTACT_FIT + HAIR_CONTACT_SLACK)

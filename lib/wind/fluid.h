@@ -52,7 +52,7 @@ struct hair_fluid_hair {
 };
 
 struct hair_fluid_level_at {
-    uint32_t cells, slot, cell; // As in hair_fluid_level.
+    uint32_t cells, slot, cell; // See hair_fluid_level.
 };
 
 struct hair_fluid {

@@ -74,8 +74,8 @@ struct hair_reference_rod_desc {
     double gravity[3]; ///< m/s^2.
     double damping; ///< c of dv/dt = -c (v - wind), 1/s.
     double wind[3]; ///< m/s.
-    /// Drag of the segments, as a multiple of hair_reference_drag. The greater of drag and damping acts.
-    /// 0 disables drag.
+    /// Drag of the segments, as a multiple of hair_reference_drag. The greater of drag and damping
+    /// acts. 0 disables drag.
     double drag;
     double diameter; ///< Diameter for the drag, m.
     struct hair_reference_air air; ///< Air for the drag.

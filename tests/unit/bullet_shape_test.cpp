@@ -214,7 +214,8 @@ static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar
         shape.processAllTriangles(&exact, lower, upper);
         const double own = nearest(p);
         if (exact.distance > 3 * voxel || exact.distance < 0) continue;
-        if (own < -static_cast<double>(shape.getMargin())) continue; // Bullet has the opposite sign inside.
+        // Bullet has the opposite sign inside.
+        if (own < -static_cast<double>(shape.getMargin())) continue;
         worst = std::fmax(worst, std::fabs(own - exact.distance));
         ++count;
     }

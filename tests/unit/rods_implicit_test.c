@@ -80,7 +80,8 @@ static void factors_are_those_of_the_implicit_systems(void** state)
             build(f, h, a);
             compare(f, a, 1);
             hair_test_rod_write(f, HAIR_SOLVER_FOLLOW, h);
-            uint32_t tip = lengths[k] - 1; // No segment is before the first, and none is after the tip.
+            // No segment is before the first, and none is after the tip.
+            uint32_t tip = lengths[k] - 1;
             assert_true(f->rod[0].segment.w == 0 && f->rod[tip].segment.w == 0);
             for (uint32_t i = 1; i < tip; ++i) assert_true(f->rod[i].segment.w > 0);
         }
