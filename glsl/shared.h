@@ -204,7 +204,8 @@ typedef uint32_t hair_uint;
 #define HAIR_FOUND_FASTEST 2 // m/s, as bits of a float.
 #define HAIR_FOUND_STRETCH 3 // Relative error of a length, as bits of a float.
 #define HAIR_FOUND_COUNT 4
-// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion, m.
+// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion,
+// in metres.
 #define HAIR_CONTACT_FIT 0.02
 // Guides per work group in programs with HAIR_PASS1, one subgroup per guide.
 #define HAIR_PASS1_GUIDES 28

@@ -1,4 +1,4 @@
-// collide/collider_distance.glsl - the exact signed distance to the surface of a shape in its own
+// collider_distance.glsl - the exact signed distance to the surface of a shape in its own
 // space, without rounding, and the unit gradient. lib/collide/distance.c has the same functions for
 // the CPU.
 // Values of hair_shape.

@@ -1,4 +1,4 @@
-// collide/mesh_distance.glsl - signed distance to the surface of a collision mesh, interpolated
+// mesh_distance.glsl - signed distance to the surface of a collision mesh, interpolated
 // between the nodes of its grid, and the unit gradient. Positions are in the mesh's own space.
 // Outside the grid the distance continues from the point where the grid ends.
 // lib/collide/distance.c has the same function for the CPU. NODE(i) is the i-th node of all

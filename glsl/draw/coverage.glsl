@@ -1,4 +1,4 @@
-// draw/coverage.glsl - how much of a pixel a strand covers.
+// coverage.glsl - how much of a pixel a strand covers.
 //
 // Seen along a strand, a square pixel projects to a trapezoid: a density that is constant in the
 // middle and falls linearly to 0 at both sides.

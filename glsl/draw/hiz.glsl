@@ -1,4 +1,4 @@
-// draw/hiz.glsl - Hi-Z of the application's depth (Greene, Kass and Miller 1993): the farthest depth of
+// hiz.glsl - Hi-Z of the application's depth (Greene, Kass and Miller 1993): the farthest depth of
 // every texel. The levels follow each other in one buffer. Depth is signed, so that a greater value
 // is farther away.
 #ifndef HAIR_HIZ_GLSL

@@ -1,4 +1,4 @@
-// draw/lod_contract.glsl - displacement of strands that are drawn wider to compensate for strands that
+// lod_contract.glsl - displacement of strands that are drawn wider to compensate for strands that
 // are left out. A strand moves towards the middle of its neighbours by the width that it gains. The
 // outline of all strands stays, and inside it their total coverage stays.
 #include "strands/follower.glsl"

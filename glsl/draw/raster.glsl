@@ -1,4 +1,4 @@
-// draw/raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
+// raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
 // vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
 // that of ribbon.geom.
 #include "draw/vertex_cache.glsl"

@@ -1,4 +1,4 @@
-// draw/strand.glsl - a vertex of a drawn strand: its position, its width and, where colour is drawn, its
+// strand.glsl - a vertex of a drawn strand: its position, its width and, where colour is drawn, its
 // colour. Shading runs per vertex and not per sample of a pixel, because light changes slowly along
 // a strand and not at all across it.
 

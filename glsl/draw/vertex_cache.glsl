@@ -1,4 +1,4 @@
-// draw/vertex_cache.glsl - the position of a follower, read from the vertex cache that expand.comp
+// vertex_cache.glsl - the position of a follower, read from the vertex cache that expand.comp
 // writes. It replaces strands/evaluate.glsl.
 #include "strands/follower.glsl"
 

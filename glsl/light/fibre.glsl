@@ -1,4 +1,4 @@
-// light/fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
+// fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
 // et al. 2003, with the longitudinal part after d'Eon et al. 2011. The model of many fibres is dual
 // scattering (Zinke et al. 2008), with the number of fibres in front of a point as in a Poisson
 // process. lib/draw/fibre.c tabulates the azimuthal part.

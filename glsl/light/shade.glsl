@@ -1,4 +1,4 @@
-// light/shade.glsl - light that a strand reflects to the eye.
+// shade.glsl - light that a strand reflects to the eye.
 #include "draw_params.glsl"
 #include "light/lights.glsl"
 #include "light/shadow.glsl"

@@ -1,4 +1,4 @@
-// light/shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
+// shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
 // of a point.
 //
 // The fraction through hair is that of vertex_transmittance.comp for strand vertices, where it is

@@ -1,4 +1,4 @@
-// sim/capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out
+// capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out
 // of them.
 
 struct capsule { // A collider at one moment.

@@ -1,4 +1,4 @@
-// sim/constraints.glsl - distance, angular and collision constraints of a guide in shared memory,
+// constraints.glsl - distance, angular and collision constraints of a guide in shared memory,
 // after Tariq 2010, "Hair".
 //
 // A work group has one thread per vertex. Each function is one phase, in which no two threads touch

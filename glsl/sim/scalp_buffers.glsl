@@ -1,4 +1,4 @@
-// sim/scalp_buffers.glsl - the skinned scalp and its root bindings: buffers of the scalp motion
+// scalp_buffers.glsl - the skinned scalp and its root bindings: buffers of the scalp motion
 // passes.
 #include "shared.h"
 #include "workgroup.glsl"

@@ -1,4 +1,4 @@
-// strands/evaluate.glsl - the position of a follower, by the one function that every drawing path
+// evaluate.glsl - the position of a follower, by the one function that every drawing path
 // evaluates. With HAIR_HITS the function takes account of followers inside colliders and of their
 // repair.
 #include "strands/follower.glsl"

@@ -1,4 +1,4 @@
-// strands/fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
+// fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
 // from storage buffers, which GPUs read several times as fast. OpenGL does not guarantee storage
 // buffers to the stages that draw.
 #include "shared.h"

@@ -1,4 +1,4 @@
-// strands/follower.glsl - interpolation of a follower from guides, as shared.h defines it. Drawing code
+// follower.glsl - interpolation of a follower from guides, as shared.h defines it. Drawing code
 // calls it through strands/evaluate.glsl.
 #ifndef HAIR_FOLLOWER_GLSL
 #define HAIR_FOLLOWER_GLSL

@@ -1,4 +1,4 @@
-// strands/lod.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
+// lod.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
 // number of their segments.
 #include "strands/position_texture.glsl"
 

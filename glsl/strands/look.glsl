@@ -1,4 +1,4 @@
-// strands/look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
+// look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
 // offsets across the strand in its guide's frame. Kinks, curls and cuts need HAIR_STYLED.
 #include "draw_params.glsl"
 #include "random.glsl"

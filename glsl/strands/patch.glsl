@@ -1,4 +1,4 @@
-// strands/patch.glsl - the number of strands of a patch that are drawn, their width and their number of
+// patch.glsl - the number of strands of a patch that are drawn, their width and their number of
 // segments. Every drawing path calls it.
 //
 // All of these change continuously. The last strand thins out before it disappears. Segments begin

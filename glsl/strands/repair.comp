@@ -1,5 +1,5 @@
-// repair.comp - the curves of strands/repair.glsl that push followers out of colliders. One thread per
-// follower of the list of hit.comp.
+// repair.comp - the curves of strands/repair.glsl that push followers out of colliders. One thread
+// per follower of the list of hit.comp.
 //
 // A strand that is deep inside has guides on different sides of the collider. It is freed of all
 // guides but its own (Tariq 2010), from well above the first vertex inside. Vertices that remain

@@ -1,4 +1,4 @@
-// strands/spline.glsl - uniform cubic B-splines: weights of the four control points around an interval, at
+// spline.glsl - uniform cubic B-splines: weights of the four control points around an interval, at
 // x in [0, 1], and their derivatives.
 #ifndef HAIR_SPLINE_GLSL
 #define HAIR_SPLINE_GLSL

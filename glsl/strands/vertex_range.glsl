@@ -1,4 +1,4 @@
-// strands/vertex_range.glsl - the follower vertices that a work group covers. draw.chunks work groups share
+// vertex_range.glsl - the follower vertices that a work group covers. draw.chunks work groups share
 // a patch.
 #include "strands/patch.glsl"
 #include "workgroup.glsl"
