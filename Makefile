@@ -33,7 +33,7 @@ MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 # Folders of lib/ in the order of the data flow. A file includes only from its own folder and from
 # those before it.
 # The folders egl/ and bullet/ are separate libraries.
-ROOMS := base asset collide groom rod gl field wind sim strands draw api
+ROOMS := base asset collide groom rod gl field wind sim strands light draw api
 
 objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o

@@ -38,8 +38,9 @@ struct hair_instance {
     hair_vec3 bounds[2]; // bounds of the hair in the head's frame, without pins
     float longest; // maximum length of a strand with its stretch, m
     struct hair_sim sim;
-    struct hair_smooth smooth;
-    struct hair_draw draw;
+    struct hair_geometry geometry;
+    struct hair_lighting lighting;
+    struct hair_renderer renderer;
     struct hair_collider_field field;
     struct hair_gl_profiler profiler;
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger

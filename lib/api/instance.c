@@ -60,7 +60,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->sim.asked_substep = (double)desc->substep;
     hair->sim.contacts.sdf_pool = &context->sdf_pool;
     hair->sim.solver = desc->solver;
-    hair->draw.follower_collision.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
+    hair->geometry.follower_collision.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
     hair->sim.by_thread = desc->solver != HAIR_SOLVER_REDBLACK &&
                           (desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
                                ? context->gl.software
@@ -78,8 +78,8 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          "solver redblack has",
                          hair->label);
     hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
-    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->draw.look);
-    if (!result) hair_look_apply_wetness(&hair->draw.look);
+    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->geometry.look);
+    if (!result) hair_look_apply_wetness(&hair->geometry.look);
     if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
     if (!result) result = hair_check_current(context);
     if (result) return result;
@@ -87,7 +87,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->longest = hair_find_bounds(groom, hair->bounds);
     HAIR_ASSERT(hair->longest > 0);
     hair_vec3 middle = hair_lerp(hair->bounds[0], hair->bounds[1], 0.5f);
-    hair->draw.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
+    hair->renderer.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
     hair_field_create(&hair->field, &context->sdf_pool, groom, desc->field_voxel);
     hair->sim.wind_coupling.field = &hair->field;
     hair_gl_enter(&context->gl);
@@ -95,8 +95,10 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->told = hair_rods_report_none().softened;
     if (!result) tell_held(hair);
     if (!result) tell_softened(hair);
-    if (!result) result = hair_smooth_create(&hair->smooth, &context->gl, &hair->sim);
-    if (!result) result = hair_draw_create(&hair->draw, &context->gl, groom, &hair->sim);
+    if (!result) result = hair_geometry_create(&hair->geometry, &context->gl, groom, &hair->sim);
+    if (!result) result = hair_lighting_create(&hair->lighting, &context->gl, groom);
+    if (!result)
+        result = hair_renderer_create(&hair->renderer, &context->gl, groom, &hair->geometry, &hair->lighting);
     if (!result) hair_sim_reset(&hair->sim);
     hair_gl_leave(&context->gl);
     return result;
@@ -127,9 +129,10 @@ void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
     hair_gl_profiler_free(&hair->context->gl, &hair->profiler);
-    hair_draw_destroy(&hair->draw);
+    hair_renderer_destroy(&hair->renderer);
+    hair_lighting_destroy(&hair->lighting);
+    hair_geometry_destroy(&hair->geometry);
     hair_field_destroy(&hair->field);
-    hair_smooth_destroy(&hair->smooth);
     hair_sim_destroy(&hair->sim);
     hair_free(&hair->context->host, hair);
 }
@@ -140,7 +143,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     hair_physics own;
     hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    if (own.collision_margin != hair->sim.physics.collision_margin) hair->draw.follower_collision.valid = 0;
+    if (own.collision_margin != hair->sim.physics.collision_margin) hair_geometry_invalidate(&hair->geometry);
     hair->sim.physics = own;
     return HAIR_OK;
 }
@@ -152,8 +155,8 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     hair_result result = HAIR_COPY_IN(&hair->context->host, hair_look, look, &own);
     if (result) return result;
     hair_look_apply_wetness(&own);
-    if (memcmp(&own, &hair->draw.look, sizeof own) != 0) hair->draw.follower_collision.valid = 0;
-    hair->draw.look = own;
+    if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_geometry_invalidate(&hair->geometry);
+    hair->geometry.look = own;
     return HAIR_OK;
 }
 
@@ -173,7 +176,7 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
     const hair_host* host = &hair->context->host;
     hair_result result = hair_colliders_set(host, &hair->sim.colliders, colliders, count, stride);
     uint32_t contacts = hair_sim_contacts(&hair->sim);
-    if (hair->sim.colliders.changed) hair->draw.follower_collision.valid = 0;
+    if (hair->sim.colliders.changed) hair_geometry_invalidate(&hair->geometry);
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
         hair_log(
@@ -226,8 +229,8 @@ hair_result hair_step(hair_instance* hair, float dt)
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) {
         tell_softened(hair);
-        hair->smooth.done = 0;
-        hair_draw_free_unused(&hair->draw, hair->profiler.number);
+        hair_smooth_invalidate(&hair->geometry.smooth);
+        hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     }
     hair_gl_leave(&context->gl);
     if (result) { // The frame is undone.
@@ -248,8 +251,8 @@ hair_result hair_reset(hair_instance* hair)
     if (result) return result;
     hair_enter(hair);
     hair_sim_reset(&hair->sim);
-    hair->smooth.done = 0;
-    hair->draw.motion.shown = 0;
+    hair_smooth_invalidate(&hair->geometry.smooth);
+    hair_geometry_forget_history(&hair->geometry);
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
 }
@@ -265,8 +268,8 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
     struct hair_pose was = hair->sim.head_at_last_step;
     result = hair_sim_teleport(&hair->sim, &pose);
     if (!result) {
-        hair_draw_teleport_history(&hair->draw, &was, &pose);
-        hair->smooth.done = 0;
+        hair_geometry_teleport_history(&hair->geometry, &was, &pose);
+        hair_smooth_invalidate(&hair->geometry.smooth);
     }
     hair_gl_leave(&hair->context->gl);
     return result;

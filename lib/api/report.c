@@ -51,9 +51,9 @@ static hair_skip_reason why_not_shown(const struct hair_frame_requests* requests
 static hair_skip_reason why_not_collided(const hair_instance* hair,
                                          const struct hair_frame_requests* requests, int pushes)
 {
-    const hair_look* look = &hair->draw.look;
+    const hair_look* look = &hair->geometry.look;
     int off = look->follower_collision == HAIR_FOLLOWER_COLLISION_NONE || look->density <= 0 ||
-              !hair->draw.followers;
+              !hair->geometry.followers;
     if (off || (pushes && look->follower_collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
         return HAIR_SKIP_REASON_NOT_WANTED;
     if (!hair->sim.colliders.current.count) return HAIR_SKIP_REASON_NONE_NEAR;
@@ -66,7 +66,7 @@ static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct ha
                                       int kind)
 {
     if (requests->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
-    if (hair->draw.look.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
+    if (hair->geometry.look.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
     return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
@@ -109,7 +109,8 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
         return requests->vertex_cache || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
                                                                              : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_SELF_SHADOW:
-        return hair->draw.look.self_shadow != HAIR_SELF_SHADOW_STRANDS ? HAIR_SKIP_REASON_NOT_WANTED : shown;
+        return hair->geometry.look.self_shadow != HAIR_SELF_SHADOW_STRANDS ? HAIR_SKIP_REASON_NOT_WANTED
+                                                                           : shown;
     case HAIR_GL_CATEGORY_OCCLUSION: return why_not_culled(requests);
     case HAIR_GL_CATEGORY_SCAN_STRANDS:
     case HAIR_GL_CATEGORY_COMPACT_STRANDS:
@@ -129,7 +130,9 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
 static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
 {
     const struct hair_sim* sim = &hair->sim;
-    const struct hair_draw* draw = &hair->draw;
+    const struct hair_geometry* geometry = &hair->geometry;
+    const struct hair_lighting* lighting = &hair->lighting;
+    const struct hair_renderer* renderer = &hair->renderer;
     const struct hair_fluid* air = &sim->wind_coupling.fluid;
     const struct hair_gl* gl = &hair->context->gl;
     const GLuint buffers[HAIR_GL_CATEGORIES][MAX_BUFFERS] = {
@@ -153,30 +156,34 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
         [HAIR_GL_CATEGORY_SOLVE] = {sim->guide, sim->rest, sim->state, sim->solver_stats, sim->step, sim->rod,
                                     sim->history, sim->material, sim->reduction, sim->bend, sim->pins.buffer,
                                     sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
-        [HAIR_GL_CATEGORY_SMOOTH] = {hair->smooth.buffer[0], hair->smooth.buffer[1], hair->smooth.buffer[2]},
+        [HAIR_GL_CATEGORY_SMOOTH] = {hair->geometry.smooth.buffer[0], hair->geometry.smooth.buffer[1],
+                                     hair->geometry.smooth.buffer[2]},
         [HAIR_GL_CATEGORY_FIELD] = {hair->field.params, hair->field.work, sim->contacts.collider,
                                     sim->contacts.cell},
-        [HAIR_GL_CATEGORY_HIT] = {draw->follower_collision.hit, draw->follower_collision.list},
-        [HAIR_GL_CATEGORY_REPAIR] = {draw->follower_collision.repair},
-        [HAIR_GL_CATEGORY_EXPAND] = {draw->vertex_cache.position, draw->vertex_cache.tangent,
-                                     draw->vertex_cache.shaded, draw->motion.buffer,
-                                     draw->view_cache.buffer[0], draw->view_cache.buffer[1],
-                                     draw->view_cache.buffer[2]},
-        [HAIR_GL_CATEGORY_SELF_SHADOW] = {draw->self_shadow.density, draw->self_shadow.box,
-                                          draw->self_shadow.nodes, draw->self_shadow.light},
-        [HAIR_GL_CATEGORY_OCCLUSION] = {draw->occlusion.params, draw->occlusion.depth, draw->occlusion.box},
-        [HAIR_GL_CATEGORY_COMPACT_STRANDS] = {draw->strand_list.start, draw->strand_list.strand,
-                                              draw->strand_list.command, draw->strand_list.indices[0].index,
-                                              draw->strand_list.indices[1].index},
-        [HAIR_GL_CATEGORY_COLOR] = {draw->follower, draw->patch, draw->params, draw->sorted_segments.bucket,
-                                    draw->sorted_segments.index, draw->uv, draw->groom_color,
-                                    draw->raster.params, draw->raster.nearest, draw->raster.tile},
+        [HAIR_GL_CATEGORY_HIT] = {geometry->follower_collision.hit, geometry->follower_collision.list},
+        [HAIR_GL_CATEGORY_REPAIR] = {geometry->follower_collision.repair},
+        [HAIR_GL_CATEGORY_EXPAND] = {geometry->vertex_cache.position, geometry->vertex_cache.tangent,
+                                     geometry->vertex_cache.shaded, geometry->history.buffer,
+                                     renderer->view_cache.buffer[0], renderer->view_cache.buffer[1],
+                                     renderer->view_cache.buffer[2]},
+        [HAIR_GL_CATEGORY_SELF_SHADOW] = {lighting->self_shadow.density, lighting->self_shadow.box,
+                                          lighting->self_shadow.nodes, lighting->self_shadow.light},
+        [HAIR_GL_CATEGORY_OCCLUSION] = {renderer->occlusion.params, renderer->occlusion.depth,
+                                        renderer->occlusion.box},
+        [HAIR_GL_CATEGORY_COMPACT_STRANDS] = {renderer->strand_list.start, renderer->strand_list.strand,
+                                              renderer->strand_list.command,
+                                              renderer->strand_list.indices[0].index,
+                                              renderer->strand_list.indices[1].index},
+        [HAIR_GL_CATEGORY_COLOR] = {geometry->follower, geometry->patch, geometry->params,
+                                    renderer->sorted_segments.bucket, renderer->sorted_segments.index,
+                                    geometry->uv, lighting->groom_color, renderer->raster.params,
+                                    renderer->raster.nearest, renderer->raster.tile},
     };
     const GLuint textures[HAIR_GL_CATEGORIES][MAX_TEXTURES] = {
         [HAIR_GL_CATEGORY_WIND] = {air->air, sim->wind_state.gusts},
         [HAIR_GL_CATEGORY_FIELD] = {hair->field.distance, hair->field.number},
-        [HAIR_GL_CATEGORY_HIT] = {draw->follower_collision.image},
-        [HAIR_GL_CATEGORY_COLOR] = {draw->fibres.texture},
+        [HAIR_GL_CATEGORY_HIT] = {geometry->follower_collision.image},
+        [HAIR_GL_CATEGORY_COLOR] = {lighting->fibres.texture},
     };
     HAIR_ASSERT((unsigned)work < HAIR_GL_CATEGORIES);
     uint64_t bytes = 0;

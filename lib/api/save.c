@@ -29,8 +29,8 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     if (result) return result;
     hair_gl_enter(&context->gl);
     result = hair_sim_load(&hair->sim, bytes, size);
-    if (!result) hair->smooth.done = 0;
-    if (!result) hair->draw.motion.shown = 0;
+    if (!result) hair_smooth_invalidate(&hair->geometry.smooth);
+    if (!result) hair_geometry_forget_history(&hair->geometry);
     hair_gl_leave(&context->gl);
     return result;
 }

@@ -58,7 +58,7 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     float* packed = take(hair, positions, count, stride, &result);
     if (!packed) return result;
     hair_enter(hair);
-    result = hair_draw_create_scalp_roots(&hair->draw, &hair->sim);
+    result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result) hair_scalp_motion_set(&hair->sim, packed, &space);
     hair_gl_leave(&hair->context->gl);
     hair_free(host, packed);
@@ -112,7 +112,7 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
     if (result) return result;
     hair_enter(hair);
-    result = hair_draw_create_scalp_roots(&hair->draw, &hair->sim);
+    result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result)
         hair_scalp_motion_set_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
                                      (uint32_t)(stride / 4), &space);

@@ -119,7 +119,7 @@ static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
     hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
     if (!result)
-        result = hair_draw_colliders(&hair->draw, &hair->field, list->collider, list->count,
+        result = hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
                                      &hair->sim.head_at_last_step, view);
     return result;
 }
@@ -129,7 +129,7 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
     const struct hair_sim* sim = &hair->sim;
     const struct hair_fluid* fluid = sim->wind_state.box.w > 0 ? &sim->wind_coupling.fluid : NULL;
     if (!sim->wind_state.params) return HAIR_OK;
-    return hair_draw_air(&hair->draw, &sim->wind_state, &sim->wind, fluid, &hair->field.box,
+    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, fluid, &hair->field.box,
                          &sim->head_at_last_step, view);
 }
 
@@ -137,27 +137,28 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
 // this. Colliders still block light in that case.
 static hair_result update_follower_collision(hair_instance* hair)
 {
-    struct hair_draw* draw = &hair->draw;
-    if (hair_draw_has_follower_collision(draw, &hair->smooth)) return HAIR_OK;
-    if (draw->push_out_weight <= 0) {
+    struct hair_geometry* geometry = &hair->geometry;
+    if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
+    if (geometry->push_out_weight <= 0) {
         hair_result result =
-            draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        draw->follower_collision.field = !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+            geometry->look.self_shadow == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
+        geometry->follower_collision.field =
+            !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
         return result;
     }
-    int wanted = draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE && draw->followers;
+    int wanted = geometry->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair->sim.colliders.current.count) hair_draw_free_follower_collision(draw);
-    return hair_draw_update_follower_collision(draw, &hair->smooth, near ? &hair->field : NULL,
-                                               hair->sim.physics.collision_margin);
+    if (!hair->sim.colliders.current.count) hair_geometry_free_follower_collision(geometry);
+    return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
+                                                   hair->sim.physics.collision_margin);
 }
 
 static void make_ready(hair_instance* hair)
 {
-    hair_smooth_ensure(&hair->smooth, &hair->sim);
-    hair_draw_bind_followers(&hair->draw, &hair->smooth, &hair->sim);
+    hair_smooth_ensure(&hair->geometry.smooth, &hair->sim);
+    hair_geometry_bind_followers(&hair->geometry, &hair->sim);
 }
 
 // Return whether every strand stays within its length of its root. This needs a guide with a fixed
@@ -177,7 +178,8 @@ static int is_of_surroundings(const hair_view* view)
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
-    return is_held(&hair->sim) && hair_draw_is_out_of_view(&hair->draw, &hair->sim.head_at_last_step, view);
+    return is_held(&hair->sim) &&
+           hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
 }
 
 // Record the request of a view. Return whether it is to be drawn.
@@ -193,7 +195,7 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     requests->strand_list |= !unseen && view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     requests->vertex_cache |= !unseen && hair_draw_uses_vertex_cache(view);
     requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
-    return !unseen && hair->draw.look.density > 0;
+    return !unseen && hair->geometry.look.density > 0;
 }
 
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
@@ -206,22 +208,22 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = hair_check_view_textures(hair, &own);
     if (!result) result = check_framebuffer(hair);
-    if (!result) own.render_path = hair_draw_path(&hair->draw, &own);
+    if (!result) own.render_path = hair_draw_path(&hair->renderer, &own);
     if (result || !is_to_be_drawn(hair, &own)) return result;
     hair_enter(hair);
-    hair_draw_free_unused(&hair->draw, hair->profiler.number);
+    hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     if (is_of_surroundings(&own)) {
         result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
-        hair_draw_select_lod(&hair->draw, &hair->sim.head_at_last_step, &own);
-        if (own.pass != HAIR_PASS_GUIDES && hair->draw.look.density > 0)
+        hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &own);
+        if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.density > 0)
             result = update_follower_collision(hair);
-        hair->draw.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
-                                 !hair_scalp_motion_is_on(&hair->sim);
-        hair->draw.has_attached_roots = is_held(&hair->sim);
+        hair->renderer.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
+                                     !hair_scalp_motion_is_on(&hair->sim);
+        hair->renderer.has_attached_roots = is_held(&hair->sim);
         if (!result)
-            result = hair_draw_run(&hair->draw, &hair->smooth, &hair->sim.head_at_last_step, &own,
+            result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &own,
                                    own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
     }
     hair_gl_leave(&context->gl);
@@ -244,7 +246,7 @@ static hair_result ensure_programs(hair_instance* hair, const hair_view* view)
     if (!result && shows && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
     if (result || shows) return result;
     struct hair_gl_shader* shader = view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL;
-    return hair_draw_ensure_programs(&hair->draw, view, shader, colliders);
+    return hair_draw_ensure_programs(&hair->renderer, view, shader, colliders);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready)
@@ -256,7 +258,7 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t
     hair_result result = view ? copy_view(hair, view, &own, &storage) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
-    if (view) own.render_path = hair_draw_path(&hair->draw, &own);
+    if (view) own.render_path = hair_draw_path(&hair->renderer, &own);
     hair_gl_enter(gl);
     hair_gl_begin_async(gl);
     result = hair_sim_ensure_programs(&hair->sim);
@@ -294,9 +296,9 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_vec4* vertices = NULL;
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
-    hair_draw_select_lod(&hair->draw, &hair->sim.head_at_last_step, NULL);
+    hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
     hair_result result = update_follower_collision(hair);
-    if (!result) result = hair_draw_read_vertex_cache(&hair->draw, &hair->smooth, &vertices);
+    if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;
     copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
@@ -309,7 +311,8 @@ static hair_result read_smooth(hair_instance* hair, uint32_t count, float* posit
     hair_gl_enter(&hair->context->gl);
     make_ready(hair);
     hair_gl_leave(&hair->context->gl);
-    return read_buffer(hair, hair->smooth.buffer[0], count, 4, &hair->sim.head_at_last_step, positions);
+    return read_buffer(hair, hair->geometry.smooth.buffer[0], count, 4, &hair->sim.head_at_last_step,
+                       positions);
 }
 
 hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
@@ -328,8 +331,10 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     uint64_t all = 0;
     switch (what) {
     case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
-    case HAIR_READ_SMOOTH: all = hair->smooth.vertices; break;
-    case HAIR_READ_FOLLOWERS: all = (uint64_t)hair->draw.followers * (hair->draw.look.segments + 1); break;
+    case HAIR_READ_SMOOTH: all = hair->geometry.smooth.vertices; break;
+    case HAIR_READ_FOLLOWERS:
+        all = (uint64_t)hair->geometry.followers * (hair->geometry.look.segments + 1);
+        break;
     default:
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: source is %d, not in [0, %d]", hair->label,
                          (int)what, HAIR_READ_FOLLOWERS);

@@ -1,6 +1,8 @@
 // pose.c - poses from matrices, and interpolation between poses.
 #include "lib/base/pose.h"
 
+#include <string.h>
+
 int hair_pose_from_matrix(const float m[16], struct hair_pose* out)
 {
     hair_vec3 x = hair_load3(m), y = hair_load3(m + 4), z = hair_load3(m + 8);
@@ -38,4 +40,19 @@ hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b)
 {
     return hair_v3((float)(a->position[0] - b->position[0]), (float)(a->position[1] - b->position[1]),
                    (float)(a->position[2] - b->position[2]));
+}
+
+// Sum in double, because far from the world's origin both terms are large and nearly cancel.
+hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
+{
+    hair_mat4 out;
+    float copy[16];
+    memcpy(copy, m, sizeof copy);
+    for (int i = 0; i < 4; ++i) {
+        double sum = (double)m[12 + i];
+        for (int k = 0; k < 3; ++k) sum += (double)m[4 * k + i] * head->position[k];
+        copy[12 + i] = (float)sum;
+    }
+    memcpy(&out, copy, sizeof out);
+    return out;
 }

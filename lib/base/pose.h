@@ -3,6 +3,7 @@
 #ifndef HAIR_BASE_POSE_H
 #define HAIR_BASE_POSE_H
 
+#include "glsl/shared.h"
 #include "lib/base/math.h"
 
 struct hair_pose {
@@ -19,5 +20,9 @@ struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_
 
 // Return a.position - b.position.
 hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b);
+
+// Return the world matrix `m` for positions from the head's origin. Its last column gains m times
+// that origin.
+hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);
 
 #endif

@@ -43,11 +43,12 @@ static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* 
     return along[0] * along[1];
 }
 
-hair_result hair_draw_air(struct hair_draw* draw, const struct hair_wind_state* air, const hair_wind* wind,
-                          const struct hair_fluid* fluid, const struct hair_field_box* box,
-                          const struct hair_pose* head, const hair_view* view)
+hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind_state* air,
+                          const hair_wind* wind, const struct hair_fluid* fluid,
+                          const struct hair_field_box* box, const struct hair_pose* head,
+                          const hair_view* view)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     GLuint buffer = 0; // Created for each draw, so that no memory stays when the wind is not drawn.
     hair_vec4 turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     struct hair_debug_params params = {.rotation = turn};
@@ -56,12 +57,12 @@ hair_result hair_draw_air(struct hair_draw* draw, const struct hair_wind_state* 
     if (!result) result = hair_gl_uniform(gl, "hair shown", sizeof params, &buffer);
     if (result) return result;
     uint32_t arrows = write_arrows(box, wind, view, &params);
-    hair_draw_write_params(draw, head, view, &own);
-    hair_gl_write_uniform(gl, draw->params, sizeof own, &own);
+    hair_draw_write_params(renderer, head, view, &own);
+    hair_gl_write_uniform(gl, renderer->geometry->params, sizeof own, &own);
     hair_gl_write_uniform(gl, buffer, sizeof params, &params);
     hair_wind_bind(air, gl, wind);
     if (fluid) hair_fluid_bind(fluid);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE);

@@ -4,21 +4,6 @@
 
 #include <string.h>
 
-// Sum in double, because far from the world's origin both terms are large and nearly cancel.
-hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
-{
-    hair_mat4 out;
-    float copy[16];
-    memcpy(copy, m, sizeof copy);
-    for (int i = 0; i < 4; ++i) {
-        double sum = (double)m[12 + i];
-        for (int k = 0; k < 3; ++k) sum += (double)m[4 * k + i] * head->position[k];
-        copy[12 + i] = (float)sum;
-    }
-    memcpy(&out, copy, sizeof out);
-    return out;
-}
-
 hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
 {
     const hair_vec4* c = view->column;
@@ -32,13 +17,13 @@ hair_vec4 hair_draw_find_eye(const hair_mat4* view, const float projection[16])
 }
 
 // Add the jitter to the projection. Jitter shifts the picture by so many pixels.
-void hair_draw_project(const struct hair_draw* draw, const hair_view* view, float projection[16])
+void hair_draw_project(const struct hair_renderer* renderer, const hair_view* view, float projection[16])
 {
     GLfloat viewport[4] = {0};
     const float* by = view->jitter;
     memcpy(projection, view->projection, sizeof view->projection);
     if (by[0] == 0 && by[1] == 0) return;
-    draw->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
+    renderer->gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int column = 0; column < 4; ++column)
         for (int i = 0; i < 2; ++i)
             projection[4 * column + i] += 2 * by[i] / fmaxf(viewport[2 + i], 1) * projection[4 * column + 3];

@@ -44,11 +44,11 @@ static struct hair_debug_collider show(const struct hair_collider_field* field, 
     return (struct hair_debug_collider){own, {lower.x, lower.y, lower.z, 0}, {upper.x, upper.y, upper.z, 0}};
 }
 
-static void draw_slice(struct hair_draw* draw, const struct hair_collider_field* field, const hair_view* view,
-                       GLuint buffer, const struct hair_debug_params* params)
+static void draw_slice(struct hair_renderer* renderer, const struct hair_collider_field* field,
+                       const hair_view* view, GLuint buffer, const struct hair_debug_params* params)
 {
     if (!view->slice || !hair_field_is_near(field)) return;
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     hair_gl_write_uniform(gl, buffer, sizeof *params, params);
     hair_field_bind(field);
     hair_gl_begin(gl, HAIR_GL_SLICE);
@@ -56,11 +56,11 @@ static void draw_slice(struct hair_draw* draw, const struct hair_collider_field*
     hair_gl_end(gl, HAIR_GL_SLICE);
 }
 
-static void draw_shapes(struct hair_draw* draw, const struct hair_collider_field* field,
+static void draw_shapes(struct hair_renderer* renderer, const struct hair_collider_field* field,
                         const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
                         GLuint buffer, struct hair_debug_params* params)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     hair_gl_begin(gl, HAIR_GL_COLLIDERS);
     for (uint32_t first = 0; first < count; first += HAIR_DEBUG_COLLIDERS) {
         uint32_t some = count - first < HAIR_DEBUG_COLLIDERS ? count - first : HAIR_DEBUG_COLLIDERS;
@@ -73,11 +73,11 @@ static void draw_shapes(struct hair_draw* draw, const struct hair_collider_field
     hair_gl_end(gl, HAIR_GL_COLLIDERS);
 }
 
-hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collider_field* field,
+hair_result hair_draw_colliders(struct hair_renderer* renderer, const struct hair_collider_field* field,
                                 const hair_collider* colliders, uint32_t count, const struct hair_pose* head,
                                 const hair_view* view)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     // Created for each draw, so that no memory stays when colliders are not drawn.
     GLuint buffer = 0;
     hair_result result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
@@ -88,19 +88,19 @@ hair_result hair_draw_colliders(struct hair_draw* draw, const struct hair_collid
     result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
     if (!result) {
         struct hair_draw_params own;
-        hair_draw_write_params(draw, head, view, &own);
-        hair_gl_write_uniform(gl, draw->params, sizeof own, &own);
+        hair_draw_write_params(renderer, head, view, &own);
+        hair_gl_write_uniform(gl, renderer->geometry->params, sizeof own, &own);
         params->rotation =
             (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
         params->depth = find_depth(gl);
         hair_draw_write_slice(&field->box, view->slice, view->slice_at, params);
-        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &draw->params);
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &renderer->geometry->params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
         gl->BindVertexArray(gl->vertex_array);
         gl->Disable(GL_CULL_FACE);
-        draw_slice(draw, field, view, buffer, params);
+        draw_slice(renderer, field, view, buffer, params);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
-        draw_shapes(draw, field, colliders, count, head, buffer, params);
+        draw_shapes(renderer, field, colliders, count, head, buffer, params);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1,
                             NULL); // Unbind the buffer before it is deleted. See state.c.
     }

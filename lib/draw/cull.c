@@ -12,9 +12,9 @@ double hair_draw_edge(float pixels, float jitter)
     return 1 + 2 * (EDGE + fabs((double)jitter)) / fmax((double)pixels, 1);
 }
 
-void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groom)
+void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_groom* groom)
 {
-    struct hair_extent* extent = &draw->extent;
+    struct hair_extent* extent = &renderer->extent;
     extent->lower = hair_v3(INFINITY, INFINITY, INFINITY);
     extent->upper = hair_v3(-INFINITY, -INFINITY, -INFINITY);
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
@@ -31,9 +31,10 @@ void hair_draw_find_extent(struct hair_draw* draw, const struct hair_groom* groo
     }
 }
 
-double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
+double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* lod)
 {
-    double width = (double)(draw->look.radius * hair_curve_max(&draw->look.taper));
+    double width =
+        (double)(renderer->geometry->look.radius * hair_curve_max(&renderer->geometry->look.taper));
     if (!lod) return width;
     return width *
            pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
@@ -41,12 +42,13 @@ double hair_draw_thickest(const struct hair_draw* draw, const hair_lod* lod)
 }
 
 // Return how far hair reaches beyond the box of roots, in metres.
-static double reach_of(const struct hair_draw* draw, const hair_lod* lod)
+static double reach_of(const struct hair_renderer* renderer, const hair_lod* lod)
 {
-    const hair_look* look = &draw->look;
-    double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump_width), 1) * draw->extent.reach);
-    return reach + (double)(hair_look_max_stray(look) * draw->extent.length + hair_look_max_offset(look)) +
-           WIDEST * hair_draw_thickest(draw, lod);
+    const hair_look* look = &renderer->geometry->look;
+    double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump_width), 1) * renderer->extent.reach);
+    return reach +
+           (double)(hair_look_max_stray(look) * renderer->extent.length + hair_look_max_offset(look)) +
+           WIDEST * hair_draw_thickest(renderer, lod);
 }
 
 static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)
@@ -82,18 +84,18 @@ static unsigned find_outside(const double clip[4], const double edge[2])
            (unsigned)(w < 0) << BEHIND | (unsigned)(z > w) << FAR | (unsigned)(z < -w) << NEAR;
 }
 
-bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_pose* head,
+bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view)
 {
-    const struct hair_gl* gl = draw->gl;
+    const struct hair_gl* gl = renderer->gl;
     GLfloat viewport[4] = {0};
-    double edge[2], reach = reach_of(draw, view->lod);
+    double edge[2], reach = reach_of(renderer, view->lod);
     unsigned outside = (1u << SIDES) - 1;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
         double clip[4];
-        find_corner(view, head, corner_of(&draw->extent, reach, i), clip);
+        find_corner(view, head, corner_of(&renderer->extent, reach, i), clip);
         outside &= find_outside(clip, edge);
     }
     // If depth clamping is enabled, the near and far planes cut nothing off.
@@ -102,14 +104,14 @@ bool hair_draw_is_out_of_view(const struct hair_draw* draw, const struct hair_po
     return outside != 0;
 }
 
-void hair_draw_find_window(const struct hair_draw* draw, const struct hair_pose* head, const hair_lod* lod,
-                           const hair_mat4* to_texture, float window[4])
+void hair_draw_find_window(const struct hair_renderer* renderer, const struct hair_pose* head,
+                           const hair_lod* lod, const hair_mat4* to_texture, float window[4])
 {
     float matrix[16], all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    double reach = reach_of(draw, lod);
+    double reach = reach_of(renderer, lod);
     memcpy(matrix, to_texture, sizeof matrix);
     for (int i = 0; i < 8; ++i) {
-        hair_vec3 at = hair_rotate(head->rotation, corner_of(&draw->extent, reach, i));
+        hair_vec3 at = hair_rotate(head->rotation, corner_of(&renderer->extent, reach, i));
         float placed[4] = {at.x, at.y, at.z, 1}, out[4] = {0};
         for (int k = 0; k < 16; ++k) out[k % 4] += matrix[k] * placed[k / 4];
         // Hair beside or behind the eye may be anywhere, so the window stays as it is.

@@ -3,76 +3,27 @@
 #include "lib/draw/draw.h"
 #include "lib/draw/params.h"
 
-hair_result hair_draw_create(struct hair_draw* draw, struct hair_gl* gl, const struct hair_groom* groom,
-                             const struct hair_sim* sim)
+hair_result hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl,
+                                 const struct hair_groom* groom, struct hair_geometry* geometry,
+                                 struct hair_lighting* lighting)
 {
-    draw->gl = gl;
-    draw->guides = sim->guides;
-    draw->smooth_vertices = sim->smooth_vertices;
-    draw->followers = groom->info.follower_count;
-    draw->patches = groom->info.patch_count;
-    draw->map_sets = groom->map_sets;
-    draw->head_sphere = groom->head_sphere;
-    draw->root_bindings = hair_root_bindings_retain(groom->root_bindings);
-    for (uint32_t i = 0; i < draw->patches; ++i)
-        if (groom->patches[i].count > draw->max_isolines) draw->max_isolines = groom->patches[i].count;
-    HAIR_ASSERT(0 < draw->max_isolines && draw->max_isolines <= HAIR_MAX_ISOLINES);
-    hair_draw_find_extent(draw, groom);
-    hair_draw_find_fastest(draw);
-    hair_result result = hair_gl_buffer(gl, "hair followers", draw->followers * sizeof *groom->followers,
-                                        groom->followers, &draw->follower);
-    if (!result)
-        result = hair_gl_buffer(gl, "hair patches", draw->patches * sizeof *groom->patches, groom->patches,
-                                &draw->patch);
-    if (!result) result = hair_gl_uniform(gl, "hair draw", sizeof(struct hair_draw_params), &draw->params);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, draw->follower,
-                                        &draw->follower_texture);
-    if (!result && groom->colors)
-        result = hair_gl_buffer(gl, "hair colours",
-                                draw->followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *groom->colors,
-                                groom->colors, &draw->groom_color);
-    if (!result && groom->colors)
-        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, draw->groom_color,
-                                        &draw->groom_color_texture);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, draw->patch, &draw->patch_texture);
-    return result;
+    renderer->gl = gl;
+    renderer->geometry = geometry;
+    renderer->lighting = lighting;
+    renderer->head_sphere = groom->head_sphere;
+    hair_draw_find_extent(renderer, groom);
+    hair_draw_find_fastest(renderer);
+    return HAIR_OK;
 }
 
-void hair_draw_destroy(struct hair_draw* draw)
+void hair_renderer_destroy(struct hair_renderer* renderer)
 {
-    if (!draw->gl) return;
-    hair_draw_free_follower_collision(draw);
-    hair_draw_free_fibres(draw);
-    hair_draw_free_strand_list(draw);
-    hair_draw_free_vertex_cache(draw);
-    hair_draw_free_sorted_segments(draw);
-    hair_draw_free_self_shadow(draw);
-    hair_draw_free_occlusion(draw);
-    hair_draw_free_raster(draw);
-    hair_draw_free_view_cache(draw);
-    hair_draw_free_uvs(draw);
-    hair_root_bindings_release(draw->root_bindings);
-    draw->root_bindings = NULL;
-    hair_gl_free_buffer_texture(draw->gl, &draw->follower_texture);
-    hair_gl_free_buffer_texture(draw->gl, &draw->patch_texture);
-    hair_gl_free_buffer(draw->gl, &draw->follower);
-    hair_gl_free_buffer(draw->gl, &draw->patch);
-    hair_gl_free_buffer_texture(draw->gl, &draw->groom_color_texture);
-    hair_gl_free_buffer(draw->gl, &draw->groom_color);
-    hair_gl_free_buffer(draw->gl, &draw->params);
-}
-
-// Bind the textures that only the colour pass reads.
-static void bind_light(struct hair_draw* draw, const hair_view* view)
-{
-    struct hair_gl* gl = draw->gl;
-    if (draw->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, draw->fibres.texture);
-    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
-    if (hair_draw_light_value_count(draw, view))
-        gl->BindTextureUnit(HAIR_UNIT_LIGHT, draw->self_shadow.texture);
-    hair_draw_bind_shadows(draw, view);
+    if (!renderer->gl) return;
+    hair_draw_free_strand_list(renderer);
+    hair_draw_free_sorted_segments(renderer);
+    hair_draw_free_occlusion(renderer);
+    hair_draw_free_raster(renderer);
+    hair_draw_free_view_cache(renderer);
 }
 
 // Programs of one draw: the main pass, and an optional pass that shades or writes vertices before
@@ -91,27 +42,30 @@ struct drawn {
 // Features of compute rasterisation.
 #define RASTER_FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 
-static hair_result find_program(struct hair_draw* draw, const hair_view* view, struct hair_gl_shader* shader,
-                                struct drawn* out)
+static hair_result find_program(struct hair_renderer* renderer, const hair_view* view,
+                                struct hair_gl_shader* shader, struct drawn* out)
 {
     hair_result result = HAIR_OK;
-    out->pass = hair_draw_choose(draw, hair_draw_find_passes(draw, view, shader, &out->shade_pass));
+    out->pass = hair_geometry_choose_variant(renderer->geometry,
+                                             hair_draw_find_passes(renderer, view, shader, &out->shade_pass));
     if (out->occlusion) out->pass = hair_gl_add_features(out->pass, HAIR_GL_WITH(OCCLUSION));
-    if (out->shade_pass) out->shade_pass = hair_draw_choose(draw, out->shade_pass);
-    if (out->shade_pass) result = hair_draw_ensure_program(draw, out->shade_pass, shader, &out->shade);
+    if (out->shade_pass) out->shade_pass = hair_geometry_choose_variant(renderer->geometry, out->shade_pass);
+    if (out->shade_pass) result = hair_draw_ensure_program(renderer, out->shade_pass, shader, &out->shade);
     return result ? result
-                  : hair_draw_ensure_program(draw, out->pass, out->shade_pass ? NULL : shader, &out->program);
+                  : hair_draw_ensure_program(renderer, out->pass, out->shade_pass ? NULL : shader,
+                                             &out->program);
 }
 
-hair_result hair_draw_ensure_programs(struct hair_draw* draw, const hair_view* view,
+hair_result hair_draw_ensure_programs(struct hair_renderer* renderer, const hair_view* view,
                                       struct hair_gl_shader* shader, int may_meet)
 {
-    struct hair_gl* gl = draw->gl;
-    int meets = may_meet && draw->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE;
-    int lit = hair_draw_light_value_count(draw, view) > 0;
+    struct hair_gl* gl = renderer->gl;
+    int meets = may_meet && renderer->geometry->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE;
+    int lit = hair_lighting_value_count(&renderer->geometry->look, view) > 0;
     hair_gl_pass occlusion = hair_draw_uses_occlusion(view) ? HAIR_GL_WITH(OCCLUSION) : 0;
-    hair_gl_pass expand = hair_draw_styled(draw, HAIR_GL_EXPAND), shade;
-    hair_gl_pass strands = hair_draw_styled(draw, hair_draw_find_passes(draw, view, shader, &shade));
+    hair_gl_pass expand = hair_geometry_add_style(renderer->geometry, HAIR_GL_EXPAND), shade;
+    hair_gl_pass strands =
+        hair_geometry_add_style(renderer->geometry, hair_draw_find_passes(renderer, view, shader, &shade));
     hair_result result = HAIR_OK;
     GLuint program;
     if (view->render_path != HAIR_RENDER_PATH_TESSELLATION)
@@ -120,15 +74,16 @@ hair_result hair_draw_ensure_programs(struct hair_draw* draw, const hair_view* v
         result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
     if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE)
         result = hair_gl_ensure_programs(gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, strands & RASTER_FEATURES);
-    if (!result && meets) result = hair_draw_ensure_hit_programs(draw);
+    if (!result && meets) result = hair_geometry_ensure_hit_programs(renderer->geometry);
     // Compile the variants without follower collision, then those with it.
     for (int i = 0; i <= meets && !result; ++i) {
         hair_gl_pass with = i ? HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS) : 0;
         if (shade)
-            result = hair_draw_ensure_program(draw, hair_gl_add_features(hair_draw_styled(draw, shade), with),
-                                              shader, &program);
+            result = hair_draw_ensure_program(
+                renderer, hair_gl_add_features(hair_geometry_add_style(renderer->geometry, shade), with),
+                shader, &program);
         if (!result)
-            result = hair_draw_ensure_program(draw, hair_gl_add_features(strands, with | occlusion),
+            result = hair_draw_ensure_program(renderer, hair_gl_add_features(strands, with | occlusion),
                                               shade ? NULL : shader, &program);
         if (!result && occlusion)
             result = hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, with);
@@ -140,122 +95,184 @@ hair_result hair_draw_ensure_programs(struct hair_draw* draw, const hair_view* v
     return result;
 }
 
-static void draw_guides(struct hair_draw* draw)
+static void draw_guides(struct hair_renderer* renderer)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     gl->BindVertexArray(gl->vertex_array);
     hair_gl_begin(gl, HAIR_GL_GUIDES);
-    gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)draw->smooth_vertices, (GLsizei)draw->guides);
+    gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)renderer->geometry->smooth_vertices,
+                            (GLsizei)renderer->geometry->guides);
     hair_gl_end(gl, HAIR_GL_GUIDES);
 }
 
-static void draw_followers(struct hair_draw* draw, const struct hair_smooth* smooth, const hair_view* view,
+static void draw_followers(struct hair_renderer* renderer, const hair_view* view,
                            const struct hair_draw_params* params, struct drawn* with)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     int strand_list = view->render_path != HAIR_RENDER_PATH_TESSELLATION;
     int computed = view->render_path == HAIR_RENDER_PATH_COMPUTE;
     struct hair_blend was;
     HAIR_ASSERT(with->program && (with->shade != 0) == (with->shade_pass != 0));
-    if (strand_list) hair_draw_update_strand_list(draw, smooth, params, with->occlusion);
-    if (hair_draw_uses_vertex_cache(view)) hair_draw_bind_vertex_cache(draw);
+    if (strand_list) hair_draw_update_strand_list(renderer, params, with->occlusion);
+    if (hair_draw_uses_vertex_cache(view)) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (hair_draw_uses_view_cache(view))
-        hair_draw_expand_view(draw, with->shade_pass, with->shade);
+        hair_draw_expand_view(renderer, with->shade_pass, with->shade);
     else if (with->shade_pass)
-        hair_draw_shade(draw, with->shade_pass, with->shade, params->chunks);
-    if (computed) hair_draw_rasterise(draw, with->pass & RASTER_FEATURES, &with->raster);
-    if (view->pass == HAIR_PASS_MOTION) hair_draw_bind_motion(draw);
-    if (hair_draw_uses_alpha(view)) hair_draw_sort(draw);
+        hair_draw_shade(renderer, with->shade_pass, with->shade, params->chunks);
+    if (computed) hair_draw_rasterise(renderer, with->pass & RASTER_FEATURES, &with->raster);
+    if (view->pass == HAIR_PASS_MOTION) hair_geometry_bind_history(renderer->geometry);
+    if (hair_draw_uses_alpha(view)) hair_draw_sort(renderer);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye with either side.
     hair_gl_begin(gl, with->pass);
     gl->UseProgram(with->program);
     if (hair_draw_uses_analytic_coverage(view)) hair_draw_begin_blend(gl, &was);
     if (hair_draw_uses_alpha(view))
-        hair_draw_issue_sorted_segments(draw);
+        hair_draw_issue_sorted_segments(renderer);
     else if (computed)
-        hair_draw_resolve_tiles(draw, &with->raster);
+        hair_draw_resolve_tiles(renderer, &with->raster);
     else if (strand_list)
-        hair_draw_issue_strand_list(draw, hair_draw_is_paired(view));
+        hair_draw_issue_strand_list(renderer, hair_draw_is_paired(view));
     else
-        hair_draw_patches(draw);
+        hair_geometry_draw_patches(renderer->geometry);
     if (hair_draw_uses_analytic_coverage(view)) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, with->pass);
 }
 
-static hair_result ensure_raster(struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                                 struct drawn* out)
+static hair_result ensure_raster(struct hair_renderer* renderer, const struct hair_pose* head,
+                                 const hair_view* view, struct drawn* out)
 {
     hair_gl_pass with = out->pass & RASTER_FEATURES;
-    hair_result result = hair_gl_ensure_programs(draw->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
-    out->nowhere = !hair_draw_find_raster(draw, head, view, &out->raster);
-    return result || out->nowhere ? result : hair_draw_ensure_raster(draw, with, &out->raster);
+    hair_result result = hair_gl_ensure_programs(renderer->gl, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, with);
+    out->nowhere = !hair_draw_find_raster(renderer, head, view, &out->raster);
+    return result || out->nowhere ? result : hair_draw_ensure_raster(renderer, with, &out->raster);
+}
+
+static hair_result ensure_fibres(struct hair_renderer* renderer)
+{
+    hair_draw_use(renderer, HAIR_DRAW_FIBRES);
+    return hair_lighting_ensure_fibres(renderer->lighting, &renderer->geometry->look);
+}
+
+static hair_result ensure_vertex_cache(struct hair_renderer* renderer)
+{
+    hair_draw_use(renderer, HAIR_DRAW_VERTEX_CACHE);
+    return hair_geometry_ensure_vertex_cache(renderer->geometry, NULL);
+}
+
+static hair_result ensure_shaded(struct hair_renderer* renderer)
+{
+    hair_draw_use(renderer, HAIR_DRAW_SHADED);
+    return hair_geometry_ensure_shaded(renderer->geometry);
+}
+
+static hair_result ensure_uvs(struct hair_renderer* renderer)
+{
+    hair_draw_use(renderer, HAIR_DRAW_UVS);
+    return hair_geometry_ensure_uvs(renderer->geometry);
+}
+
+static hair_result ensure_history(struct hair_renderer* renderer)
+{
+    hair_draw_use(renderer, HAIR_DRAW_MOTION);
+    return hair_geometry_ensure_history(renderer->geometry);
 }
 
 // Compile the programs and create or update the buffers that drawing followers needs.
-static hair_result make_ready(struct hair_draw* draw, const struct hair_smooth* smooth,
-                              const struct hair_pose* head, const hair_view* view,
-                              struct hair_gl_shader* shader, struct drawn* out)
+static hair_result make_ready(struct hair_renderer* renderer, const struct hair_pose* head,
+                              const hair_view* view, struct hair_gl_shader* shader, struct drawn* out)
 {
     int motion = view->pass == HAIR_PASS_MOTION;
-    out->occlusion = hair_draw_find_occlusion(draw, head, view, &out->occlusion_params);
-    hair_result result = find_program(draw, view, shader, out);
-    if (!result && view->pass == HAIR_PASS_COLOR && draw->look.shading == HAIR_SHADING_FIBRES)
-        result = hair_draw_ensure_fibres(draw);
+    out->occlusion = hair_draw_find_occlusion(renderer, head, view, &out->occlusion_params);
+    hair_result result = find_program(renderer, view, shader, out);
+    if (!result && view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading == HAIR_SHADING_FIBRES)
+        result = ensure_fibres(renderer);
     if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION)
-        result = hair_draw_ensure_strand_list(draw, out->occlusion);
+        result = hair_draw_ensure_strand_list(renderer, out->occlusion);
     if (!result && view->render_path != HAIR_RENDER_PATH_TESSELLATION &&
         view->render_path != HAIR_RENDER_PATH_COMPUTE)
-        result = hair_draw_ensure_indices(draw, hair_draw_is_paired(view));
-    if (!result && out->occlusion) result = hair_draw_ensure_occlusion(draw, &out->occlusion_params);
-    if (!result && hair_draw_uses_vertex_cache(view))
-        result = hair_draw_ensure_vertex_cache(draw, smooth, NULL);
+        result = hair_draw_ensure_indices(renderer, hair_draw_is_paired(view));
+    if (!result && out->occlusion) result = hair_draw_ensure_occlusion(renderer, &out->occlusion_params);
+    if (!result && hair_draw_uses_vertex_cache(view)) result = ensure_vertex_cache(renderer);
     if (!result && view->render_path == HAIR_RENDER_PATH_COMPUTE)
-        result = ensure_raster(draw, head, view, out);
+        result = ensure_raster(renderer, head, view, out);
     if (!result && hair_draw_uses_view_cache(view))
-        result = hair_draw_ensure_view_cache(draw, view);
+        result = hair_draw_ensure_view_cache(renderer, view);
     else if (!result && out->shade_pass)
-        result = hair_draw_ensure_shaded(draw);
-    if (!result && hair_draw_wants_uvs(draw, view, shader)) result = hair_draw_ensure_uvs(draw);
-    if (!result && hair_draw_uses_alpha(view)) result = hair_draw_ensure_sorted_segments(draw);
-    if (!result && motion) result = hair_draw_ensure_motion(draw);
-    if (!result && motion) hair_draw_begin_motion(draw, head, view->frame_index);
+        result = ensure_shaded(renderer);
+    if (!result && hair_draw_wants_uvs(renderer, view, shader)) result = ensure_uvs(renderer);
+    if (!result && hair_draw_uses_alpha(view)) result = hair_draw_ensure_sorted_segments(renderer);
+    if (!result && motion) result = ensure_history(renderer);
+    if (!result && motion) hair_geometry_begin_history(renderer->geometry, head, view->frame_index);
     return result;
 }
 
-hair_result hair_draw_run(struct hair_draw* draw, const struct hair_smooth* smooth,
-                          const struct hair_pose* head, const hair_view* view, struct hair_gl_shader* shader)
+// Return whether only the vertices that the view draws need light. Strands that a level of
+// detail leaves out need no light. The drawn strands make up for them in the grid. A full vertex
+// cache that views share has all vertices.
+static bool needs_light_of_a_part(const struct hair_renderer* renderer, const hair_view* view)
+{
+    return view->lod && !renderer->geometry->history.buffer &&
+           !hair_geometry_has_vertex_cache(renderer->geometry);
+}
+
+// Compute the light that reaches each vertex, if the look requests self-shadowing for `view`.
+static hair_result find_light(struct hair_renderer* renderer, const struct hair_pose* head,
+                              const hair_view* view)
+{
+    const hair_look* look = &renderer->geometry->look;
+    struct hair_lighting* lighting = renderer->lighting;
+    if (lighting->self_shadow.density && look->self_shadow != HAIR_SELF_SHADOW_STRANDS)
+        hair_lighting_free_self_shadow(lighting);
+    if (!hair_lighting_value_count(look, view)) return HAIR_OK;
+    hair_draw_use(renderer, HAIR_DRAW_SELF_SHADOW);
+    hair_draw_use(renderer, HAIR_DRAW_VERTEX_CACHE);
+    struct hair_draw_params params;
+    bool part = needs_light_of_a_part(renderer, view);
+    hair_view whole = *view;
+    whole.lod = NULL; // All views of a step share the grid.
+    hair_draw_write_params(renderer, head, part ? view : &whole, &params);
+    params.drawn_only = part;
+    params.culls = 0; // Hair that is out of view or occluded casts shadows too.
+    params.head_sphere.w = 0;
+    return hair_lighting_update_self_shadow(lighting, renderer->geometry, view, &params);
+}
+
+hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head, const hair_view* view,
+                          struct hair_gl_shader* shader)
 {
     int guides = view->pass == HAIR_PASS_GUIDES;
     HAIR_ASSERT(guides || view->render_path != HAIR_RENDER_PATH_AUTO);
     struct drawn with = {0};
-    if (!guides && draw->look.density <= 0) return HAIR_OK;
-    hair_result result = guides ? hair_gl_ensure_program(draw->gl, HAIR_GL_GUIDES)
-                                : make_ready(draw, smooth, head, view, shader, &with);
-    if (!result && !guides) result = hair_draw_find_light(draw, smooth, head, view);
+    if (!guides && renderer->geometry->look.density <= 0) return HAIR_OK;
+    hair_result result = guides ? hair_gl_ensure_program(renderer->gl, HAIR_GL_GUIDES)
+                                : make_ready(renderer, head, view, shader, &with);
+    if (!result && !guides) result = find_light(renderer, head, view);
     if (result || with.nowhere) return result;
 
     struct hair_draw_params params;
-    hair_draw_write_params(draw, head, view, &params);
+    hair_draw_write_params(renderer, head, view, &params);
     if (!guides && view->render_path == HAIR_RENDER_PATH_TESSELLATION)
-        hair_draw_cull_patches(draw, view, &params);
-    params.textured = (uint32_t)hair_draw_is_textured(draw, view);
+        hair_draw_cull_patches(renderer, view, &params);
+    params.textured = (uint32_t)hair_draw_is_textured(renderer, view);
     params.drawn_only = with.shade_pass != 0;
-    hair_gl_write_uniform(draw->gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, smooth);
-    if (with.occlusion) hair_draw_cull_occluded(draw, view, &with.occlusion_params);
-    if (view->pass == HAIR_PASS_COLOR) bind_light(draw, view);
-    if (hair_draw_wants_uvs(draw, view, shader)) draw->gl->BindTextureUnit(HAIR_UNIT_UV, draw->uv_texture);
-    if (hair_draw_is_painted(draw, view))
-        draw->gl->BindTextureUnit(HAIR_UNIT_GROOM_COLOR, draw->groom_color_texture);
+    hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
+    hair_geometry_bind(renderer->geometry);
+    if (with.occlusion) hair_draw_cull_occluded(renderer, view, &with.occlusion_params);
+    if (view->pass == HAIR_PASS_COLOR)
+        hair_lighting_bind(renderer->lighting, &renderer->geometry->look, view);
+    if (hair_draw_wants_uvs(renderer, view, shader))
+        renderer->gl->BindTextureUnit(HAIR_UNIT_UV, renderer->geometry->uv_texture);
+    if (hair_draw_is_painted(renderer, view))
+        renderer->gl->BindTextureUnit(HAIR_UNIT_GROOM_COLOR, renderer->lighting->groom_color_texture);
     if (params.textured) {
-        draw->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
+        renderer->gl->BindTextureUnit(HAIR_UNIT_COLOR, view->color_texture);
         // Use the sampler state of the application's texture.
-        draw->gl->BindSampler(HAIR_UNIT_COLOR, 0);
+        renderer->gl->BindSampler(HAIR_UNIT_COLOR, 0);
     }
     if (guides)
-        draw_guides(draw);
+        draw_guides(renderer);
     else
-        draw_followers(draw, smooth, view, &params, &with);
+        draw_followers(renderer, view, &params, &with);
     return HAIR_OK;
 }

@@ -8,12 +8,12 @@
 // 2^-22, the rounding error of depth arithmetic. A depth texture may be coarser.
 #define ROUNDED 2.3841858e-7f
 
-void hair_draw_free_occlusion(struct hair_draw* draw)
+void hair_draw_free_occlusion(struct hair_renderer* renderer)
 {
-    struct hair_occlusion* occlusion = &draw->occlusion;
-    hair_gl_free_buffer(draw->gl, &occlusion->params);
-    hair_gl_free_buffer(draw->gl, &occlusion->depth);
-    hair_gl_free_buffer(draw->gl, &occlusion->box);
+    struct hair_occlusion* occlusion = &renderer->occlusion;
+    hair_gl_free_buffer(renderer->gl, &occlusion->params);
+    hair_gl_free_buffer(renderer->gl, &occlusion->depth);
+    hair_gl_free_buffer(renderer->gl, &occlusion->box);
     occlusion->room = 0;
 }
 
@@ -37,13 +37,13 @@ static bool is_given(const float matrix[16])
 }
 
 // Compute the matrix from the head's origin to the clip space that the texture was drawn with.
-static void find_clip(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                      const hair_mat4* own, float clip[16])
+static void find_clip(const struct hair_renderer* renderer, const struct hair_pose* head,
+                      const hair_view* view, const hair_mat4* own, float clip[16])
 {
     float projection[16], placed[16];
     hair_mat4 given = hair_mat4_from_head(view->occluder_matrix, head);
     memcpy(placed, own, sizeof placed);
-    hair_draw_project(draw, view, projection);
+    hair_draw_project(renderer, view, projection);
     if (is_given(view->occluder_matrix))
         memcpy(clip, &given, sizeof given);
     else
@@ -64,14 +64,15 @@ static void find_size(struct hair_gl* gl, GLuint texture, struct hair_occlusion_
 
 // Find the texels of the first Hi-Z level that hair can cover. Take all texels if the extent is
 // unknown. Return false if there are none.
-static bool find_texels(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                        struct hair_occlusion_params* out)
+static bool find_texels(const struct hair_renderer* renderer, const struct hair_pose* head,
+                        const hair_view* view, struct hair_occlusion_params* out)
 {
     float window[4] = {0, 0, 1, 1};
     const float beside[2] = {out->beside_x, out->beside_y};
     const uint32_t size[2] = {out->width, out->height};
     uint32_t first[2], end[2];
-    if (draw->has_attached_roots) hair_draw_find_window(draw, head, view->lod, &out->to_texture, window);
+    if (renderer->has_attached_roots)
+        hair_draw_find_window(renderer, head, view->lod, &out->to_texture, window);
     for (int k = 0; k < 2; ++k) {
         float texels = (float)size[k] / HAIR_HIZ_FIRST;
         uint32_t max = (size[k] + HAIR_HIZ_FIRST - 1) / HAIR_HIZ_FIRST;
@@ -89,10 +90,10 @@ static bool find_texels(const struct hair_draw* draw, const struct hair_pose* he
     return true;
 }
 
-bool hair_draw_find_occlusion(const struct hair_draw* draw, const struct hair_pose* head,
+bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view, struct hair_occlusion_params* out)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     hair_mat4 own = hair_mat4_from_head(view->view, head);
     float clip[16], to_texture[16], matrix[16], range[2];
     GLfloat viewport[4] = {0};
@@ -100,31 +101,33 @@ bool hair_draw_find_occlusion(const struct hair_draw* draw, const struct hair_po
     if (!hair_draw_uses_occlusion(view)) return false;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     find_size(gl, view->occluder_depth, out);
-    find_clip(draw, head, view, &own, clip);
+    find_clip(renderer, head, view, &own, clip);
     write_texture(gl, to_texture, range);
     hair_mat4_multiply(to_texture, clip, matrix);
     out->sign = hair_draw_depth_direction(gl);
     for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
     memcpy(&out->to_texture, matrix, sizeof matrix);
     out->max_size = fmaxf(out->sign * range[0], out->sign * range[1]);
-    out->thick = (float)hair_draw_thickest(draw, view->lod);
+    out->thick = (float)hair_draw_thickest(renderer, view->lod);
     out->beside_x = BESIDE / fmaxf(viewport[2], 1) + 1 / (float)out->width;
     out->beside_y = BESIDE / fmaxf(viewport[3], 1) + 1 / (float)out->height;
     out->clips = !is_given(view->occluder_matrix);
-    out->guides = draw->guides;
-    return out->sign != 0 && find_texels(draw, head, view, out);
+    out->guides = renderer->geometry->guides;
+    return out->sign != 0 && find_texels(renderer, head, view, out);
 }
 
-hair_result hair_draw_ensure_occlusion(struct hair_draw* draw, const struct hair_occlusion_params* params)
+hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer,
+                                       const struct hair_occlusion_params* params)
 {
-    draw->used[HAIR_DRAW_OCCLUSION] = draw->frame;
-    struct hair_gl* gl = draw->gl;
-    struct hair_occlusion* occlusion = &draw->occlusion;
+    renderer->used[HAIR_DRAW_OCCLUSION] = renderer->frame;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_occlusion* occlusion = &renderer->occlusion;
     HAIR_ASSERT(params->columns > 0 && params->rows > 0);
     size_t texels = hair_hiz_texels(params->columns, params->rows);
-    size_t boxes = (size_t)draw->guides * HAIR_OCCLUSION_PARTS * 2;
-    hair_result result = hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES,
-                                                 draw->follower_collision.active ? HAIR_GL_WITH(HITS) : 0);
+    size_t boxes = (size_t)renderer->geometry->guides * HAIR_OCCLUSION_PARTS * 2;
+    hair_result result =
+        hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES,
+                                renderer->geometry->follower_collision.active ? HAIR_GL_WITH(HITS) : 0);
     if (!result && texels > occlusion->room) {
         // Make room for the whole texture, so that hair that comes nearer does not reallocate the
         // buffer.
@@ -143,21 +146,22 @@ hair_result hair_draw_ensure_occlusion(struct hair_draw* draw, const struct hair
     return result;
 }
 
-void hair_draw_cull_occluded(struct hair_draw* draw, const hair_view* view,
+void hair_draw_cull_occluded(struct hair_renderer* renderer, const hair_view* view,
                              struct hair_occlusion_params* params)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_occlusion* occlusion = &draw->occlusion;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_occlusion* occlusion = &renderer->occlusion;
     HAIR_ASSERT(occlusion->room >= hair_hiz_texels(params->columns, params->rows));
-    GLuint buffers[] = {occlusion->depth, occlusion->box, draw->patch};
-    uint32_t parts = draw->guides * HAIR_OCCLUSION_PARTS;
+    GLuint buffers[] = {occlusion->depth, occlusion->box, renderer->geometry->patch};
+    uint32_t parts = renderer->geometry->guides * HAIR_OCCLUSION_PARTS;
     hair_gl_pass patches = HAIR_GL_CULL_PATCHES;
-    if (draw->follower_collision.active) patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
+    if (renderer->geometry->follower_collision.active)
+        patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
     gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, view->occluder_depth);
     gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler);
     hair_hiz_run(gl, occlusion->params, params);
     hair_gl_run(gl, HAIR_GL_GUIDE_BOUNDS, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    hair_gl_run(gl, patches, draw->patches);
+    hair_gl_run(gl, patches, renderer->geometry->patches);
 }

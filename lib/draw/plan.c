@@ -23,12 +23,12 @@ static const struct {
 #undef FASTEST
 };
 
-void hair_draw_find_fastest(struct hair_draw* draw)
+void hair_draw_find_fastest(struct hair_renderer* renderer)
 {
-    const char* renderer = (const char*)draw->gl->GetString(GL_RENDERER);
-    draw->driver = 0;
-    while (*fastest[draw->driver].renderer && !(renderer && strstr(renderer, fastest[draw->driver].renderer)))
-        ++draw->driver;
+    const char* name = (const char*)renderer->gl->GetString(GL_RENDERER);
+    renderer->driver = 0;
+    while (*fastest[renderer->driver].renderer && !(name && strstr(name, fastest[renderer->driver].renderer)))
+        ++renderer->driver;
 }
 
 bool hair_draw_uses_alpha(const hair_view* view)
@@ -64,21 +64,16 @@ static bool is_computable(const hair_view* view)
     return shown && view->primitive == HAIR_PRIMITIVE_RIBBONS;
 }
 
-size_t hair_draw_count_vertices(const struct hair_draw* draw)
-{
-    return (size_t)draw->followers * (draw->look.segments + 1);
-}
-
-static hair_render_path find_fastest_for(const struct hair_draw* draw, const hair_view* view)
+static hair_render_path find_fastest_for(const struct hair_renderer* renderer, const hair_view* view)
 {
     int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
-    HAIR_ASSERT(0 <= column && column < 5 && draw->driver < sizeof fastest / sizeof *fastest);
-    hair_render_path path = fastest[draw->driver].path[column];
-    size_t vertices = hair_draw_count_vertices(draw);
+    HAIR_ASSERT(0 <= column && column < 5 && renderer->driver < sizeof fastest / sizeof *fastest);
+    hair_render_path path = fastest[renderer->driver].path[column];
+    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
     if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MAX_CACHED)
         return HAIR_RENDER_PATH_TESSELLATION;
     if (path != HAIR_RENDER_PATH_COMPUTE ||
-        (is_computable(view) && !view->shader && has_few_samples(draw->gl)))
+        (is_computable(view) && !view->shader && has_few_samples(renderer->gl)))
         return path;
     return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
 }
@@ -121,11 +116,11 @@ static bool is_view_cacheable(const hair_view* view)
     return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
 }
 
-hair_render_path hair_draw_path(const struct hair_draw* draw, const hair_view* view)
+hair_render_path hair_draw_path(const struct hair_renderer* renderer, const hair_view* view)
 {
     if (keeps_vertices(view)) return HAIR_RENDER_PATH_CACHED;
     hair_render_path path =
-        view->render_path == HAIR_RENDER_PATH_AUTO ? find_fastest_for(draw, view) : view->render_path;
+        view->render_path == HAIR_RENDER_PATH_AUTO ? find_fastest_for(renderer, view) : view->render_path;
     if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
     return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_view_cacheable(view)
                ? HAIR_RENDER_PATH_INSTANCED
@@ -136,21 +131,6 @@ bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* sha
 {
     return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
            hair_draw_uses_vertex_cache(view);
-}
-
-uint32_t hair_draw_light_value_count(const struct hair_draw* draw, const hair_view* view)
-{
-    int wanted = view->pass == HAIR_PASS_COLOR && draw->look.self_shadow == HAIR_SELF_SHADOW_STRANDS;
-    return wanted ? 1 + view->light_count : 0;
-}
-
-bool hair_draw_is_blocked(const hair_view* view)
-{
-    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
-    uint32_t count = hair_view_maps(view, maps);
-    for (uint32_t i = 0; i < count; ++i)
-        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
-    return false;
 }
 
 bool hair_draw_uses_occlusion(const hair_view* view)

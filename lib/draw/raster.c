@@ -34,19 +34,19 @@ static uint32_t find_pixels(float origin, float size, float lower, float upper, 
 // Compute the matrix from the head's origin to the viewport, in the coordinates of
 // hair_draw_clip_to_unit_matrix(). Set `window` to the lower and the upper corner of the part that
 // hair can cover.
-static void find_place(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                       const float unit[16], float matrix[16], float window[4])
+static void find_place(const struct hair_renderer* renderer, const struct hair_pose* head,
+                       const hair_view* view, const float unit[16], float matrix[16], float window[4])
 {
     hair_mat4 own = hair_mat4_from_head(view->view, head), to_viewport;
     float projection[16], placed[16], clip[16];
-    hair_draw_project(draw, view, projection);
+    hair_draw_project(renderer, view, projection);
     memcpy(placed, &own, sizeof placed);
     hair_mat4_multiply(projection, placed, clip);
     hair_mat4_multiply(unit, clip, matrix);
     memcpy(&to_viewport, matrix, sizeof to_viewport);
     window[0] = window[1] = 0;
     window[2] = window[3] = 1;
-    if (draw->has_attached_roots) hair_draw_find_window(draw, head, view->lod, &to_viewport, window);
+    if (renderer->has_attached_roots) hair_draw_find_window(renderer, head, view->lod, &to_viewport, window);
 }
 
 // Write the clip-space part that the pixels cover, and the matrix from the head's origin to them.
@@ -66,17 +66,17 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
     memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
-bool hair_draw_find_raster(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                           struct hair_raster_params* out)
+bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct hair_pose* head,
+                           const hair_view* view, struct hair_raster_params* out)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     GLfloat viewport[4] = {0}, range[2] = {0, 1};
     float unit[16], matrix[16], window[4];
     memset(out, 0, sizeof *out);
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
     hair_draw_clip_to_unit_matrix(gl, unit);
-    find_place(draw, head, view, unit, matrix, window);
+    find_place(renderer, head, view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
     out->rows = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
     if (!out->columns || !out->rows) return false;
@@ -122,12 +122,12 @@ static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pas
     return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);
 }
 
-hair_result hair_draw_ensure_raster(struct hair_draw* draw, hair_gl_pass with,
+hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, hair_gl_pass with,
                                     const struct hair_raster_params* params)
 {
-    draw->used[HAIR_DRAW_RASTER] = draw->frame;
-    struct hair_gl* gl = draw->gl;
-    struct hair_raster* raster = &draw->raster;
+    renderer->used[HAIR_DRAW_RASTER] = renderer->frame;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_raster* raster = &renderer->raster;
     hair_result result = HAIR_OK;
     if (params->samples > HAIR_RASTER_SAMPLES)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
@@ -139,13 +139,13 @@ hair_result hair_draw_ensure_raster(struct hair_draw* draw, hair_gl_pass with,
     return ensure_room(gl, "hair nearest", count_numbers(params, with), &raster->nearest, &raster->room);
 }
 
-void hair_draw_free_raster(struct hair_draw* draw)
+void hair_draw_free_raster(struct hair_renderer* renderer)
 {
-    struct hair_raster* raster = &draw->raster;
-    hair_gl_free_buffer(draw->gl, &raster->params);
-    hair_gl_free_buffer(draw->gl, &raster->nearest);
-    hair_gl_free_buffer_texture(draw->gl, &raster->tile_texture);
-    hair_gl_free_buffer(draw->gl, &raster->tile);
+    struct hair_raster* raster = &renderer->raster;
+    hair_gl_free_buffer(renderer->gl, &raster->params);
+    hair_gl_free_buffer(renderer->gl, &raster->nearest);
+    hair_gl_free_buffer_texture(renderer->gl, &raster->tile_texture);
+    hair_gl_free_buffer(renderer->gl, &raster->tile);
     raster->room = raster->tile_room = 0;
 }
 
@@ -154,20 +154,20 @@ static uint32_t groups_for(uint64_t threads)
     return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
-void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_raster_params* params)
+void hair_draw_rasterise(struct hair_renderer* renderer, hair_gl_pass with, struct hair_raster_params* params)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_raster* raster = &draw->raster;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_raster* raster = &renderer->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
     HAIR_ASSERT(raster->room >= count_numbers(params, with) && raster->tile_room >= params->tiles);
-    uint64_t segments = (uint64_t)draw->followers * draw->look.segments;
+    uint64_t segments = (uint64_t)renderer->geometry->followers * renderer->geometry->look.segments;
     uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
     uint64_t fours = (count_numbers(params, with) + 3) / 4;
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &draw->strand_list.command);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     hair_gl_run(gl, hair_gl_add_features(HAIR_GL_RASTER_CLEAR, with),
                 groups_for(fours > params->tiles ? fours : params->tiles));
@@ -178,9 +178,9 @@ void hair_draw_rasterise(struct hair_draw* draw, hair_gl_pass with, struct hair_
     hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
 }
 
-void hair_draw_resolve_tiles(struct hair_draw* draw, const struct hair_raster_params* params)
+void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_raster_params* params)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(params->tiles > 0);
     GLint mode[2] = {GL_FILL, GL_FILL};
     gl->GetIntegerv(GL_POLYGON_MODE, mode);

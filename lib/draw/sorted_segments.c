@@ -2,10 +2,10 @@
 // blended. OpenGL blends primitives in the order of the draw's indices.
 #include "lib/draw/draw.h"
 
-static hair_result make_index(struct hair_draw* draw, size_t segments)
+static hair_result make_index(struct hair_renderer* renderer, size_t segments)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     hair_gl_free_buffer(gl, &sorted_segments->index);
     sorted_segments->segments = 0;
     hair_result result =
@@ -20,38 +20,39 @@ static hair_result make_index(struct hair_draw* draw, size_t segments)
     return HAIR_OK;
 }
 
-hair_result hair_draw_ensure_sorted_segments(struct hair_draw* draw)
+hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer)
 {
-    draw->used[HAIR_DRAW_SORTED_SEGMENTS] = draw->frame;
-    struct hair_gl* gl = draw->gl;
-    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
-    size_t segments = (size_t)draw->followers * draw->look.segments;
+    renderer->used[HAIR_DRAW_SORTED_SEGMENTS] = renderer->frame;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
+    size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.segments;
     hair_result result = HAIR_OK;
     if (!sorted_segments->bucket)
         result = hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL,
                                  &sorted_segments->bucket);
-    if (!result && sorted_segments->segments != segments) result = make_index(draw, segments);
+    if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
     if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
     return result;
 }
 
-void hair_draw_free_sorted_segments(struct hair_draw* draw)
+void hair_draw_free_sorted_segments(struct hair_renderer* renderer)
 {
-    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
-    if (sorted_segments->vertex_array) draw->gl->DeleteVertexArrays(1, &sorted_segments->vertex_array);
+    struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
+    if (sorted_segments->vertex_array) renderer->gl->DeleteVertexArrays(1, &sorted_segments->vertex_array);
     sorted_segments->vertex_array = 0;
     sorted_segments->segments = 0;
-    hair_gl_free_buffer(draw->gl, &sorted_segments->bucket);
-    hair_gl_free_buffer(draw->gl, &sorted_segments->index);
+    hair_gl_free_buffer(renderer->gl, &sorted_segments->bucket);
+    hair_gl_free_buffer(renderer->gl, &sorted_segments->index);
 }
 
-void hair_draw_sort(struct hair_draw* draw)
+void hair_draw_sort(struct hair_renderer* renderer)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_sorted_segments* sorted_segments = &draw->sorted_segments;
-    HAIR_ASSERT(sorted_segments->segments == (size_t)draw->followers * draw->look.segments);
+    struct hair_gl* gl = renderer->gl;
+    struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
+    HAIR_ASSERT(sorted_segments->segments ==
+                (size_t)renderer->geometry->followers * renderer->geometry->look.segments);
     GLuint sorts[] = {sorted_segments->bucket, sorted_segments->index};
-    GLuint strands[] = {draw->strand_list.strand, draw->strand_list.command};
+    GLuint strands[] = {renderer->strand_list.strand, renderer->strand_list.command};
     uint32_t groups = (uint32_t)((sorted_segments->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     gl->ClearNamedBufferData(sorted_segments->bucket, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HISTOGRAM, 2, sorts);
@@ -61,13 +62,13 @@ void hair_draw_sort(struct hair_draw* draw)
     hair_gl_run(gl, HAIR_GL_SCATTER, groups);
 }
 
-void hair_draw_issue_sorted_segments(struct hair_draw* draw)
+void hair_draw_issue_sorted_segments(struct hair_renderer* renderer)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     const char* first = (const char*)NULL + HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
-    gl->BindVertexArray(draw->sorted_segments.vertex_array);
-    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->strand_list.command);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    gl->BindVertexArray(renderer->sorted_segments.vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
     gl->MultiDrawElementsIndirect(GL_LINES, GL_UNSIGNED_INT, first, 1, 0);
 }

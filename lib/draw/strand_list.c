@@ -5,19 +5,20 @@
 
 #include <string.h>
 
-static hair_result make_lists(struct hair_draw* draw, int occlusion)
+static hair_result make_lists(struct hair_renderer* renderer, int occlusion)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_strand_list* strand_list = &draw->strand_list;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_strand_list* strand_list = &renderer->strand_list;
     hair_result result = HAIR_OK;
     if (!strand_list->key) strand_list->key = hair_alloc(&gl->host, 1, sizeof *strand_list->key);
     if (!strand_list->key) return hair_fail_memory(&gl->host, "the list of strands");
     if (!strand_list->start)
-        result = hair_gl_storage(gl, "hair strand starts", draw->patches * sizeof(uint32_t), NULL,
-                                 &strand_list->start);
+        result = hair_gl_storage(gl, "hair strand starts", renderer->geometry->patches * sizeof(uint32_t),
+                                 NULL, &strand_list->start);
     if (!result && !strand_list->strand)
-        result = hair_gl_storage(gl, "hair strands", draw->followers * sizeof(struct hair_strand), NULL,
-                                 &strand_list->strand);
+        result =
+            hair_gl_storage(gl, "hair strands", renderer->geometry->followers * sizeof(struct hair_strand),
+                            NULL, &strand_list->strand);
     if (!result && !strand_list->strand_texture)
         result = hair_gl_buffer_texture(gl, "hair strands", GL_RGBA32UI, strand_list->strand,
                                         &strand_list->strand_texture);
@@ -52,12 +53,12 @@ static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int 
     return indices;
 }
 
-hair_result hair_draw_ensure_indices(struct hair_draw* draw, int paired)
+hair_result hair_draw_ensure_indices(struct hair_renderer* renderer, int paired)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(paired == 0 || paired == 1);
-    struct hair_strand_list_indices* own = &draw->strand_list.indices[paired];
-    uint32_t segments = draw->look.segments;
+    struct hair_strand_list_indices* own = &renderer->strand_list.indices[paired];
+    uint32_t segments = renderer->geometry->look.segments;
     if (own->segments == segments) return HAIR_OK;
     own->segments = 0;
     hair_gl_free_buffer(gl, &own->index);
@@ -75,16 +76,16 @@ hair_result hair_draw_ensure_indices(struct hair_draw* draw, int paired)
     return HAIR_OK;
 }
 
-hair_result hair_draw_ensure_strand_list(struct hair_draw* draw, int occlusion)
+hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, int occlusion)
 {
-    draw->used[HAIR_DRAW_STRAND_LIST] = draw->frame;
-    return make_lists(draw, occlusion);
+    renderer->used[HAIR_DRAW_STRAND_LIST] = renderer->frame;
+    return make_lists(renderer, occlusion);
 }
 
-void hair_draw_free_strand_list(struct hair_draw* draw)
+void hair_draw_free_strand_list(struct hair_renderer* renderer)
 {
-    struct hair_strand_list* strand_list = &draw->strand_list;
-    struct hair_gl* gl = draw->gl;
+    struct hair_strand_list* strand_list = &renderer->strand_list;
+    struct hair_gl* gl = renderer->gl;
     for (int i = 0; i < 2; ++i) {
         struct hair_strand_list_indices* own = &strand_list->indices[i];
         if (own->vertex_array) gl->DeleteVertexArrays(1, &own->vertex_array);
@@ -102,14 +103,14 @@ void hair_draw_free_strand_list(struct hair_draw* draw)
 
 // Describe the inputs of a strand list. All views share a list if the level of detail does not
 // depend on the view.
-static struct hair_strand_list_key describe(const struct hair_gl* gl, const struct hair_smooth* smooth,
+static struct hair_strand_list_key describe(const struct hair_renderer* renderer,
                                             const struct hair_draw_params* params)
 {
     struct hair_strand_list_key of;
     memset(&of, 0, sizeof of);
-    of.program_generation = gl->program_generation;
+    of.program_generation = renderer->gl->program_generation;
     if (params->pixels_per_unit > 0) {
-        of.runs = smooth->runs;
+        of.runs = renderer->geometry->smooth.runs;
         of.params = *params;
         return of;
     }
@@ -122,32 +123,32 @@ static struct hair_strand_list_key describe(const struct hair_gl* gl, const stru
     return of;
 }
 
-void hair_draw_update_strand_list(struct hair_draw* draw, const struct hair_smooth* smooth,
-                                  const struct hair_draw_params* params, int occlusion)
+void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_params* params,
+                                  int occlusion)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_strand_list* strand_list = &draw->strand_list;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_strand_list* strand_list = &renderer->strand_list;
     GLuint buffers[] = {strand_list->start, strand_list->strand, strand_list->command};
     HAIR_ASSERT(strand_list->key && strand_list->command);
-    struct hair_strand_list_key of = describe(gl, smooth, params);
+    struct hair_strand_list_key of = describe(renderer, params);
     hair_gl_pass with = occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
     if (!occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
-    hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, draw->patches);
+    hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, renderer->geometry->patches);
     if (occlusion) of.program_generation = 0; // No other view has the same occluded patches.
     *strand_list->key = of;
 }
 
-void hair_draw_issue_strand_list(struct hair_draw* draw, int paired)
+void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired)
 {
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = renderer->gl;
     const char* first =
         (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
-    HAIR_ASSERT(draw->strand_list.indices[paired].segments == draw->look.segments);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
-    gl->BindVertexArray(draw->strand_list.indices[paired].vertex_array);
-    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, draw->strand_list.command);
+    HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.segments);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    gl->BindVertexArray(renderer->strand_list.indices[paired].vertex_array);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
     gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, first, 2,
                                   sizeof(struct hair_draw_command));

@@ -21,57 +21,58 @@ static size_t size_of(const hair_view* view, int part, size_t vertices)
            (part == HAIR_VIEW_CACHE_POSITION && hair_draw_is_paired(view) ? 2 : 1);
 }
 
-static void free_part(struct hair_draw* draw, int part)
+static void free_part(struct hair_renderer* renderer, int part)
 {
-    hair_gl_free_buffer_texture(draw->gl, &draw->view_cache.texture[part]);
-    hair_gl_free_buffer(draw->gl, &draw->view_cache.buffer[part]);
-    draw->view_cache.size[part] = 0;
+    hair_gl_free_buffer_texture(renderer->gl, &renderer->view_cache.texture[part]);
+    hair_gl_free_buffer(renderer->gl, &renderer->view_cache.buffer[part]);
+    renderer->view_cache.size[part] = 0;
 }
 
-static hair_result ensure_part(struct hair_draw* draw, int part, size_t size)
+static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t size)
 {
-    struct hair_view_cache* view_cache = &draw->view_cache;
+    struct hair_view_cache* view_cache = &renderer->view_cache;
     if (view_cache->size[part] >= size) return HAIR_OK;
     HAIR_ASSERT(0 <= part && part < HAIR_VIEW_CACHE_PARTS);
-    free_part(draw, part);
-    hair_result result = hair_gl_storage(draw->gl, parts[part].label, size, NULL, &view_cache->buffer[part]);
+    free_part(renderer, part);
+    hair_result result =
+        hair_gl_storage(renderer->gl, parts[part].label, size, NULL, &view_cache->buffer[part]);
     if (!result)
-        result = hair_gl_buffer_texture(draw->gl, parts[part].label, parts[part].format,
+        result = hair_gl_buffer_texture(renderer->gl, parts[part].label, parts[part].format,
                                         view_cache->buffer[part], &view_cache->texture[part]);
     view_cache->size[part] = size;
     return result;
 }
 
-hair_result hair_draw_ensure_view_cache(struct hair_draw* draw, const hair_view* view)
+hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, const hair_view* view)
 {
-    draw->used[HAIR_DRAW_VIEW_CACHE] = draw->frame;
-    struct hair_view_cache* view_cache = &draw->view_cache;
-    size_t vertices = hair_draw_count_vertices(draw);
+    renderer->used[HAIR_DRAW_VIEW_CACHE] = renderer->frame;
+    struct hair_view_cache* view_cache = &renderer->view_cache;
+    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
     hair_result result = HAIR_OK;
-    if (view_cache->vertices != vertices) hair_draw_free_view_cache(draw);
+    if (view_cache->vertices != vertices) hair_draw_free_view_cache(renderer);
     view_cache->vertices = vertices;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
-        result = ensure_part(draw, i, size_of(view, i, vertices));
-    if (result) hair_draw_free_view_cache(draw);
+        result = ensure_part(renderer, i, size_of(view, i, vertices));
+    if (result) hair_draw_free_view_cache(renderer);
     return result;
 }
 
-void hair_draw_free_view_cache(struct hair_draw* draw)
+void hair_draw_free_view_cache(struct hair_renderer* renderer)
 {
-    for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(draw, i);
-    draw->view_cache.vertices = 0;
+    for (int i = 0; i < HAIR_VIEW_CACHE_PARTS; ++i) free_part(renderer, i);
+    renderer->view_cache.vertices = 0;
 }
 
-void hair_draw_expand_view(struct hair_draw* draw, hair_gl_pass pass, GLuint program)
+void hair_draw_expand_view(struct hair_renderer* renderer, hair_gl_pass pass, GLuint program)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_view_cache* view_cache = &draw->view_cache;
+    struct hair_gl* gl = renderer->gl;
+    struct hair_view_cache* view_cache = &renderer->view_cache;
     HAIR_ASSERT(view_cache->buffer[HAIR_VIEW_CACHE_POSITION]);
-    gl->BindTextureUnit(HAIR_UNIT_STRAND, draw->strand_list.strand_texture);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1, &draw->strand_list.command);
+    gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_LIST_COMMAND, 1, &renderer->strand_list.command);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, HAIR_VIEW_CACHE_PARTS,
                         view_cache->buffer);
-    hair_gl_run_indirect(gl, pass, program, draw->strand_list.command,
+    hair_gl_run_indirect(gl, pass, program, renderer->strand_list.command,
                          HAIR_EXPAND_VIEW_COMMAND * sizeof(struct hair_draw_command));
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.

@@ -44,3 +44,8 @@ void hair_smooth_ensure(struct hair_smooth* smooth, struct hair_sim* sim)
 {
     if (!smooth->done) hair_smooth_run(smooth, sim);
 }
+
+void hair_smooth_invalidate(struct hair_smooth* smooth)
+{
+    smooth->done = 0;
+}

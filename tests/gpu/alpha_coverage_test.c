@@ -168,12 +168,12 @@ static void segments_are_not_sorted_without_alpha_coverage(void** state)
     hair_view view = view_of(HAIR_COVERAGE_MSAA);
     view.render_path = HAIR_RENDER_PATH_CACHED;
     draw(&f, &view, SIDE, 0, pixels, NULL);
-    assert_int_equal(f.hair->draw.sorted_segments.bucket, 0);
-    assert_int_equal(f.hair->draw.sorted_segments.index, 0);
+    assert_int_equal(f.hair->renderer.sorted_segments.bucket, 0);
+    assert_int_equal(f.hair->renderer.sorted_segments.index, 0);
     view.coverage = HAIR_COVERAGE_ALPHA;
     view.pass = HAIR_PASS_DEPTH; // This pass has no coverage.
     draw(&f, &view, SIDE, 0, pixels, NULL);
-    assert_int_equal(f.hair->draw.sorted_segments.bucket, 0);
+    assert_int_equal(f.hair->renderer.sorted_segments.bucket, 0);
     finish(&f);
 }
 

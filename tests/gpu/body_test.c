@@ -108,7 +108,7 @@ static void shade_by(struct fixture* f, const char* glsl)
 
 static void set_look(struct fixture* f, hair_self_shadow shadow, hair_shading shading)
 {
-    hair_look look = f->hair->draw.look;
+    hair_look look = f->hair->geometry.look;
     look.self_shadow = shadow, look.shading = shading;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
 }

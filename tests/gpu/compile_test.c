@@ -358,7 +358,7 @@ static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
     static float pixels[2][4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
     hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &plain, pixels[0]);
@@ -399,7 +399,7 @@ static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     look.shading = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     view.pass = HAIR_PASS_DEPTH;

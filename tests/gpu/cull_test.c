@@ -198,7 +198,7 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
     struct fixture f = start(state);
     hair_view view = hair_view_default();
     hair_lod lod = hair_lod_default();
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     view.render_path = HAIR_RENDER_PATH_INSTANCED;
     lod.strand_pixels = 4;
     project(0, view.projection);
@@ -214,8 +214,8 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
         hair_test_trace_clear();
         read(&f, &view, kept);
         if (i != 0 && i != 7) assert_int_equal(hair_test_trace_count("glDispatch"), dispatches[i]);
-        if (f.hair->draw.strand_list.key) f.hair->draw.strand_list.key->program_generation = 0;
-        ++f.hair->draw.follower_collision.generation;
+        if (f.hair->renderer.strand_list.key) f.hair->renderer.strand_list.key->program_generation = 0;
+        ++f.hair->geometry.follower_collision.generation;
         read(&f, &view, anew);
         assert_true(differ(kept, anew) == 0);
     }
@@ -244,7 +244,7 @@ static void culled_patches_do_not_change_the_picture(void** state)
     hair_view view = hair_view_default();
     hair_physics physics = hair_physics_default(), lets_go = physics;
     uint32_t random = 7, drawn[2] = {0, 0};
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     look.radius = 4e-3f;
     lets_go.root = HAIR_ROOT_FREE;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));

@@ -139,7 +139,7 @@ static void guides_are_colored_by_their_stretch(void** state)
             glFinish();
             glNamedBufferSubData(f.hair->sim.state, 0, (GLsizeiptr)(count * sizeof *vertices), vertices);
             hair_gl_enter(gl);
-            hair_smooth_run(&f.hair->smooth, &f.hair->sim);
+            hair_smooth_run(&f.hair->geometry.smooth, &f.hair->sim);
             hair_gl_leave(gl);
             free(vertices);
         }

@@ -7,7 +7,7 @@
 
 #include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "lib/draw/params.h"
+#include "lib/strands/geometry.h"
 #include "tests/reference/reference.h"
 #include "tests/support/handmade.h"
 
@@ -38,7 +38,7 @@ static struct fixture start(void** state)
     glNamedBufferSubData(f.hair->sim.state, 0, f.groom->info.guide_vertex_count * sizeof *vertices, vertices);
     struct hair_gl* gl = &f.test->context->gl;
     hair_gl_enter(gl);
-    hair_smooth_run(&f.hair->smooth, &f.hair->sim);
+    hair_smooth_run(&f.hair->geometry.smooth, &f.hair->sim);
     hair_gl_leave(gl);
 
     uint32_t each = 2 * f.groom->max_vertices - 1;
@@ -81,7 +81,7 @@ static void compare(struct fixture* f, const hair_look* look)
     double worst = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
-    hair_result result = hair_draw_read_vertex_cache(&f->hair->draw, &f->hair->smooth, &vertices);
+    hair_result result = hair_geometry_read_vertex_cache(&f->hair->geometry, &vertices);
     hair_gl_leave(gl);
     hair_test_ok(f->test, result);
     for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
@@ -195,8 +195,8 @@ static GLuint link_tangents(const struct fixture* f)
 
 static void compare_tangents(struct fixture* f, const hair_look* look, GLuint program)
 {
-    struct hair_draw* draw = &f->hair->draw;
-    struct hair_gl* gl = draw->gl;
+    struct hair_geometry* geometry = &f->hair->geometry;
+    struct hair_gl* gl = geometry->gl;
     GLuint buffer = 0;
     uint32_t count = f->groom->info.follower_count * (look->segments + 1);
     hair_vec4* got = malloc(count * sizeof *got);
@@ -205,9 +205,9 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
     hair_test_ok(f->test, hair_gl_storage(gl, "tangents", count * sizeof *got, NULL, &buffer));
-    hair_draw_write_params(draw, NULL, NULL, &params);
-    hair_gl_write_uniform(gl, draw->params, sizeof params, &params);
-    hair_draw_bind(draw, &f->hair->smooth);
+    hair_geometry_write_params(geometry, &params);
+    hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
+    hair_geometry_bind(geometry);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer);
     glUseProgram(program);
     glDispatchCompute((count + 63) / 64, 1, 1);

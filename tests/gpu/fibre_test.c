@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lib/draw/fibre.h"
+#include "lib/light/fibre.h"
 #include "lib/gl/gl.h"
 
 #define EYES 16

@@ -38,7 +38,7 @@ static void smooth(struct fixture* f)
     glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *vertices,
                          vertices);
     hair_gl_enter(gl);
-    hair_smooth_run(&f->hair->smooth, &f->hair->sim);
+    hair_smooth_run(&f->hair->geometry.smooth, &f->hair->sim);
     hair_gl_leave(gl);
     f->samples = calloc(each * f->groom->info.guide_count, sizeof *f->samples);
     for (uint32_t g = 0; g < f->groom->info.guide_count; ++g) {
@@ -174,7 +174,7 @@ static void hit_is_the_first_vertex_inside_a_collider(void** state)
         uint32_t found = 0, doubtful = 0;
         f.look.segments = segments[i];
         free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *hits, hits);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
             double nearest;
             uint32_t expected = find_hit(&f, n, &nearest);
@@ -210,12 +210,12 @@ static void hit_by_work_group_equals_hit_by_thread(void** state)
             i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
         f.look.segments = segments[i / 2];
         float* before = read_followers(&f, collision);
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *hits, hits);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         f.test->context->gl.software = !software;
-        f.hair->draw.follower_collision.valid = 0; // Forces another search.
+        f.hair->geometry.follower_collision.valid = 0; // Forces another search.
         float* after = read_followers(&f, collision);
         f.test->context->gl.software = software;
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *others, others);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *others, others);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
         assert_in_range(differ, 0, 1); // Rounding decides where a vertex is on the surface.
         if (!differ)
@@ -253,10 +253,10 @@ static void hit_by_prepass_equals_hit_by_compute(void** state)
         f.look.segments = segments[i / 2];
         f.hair = compute;
         free(read_followers(&f, collision));
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *hits, hits);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         f.hair = prepass;
         free(read_followers(&f, collision));
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *others, others);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *others, others);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
         print_message("    %u segments: %u of %u differ\n", f.look.segments, differ,
                       f.groom->info.follower_count);
@@ -283,7 +283,7 @@ static void follower_beyond_its_hit_follows_a_single_guide(void** state)
     float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
     static float hits[400];
     uint32_t switched = 0;
-    read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *hits, hits);
+    read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
         int hit = (double)hits[n] < HAIR_NO_HIT;
         // The other followers have nothing to switch.
@@ -317,8 +317,8 @@ static void push_out_curve_is_a_spline(void** state)
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         f.look.segments = segments[i];
         float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
-        read_buffer(&f, f.hair->draw.follower_collision.hit, sizeof *hits, hits);
-        read_buffer(&f, f.hair->draw.follower_collision.repair, sizeof *halves, halves);
+        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+        read_buffer(&f, f.hair->geometry.follower_collision.repair, sizeof *halves, halves);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
             int hit = (double)hits[n] < HAIR_NO_HIT;
             double controls[HAIR_REPAIR_CONTROLS][4];
@@ -431,8 +431,8 @@ static void follower_collision_costs_nothing_out_of_reach(void** state)
     assert_memory_equal(far, without, size);
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit"), hits);
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "repair"), repairs);
-    assert_int_equal(f.hair->draw.follower_collision.hit + f.hair->draw.follower_collision.repair +
-                         f.hair->draw.follower_collision.list,
+    assert_int_equal(f.hair->geometry.follower_collision.hit + f.hair->geometry.follower_collision.repair +
+                         f.hair->geometry.follower_collision.list,
                      0);
     free(far);
     free(none);

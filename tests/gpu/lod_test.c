@@ -228,12 +228,12 @@ static void push_out_fades_without_popping(void** state)
     for (int i = 0; i < 4; ++i) {
         lod.importance = 1;
         draw(&f, &view, NULL, &picture[i]); // Computes the number of pixels per metre.
-        lod.importance = pixels[i] / (0.005f * f.hair->draw.pixels_per_metre);
+        lod.importance = pixels[i] / (0.005f * f.hair->renderer.pixels_per_metre);
         hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
         hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-        uint32_t met = f.hair->draw.follower_collision.generation;
+        uint32_t met = f.hair->geometry.follower_collision.generation;
         draw(&f, &view, NULL, &picture[i]);
-        assert_int_equal(f.hair->draw.follower_collision.generation - met, i > 0);
+        assert_int_equal(f.hair->geometry.follower_collision.generation - met, i > 0);
     }
     for (int i = 0; i < 3; ++i) {
         double sum = 0;

@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "lib/api/api.h"
-#include "lib/draw/params.h"
+#include "lib/strands/geometry.h"
 #include "tests/support/handmade.h"
 
 #define FOLLOWERS 4000

@@ -359,10 +359,10 @@ static void history_is_not_kept_without_motion_vectors(void** state)
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &view));
     }
-    assert_int_equal(f.hair->draw.motion.buffer, 0);
+    assert_int_equal(f.hair->geometry.history.buffer, 0);
     view.pass = HAIR_PASS_MOTION;
     hair_test_ok(f.test, hair_draw(f.hair, &view));
-    assert_int_not_equal(f.hair->draw.motion.buffer, 0);
+    assert_int_not_equal(f.hair->geometry.history.buffer, 0);
     hair_test_frame_free(&frame);
     finish(&f);
 }

@@ -120,7 +120,7 @@ static void occluder_that_is_no_depth_texture_is_refused(void** state)
     glDeleteTextures(1, &texture);
     refuse(&f, 4711);
     refuse(&f, UINT32_MAX);
-    refuse(&f, f.hair->draw.patch_texture); // A buffer texture, which is the library's own.
+    refuse(&f, f.hair->geometry.patch_texture); // A buffer texture, which is the library's own.
     f.view.occluder_depth = 0;
     assert_true(draw(&f) > 0);
     finish(&f);
@@ -194,7 +194,7 @@ static void buffer_textures_are_refused_for_lights_and_colors(void** state)
     struct fixture f = start(state);
     hair_light light = hair_light_default();
     hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-    GLuint buffer = f.hair->draw.patch_texture;
+    GLuint buffer = f.hair->geometry.patch_texture;
     f.view.lights = &light;
     light.opaque_shadow_map = buffer;
     hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT,

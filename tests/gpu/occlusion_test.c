@@ -153,7 +153,7 @@ static uint32_t draw(const struct fixture* f, int lends, const int at[4], float 
 
 static uint32_t read_hidden(const struct fixture* f, uint32_t hidden[])
 {
-    const struct hair_draw* of = &f->hair->draw;
+    const struct hair_geometry* of = &f->hair->geometry;
     struct hair_patch* patches = calloc(of->patches, sizeof *patches);
     uint32_t count = 0;
     glGetNamedBufferSubData(of->patch, 0, (GLsizeiptr)(of->patches * sizeof *patches), patches);
@@ -187,7 +187,7 @@ static void occluded_patches_are_culled_without_changing_the_picture(void** stat
     static const int places[3][4] = {{0, 0, SIZE, SIZE}, {0, 0, SIZE, SIZE}, {0, 0, SIZE / 2, SIZE}};
     static const float away[3] = {4, 0.3f, 0.3f};
     struct fixture f = start(state);
-    uint32_t patches = f.hair->draw.patches;
+    uint32_t patches = f.hair->geometry.patches;
     for (int i = 0; i < KINDS * 3 * 3; ++i) {
         int where = i % 3;
         set_kind(&f, (enum kind)(i / 9));
@@ -227,7 +227,7 @@ static void visible_strands_are_not_occlusion_culled(void** state)
     static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
     struct fixture f = start(state);
     hair_lod lod = hair_lod_default();
-    hair_look look = f.hair->draw.look, curls = look;
+    hair_look look = f.hair->geometry.look, curls = look;
     uint32_t random = 5, hidden = 0, drawn = 0;
     lod.strand_pixels = 6;
     hair_test_ok(f.test, hair_look_apply_preset(&curls, HAIR_LOOK_WAVY));
@@ -255,7 +255,7 @@ static void visible_strands_are_not_occlusion_culled(void** state)
         if (differ(kept, some) > max)
             fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
         hidden += now;
-        drawn += f.hair->draw.patches - now;
+        drawn += f.hair->geometry.patches - now;
     }
     print_message("    %u patches are hidden and %u are not\n", hidden, drawn);
     assert_true(hidden > drawn / 10);
@@ -275,13 +275,13 @@ static void occluder_depth_may_have_any_size(void** state)
         const int all[4] = {0, 0, w, h}, left[4] = {0, 0, w / 2, h};
         make_depth(&f, w, h);
         draw(&f, 1, all, 0.3f, pixels);
-        assert_int_equal(read_hidden(&f, NULL), f.hair->draw.patches);
+        assert_int_equal(read_hidden(&f, NULL), f.hair->geometry.patches);
         draw(&f, 1, all, 4, pixels);
         assert_int_equal(read_hidden(&f, NULL), 0);
         // These texels are 24 mm or larger, and the Hi-Z test reads eight of them as one.
         if (w < SIZE) continue;
         draw(&f, 1, left, 0.3f, pixels);
-        assert_in_range(read_hidden(&f, NULL), 1, f.hair->draw.patches - 1);
+        assert_in_range(read_hidden(&f, NULL), 1, f.hair->geometry.patches - 1);
     }
     glDeleteTextures(1, &f.depth);
     f.depth = kept;
@@ -296,20 +296,20 @@ static void occluder_depth_may_be_of_another_view(void** state)
     const int left[4] = {0, 0, SIZE / 2, SIZE};
     struct fixture f = start(state);
     float given[16];
-    assert_in_range(f.hair->draw.patches, 2, 1024);
+    assert_in_range(f.hair->geometry.patches, 2, 1024);
     for (int i = 0; i < 2 * KINDS; ++i) {
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 0, 0);
         memset(f.view.occluder_matrix, 0, sizeof f.view.occluder_matrix);
         draw(&f, 1, left, 0.3f, pixels);
         uint32_t count = read_hidden(&f, before);
-        assert_in_range(count, 1, f.hair->draw.patches - 1);
+        assert_in_range(count, 1, f.hair->geometry.patches - 1);
         hair_mat4_multiply(f.view.projection, f.view.view, given);
         memcpy(f.view.occluder_matrix, given, sizeof given);
         look_from(&f, i < KINDS ? 0.4f : 0.9f, 0.05f);
         draw(&f, 1, left, 0.3f, pixels);
         assert_int_equal(read_hidden(&f, now), count);
-        assert_memory_equal(before, now, f.hair->draw.patches * sizeof *now);
+        assert_memory_equal(before, now, f.hair->geometry.patches * sizeof *now);
     }
     finish(&f);
 }

@@ -91,13 +91,13 @@ static void draw(struct fixture* f, float bodies)
 // Count the rays that meet strands at z >= `behind`.
 static void count_rays(struct fixture* f, double behind)
 {
-    uint32_t each = f->hair->draw.look.segments + 1, count = f->hair->draw.followers * each;
+    uint32_t each = f->hair->geometry.look.segments + 1, count = f->hair->geometry.followers * each;
     f->view.render_path = HAIR_RENDER_PATH_CACHED; // Stores vertices and radii in a buffer.
     make_map(f, 16);
     draw(f, 1);
     hair_vec4* vertices = malloc(count * sizeof *vertices);
-    glGetNamedBufferSubData(f->hair->draw.vertex_cache.position, 0, (GLsizeiptr)(count * sizeof *vertices),
-                            vertices);
+    glGetNamedBufferSubData(f->hair->geometry.vertex_cache.position, 0,
+                            (GLsizeiptr)(count * sizeof *vertices), vertices);
     free(f->rays.stopped);
     f->rays = (struct hair_reference_rays){.lower = {-(double)HALF, -(double)HALF},
                                            .side = 2 * (double)HALF,

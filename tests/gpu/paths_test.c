@@ -121,10 +121,10 @@ static const char* name_of(hair_render_path path, const hair_view* view)
 static uint32_t count_hits(struct fixture* f)
 {
     uint32_t count = 0;
-    float* hits = malloc(f->hair->draw.followers * sizeof *hits);
-    glGetNamedBufferSubData(f->hair->draw.follower_collision.hit, 0,
-                            (GLsizeiptr)(f->hair->draw.followers * sizeof *hits), hits);
-    for (uint32_t i = 0; i < f->hair->draw.followers; ++i) count += hits[i] < (float)HAIR_NO_HIT;
+    float* hits = malloc(f->hair->geometry.followers * sizeof *hits);
+    glGetNamedBufferSubData(f->hair->geometry.follower_collision.hit, 0,
+                            (GLsizeiptr)(f->hair->geometry.followers * sizeof *hits), hits);
+    for (uint32_t i = 0; i < f->hair->geometry.followers; ++i) count += hits[i] < (float)HAIR_NO_HIT;
     free(hits);
     return count;
 }
@@ -187,7 +187,7 @@ static void groom_colors_are_drawn_by_all_paths(void** state)
 {
     static struct picture picture[PATHS + 2];
     struct fixture f = start(state, 0);
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     uint32_t count = f.groom->info.follower_count;
     hair_view view = front(HAIR_RENDER_PATH_TESSELLATION, HAIR_PRIMITIVE_RIBBONS);
     draw(&f, &view, &picture[PATHS]);
@@ -229,7 +229,7 @@ static void auto_uses_the_path_of_the_table_and_reports_it(void** state)
     for (int i = 0; i < 4; ++i) {
         hair_view view = front(HAIR_RENDER_PATH_AUTO, (hair_primitive)(i % 2));
         view.lod = i / 2 ? &lod : NULL;
-        hair_render_path taken = hair_draw_path(&f.hair->draw, &view);
+        hair_render_path taken = hair_draw_path(&f.hair->renderer, &view);
         draw(&f, &view, &own);
         assert_non_null(strstr(drawn_by(&f), name_of(taken, &view)));
         view.render_path = taken;
@@ -244,8 +244,10 @@ static void auto_does_not_cache_more_than_fits(void** state)
 {
     struct fixture f = start(state, 0);
     hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
-    struct hair_draw many = f.hair->draw;
-    many.followers = 4000000;
+    struct hair_geometry geometry = f.hair->geometry;
+    struct hair_renderer many = f.hair->renderer;
+    geometry.followers = 4000000;
+    many.geometry = &geometry;
     assert_int_not_equal(hair_draw_path(&many, &view), HAIR_RENDER_PATH_CACHED);
     view.render_path = HAIR_RENDER_PATH_CACHED;
     assert_int_equal(hair_draw_path(&many, &view), HAIR_RENDER_PATH_CACHED);

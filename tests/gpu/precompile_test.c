@@ -110,7 +110,7 @@ static void hair_grid(struct fixture* f, hair_view* view)
 
 static void shade_strands(struct fixture* f, hair_view* view)
 {
-    hair_look look = f->hair->draw.look;
+    hair_look look = f->hair->geometry.look;
     look.self_shadow = HAIR_SELF_SHADOW_STRANDS;
     look.shading = HAIR_SHADING_FIBRES;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
@@ -125,7 +125,7 @@ static void fraction_pixels(struct fixture* f, hair_view* view)
 
 static void curl(struct fixture* f, hair_view* view)
 {
-    hair_look look = f->hair->draw.look;
+    hair_look look = f->hair->geometry.look;
     look.curl_radius = 0.01f;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
     put_a_ball_into(f, view);

@@ -205,7 +205,7 @@ static void compute_depth_equals_drawn_depth(void** state)
     }
     print_message("    %u pixels, %u are farther apart\n", there, apart);
     assert_true(there > 1000 && apart <= there / 50);
-    assert_int_equal(f.hair->draw.vertex_cache.shaded, 0);
+    assert_int_equal(f.hair->geometry.vertex_cache.shaded, 0);
     finish(&f);
 }
 
@@ -231,7 +231,7 @@ static void compute_levels_of_detail_equal_drawn_ones(void** state)
         for (int k = 0; k < PIXELS; ++k) apart += drawn.depth[k] != made.depth[k];
         assert_int_equal(apart, 0);
     }
-    assert_int_equal(f.hair->draw.vertex_cache.vertices, 0);
+    assert_int_equal(f.hair->geometry.vertex_cache.vertices, 0);
     finish(&f);
 }
 
@@ -285,23 +285,23 @@ static void passes_without_compute_rasterization_are_drawn(void** state)
     struct fixture f = start(state, 50, 3e-4f);
     hair_lod lod = hair_lod_default();
     hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_COMPUTE);
+    assert_int_equal(hair_draw_path(&f.hair->renderer, &view), HAIR_RENDER_PATH_COMPUTE);
     view.lod = &lod;
     view.primitive = HAIR_PRIMITIVE_LINES;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(hair_draw_path(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
     view.pass = HAIR_PASS_ID; // This pass needs more than levels of detail write for a vertex.
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_INSTANCED);
+    assert_int_equal(hair_draw_path(&f.hair->renderer, &view), HAIR_RENDER_PATH_INSTANCED);
     view.pass = HAIR_PASS_COLOR;
     view.lod = NULL;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(hair_draw_path(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
     view.primitive = HAIR_PRIMITIVE_RIBBONS;
     view.coverage = HAIR_COVERAGE_ALPHA;
-    assert_int_equal(hair_draw_path(&f.hair->draw, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(hair_draw_path(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
     view.coverage = HAIR_COVERAGE_MSAA;
     for (hair_pass pass = HAIR_PASS_COLOR; pass <= HAIR_PASS_OPACITY; ++pass) {
         view.pass = pass;
         int is = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
-        assert_int_equal(hair_draw_path(&f.hair->draw, &view),
+        assert_int_equal(hair_draw_path(&f.hair->renderer, &view),
                          is ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED);
     }
     finish(&f);
@@ -319,9 +319,9 @@ static void compute_path_draws_pixels_of_user_shaders(void** state)
         desc.at = pixels ? HAIR_SHADE_PIXELS : HAIR_SHADE_VERTICES;
         hair_test_ok(f.test, hair_shader_create(f.test->context, &desc, &view.shader));
         hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);
-        hair_draw_free_raster(&f.hair->draw);
+        hair_draw_free_raster(&f.hair->renderer);
         hair_test_ok(f.test, hair_draw(f.hair, &view));
-        assert_int_equal(f.hair->draw.raster.nearest != 0, !pixels);
+        assert_int_equal(f.hair->renderer.raster.nearest != 0, !pixels);
         static float shown[4 * PIXELS];
         hair_test_frame_read(&frame, shown);
         uint32_t own = 0;
@@ -336,7 +336,7 @@ static void compute_path_draws_pixels_of_user_shaders(void** state)
 static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
-    struct hair_raster* own = &f.hair->draw.raster;
+    struct hair_raster* own = &f.hair->renderer.raster;
     struct hair_test_frame frame;
     hair_view view = front(HAIR_RENDER_PATH_CACHED, 0.8f);
     hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 0);

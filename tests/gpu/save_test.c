@@ -94,7 +94,7 @@ static void loading_leaves_physics_and_look_as_they_are(void** state)
     struct hair_test_blob blob = hair_test_save(test, from);
     hair_test_ok(test, hair_load(into, blob.bytes, blob.size));
     assert_true(into->sim.physics.damping == 77);
-    assert_memory_equal(&into->draw.look, &own, sizeof own);
+    assert_memory_equal(&into->geometry.look, &own, sizeof own);
     hair_destroy(from);
     hair_destroy(into);
     free(blob.bytes);

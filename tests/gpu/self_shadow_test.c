@@ -106,11 +106,12 @@ static void into_head(const float* p, double out[3])
 
 static void look_inside(struct fixture* f)
 {
-    const struct hair_draw* d = &f->hair->draw;
+    const struct hair_self_shadow_state* own = &f->hair->lighting.self_shadow;
+    const struct hair_geometry* geometry = &f->hair->geometry;
     uint32_t box[6];
     size_t nodes = 1;
-    glGetNamedBufferSubData(d->self_shadow.box, 0, sizeof box, box);
-    f->grid.cell = (double)d->look.self_shadow_cell;
+    glGetNamedBufferSubData(own->box, 0, sizeof box, box);
+    f->grid.cell = (double)geometry->look.self_shadow_cell;
     for (int i = 0; i < 3; ++i) {
         double low = (double)from_float_key(box[i]), high = (double)from_float_key(~box[3 + i]);
         f->grid.lower[i] = f->grid.cell * floor(low / f->grid.cell);
@@ -122,10 +123,10 @@ static void look_inside(struct fixture* f)
     f->density = calloc(nodes, sizeof *f->density);
     f->met = calloc(nodes * EACH, sizeof *f->met);
     f->position = malloc(VERTICES * sizeof *f->position);
-    glGetNamedBufferSubData(d->self_shadow.density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
-    glGetNamedBufferSubData(d->self_shadow.nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
-    glGetNamedBufferSubData(d->self_shadow.light, 0, sizeof f->numbers, f->numbers);
-    glGetNamedBufferSubData(d->vertex_cache.position, 0, VERTICES * sizeof *f->position, f->position);
+    glGetNamedBufferSubData(own->density, 0, (GLsizeiptr)(nodes * sizeof *sums), sums);
+    glGetNamedBufferSubData(own->nodes, 0, (GLsizeiptr)(nodes * EACH * sizeof *light), light);
+    glGetNamedBufferSubData(own->light, 0, sizeof f->numbers, f->numbers);
+    glGetNamedBufferSubData(geometry->vertex_cache.position, 0, VERTICES * sizeof *f->position, f->position);
     for (size_t n = 0; n < nodes; ++n) f->density[n] = sums[n] / HAIR_DENSITY_UNITS;
     for (size_t n = 0; n < nodes * EACH; ++n)
         f->met[n % EACH * nodes + n / EACH] = sums[n / EACH] ? (double)light[n] : 0;
@@ -243,7 +244,7 @@ static double open_on_average(struct fixture* f, uint32_t vertices)
 {
     uint32_t* numbers = malloc(vertices * EACH * sizeof *numbers);
     double sum = 0;
-    glGetNamedBufferSubData(f->hair->draw.self_shadow.light, 0,
+    glGetNamedBufferSubData(f->hair->lighting.self_shadow.light, 0,
                             (GLsizeiptr)(vertices * EACH * sizeof *numbers), numbers);
     for (uint32_t v = 0; v < vertices; ++v) sum += half_of(numbers[v * EACH + 1] & 0xffff);
     free(numbers);
@@ -301,7 +302,7 @@ static hair_report_row row_of(struct fixture* f, const char* work)
 static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
-    hair_look look = f.hair->draw.look;
+    hair_look look = f.hair->geometry.look;
     f.view.frame_index = 7;
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
@@ -336,8 +337,8 @@ static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
         f.view.lod = i ? &lod : NULL;
         hair_test_ok(f.test, hair_step(f.hair, 0.01f));
         if (i)
-            glClearNamedBufferData(f.hair->draw.self_shadow.light, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
-                                   &none);
+            glClearNamedBufferData(f.hair->lighting.self_shadow.light, GL_R32UI, GL_RED_INTEGER,
+                                   GL_UNSIGNED_INT, &none);
         draw(&f);
         look_inside(&f);
         for (size_t n = 0; n < node_count(&f); ++n) area[i] += f.density[n] * f.grid.cell * f.grid.cell;

@@ -83,11 +83,12 @@ static void run(struct fixture* f)
                          f->state);
     glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
     hair_gl_enter(gl);
-    hair_smooth_run(&f->hair->smooth, &f->hair->sim);
+    hair_smooth_run(&f->hair->geometry.smooth, &f->hair->sim);
     hair_gl_leave(gl);
     hair_vec4* buffers[] = {f->position, f->tangent, f->frame};
     for (int i = 0; i < 3; ++i)
-        glGetNamedBufferSubData(f->hair->smooth.buffer[i], 0, f->samples * sizeof(hair_vec4), buffers[i]);
+        glGetNamedBufferSubData(f->hair->geometry.smooth.buffer[i], 0, f->samples * sizeof(hair_vec4),
+                                buffers[i]);
 
     for (uint32_t g = 0; g < f->params.guides; ++g) {
         static struct hair_reference_vertex state[HAIR_MAX_GUIDE_VERTICES];

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/draw/params.h"
+#include "lib/light/lighting.h"
 
 #define STRANDS 8192u
 #define LOCKS 512u // Each lock has 16 strands.
@@ -54,7 +54,7 @@ static const struct strand* look_at(const struct fixture* f, const hair_look* lo
     GLuint buffer[2];
     memset(&params, 0, sizeof params);
     params.radius = t;
-    hair_draw_write_tint(look, &params.tint);
+    hair_look_write_tint(look, &params.tint);
     glCreateBuffers(2, buffer);
     glNamedBufferStorage(buffer[0], sizeof found, NULL, 0);
     glNamedBufferStorage(buffer[1], sizeof params, &params, 0);

@@ -10,7 +10,7 @@ extern "C" {
 #endif
 
 struct hair_reference_fibre {
-    /// Table of lib/draw/fibre.h, HAIR_FIBRE_LAYERS of HAIR_FIBRE_ROWS of HAIR_FIBRE_COLUMNS.
+    /// Table of lib/light/fibre.h, HAIR_FIBRE_LAYERS of HAIR_FIBRE_ROWS of HAIR_FIBRE_COLUMNS.
     const hair_vec4* table;
     double variance; ///< Longitudinal variance of R, rad^2.
     double tilt; ///< Tilt of the scales, rad.

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "lib/draw/fibre.h"
+#include "lib/light/fibre.h"
 
 #define PI 3.14159265358979
 

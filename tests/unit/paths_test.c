@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "lib/draw/fibre.h"
+#include "lib/light/fibre.h"
 #include "tests/reference/paths.h"
 
 #define STRANDS 400

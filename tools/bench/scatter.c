@@ -1,6 +1,6 @@
 // scatter.c - Rows of the suite `shadow`. They compare the multiple scattering of drawn hair with
 // path tracing. Only means over the visible part of a haircut are compared.
-#include "lib/draw/fibre.h"
+#include "lib/light/fibre.h"
 #include "tests/reference/paths.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/scatter.h"
@@ -16,7 +16,7 @@
 #define SEGMENTS 24
 #define RAYS 100000
 #define RAYS_OF_QUICK 20000
-#define REFRACTION 1.55f // as in lib/draw/fibres.c
+#define REFRACTION 1.55f // as in lib/light/fibres.c
 
 static const struct color {
     const char* name;

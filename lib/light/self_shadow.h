@@ -1,7 +1,7 @@
 // self_shadow.h - light that reaches each vertex of the strands. Its memory and passes exist only
 // if a look requests them.
-#ifndef HAIR_DRAW_SELF_SHADOW_H
-#define HAIR_DRAW_SELF_SHADOW_H
+#ifndef HAIR_LIGHT_SELF_SHADOW_H
+#define HAIR_LIGHT_SELF_SHADOW_H
 
 #include "lib/gl/gl.h"
 

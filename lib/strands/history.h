@@ -1,7 +1,7 @@
-// motion.h - vertices and head transform of the previous frame, for motion vectors. They take
+// history.h - vertices and head transform of the previous frame, for motion vectors. They take
 // memory only on demand.
-#ifndef HAIR_DRAW_MOTION_H
-#define HAIR_DRAW_MOTION_H
+#ifndef HAIR_STRANDS_HISTORY_H
+#define HAIR_STRANDS_HISTORY_H
 
 #include "lib/base/math.h"
 #include "lib/base/pose.h"
@@ -14,7 +14,7 @@ struct hair_was {
     hair_quat turn;
 };
 
-struct hair_motion {
+struct hair_vertex_history {
     GLuint buffer, texture; // Vertices of the previous frame. 0 until needed.
     uint32_t frame; // Number of the frame drawn last.
     uint32_t shown; // Value of hair_vertex_cache.writes in that frame. 0 if none was drawn.

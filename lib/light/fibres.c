@@ -1,16 +1,15 @@
 // fibres.c - texture of the table in fibre.h.
-#include "lib/draw/draw.h"
+#include "lib/light/lighting.h"
 
 #include <string.h>
 
 #define REFRACTION 1.55f // Index of refraction of keratin.
 
-hair_result hair_draw_ensure_fibres(struct hair_draw* draw)
+hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const hair_look* look)
 {
-    draw->used[HAIR_DRAW_FIBRES] = draw->frame;
-    struct hair_fibres* fibres = &draw->fibres;
-    struct hair_gl* gl = draw->gl;
-    struct hair_fibre of = {draw->look.roughness[1], draw->look.roughness[0], REFRACTION};
+    struct hair_fibres* fibres = &lighting->fibres;
+    struct hair_gl* gl = lighting->gl;
+    struct hair_fibre of = {look->roughness[1], look->roughness[0], REFRACTION};
     if (fibres->texture && memcmp(&of, &fibres->of, sizeof of) == 0) return HAIR_OK;
 
     static const uint32_t size[3] = {HAIR_FIBRE_COLUMNS, HAIR_FIBRE_ROWS, HAIR_FIBRE_LAYERS};
@@ -29,7 +28,7 @@ hair_result hair_draw_ensure_fibres(struct hair_draw* draw)
     return result;
 }
 
-void hair_draw_free_fibres(struct hair_draw* draw)
+void hair_lighting_free_fibres(struct hair_lighting* lighting)
 {
-    hair_gl_free_texture(draw->gl, &draw->fibres.texture);
+    hair_gl_free_texture(lighting->gl, &lighting->fibres.texture);
 }

@@ -1,17 +1,15 @@
 // lights.c - lights and surroundings, transformed to the head's origin and to the sums that
 // light/lights.glsl evaluates.
-#include "lib/draw/params.h"
-
-#include <string.h>
+#include "lib/light/lighting.h"
 
 // Write the matrix from the head's origin to a shadow map. Map xy from [-1, 1] to [0, 1], and z as
 // the application's clip control says. In perspective the rows of z and w are parallel in xyz.
 // Depth is then its value at infinity minus a term that falls with the distance.
-static void write_map(const struct hair_draw* draw, const struct hair_pose* head, const hair_light* light,
+static void write_map(struct hair_gl* gl, const struct hair_pose* head, const hair_light* light,
                       hair_mat4* shadow, hair_vec4* map)
 {
     GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
-    draw->gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
     float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
     if (depth_mode == GL_ZERO_TO_ONE) {
         halve[10] = 1;
@@ -61,8 +59,47 @@ static void write_sky(const float* sky, int channel, float ambient, hair_mat4* o
     out->column[3].w += ambient;
 }
 
-void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose* head, const hair_view* view,
-                            struct hair_draw_params* out)
+uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS])
+{
+    HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
+    uint32_t maps = 0;
+    for (uint32_t i = 0; i < view->light_count && maps < HAIR_SHADOW_MAPS; ++i) {
+        const hair_light* light = &view->lights[i];
+        if (light->hair_shadow_map || light->opaque_shadow_map)
+            out[maps++] = (struct hair_light_maps){i, light->hair_shadow_map, light->opaque_shadow_map};
+    }
+    return maps;
+}
+
+bool hair_lighting_is_blocked(const hair_view* view)
+{
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t count = hair_view_maps(view, maps);
+    for (uint32_t i = 0; i < count; ++i)
+        if (maps[i].body) return view->pass == HAIR_PASS_COLOR;
+    return false;
+}
+
+static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture)
+{
+    if (!texture) return;
+    gl->BindTextureUnit(unit, texture);
+    gl->BindSampler(unit, gl->shadow_sampler);
+}
+
+void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view)
+{
+    struct hair_light_maps maps[HAIR_SHADOW_MAPS];
+    uint32_t count = hair_view_maps(view, maps);
+    HAIR_ASSERT(count <= HAIR_SHADOW_MAPS);
+    for (GLuint i = 0; i < count; ++i) {
+        bind_map(gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
+        bind_map(gl, HAIR_UNIT_BODY + i, maps[i].body);
+    }
+}
+
+void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const struct hair_pose* head,
+                                const hair_view* view, struct hair_draw_params* out)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
     uint32_t count = hair_view_maps(view, maps);
@@ -72,8 +109,8 @@ void hair_draw_write_lights(const struct hair_draw* draw, const struct hair_pose
     for (uint32_t i = 0; i < count; ++i) {
         HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
-        write_map(draw, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
-        light[HAIR_LIGHT_MORE].z = draw->look.absorption;
+        write_map(gl, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
+        light[HAIR_LIGHT_MORE].z = look->absorption;
         if (maps[i].shadow) light[HAIR_LIGHT_MORE].w = (float)i;
         if (maps[i].body) light[HAIR_LIGHT_MAP].x = (float)i;
     }

@@ -1,10 +1,10 @@
 // follower_collision.h - state of follower collision. Its passes, memory and program variants exist
 // only while a collider is near the hair.
-#ifndef HAIR_DRAW_FOLLOWER_COLLISION_H
-#define HAIR_DRAW_FOLLOWER_COLLISION_H
+#ifndef HAIR_STRANDS_FOLLOWER_COLLISION_H
+#define HAIR_STRANDS_FOLLOWER_COLLISION_H
 
 #include "lib/field/field.h"
-#include "lib/strands/smooth.h"
+#include "lib/gl/gl.h"
 
 struct hair_follower_collision_state {
     GLuint hit, repair, list; // Buffers, as in shared.h. 0 until needed.

@@ -1,5 +1,5 @@
 // fibre.c - lobes of a dielectric cylinder, summed over the points of its width where a ray enters.
-#include "lib/draw/fibre.h"
+#include "lib/light/fibre.h"
 #include "lib/base/assert.h"
 
 #include <math.h>

@@ -3,15 +3,15 @@
 //
 // Only this file draws into a framebuffer of the library's own, with blending. It restores that
 // state of the application at once.
-#include "lib/draw/draw.h"
+#include "lib/strands/geometry.h"
 
 #define CLIP_DISTANCES 8
 
-hair_result hair_draw_make_prepass(struct hair_draw* draw)
+hair_result hair_geometry_ensure_prepass(struct hair_geometry* geometry)
 {
-    struct hair_gl* gl = draw->gl;
-    struct hair_follower_collision_state* follower_collision = &draw->follower_collision;
-    GLsizei rows = (GLsizei)((draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
+    struct hair_gl* gl = geometry->gl;
+    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
+    GLsizei rows = (GLsizei)((geometry->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
     hair_result result = HAIR_OK;
     if (!follower_collision->image)
         result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows,
@@ -92,23 +92,23 @@ static void leave(struct hair_gl* gl, const struct saved* saved)
     for (GLenum i = 0; i < CLIP_DISTANCES; ++i) set(gl, GL_CLIP_DISTANCE0 + i, saved->clips[i]);
 }
 
-void hair_draw_run_prepass(struct hair_draw* draw)
+void hair_geometry_run_prepass(struct hair_geometry* geometry)
 {
     static const GLfloat none = HAIR_NO_HIT;
-    struct hair_gl* gl = draw->gl;
+    struct hair_gl* gl = geometry->gl;
     struct saved saved;
-    uint32_t rows = (draw->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
-    HAIR_ASSERT(draw->follower_collision.image && draw->follower_collision.frame);
+    uint32_t rows = (geometry->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS;
+    HAIR_ASSERT(geometry->follower_collision.image && geometry->follower_collision.frame);
     enter(gl, &saved);
-    gl->ClearTexImage(draw->follower_collision.image, 0, GL_RED, GL_FLOAT, &none);
-    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, draw->follower_collision.frame);
+    gl->ClearTexImage(geometry->follower_collision.image, 0, GL_RED, GL_FLOAT, &none);
+    gl->BindFramebuffer(GL_DRAW_FRAMEBUFFER, geometry->follower_collision.frame);
     gl->ViewportIndexedf(0, 0, 0, HAIR_HIT_COLUMNS, (GLfloat)rows);
     gl->BindVertexArray(gl->vertex_array);
-    hair_gl_pass pass = hair_draw_styled(draw, HAIR_GL_PREPASS);
+    hair_gl_pass pass = hair_geometry_add_style(geometry, HAIR_GL_PREPASS);
     hair_gl_begin(gl, pass);
-    hair_draw_patches(draw);
+    hair_geometry_draw_patches(geometry);
     hair_gl_end(gl, pass);
     leave(gl, &saved);
     gl->BindSampler(HAIR_UNIT_SHADOW, 0);
-    gl->BindTextureUnit(HAIR_UNIT_SHADOW, draw->follower_collision.image);
+    gl->BindTextureUnit(HAIR_UNIT_SHADOW, geometry->follower_collision.image);
 }

@@ -1,9 +1,9 @@
 // strand_color.c - colours of strands for shaders, and the effect of water on a look.
-#include "lib/draw/params.h"
+#include "lib/light/lighting.h"
 
 #define WET_POWER(wet) (1 + 0.7f * (wet)) // Exponent that darkens colours.
 
-void hair_draw_write_tint(const hair_look* look, struct hair_tint* out)
+void hair_look_write_tint(const hair_look* look, struct hair_tint* out)
 {
     for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) {
         float t = (float)i / HAIR_CURVE_INTERVALS, c[3];

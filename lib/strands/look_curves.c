@@ -1,5 +1,5 @@
 // look_curves.c - curves of a look along a strand, as cubic polynomials for shaders.
-#include "lib/draw/params.h"
+#include "lib/strands/geometry.h"
 
 // Iterations of Gauss-Seidel over a turn. The remaining error is below float precision.
 #define SWEEPS 24
@@ -98,7 +98,7 @@ float hair_look_max_offset(const hair_look* look)
     return DIAGONAL * (curl + hair_curve_max(&look->frizz));
 }
 
-void hair_draw_write_strand(const hair_look* look, struct hair_strand_look* out)
+void hair_look_write_curves(const hair_look* look, struct hair_strand_look* out)
 {
     write_curve(look->taper, out, HAIR_CURVE_TAPER);
     write_curve(clump_of(look), out, HAIR_CURVE_CLUMP);

@@ -1,8 +1,8 @@
 // fibre.h - table of how one fibre scatters light around its axis, as a rough, absorbing dielectric
 // cylinder (Marschner et al. 2003; d'Eon et al. 2011). It also holds what many fibres do to light
 // (Zinke et al. 2008).
-#ifndef HAIR_DRAW_FIBRE_H
-#define HAIR_DRAW_FIBRE_H
+#ifndef HAIR_LIGHT_FIBRE_H
+#define HAIR_LIGHT_FIBRE_H
 
 #include "glsl/shared.h"
 

@@ -1,7 +1,7 @@
 // vertex_cache.h - vertex cache of followers, shared by all views. Its memory and its pass exist
 // only on demand.
-#ifndef HAIR_DRAW_VERTEX_CACHE_H
-#define HAIR_DRAW_VERTEX_CACHE_H
+#ifndef HAIR_STRANDS_VERTEX_CACHE_H
+#define HAIR_STRANDS_VERTEX_CACHE_H
 
 #include "lib/gl/gl.h"
 
@@ -10,8 +10,8 @@ struct hair_vertex_cache {
     GLuint position_texture, tangent_texture, shaded_texture; // Their buffer textures, for drawing.
     size_t vertices; // Capacity in vertices.
     int is_complete; // Nonzero if the vertices of all followers are written.
-    uint32_t generation,
-        program_generation; // Values of hair_follower_collision_state.met and hair_gl.made at the last write.
+    uint32_t generation; // Value of hair_follower_collision_state.generation at the last write.
+    uint32_t program_generation; // Value of hair_gl.program_generation at the last write.
     uint32_t writes; // Number of writes so far.
 };
 

@@ -1,0 +1,58 @@
+// lighting.c - the life, the parameters and the bindings of lighting.
+#include "lib/light/lighting.h"
+
+hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl* gl,
+                                 const struct hair_groom* groom)
+{
+    lighting->gl = gl;
+    if (!groom->colors) return HAIR_OK;
+    size_t count = groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
+    hair_result result = hair_gl_buffer(gl, "hair colours", count * sizeof *groom->colors, groom->colors,
+                                        &lighting->groom_color);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,
+                                        &lighting->groom_color_texture);
+    return result;
+}
+
+void hair_lighting_destroy(struct hair_lighting* lighting)
+{
+    if (!lighting->gl) return;
+    hair_lighting_free_fibres(lighting);
+    hair_lighting_free_self_shadow(lighting);
+    hair_gl_free_buffer_texture(lighting->gl, &lighting->groom_color_texture);
+    hair_gl_free_buffer(lighting->gl, &lighting->groom_color);
+}
+
+// Write the parameters of fibre shading. The squared logarithm of a reflectance times 1 / d^2 is
+// the absorption, with d from Chiang et al. 2016, equation 9.
+static void write_fibre(const hair_look* look, hair_vec4* out)
+{
+    float variance[3], b = look->roughness[1];
+    hair_fibre_variances(look->roughness[0], variance);
+    float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
+    *out = (hair_vec4){variance[0], 1 / (d * d), look->cuticle_tilt, look->scattering};
+}
+
+void hair_lighting_write_params(const struct hair_lighting* lighting, const hair_look* look,
+                                const struct hair_pose* head, const hair_view* view,
+                                struct hair_draw_params* out)
+{
+    out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    write_fibre(look, &out->fibre);
+    hair_look_write_tint(look, &out->tint);
+    if (!view) return;
+    out->colored = view->pass == HAIR_PASS_COLOR;
+    out->light_values = hair_lighting_value_count(look, view);
+    hair_lighting_write_lights(lighting->gl, look, head, view, out);
+}
+
+void hair_lighting_bind(struct hair_lighting* lighting, const hair_look* look, const hair_view* view)
+{
+    struct hair_gl* gl = lighting->gl;
+    if (lighting->fibres.texture) gl->BindTextureUnit(HAIR_UNIT_FIBRE, lighting->fibres.texture);
+    gl->BindSampler(HAIR_UNIT_FIBRE, 0);
+    if (hair_lighting_value_count(look, view))
+        gl->BindTextureUnit(HAIR_UNIT_LIGHT, lighting->self_shadow.texture);
+    hair_lighting_bind_shadow_maps(gl, view);
+}

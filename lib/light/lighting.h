@@ -1,0 +1,75 @@
+// lighting.h - light on strands: fibre lobes, lights, self-shadow and colours of strands.
+#ifndef HAIR_LIGHT_LIGHTING_H
+#define HAIR_LIGHT_LIGHTING_H
+
+#include "lib/light/fibre.h"
+#include "lib/light/self_shadow.h"
+#include "lib/strands/geometry.h"
+
+#include <stdbool.h>
+
+// Texture of the table in fibre.h, created on demand for the fibre parameters requested last.
+struct hair_fibres {
+    GLuint texture;
+    struct hair_fibre of;
+};
+
+struct hair_lighting {
+    struct hair_gl* gl;
+    struct hair_fibres fibres;
+    struct hair_self_shadow_state self_shadow;
+    GLuint groom_color, groom_color_texture; // Colours of the groom. 0 if there are none.
+};
+
+hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl* gl,
+                                 const struct hair_groom* groom);
+void hair_lighting_destroy(struct hair_lighting* lighting);
+// Write the parameters of shading. NULL `view` writes only those of the look.
+void hair_lighting_write_params(const struct hair_lighting* lighting, const hair_look* look,
+                                const struct hair_pose* head, const hair_view* view,
+                                struct hair_draw_params* out);
+// Bind the textures that only the colour pass reads.
+void hair_lighting_bind(struct hair_lighting* lighting, const hair_look* look, const hair_view* view);
+
+// Create or update the fibre table for a look. Defined in fibres.c.
+hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const hair_look* look);
+void hair_lighting_free_fibres(struct hair_lighting* lighting);
+
+// Shadow maps of one light of a view. `light` is the index of the light. `shadow` is the hair
+// shadow map, and `body` the opaque shadow map. 0 means no map.
+struct hair_light_maps {
+    uint32_t light;
+    GLuint shadow, body;
+};
+
+// Functions of lights.c.
+
+// Write the parameters of lights.
+void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const struct hair_pose* head,
+                                const hair_view* view, struct hair_draw_params* out);
+// Write the lights of `view` that have shadow maps, in order. Return their number.
+uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
+// Return whether a light of the colour pass has an opaque shadow map.
+bool hair_lighting_is_blocked(const hair_view* view);
+// Bind the application's shadow maps to their texture units.
+void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view);
+
+// Functions of self_shadow.c.
+
+// Return the number of light values per vertex, or 0 without self-shadowing.
+uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view);
+// Compute the light that reaches each vertex in `view`, which requests self-shadowing. `params` are
+// the parameters of the view. If params->drawn_only is nonzero, compute only the light of vertices
+// that the view draws.
+hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, struct hair_geometry* geometry,
+                                             const hair_view* view, const struct hair_draw_params* params);
+void hair_lighting_free_self_shadow(struct hair_lighting* lighting);
+
+// Functions of strand_color.c.
+
+// Apply the wetness of a look to its other settings.
+void hair_look_apply_wetness(hair_look* look);
+// Write the colours of strands.
+void hair_look_write_tint(const hair_look* look, struct hair_tint* out);
+
+#endif

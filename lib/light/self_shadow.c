@@ -1,0 +1,120 @@
+// self_shadow.c - light that reaches each vertex of the strands. A density grid is computed once
+// for all views of the same strands. The light is attenuated through the grid and by shadow maps.
+#include "lib/light/lighting.h"
+
+#include <string.h>
+
+#define NODE_GROUPS 1024 // Number of work groups. Their threads loop over all nodes of the grid.
+
+void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
+{
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    hair_gl_free_buffer_texture(lighting->gl, &own->texture);
+    hair_gl_free_buffer(lighting->gl, &own->density);
+    hair_gl_free_buffer(lighting->gl, &own->box);
+    hair_gl_free_buffer(lighting->gl, &own->nodes);
+    hair_gl_free_buffer(lighting->gl, &own->light);
+    memset(own, 0, sizeof *own);
+}
+
+static hair_result make_light(struct hair_lighting* lighting, const struct hair_geometry* geometry,
+                              uint32_t each)
+{
+    struct hair_gl* gl = lighting->gl;
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    HAIR_ASSERT(0 < each && each <= 1 + HAIR_LIGHTS && geometry->vertex_cache.vertices > 0);
+    size_t numbers = geometry->vertex_cache.vertices * each;
+    if (own->texture && own->numbers == numbers && own->each == each) return HAIR_OK;
+    hair_gl_free_buffer_texture(gl, &own->texture);
+    hair_gl_free_buffer(gl, &own->light);
+    hair_gl_free_buffer(gl, &own->nodes);
+    own->frame = 0;
+    own->numbers = numbers;
+    own->each = each;
+    size_t nodes = (size_t)HAIR_DENSITY_NODES * each;
+    hair_result result = hair_gl_storage(gl, "hair light of nodes", nodes * sizeof(float), NULL, &own->nodes);
+    if (!result) result = hair_gl_storage(gl, "hair light", numbers * sizeof(uint32_t), NULL, &own->light);
+    return result ? result : hair_gl_buffer_texture(gl, "hair light", GL_R32UI, own->light, &own->texture);
+}
+
+static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl_pass pass)
+{
+    return geometry->follower_collision.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
+}
+
+static hair_result make(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t each)
+{
+    struct hair_gl* gl = lighting->gl;
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    hair_result result = HAIR_OK;
+    if (!own->density)
+        result =
+            hair_gl_storage(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t), NULL, &own->density);
+    if (!result && !own->box)
+        result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
+    if (!result) result = make_light(lighting, geometry, each);
+    if (result) return result;
+    return hair_gl_ensure_programs(gl, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE,
+                                   geometry->follower_collision.field ? HAIR_GL_WITH(COLLIDERS) : 0);
+}
+
+static void fill(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t groups)
+{
+    static const GLuint none = 0, outermost = UINT32_MAX;
+    struct hair_gl* gl = lighting->gl;
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+    gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
+    hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
+    hair_gl_run(gl, HAIR_GL_DENSITY_SPLAT, geometry->patches);
+    own->filled = geometry->vertex_cache.writes;
+    own->frame = 0;
+}
+
+// Return whether the light values are valid. Views of one frame with the same lights share them.
+// The contents of shadow maps belong to the application, and may change between frames.
+static bool is_found(struct hair_lighting* lighting, const hair_view* view,
+                     const struct hair_draw_params* params)
+{
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    int same = view->frame_index && view->frame_index == own->frame && own->count == params->lights &&
+               memcmp(own->lights, params->light, sizeof own->lights) == 0 &&
+               memcmp(own->maps, params->shadow, sizeof own->maps) == 0;
+    own->frame = view->frame_index;
+    own->count = params->lights;
+    memcpy(own->lights, params->light, sizeof own->lights);
+    memcpy(own->maps, params->shadow, sizeof own->maps);
+    return same;
+}
+
+uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view)
+{
+    int wanted = view->pass == HAIR_PASS_COLOR && look->self_shadow == HAIR_SELF_SHADOW_STRANDS;
+    return wanted ? 1 + view->light_count : 0;
+}
+
+hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, struct hair_geometry* geometry,
+                                             const hair_view* view, const struct hair_draw_params* params)
+{
+    struct hair_gl* gl = lighting->gl;
+    struct hair_self_shadow_state* own = &lighting->self_shadow;
+    HAIR_ASSERT(params->light_values > 0);
+    hair_result result = hair_geometry_ensure_vertex_cache(geometry, params->drawn_only ? params : NULL);
+    if (!result) result = make(lighting, geometry, params->light_values);
+    if (result) return result;
+    hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
+    hair_geometry_bind(geometry);
+    hair_lighting_bind_shadow_maps(gl, view);
+    uint32_t groups = geometry->patches * params->chunks;
+    GLuint grid[] = {own->density, own->box};
+    GLuint buffers[] = {own->nodes, geometry->vertex_cache.position, own->light};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
+    if (own->filled != geometry->vertex_cache.writes) fill(lighting, geometry, groups);
+    if (is_found(lighting, view, params)) return HAIR_OK;
+    if (params->drawn_only) own->frame = 0; // Another view draws other vertices.
+    if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);
+    hair_gl_run(gl, past_colliders(geometry, HAIR_GL_NODE_TRANSMITTANCE), NODE_GROUPS);
+    hair_gl_run(gl, past_colliders(geometry, HAIR_GL_VERTEX_TRANSMITTANCE), groups);
+    return HAIR_OK;
+}

@@ -1,0 +1,122 @@
+// follower_collision.c - follower collision, which finds the followers inside colliders and pushes
+// them out.
+#include "lib/strands/geometry.h"
+
+#include <string.h>
+
+// Distance in metres, beyond the margin of guides, to which followers are pushed out.
+#define OUTSIDE 5e-4f
+
+// Return the pass that finds hits. GPUs need many threads with short loops. A software rasteriser
+// needs the least total work.
+static hair_gl_pass pass_of(const struct hair_geometry* geometry)
+{
+    if (geometry->follower_collision.prepass) return HAIR_GL_PREPASS_HIT;
+    return hair_geometry_add_style(geometry, geometry->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP);
+}
+
+hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    hair_result result = hair_gl_ensure_program(gl, pass_of(geometry));
+    if (!result && geometry->follower_collision.prepass)
+        result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_PREPASS));
+    if (!result && geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+        result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR));
+    return result;
+}
+
+static hair_result make(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
+    hair_result result = HAIR_OK;
+    size_t count = geometry->followers;
+    int pushes = geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT;
+    if (!follower_collision->hit)
+        result = hair_gl_storage(gl, "hair hits", count * sizeof(float), NULL, &follower_collision->hit);
+    if (!result && !follower_collision->hit_texture)
+        result = hair_gl_buffer_texture(gl, "hair hits", GL_R32F, follower_collision->hit,
+                                        &follower_collision->hit_texture);
+    if (!result && !follower_collision->list)
+        result = hair_gl_storage(gl, "hair hit list", (count + 2) * sizeof(uint32_t), NULL,
+                                 &follower_collision->list);
+    if (!result && pushes && !follower_collision->repair)
+        result = hair_gl_storage(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, NULL,
+                                 &follower_collision->repair);
+    if (!result && pushes && !follower_collision->repair_texture)
+        result = hair_gl_buffer_texture(gl, "hair repairs", GL_RGBA16F, follower_collision->repair,
+                                        &follower_collision->repair_texture);
+    if (!result && follower_collision->prepass) result = hair_geometry_ensure_prepass(geometry);
+    return result ? result : hair_geometry_ensure_hit_programs(geometry);
+}
+
+void hair_geometry_free_follower_collision(struct hair_geometry* geometry)
+{
+    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
+    hair_gl_free_buffer_texture(geometry->gl, &follower_collision->hit_texture);
+    hair_gl_free_buffer_texture(geometry->gl, &follower_collision->repair_texture);
+    hair_gl_free_buffer(geometry->gl, &follower_collision->hit);
+    hair_gl_free_buffer(geometry->gl, &follower_collision->repair);
+    hair_gl_free_buffer(geometry->gl, &follower_collision->list);
+    if (follower_collision->frame) geometry->gl->DeleteFramebuffers(1, &follower_collision->frame);
+    follower_collision->frame = 0;
+    hair_gl_free_texture(geometry->gl, &follower_collision->image);
+}
+
+static void run(struct hair_geometry* geometry, const struct hair_collider_field* field, float margin)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
+    struct hair_draw_params params;
+    hair_geometry_write_params(geometry, &params);
+    HAIR_ASSERT(follower_collision->parity < 2 && follower_collision->hit && follower_collision->list);
+    follower_collision->parity = 1 - follower_collision->parity;
+    params.parity = follower_collision->parity;
+    params.collision_margin = margin + OUTSIDE;
+    hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
+    hair_geometry_bind(geometry);
+    hair_field_bind(field);
+    GLuint buffers[] = {follower_collision->hit, follower_collision->repair, follower_collision->list};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIT, 3, buffers);
+    if (follower_collision->prepass) hair_geometry_run_prepass(geometry);
+    int by_group = !follower_collision->prepass && !gl->software;
+    uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
+    if (by_group) {
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, geometry->smooth.buffer);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &geometry->follower);
+    }
+    hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
+    // Work groups beyond the end of the list return at once.
+    if (geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+        hair_gl_run(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR),
+                    (geometry->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
+}
+
+bool hair_geometry_has_follower_collision(const struct hair_geometry* geometry)
+{
+    return geometry->follower_collision.valid &&
+           geometry->follower_collision.smooth_run == geometry->smooth.runs;
+}
+
+hair_result hair_geometry_update_follower_collision(struct hair_geometry* geometry,
+                                                    const struct hair_collider_field* field, float margin)
+{
+    struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
+    follower_collision->active = field != NULL;
+    follower_collision->field = field;
+    if (field) {
+        hair_result result = make(geometry);
+        if (result) return result;
+        run(geometry, field, margin);
+    }
+    ++follower_collision->generation;
+    follower_collision->valid = 1;
+    follower_collision->smooth_run = geometry->smooth.runs;
+    return HAIR_OK;
+}
+
+void hair_geometry_invalidate(struct hair_geometry* geometry)
+{
+    geometry->follower_collision.valid = 0;
+}

@@ -1,0 +1,81 @@
+// followers.c - inputs of every pass over the vertices of followers: parameters, bindings and
+// program variants.
+#include "lib/strands/geometry.h"
+
+#include <string.h>
+
+// Maximum iterations of a thread's loop. Mesa's software rasteriser leaves loops after 65,535.
+#define MAX_ROUNDS 4096
+
+size_t hair_geometry_count_vertices(const struct hair_geometry* geometry)
+{
+    return (size_t)geometry->followers * (geometry->look.segments + 1);
+}
+
+uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction)
+{
+    HAIR_ASSERT(fraction >= 0);
+    double each = geometry->look.segments + 1.0;
+    double mean = fraction * geometry->followers * each / (HAIR_GROUP_SIZE * fmax(geometry->patches, 1));
+    double max = geometry->max_isolines * each / ((double)HAIR_GROUP_SIZE * MAX_ROUNDS);
+    return 1 + (uint32_t)fmax(mean, max);
+}
+
+// Return the weights of the map sets. A fractional `set` blends between two neighbours.
+static hair_vec4 weigh_sets(float set, uint32_t sets)
+{
+    float weight[HAIR_MAP_SETS] = {0}, last = sets > 1 ? (float)(sets - 1) : 0;
+    float at = set < last ? set : last;
+    int first = (int)at;
+    HAIR_ASSERT(0 <= first && first < HAIR_MAP_SETS);
+    weight[first] = 1 - (at - (float)first);
+    if (first + 1 < HAIR_MAP_SETS) weight[first + 1] = at - (float)first;
+    return (hair_vec4){weight[0], weight[1], weight[2], weight[3]};
+}
+
+void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out)
+{
+    const hair_look* look = &geometry->look;
+    HAIR_ASSERT(look->segments > 0);
+    memset(out, 0, sizeof *out);
+    out->radius = look->radius;
+    out->density = look->density;
+    out->segments = look->segments;
+    out->smooth_vertices = geometry->smooth_vertices;
+    out->followers = geometry->followers;
+    out->follower_collision = look->follower_collision;
+    out->push_out_weight = 1;
+    out->map_weights = weigh_sets(look->map_set, geometry->map_sets);
+    out->chunks = hair_geometry_chunk_count(geometry, 1);
+    out->strand_fraction = 1;
+    out->segment_fraction = 1;
+    hair_look_write_curves(look, &out->strand);
+}
+
+void hair_geometry_bind(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    GLuint textures[] = {geometry->smooth.texture[0],
+                         geometry->smooth.texture[1],
+                         geometry->smooth.texture[2],
+                         geometry->follower_texture,
+                         geometry->patch_texture,
+                         0,
+                         geometry->follower_collision.hit_texture,
+                         geometry->follower_collision.repair_texture};
+    for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
+        if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
+    gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
+}
+
+hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass)
+{
+    return hair_look_is_styled(&geometry->look) ? hair_gl_add_features(pass, HAIR_GL_WITH(STYLED)) : pass;
+}
+
+hair_gl_pass hair_geometry_choose_variant(const struct hair_geometry* geometry, hair_gl_pass pass)
+{
+    if (geometry->follower_collision.active && geometry->push_out_weight > 0)
+        pass = hair_gl_add_features(pass, HAIR_GL_WITH(HITS));
+    return hair_geometry_add_style(geometry, pass);
+}

@@ -1,0 +1,51 @@
+// geometry.c - the life of the strands of an instance.
+#include "lib/strands/geometry.h"
+
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
+                                 const struct hair_groom* groom, const struct hair_sim* sim)
+{
+    geometry->gl = gl;
+    geometry->guides = sim->guides;
+    geometry->smooth_vertices = sim->smooth_vertices;
+    geometry->followers = groom->info.follower_count;
+    geometry->patches = groom->info.patch_count;
+    geometry->map_sets = groom->map_sets;
+    geometry->root_bindings = hair_root_bindings_retain(groom->root_bindings);
+    for (uint32_t i = 0; i < geometry->patches; ++i)
+        if (groom->patches[i].count > geometry->max_isolines)
+            geometry->max_isolines = groom->patches[i].count;
+    HAIR_ASSERT(0 < geometry->max_isolines && geometry->max_isolines <= HAIR_MAX_ISOLINES);
+    hair_result result = hair_smooth_create(&geometry->smooth, gl, sim);
+    if (!result)
+        result = hair_gl_buffer(gl, "hair followers", geometry->followers * sizeof *groom->followers,
+                                groom->followers, &geometry->follower);
+    if (!result)
+        result = hair_gl_buffer(gl, "hair patches", geometry->patches * sizeof *groom->patches,
+                                groom->patches, &geometry->patch);
+    if (!result)
+        result = hair_gl_uniform(gl, "hair draw", sizeof(struct hair_draw_params), &geometry->params);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, geometry->follower,
+                                        &geometry->follower_texture);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, geometry->patch,
+                                        &geometry->patch_texture);
+    return result;
+}
+
+void hair_geometry_destroy(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    if (!gl) return;
+    hair_geometry_free_follower_collision(geometry);
+    hair_geometry_free_vertex_cache(geometry);
+    hair_geometry_free_uvs(geometry);
+    hair_root_bindings_release(geometry->root_bindings);
+    geometry->root_bindings = NULL;
+    hair_gl_free_buffer_texture(gl, &geometry->follower_texture);
+    hair_gl_free_buffer_texture(gl, &geometry->patch_texture);
+    hair_gl_free_buffer(gl, &geometry->follower);
+    hair_gl_free_buffer(gl, &geometry->patch);
+    hair_gl_free_buffer(gl, &geometry->params);
+    hair_smooth_destroy(&geometry->smooth);
+}

@@ -1,0 +1,145 @@
+// geometry.h - strands of an instance: smoothed guides and the followers between them. It has the
+// buffers, the look, follower collision and the vertex cache of followers.
+#ifndef HAIR_STRANDS_GEOMETRY_H
+#define HAIR_STRANDS_GEOMETRY_H
+
+#include "lib/strands/follower_collision.h"
+#include "lib/strands/history.h"
+#include "lib/strands/smooth.h"
+#include "lib/strands/vertex_cache.h"
+
+#include <stdbool.h>
+
+struct hair_geometry {
+    struct hair_gl* gl;
+    struct hair_smooth smooth; // Smoothed guides.
+    hair_look look; // Look after hair_look_apply_wetness().
+    GLuint follower, patch; // Buffers of followers and of patches.
+    // Buffer textures of `follower` and `patch`, for stages without storage buffers.
+    GLuint follower_texture, patch_texture;
+    GLuint params; // Uniform buffer of hair_draw_params, which each user writes before its passes.
+    uint32_t followers, patches, smooth_vertices, guides;
+    uint32_t max_isolines; // Maximum number of isolines in a patch.
+    uint32_t map_sets;
+    float push_out_weight; // Displayed fraction of the displacement by follower collision.
+    uint32_t bound_run; // Run of smooth.comp for which roots of followers last moved with the scalp.
+    struct hair_follower_collision_state follower_collision;
+    struct hair_vertex_cache vertex_cache;
+    struct hair_vertex_history history;
+    struct hair_root_bindings* root_bindings; // Root bindings to the scalp. NULL if there is no scalp.
+    GLuint uv, uv_texture; // Root uvs. 0 until needed.
+};
+
+// Create the smoothed guides and the buffers of followers. The members that the application sets
+// must be set before.
+hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
+                                 const struct hair_groom* groom, const struct hair_sim* sim);
+void hair_geometry_destroy(struct hair_geometry* geometry);
+
+// Functions of followers.c, which every file of this folder may use.
+
+// Return the number of vertices of all followers, look.segments + 1 each.
+size_t hair_geometry_count_vertices(const struct hair_geometry* geometry);
+// Return the number of work groups per patch of a pass over the fraction `fraction` of all vertices.
+uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction);
+// Write the parameters that place all followers in full detail. All other parameters are 0.
+void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);
+// Bind the buffers, textures and parameters that the vertices of followers are computed from.
+void hair_geometry_bind(struct hair_geometry* geometry);
+// Return `pass` with the styling features that the look needs.
+hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass);
+// Return `pass` with the features that the look and, near colliders, follower collision need.
+hair_gl_pass hair_geometry_choose_variant(const struct hair_geometry* geometry, hair_gl_pass pass);
+
+// Functions of look_curves.c.
+
+// Write the look's curves along a strand.
+void hair_look_write_curves(const hair_look* look, struct hair_strand_look* out);
+// Return the maximum distance of a strand from its guided path, as a fraction of its length.
+float hair_look_max_stray(const hair_look* look);
+// Return the maximum distance that curls and frizz add to it, in metres.
+float hair_look_max_offset(const hair_look* look);
+// Return the maximum of a curve.
+float hair_curve_max(const hair_curve* curve);
+// Return whether the look frizzes, curls or cuts strands, which needs program variants.
+bool hair_look_is_styled(const hair_look* look);
+
+// Functions of scalp_roots.c.
+
+// Prepare followers for a skinned scalp.
+hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim);
+// Move the roots of followers with the skinned scalp, once the guides are smoothed.
+void hair_geometry_bind_followers(struct hair_geometry* geometry, struct hair_sim* sim);
+
+// Functions of root_uvs.c.
+
+// Return whether the groom has root uvs.
+bool hair_geometry_has_uvs(const struct hair_geometry* geometry);
+// Create the buffer and the texture of root uvs.
+hair_result hair_geometry_ensure_uvs(struct hair_geometry* geometry);
+void hair_geometry_free_uvs(struct hair_geometry* geometry);
+
+// Draw all patches with the current program. Defined in patches.c.
+void hair_geometry_draw_patches(struct hair_geometry* geometry);
+
+// Functions of prepass.c.
+
+// Create the image and the framebuffer of the prepass.
+hair_result hair_geometry_ensure_prepass(struct hair_geometry* geometry);
+// Write the first vertex of each follower inside a collider to follower_collision.image. The inputs
+// of followers must be bound.
+void hair_geometry_run_prepass(struct hair_geometry* geometry);
+
+// Functions of follower_collision.c.
+
+// Find the followers inside colliders and push them out. Call this before followers are drawn or
+// written. NULL `field` means that no collider is near. `margin` is the distance that guides keep
+// from colliders, in metres.
+hair_result hair_geometry_update_follower_collision(struct hair_geometry* geometry,
+                                                    const struct hair_collider_field* field, float margin);
+// Compile the programs of follower collision.
+hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry);
+// Return whether follower collision is up to date with the guides and colliders.
+bool hair_geometry_has_follower_collision(const struct hair_geometry* geometry);
+// Mark follower collision and the vertex cache as outdated. Call this when followers or colliders
+// change, but guides do not move.
+void hair_geometry_invalidate(struct hair_geometry* geometry);
+void hair_geometry_free_follower_collision(struct hair_geometry* geometry);
+
+// Functions of history.c.
+
+// Create the buffer of the previous frame's vertices.
+hair_result hair_geometry_ensure_history(struct hair_geometry* geometry);
+void hair_geometry_free_history(struct hair_geometry* geometry);
+// Begin frame number `frame`, or continue it. The vertices must be up to date.
+void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head,
+                                 uint32_t frame);
+// Keep the vertices that the previous frame displayed, before they are overwritten.
+void hair_geometry_save_history(struct hair_geometry* geometry);
+// Forget the previous frame, because the hair has jumped.
+void hair_geometry_forget_history(struct hair_geometry* geometry);
+// Move the previous frame's positions with a head that is teleported.
+void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct hair_pose* from,
+                                    const struct hair_pose* to);
+// Bind the previous frame's vertices.
+void hair_geometry_bind_history(struct hair_geometry* geometry);
+
+// Functions of vertex_cache.c.
+
+// Write the vertex cache unless it is up to date. With parameters of a view in `drawn`, write only
+// the vertices that the view draws, on every call.
+hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
+                                              const struct hair_draw_params* drawn);
+// Return whether the cache holds up-to-date vertices of all followers.
+bool hair_geometry_has_vertex_cache(const struct hair_geometry* geometry);
+// Bind the vertex cache.
+void hair_geometry_bind_vertex_cache(struct hair_geometry* geometry);
+void hair_geometry_free_vertex_cache(struct hair_geometry* geometry);
+// Create the buffer of shaded vertices.
+hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry);
+void hair_geometry_free_shaded(struct hair_geometry* geometry);
+// Read back the vertices of all followers. xyz is the position from the head's origin, w the
+// radius. The caller frees *out, and has checked that there are at most UINT32_MAX vertices.
+hair_result hair_geometry_read_vertex_cache(struct hair_geometry* geometry, hair_vec4** out);
+
+#endif

@@ -1,0 +1,88 @@
+// history.c - vertices of the previous frame. The vertex cache of a displayed frame is kept when new
+// vertices replace it.
+#include "lib/strands/geometry.h"
+
+#include <string.h>
+
+hair_result hair_geometry_ensure_history(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_vertex_history* history = &geometry->history;
+    hair_result result = HAIR_OK;
+    HAIR_ASSERT(geometry->vertex_cache.vertices > 0);
+    size_t size = geometry->vertex_cache.vertices * sizeof(hair_vec4);
+    if (!history->buffer)
+        result = hair_gl_storage(gl, "hair vertex cache before", size, NULL, &history->buffer);
+    if (!result && !history->texture)
+        result = hair_gl_buffer_texture(gl, "hair vertex cache before", GL_RGBA32F, history->buffer,
+                                        &history->texture);
+    return result;
+}
+
+void hair_geometry_free_history(struct hair_geometry* geometry)
+{
+    hair_gl_free_buffer_texture(geometry->gl, &geometry->history.texture);
+    hair_gl_free_buffer(geometry->gl, &geometry->history.buffer);
+    geometry->history.shown = 0;
+}
+
+static void swap(GLuint* a, GLuint* b)
+{
+    GLuint c = *a;
+    *a = *b;
+    *b = c;
+}
+
+void hair_geometry_save_history(struct hair_geometry* geometry)
+{
+    struct hair_vertex_history* history = &geometry->history;
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    if (!history->buffer || !history->shown || history->shown != vertex_cache->writes) return;
+    HAIR_ASSERT(history->buffer != vertex_cache->position &&
+                history->texture != vertex_cache->position_texture);
+    swap(&history->buffer, &vertex_cache->position);
+    swap(&history->texture, &vertex_cache->position_texture);
+}
+
+void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
+{
+    struct hair_vertex_history* history = &geometry->history;
+    struct hair_was now = {.turn = {0, 0, 0, 1}};
+    // This is another view of the same frame.
+    if (history->shown && frame && frame == history->frame) return;
+    memcpy(now.position, head->position, sizeof now.position);
+    history->still = !history->shown || history->shown == geometry->vertex_cache.writes;
+    history->before = history->shown ? history->last : now;
+    history->last = now;
+    history->frame = frame;
+    history->shown = geometry->vertex_cache.writes;
+}
+
+void hair_geometry_forget_history(struct hair_geometry* geometry)
+{
+    geometry->history.shown = 0;
+}
+
+void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct hair_pose* from,
+                                    const struct hair_pose* to)
+{
+    struct hair_was* was = &geometry->history.last;
+    if (!geometry->history.shown) return;
+    hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
+    hair_vec3 away = {(float)(was->position[0] - from->position[0]),
+                      (float)(was->position[1] - from->position[1]),
+                      (float)(was->position[2] - from->position[2])};
+    away = hair_rotate(turn, away);
+    was->position[0] = to->position[0] + (double)away.x;
+    was->position[1] = to->position[1] + (double)away.y;
+    was->position[2] = to->position[2] + (double)away.z;
+    was->turn = hair_quat_multiply(turn, was->turn);
+}
+
+void hair_geometry_bind_history(struct hair_geometry* geometry)
+{
+    GLuint texture =
+        geometry->history.still ? geometry->vertex_cache.position_texture : geometry->history.texture;
+    HAIR_ASSERT(texture);
+    geometry->gl->BindTextureUnit(HAIR_UNIT_BEFORE, texture);
+}

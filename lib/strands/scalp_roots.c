@@ -1,0 +1,32 @@
+// scalp_roots.c - followers on a skinned scalp. Their roots follow the scalp between the guides.
+#include "lib/strands/geometry.h"
+
+hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim)
+{
+    struct hair_gl* gl = geometry->gl;
+    GLint max = 0;
+    size_t size = geometry->followers * sizeof(struct hair_follower);
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
+    if (size > (size_t)max)
+        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                         "hair followers on a skinned scalp take %zu bytes, more than the driver's %d", size,
+                         max);
+    return hair_scalp_motion_create(sim);
+}
+
+// Move the roots of followers with the scalp. Free roots are not attached to it.
+void hair_geometry_bind_followers(struct hair_geometry* geometry, struct hair_sim* sim)
+{
+    struct hair_gl* gl = geometry->gl;
+    if (!hair_scalp_motion_is_on(sim) || geometry->bound_run == geometry->smooth.runs ||
+        sim->physics.root == HAIR_ROOT_FREE)
+        return;
+    HAIR_ASSERT(sim->scalp_motion.root_bindings->count == geometry->guides + geometry->followers);
+    hair_sim_bind(sim);
+    hair_scalp_motion_bind_all(sim, geometry->followers);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOLLOWER, 1, &geometry->follower);
+    gl->BindTextureUnit(HAIR_UNIT_POSITION, geometry->smooth.texture[0]);
+    gl->BindTextureUnit(HAIR_UNIT_FRAME, geometry->smooth.texture[2]);
+    hair_gl_run(gl, HAIR_GL_BIND_FOLLOWERS, (geometry->followers + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    geometry->bound_run = geometry->smooth.runs;
+}

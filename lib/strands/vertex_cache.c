@@ -1,0 +1,137 @@
+// vertex_cache.c - vertex cache of followers. Compute shaders write it once for any number of
+// views, or for reading back.
+#include "lib/strands/geometry.h"
+
+#include <math.h>
+
+static hair_result make(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    size_t vertices = hair_geometry_count_vertices(geometry);
+    if (vertex_cache->vertices == vertices) return HAIR_OK;
+    hair_geometry_free_vertex_cache(geometry);
+    hair_result result =
+        hair_gl_storage(gl, "hair vertex cache", vertices * sizeof(hair_vec4), NULL, &vertex_cache->position);
+    if (!result)
+        result =
+            hair_gl_storage(gl, "hair vertex cache tangents", vertices * 8, NULL, &vertex_cache->tangent);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair vertex cache", GL_RGBA32F, vertex_cache->position,
+                                        &vertex_cache->position_texture);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair vertex cache tangents", GL_RGBA16, vertex_cache->tangent,
+                                        &vertex_cache->tangent_texture);
+    if (result)
+        hair_geometry_free_vertex_cache(geometry);
+    else
+        vertex_cache->vertices = vertices;
+    return result;
+}
+
+hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    HAIR_ASSERT(vertex_cache->vertices > 0);
+    if (vertex_cache->shaded_texture) return HAIR_OK;
+    hair_result result =
+        hair_gl_storage(gl, "hair shaded", vertex_cache->vertices * 8, NULL, &vertex_cache->shaded);
+    if (!result)
+        result = hair_gl_buffer_texture(gl, "hair shaded", GL_RGBA16F, vertex_cache->shaded,
+                                        &vertex_cache->shaded_texture);
+    if (result) hair_geometry_free_shaded(geometry);
+    return result;
+}
+
+void hair_geometry_free_shaded(struct hair_geometry* geometry)
+{
+    hair_gl_free_buffer_texture(geometry->gl, &geometry->vertex_cache.shaded_texture);
+    hair_gl_free_buffer(geometry->gl, &geometry->vertex_cache.shaded);
+}
+
+void hair_geometry_free_vertex_cache(struct hair_geometry* geometry)
+{
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    hair_gl_free_buffer_texture(geometry->gl, &vertex_cache->position_texture);
+    hair_gl_free_buffer_texture(geometry->gl, &vertex_cache->tangent_texture);
+    hair_gl_free_buffer(geometry->gl, &vertex_cache->position);
+    hair_gl_free_buffer(geometry->gl, &vertex_cache->tangent);
+    vertex_cache->vertices = 0;
+    vertex_cache->is_complete = 0;
+    hair_geometry_free_shaded(geometry);
+    hair_geometry_free_history(geometry);
+}
+
+// Return whether the cache is up to date. Whatever moves or changes followers also invalidates
+// follower collision.
+static bool is_fresh(const struct hair_geometry* geometry)
+{
+    const struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    return vertex_cache->is_complete && hair_geometry_has_follower_collision(geometry) &&
+           vertex_cache->generation == geometry->follower_collision.generation &&
+           vertex_cache->program_generation == geometry->gl->program_generation;
+}
+
+bool hair_geometry_has_vertex_cache(const struct hair_geometry* geometry)
+{
+    return geometry->vertex_cache.vertices == hair_geometry_count_vertices(geometry) && is_fresh(geometry);
+}
+
+hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
+                                              const struct hair_draw_params* drawn)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    hair_gl_pass pass = hair_geometry_choose_variant(geometry, HAIR_GL_EXPAND);
+    hair_result result = make(geometry);
+    if (!result) result = hair_gl_ensure_program(gl, pass);
+    if (result || is_fresh(geometry)) return result;
+    struct hair_draw_params params;
+    hair_geometry_write_params(geometry, &params);
+    if (!drawn) drawn = &params;
+    hair_gl_write_uniform(gl, geometry->params, sizeof params, drawn);
+    hair_geometry_bind(geometry);
+    hair_geometry_save_history(geometry);
+    HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && drawn->chunks > 0);
+    GLuint buffers[] = {vertex_cache->position, vertex_cache->tangent};
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, geometry->smooth.buffer);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &geometry->follower);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
+    hair_gl_run(gl, pass, geometry->patches * drawn->chunks);
+    // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
+    // glBindBufferBase, which also clears the application's generic binding.
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
+    ++vertex_cache->writes;
+    vertex_cache->is_complete = !drawn->drawn_only;
+    vertex_cache->generation = geometry->follower_collision.generation;
+    vertex_cache->program_generation = gl->program_generation;
+    return HAIR_OK;
+}
+
+hair_result hair_geometry_read_vertex_cache(struct hair_geometry* geometry, hair_vec4** out)
+{
+    struct hair_gl* gl = geometry->gl;
+    int kept = geometry->vertex_cache.vertices > 0;
+    size_t count = hair_geometry_count_vertices(geometry);
+    hair_vec4* vertices = hair_alloc(&gl->host, count, sizeof *vertices);
+    if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
+    hair_result result = hair_geometry_ensure_vertex_cache(geometry, NULL);
+    if (!result)
+        gl->GetNamedBufferSubData(geometry->vertex_cache.position, 0, (GLsizeiptr)(count * sizeof *vertices),
+                                  vertices);
+    if (!kept) hair_geometry_free_vertex_cache(geometry); // Keep the memory only if drawing uses it.
+    if (result) {
+        hair_free(&gl->host, vertices);
+        return result;
+    }
+    *out = vertices;
+    return HAIR_OK;
+}
+
+void hair_geometry_bind_vertex_cache(struct hair_geometry* geometry)
+{
+    HAIR_ASSERT(geometry->vertex_cache.position_texture && geometry->vertex_cache.tangent_texture);
+    geometry->gl->BindTextureUnit(HAIR_UNIT_CACHED_POSITION, geometry->vertex_cache.position_texture);
+    geometry->gl->BindTextureUnit(HAIR_UNIT_CACHED_TANGENT, geometry->vertex_cache.tangent_texture);
+}
