@@ -257,7 +257,8 @@ typedef uint32_t hair_uint;
 // index at which its members end. Then the members.
 #define HAIR_UNIT_CELL 3
 #define HAIR_UNIT_NODE 4     // float[]. HAIR_BIND_NODE.
-#define HAIR_UNIT_ROOT_TRANSFORM 6     // HAIR_BIND_RIDE, for passes that need the scalp motion.
+// HAIR_BIND_ROOT_TRANSFORM, for passes that need the scalp motion.
+#define HAIR_UNIT_ROOT_TRANSFORM 6
 #define HAIR_UNIT_HIT 6      // float per follower, as at HAIR_BIND_HIT.
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point.
 // Textures of the vertex cache, for draws from it, in place of what it was computed from.
@@ -273,7 +274,8 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_ADVECTED 1  // HAIR_BIND_VELOCITY after advection.
 #define HAIR_UNIT_FACE_FRACTION 2
 #define HAIR_UNIT_PRESSURE 3
-// HAIR_BIND_CROWD in fours, of a grid over the whole box. For porous.comp, in place of pressure.
+// HAIR_BIND_HAIR_GRID in fours, of a grid over the whole box. For porous.comp, in place of
+// pressure.
 #define HAIR_UNIT_THICKET 3
 #define HAIR_UNIT_RHS 4
 #define HAIR_UNIT_WALL_VELOCITY 6
@@ -765,7 +767,7 @@ struct hair_root_transform {
 HAIR_SIZE(hair_root_transform, HAIR_ROOT_TRANSFORMS * 32)
 
 // Bits of hair_scalp_params.what.
-#define HAIR_SCALP_CHANGED 1u // The scalp was given since the last step.
+#define HAIR_SCALP_CHANGED 1u // The scalp was set since the last step.
 #define HAIR_SCALP_RESET 2u // There is no history.
 #define HAIR_SCALP_AGAIN 4u // The step has already begun. Only its substeps continue.
 

@@ -6,7 +6,7 @@ struct capsule { // A collider at one moment.
     float radius;
 };
 
-// Return the collider at a fraction `share` of the step, enlarged by `margin`.
+// Return the collider at `fraction` of the step, enlarged by `margin`.
 capsule collider_at(hair_capsule collider, float fraction, float margin)
 {
     vec4 a = mix(collider.start[0], collider.end[0], fraction);

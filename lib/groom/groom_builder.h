@@ -54,7 +54,7 @@ struct hair_groom_builder {
     hair_vec4* map_fraction; // thickness in each set as a fraction of map_thickness
 };
 
-// Steps, in order. Each reports a failure by one sentence and leaves its results in the draft.
+// Steps, in order. Each reports a failure by one sentence and leaves its results in the builder.
 hair_result hair_build_strands(struct hair_groom_builder* builder);
 hair_result hair_build_scalp(struct hair_groom_builder* builder);
 hair_result hair_build_guides(struct hair_groom_builder* builder);

@@ -1,10 +1,10 @@
 // guides.c - selection of the strands that are simulated.
 //
-// From full strands the guides are chosen so that they represent the haircut. The marks of a strand
-// form a point in 12 dimensions. The distance between two points measures how far two strands are
-// apart along their length. The set is split at the mean of the axis of largest variance. The
-// halves are split again, down to one guide per cell. The guide is the strand nearest to the mean
-// of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
+// From full strands the guides are chosen so that they represent the haircut. The shape samples of
+// a strand form a point in 12 dimensions. The distance between two points measures how far two
+// strands are apart along their length. The set is split at the mean of the axis of largest
+// variance. The halves are split again, down to one guide per cell. The guide is the strand nearest
+// to the mean of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
 #include "lib/groom/groom_builder.h"
 
 #include <float.h>

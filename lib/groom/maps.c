@@ -71,8 +71,8 @@ static hair_result check_maps(const struct hair_groom_builder* builder, uint32_t
     return result;
 }
 
-// Find the values before and after a coordinate along a side. `share` is the weight of the second
-// value.
+// Find the values before and after a coordinate along a side. `fraction` is the weight of the
+// second value.
 static void find_between(float uv, uint32_t size, uint32_t at[2], float* fraction)
 {
     // Values are at the texel centres.

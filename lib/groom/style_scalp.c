@@ -157,7 +157,7 @@ static void add_outline(struct build* build)
 // Inner vertices ----------------------------------------------------------------------------------
 
 // Draw candidates evenly by area: keep a direction in proportion to the area stretch of the skull
-// there. `share` receives the fraction of directions that were kept.
+// there. `fraction` receives the fraction of directions that were kept.
 static void draw_candidates(struct build* build, float* fraction)
 {
     const float max = HAIR_SKULL_Y * HAIR_SKULL_Z;

@@ -216,8 +216,8 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
     hair_wind_write(&sim->wind_state, sim->gl, &now);
 }
 
-// Run `total` substeps. sim->left is already the time that remains after them. `again` is 1 if the
-// step has begun already.
+// Run `total` substeps. sim->accumulator is already the time that remains after them. `again` is 1
+// if the step has begun already.
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};

@@ -135,7 +135,7 @@ bool hair_sleep_is_disturbed(const struct hair_sim* sim)
     return !(far <= HEAD_FRACTION * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
 
-// Restart the calm period under the current conditions.
+// Restart the quiet time under the current conditions.
 static void reset_quiet_time(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;

@@ -97,7 +97,7 @@ struct hair_fluid_now {
     struct hair_fluid_strands strands;
     double dt; // Duration of the step, in s.
     const struct hair_collider_field* field;
-    const struct hair_colliders* colliders; // Colliders, which move from `before` to `now`.
+    const struct hair_colliders* colliders; // Colliders, which move from `previous` to `current`.
     double colliders_dt; // Duration of their motion, in s.
 };
 

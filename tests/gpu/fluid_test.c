@@ -27,7 +27,7 @@ static void check(const char* what, const double* got, const double* expected, s
     for (size_t i = 0; i < count; ++i) hair_test_near(what, i, got[i], expected[i], tolerance);
 }
 
-// Check that faces are between `least` and `most`. Slots without a face hold nothing.
+// Check that faces are between `min` and `max`. Slots without a face hold nothing.
 static void check_faces(const char* what, const double* got, const double* min, const double* max,
                         double tolerance)
 {

@@ -58,7 +58,7 @@ static struct fixture start_with(void** state, struct hair_test_handmade wanted)
     return f;
 }
 
-// Start with one guide of each number of vertices up to `most`.
+// Start with one guide of each number of vertices up to `max`.
 static struct fixture start_up_to(void** state, uint32_t max)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();

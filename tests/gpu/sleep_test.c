@@ -55,7 +55,7 @@ static void step(struct hair_test* test, hair_instance* hair)
     hair_test_ok(test, hair_step(hair, 1.0f / FPS));
 }
 
-// Step like an application that shows its frames, so that the GPU is fewer than `most` frames
+// Step like an application that shows its frames, so that the GPU is fewer than `max` frames
 // behind. A GPU that falls behind without limit would report rest much too late.
 static void show(struct hair_test* test, hair_instance* hair, uint32_t frame, uint32_t max)
 {

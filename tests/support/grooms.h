@@ -14,7 +14,7 @@ struct hair_test_strands {
     uint32_t count, vertex_count;
 };
 
-// Return an empty list with room for `count` strands of at most `most` vertices.
+// Return an empty list with room for `count` strands of at most `max` vertices.
 struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t max);
 void hair_test_strands_free(struct hair_test_strands* strands);
 // Add a strand of `vertices` vertices, at point(t) for t from 0 to 1.

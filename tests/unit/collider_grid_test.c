@@ -109,8 +109,8 @@ static hair_vec4 mix(hair_vec4 a, hair_vec4 b, float t)
                        a.w + t * (b.w - a.w)};
 }
 
-// Return the distance of a contact from a position relative to the head's origin, when the fraction
-// `share` of the step is done.
+// Return the distance of a contact from a position relative to the head's origin, when
+// `fraction` of the step is done.
 static double distance_of(const struct hair_contact* contact, const hair_collider* collider, float fraction,
                           hair_vec3 place)
 {

@@ -72,8 +72,8 @@ static double fresnel(double in, double out, double index)
 }
 
 // Return the angle by which a ray is deflected on leaving a unit circle after `legs` legs inside.
-// The ray enters at height h along -x, and is refracted by Snell's law. `share` is the fraction of
-// light that leaves then, and `path` the length inside.
+// The ray enters at height h along -x, and is refracted by Snell's law. `fraction` is the part of
+// the light that leaves then, and `path` the length inside.
 static double trace(double h, int legs, double index, double* fraction, double* path)
 {
     struct vec p = {sqrt(1 - h * h), h}, d = {-1, 0};

@@ -161,7 +161,7 @@ static int is_stable(const struct held* h)
     return 1;
 }
 
-// Return the energy with segments rotated by `share` times the vectors `turns`, in their own
+// Return the energy with segments rotated by `fraction` times the vectors `turns`, in their own
 // frames.
 static double energy_along(const struct held* h, const hair_dvec3* turns, double fraction)
 {
@@ -222,7 +222,7 @@ static void newton_step_uses_second_derivatives_of_the_energy(void** state)
     free(f);
 }
 
-// Return stability at 1 + share (s - 1) times the stiffness, with the guide's multiples s.
+// Return stability at 1 + fraction (s - 1) times the stiffness, with the guide's multiples s.
 static int is_stable_with(const struct hair_test_rod* f, double fraction)
 {
     struct held* h = calloc(1, sizeof *h);
