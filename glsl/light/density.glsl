@@ -17,7 +17,10 @@ layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uin
 // Minima of x, y and z, then minima of their inverted bits, in the encoding of
 // light/float_key.glsl.
 layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
-layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer { vec4 strand_vertex[]; };
+layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer
+{
+    vec4 strand_vertex[];
+};
 
 #define MAX_MET 30.0 // Strands after which no light is left.
 

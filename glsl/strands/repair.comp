@@ -90,7 +90,8 @@ void push(int own, float t, vec3 step)
     if (k == 0) weight = vec4(0.0, 0.0, weight.z - weight.x, weight.w);
     if (k == 1) weight.x = 0.0;
     step /= max(dot(weight, weight), 1e-4);
-    for (int i = k == 0 ? 2 : 0; i < 4; ++i) control[(k - 1 + i) * HAIR_REPAIR_THREADS + own].xyz += weight[i] * step;
+    for (int i = k == 0 ? 2 : 0; i < 4; ++i)
+        control[(k - 1 + i) * HAIR_REPAIR_THREADS + own].xyz += weight[i] * step;
 }
 
 void push_out(int own, uint samples, float slide, float margin)

@@ -6,7 +6,8 @@
 vec4 spline(float x)
 {
     float s = 1.0 - x;
-    return vec4(s * s * s, 4.0 + x * x * (3.0 * x - 6.0), 1.0 + x * (3.0 + x * (3.0 - 3.0 * x)), x * x * x) / 6.0;
+    return vec4(s * s * s, 4.0 + x * x * (3.0 * x - 6.0), 1.0 + x * (3.0 + x * (3.0 - 3.0 * x)), x * x * x) /
+           6.0;
 }
 
 vec4 spline_slope(float x)

@@ -75,8 +75,8 @@ void hair_draw_free_unused(struct hair_renderer* renderer, uint32_t frame);
 // Record that the current frame uses a part. Defined in resource_lru.c.
 void hair_draw_use(struct hair_renderer* renderer, int part);
 
-// Read back the vertices of all followers, like hair_geometry_read_vertex_cache(). Keep the cache as
-// long as one that is drawn. Defined in resource_lru.c.
+// Read back the vertices of all followers, like hair_geometry_read_vertex_cache(). Keep the cache
+// as long as one that is drawn. Defined in resource_lru.c.
 hair_result hair_draw_read_vertices(struct hair_renderer* renderer, hair_vec4** out);
 
 // Create the buffers of the strand list and compile its programs. Nonzero `hides` includes

@@ -47,7 +47,8 @@ static float find_scale(const struct hair_renderer* renderer, const float projec
 }
 
 #define CELL 2.0f // Smallest useful cell of the self-shadow grid, in pixels.
-#define PUSH_OUT_DISTANCE 0.005f // Typical displacement of followers pushed out of colliders, in metres.
+// Typical displacement of followers pushed out of colliders, in metres.
+#define PUSH_OUT_DISTANCE 0.005f
 
 // Return the pixels per metre at the point of the hair's bounding sphere that is nearest to the
 // eye. With an orthographic projection the scale is constant.

@@ -22,7 +22,8 @@ struct hair_strand_list {
     struct hair_strand_list_key* key;
     GLuint start, strand, command; // Buffers, as in shared.h. 0 until needed.
     GLuint strand_texture; // Buffer texture of `strand`, for drawing.
-    struct hair_strand_list_indices indices[2]; // Indices of single vertices, then of paired vertices.
+    // Indices of single vertices, then of paired vertices.
+    struct hair_strand_list_indices indices[2];
 };
 
 #endif

@@ -149,8 +149,8 @@ static double log_bessel(double x)
     return x + log(sum);
 }
 
-// Return the longitudinal scattering for scales without tilt, as in light/fibre.glsl. Angles are measured
-// from the plane across the fibre.
+// Return the longitudinal scattering for scales without tilt, as in light/fibre.glsl. Angles are
+// measured from the plane across the fibre.
 static double longitudinal(double light, double eye, double variance)
 {
     double r = 1 / variance, s = variance / (variance + 0.3);

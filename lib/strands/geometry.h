@@ -22,11 +22,13 @@ struct hair_geometry {
     uint32_t max_isolines; // Maximum number of isolines in a patch.
     uint32_t map_sets;
     float push_out_weight; // Displayed fraction of the displacement by follower collision.
-    uint32_t bound_run; // Run of smooth.comp for which roots of followers last moved with the scalp.
+    // Run of smooth.comp for which roots of followers last moved with the scalp.
+    uint32_t bound_run;
     struct hair_follower_collision_state follower_collision;
     struct hair_vertex_cache vertex_cache;
     struct hair_vertex_history history;
-    struct hair_root_bindings* root_bindings; // Root bindings to the scalp. NULL if there is no scalp.
+    // Root bindings to the scalp. NULL if there is no scalp.
+    struct hair_root_bindings* root_bindings;
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
 };
 
@@ -40,7 +42,8 @@ void hair_geometry_destroy(struct hair_geometry* geometry);
 
 // Return the number of vertices of all followers, look.segments + 1 each.
 size_t hair_geometry_count_vertices(const struct hair_geometry* geometry);
-// Return the number of work groups per patch of a pass over the fraction `fraction` of all vertices.
+// Return the number of work groups per patch of a pass over the fraction `fraction` of all
+// vertices.
 uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction);
 // Write the parameters that place all followers in full detail. All other parameters are 0.
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);

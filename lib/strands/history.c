@@ -1,5 +1,5 @@
-// history.c - vertices of the previous frame. The vertex cache of a displayed frame is kept when new
-// vertices replace it.
+// history.c - vertices of the previous frame. The vertex cache of a displayed frame is kept when
+// new vertices replace it.
 #include "lib/strands/geometry.h"
 
 #include <string.h>

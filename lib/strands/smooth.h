@@ -20,8 +20,8 @@ void hair_smooth_destroy(struct hair_smooth* smooth);
 
 // Smooth the guides as the last step left them. This reads the step buffer.
 void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim);
-// Smooth the guides if they have moved since the last run, so that guides are smoothed only if drawn
-// or read.
+// Smooth the guides if they have moved since the last run, so that guides are smoothed only if
+// drawn or read.
 void hair_smooth_ensure(struct hair_smooth* smooth, struct hair_sim* sim);
 // Record that the guides have moved.
 void hair_smooth_invalidate(struct hair_smooth* smooth);

@@ -120,7 +120,8 @@ hair_result hair_geometry_read_vertex_cache(struct hair_geometry* geometry, hair
     if (!result)
         gl->GetNamedBufferSubData(geometry->vertex_cache.position, 0, (GLsizeiptr)(count * sizeof *vertices),
                                   vertices);
-    if (!kept) hair_geometry_free_vertex_cache(geometry); // Keep the memory only if drawing uses it.
+    // Keep the memory only if drawing uses it.
+    if (!kept) hair_geometry_free_vertex_cache(geometry);
     if (result) {
         hair_free(&gl->host, vertices);
         return result;
