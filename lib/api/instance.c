@@ -97,8 +97,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     if (!result) tell_softened(hair);
     if (!result) result = hair_geometry_create(&hair->geometry, &context->gl, groom, &hair->sim);
     if (!result) result = hair_lighting_create(&hair->lighting, &context->gl, groom);
-    if (!result)
-        result = hair_renderer_create(&hair->renderer, &context->gl, groom, &hair->geometry, &hair->lighting);
+    if (!result) hair_renderer_create(&hair->renderer, &context->gl, groom, &hair->geometry, &hair->lighting);
     if (!result) hair_sim_reset(&hair->sim);
     hair_gl_leave(&context->gl);
     return result;

@@ -93,8 +93,6 @@ static hair_result copy_view(const hair_instance* hair, const hair_view* view, h
     if (!result && own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
-    if (!result && own->shader && own->shader->gl.pixels && own->render_path == HAIR_RENDER_PATH_COMPUTE)
-        own->render_path = HAIR_RENDER_PATH_CACHED; // Shading of pixels needs rasterisation.
     if (!result) result = copy_lights(hair, own, storage->light);
     return result ? result : check_sky(hair, own->sky);
 }
@@ -183,8 +181,9 @@ static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 }
 
 // Record the request of a view. Return whether it is to be drawn.
-static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
+static int is_to_be_drawn(hair_instance* hair, const struct hair_draw_plan* plan)
 {
+    const hair_view* view = plan->view;
     struct hair_frame_requests* requests = hair_current_requests(hair);
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_GUIDES) return !is_out_of_view(hair, view);
     int kind = view->pass == HAIR_PASS_OPACITY ? 2 : view->pass == HAIR_PASS_DEPTH;
@@ -192,10 +191,15 @@ static int is_to_be_drawn(hair_instance* hair, const hair_view* view)
     int unseen = is_out_of_view(hair, view);
     ++requests->views[kind];
     requests->unseen[kind] += (uint32_t)unseen;
-    requests->strand_list |= !unseen && view->render_path != HAIR_RENDER_PATH_TESSELLATION;
-    requests->vertex_cache |= !unseen && hair_draw_uses_vertex_cache(view);
+    requests->strand_list |= !unseen && plan->has_strand_list;
+    requests->vertex_cache |= !unseen && plan->vertices == HAIR_VERTICES_CACHED;
     requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
     return !unseen && hair->geometry.look.density > 0;
+}
+
+static void make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out)
+{
+    hair_draw_make_plan(&hair->renderer, view, view->shader ? &view->shader->gl : NULL, out);
 }
 
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
@@ -208,31 +212,32 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (!result) result = hair_check_current(context);
     if (!result) result = hair_check_view_textures(hair, &own);
     if (!result) result = check_framebuffer(hair);
-    if (!result) own.render_path = hair_draw_path(&hair->renderer, &own);
-    if (result || !is_to_be_drawn(hair, &own)) return result;
+    if (result) return result;
+    struct hair_draw_plan plan;
+    make_plan(hair, &own, &plan);
+    if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
     hair_enter(hair);
     hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     if (is_of_surroundings(&own)) {
         result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
         make_ready(hair);
-        hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &own);
+        hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
         if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.density > 0)
             result = update_follower_collision(hair);
         hair->renderer.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
                                      !hair_scalp_motion_is_on(&hair->sim);
         hair->renderer.has_attached_roots = is_held(&hair->sim);
-        if (!result)
-            result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &own,
-                                   own.shader && own.pass == HAIR_PASS_COLOR ? &own.shader->gl : NULL);
+        if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
     hair_gl_leave(&context->gl);
     if (!result) hair->sim.unseen = 0;
     return result;
 }
 
-static hair_result ensure_programs(hair_instance* hair, const hair_view* view)
+static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* plan)
 {
+    const hair_view* view = plan->view;
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
     int colliders = sim->colliders.current.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
@@ -245,8 +250,7 @@ static hair_result ensure_programs(hair_instance* hair, const hair_view* view)
     if (!result && shows) result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
     if (!result && shows && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
     if (result || shows) return result;
-    struct hair_gl_shader* shader = view->shader && view->pass == HAIR_PASS_COLOR ? &view->shader->gl : NULL;
-    return hair_draw_ensure_programs(&hair->renderer, view, shader, colliders);
+    return hair_draw_precompile(&hair->renderer, plan, colliders);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready)
@@ -258,11 +262,12 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t
     hair_result result = view ? copy_view(hair, view, &own, &storage) : HAIR_OK;
     if (!result) result = hair_check_current(hair->context);
     if (result) return result;
-    if (view) own.render_path = hair_draw_path(&hair->renderer, &own);
+    struct hair_draw_plan plan;
+    if (view) make_plan(hair, &own, &plan);
     hair_gl_enter(gl);
     hair_gl_begin_async(gl);
     result = hair_sim_ensure_programs(&hair->sim);
-    if (!result && view) result = ensure_programs(hair, &own);
+    if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
     hair_gl_leave(gl);
     if (!result) *ready = pending == 0;

@@ -66,13 +66,14 @@ static float pixels_of(const struct hair_renderer* renderer, const struct hair_p
     return find_scale(renderer, view->projection) / fmaxf(w, 1e-6f);
 }
 
-void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head, const hair_view* view)
+void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose* head,
+                          const struct hair_draw_plan* plan)
 {
-    const hair_lod* lod = view ? view->lod : NULL;
+    const hair_lod* lod = plan ? plan->view->lod : NULL;
     renderer->pixels_per_metre = 0;
     renderer->geometry->push_out_weight = 1;
-    if (!lod || !lod->per_patch || hair_draw_uses_vertex_cache(view)) return;
-    renderer->pixels_per_metre = fmaxf(lod->importance * pixels_of(renderer, head, view), 1e-6f);
+    if (!lod || !lod->per_patch || plan->vertices == HAIR_VERTICES_CACHED) return;
+    renderer->pixels_per_metre = fmaxf(lod->importance * pixels_of(renderer, head, plan->view), 1e-6f);
     renderer->geometry->push_out_weight =
         fminf(fmaxf(PUSH_OUT_DISTANCE * renderer->pixels_per_metre - 1, 0), 1);
 }

@@ -116,18 +116,15 @@ bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct
     return out->sign != 0 && find_texels(renderer, head, view, out);
 }
 
-hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer,
-                                       const struct hair_occlusion_params* params)
+hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_OCCLUSION] = renderer->frame;
+    const struct hair_occlusion_params* params = &plan->occlusion;
     struct hair_gl* gl = renderer->gl;
     struct hair_occlusion* occlusion = &renderer->occlusion;
     HAIR_ASSERT(params->columns > 0 && params->rows > 0);
     size_t texels = hair_hiz_texels(params->columns, params->rows);
     size_t boxes = (size_t)renderer->geometry->guides * HAIR_OCCLUSION_PARTS * 2;
-    hair_result result =
-        hair_gl_ensure_programs(gl, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES,
-                                renderer->geometry->follower_collision.active ? HAIR_GL_WITH(HITS) : 0);
+    hair_result result = HAIR_OK;
     if (!result && texels > occlusion->room) {
         // Make room for the whole texture, so that hair that comes nearer does not reallocate the
         // buffer.
@@ -146,20 +143,20 @@ hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer,
     return result;
 }
 
-void hair_draw_cull_occluded(struct hair_renderer* renderer, const hair_view* view,
-                             struct hair_occlusion_params* params)
+void hair_draw_cull_occluded(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
+    struct hair_occlusion_params* params = &plan->occlusion;
     struct hair_gl* gl = renderer->gl;
     struct hair_occlusion* occlusion = &renderer->occlusion;
     HAIR_ASSERT(occlusion->room >= hair_hiz_texels(params->columns, params->rows));
     GLuint buffers[] = {occlusion->depth, occlusion->box, renderer->geometry->patch};
     uint32_t parts = renderer->geometry->guides * HAIR_OCCLUSION_PARTS;
     hair_gl_pass patches = HAIR_GL_CULL_PATCHES;
-    if (renderer->geometry->follower_collision.active)
+    if (hair_geometry_has_hits(renderer->geometry))
         patches = hair_gl_add_features(patches, HAIR_GL_WITH(HITS));
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
-    gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, view->occluder_depth);
+    gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, plan->view->occluder_depth);
     gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler);
     hair_hiz_run(gl, occlusion->params, params);
     hair_gl_run(gl, HAIR_GL_GUIDE_BOUNDS, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);

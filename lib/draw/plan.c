@@ -1,7 +1,6 @@
-// plan.c - decisions about a view, such as its render path. The render path is the requested path,
-// the fastest measured path of this driver, or the only one that supports the view.
+// plan.c - the plan of a view. The render path is the requested path, or the fastest measured path of
+// this driver. Two tables say what the view draws by that path.
 #include "lib/draw/draw.h"
-#include "lib/draw/params.h"
 
 #include <math.h>
 #include <string.h>
@@ -9,6 +8,45 @@
 // Maximum vertices, of 24 bytes each. Beyond it, memory costs more than time.
 #define MAX_CACHED 4194304u
 #define MAX_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
+
+// Methods of drawing strands.
+enum method { TESS, PROC, CACHE, VIEW, COMP, COMPV, METHODS };
+
+static const struct {
+    hair_render_path path;
+    enum hair_vertex_source vertices;
+    bool is_computed;
+} methods[METHODS] = {
+    [TESS] = {HAIR_RENDER_PATH_TESSELLATION, HAIR_VERTICES_TESSELLATED, false},
+    [PROC] = {HAIR_RENDER_PATH_INSTANCED, HAIR_VERTICES_PROCEDURAL, false},
+    [CACHE] = {HAIR_RENDER_PATH_CACHED, HAIR_VERTICES_CACHED, false},
+    [VIEW] = {HAIR_RENDER_PATH_CACHED, HAIR_VERTICES_PER_VIEW, false},
+    [COMP] = {HAIR_RENDER_PATH_COMPUTE, HAIR_VERTICES_CACHED, true},
+    [COMPV] = {HAIR_RENDER_PATH_COMPUTE, HAIR_VERTICES_PER_VIEW, true},
+};
+
+// Kinds of views. PLAIN has colour or depth without a shader. A shader counts in both.
+enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KINDS };
+
+// The method of each kind of view by render path, without and with a level of detail.
+//
+// A level of detail leaves out most vertices of the vertex cache and places others differently, so it
+// uses per-view vertices. They hold a position, a width and a colour. Other outputs need vertices
+// that the vertex shader computes. Motion vectors compare vertices of the vertex cache, and sorted
+// segments index them. Pixels by compute are opaque, and hold only colour or depth. Lines
+// take the column `cached` in place of `compute`.
+// clang-format off
+static const uint8_t method_of[KINDS][4][2] = {
+    //                 tessellation    instanced       cached          compute
+    [PLAIN]         = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, VIEW},  {COMP,  COMPV}},
+    [VERTEX_SHADER] = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {COMP,  COMPV}},
+    [PIXEL_SHADER]  = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
+    [SORTED]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+    [OPACITY]       = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
+    [IDS]           = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
+    [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+};
+// clang-format on
 
 static const struct {
     const char* renderer; // Part of the renderer's name.
@@ -31,21 +69,6 @@ void hair_draw_find_fastest(struct hair_renderer* renderer)
         ++renderer->driver;
 }
 
-bool hair_draw_uses_alpha(const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA;
-}
-
-bool hair_draw_uses_analytic_coverage(const hair_view* view)
-{
-    return view->pass == HAIR_PASS_OPACITY || hair_draw_uses_alpha(view);
-}
-
-static bool is_of_lines(const hair_view* view)
-{
-    return view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_uses_analytic_coverage(view);
-}
-
 static bool has_few_samples(const struct hair_gl* gl)
 {
     GLfloat viewport[4] = {0};
@@ -56,84 +79,83 @@ static bool has_few_samples(const struct hair_gl* gl)
     return samples <= HAIR_RASTER_SAMPLES && max <= MAX_SAMPLES;
 }
 
-// Return whether compute rasterisation supports the view. Its pixels are opaque, and hold only
-// colour or depth.
-static bool is_computable(const hair_view* view)
+static enum kind find_kind(const hair_view* view, const struct hair_gl_shader* shader)
 {
-    int shown = view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH;
-    return shown && view->primitive == HAIR_PRIMITIVE_RIBBONS;
+    switch (view->pass) {
+    case HAIR_PASS_MOTION: return MOTION;
+    case HAIR_PASS_OPACITY: return OPACITY;
+    case HAIR_PASS_COLOR:
+        if (view->coverage == HAIR_COVERAGE_ALPHA) return SORTED;
+        break;
+    case HAIR_PASS_DEPTH: break;
+    default: return IDS;
+    }
+    if (!shader) return PLAIN;
+    return shader->pixels ? PIXEL_SHADER : VERTEX_SHADER;
 }
 
-static hair_render_path find_fastest_for(const struct hair_renderer* renderer, const hair_view* view)
+// Return the method by a render path. Compute rasterisation has no lines.
+static enum method find_method(enum kind kind, const hair_view* view, hair_render_path path)
 {
-    int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines(view) + 2 * (view->lod != NULL) : 4;
+    if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
+        path = HAIR_RENDER_PATH_CACHED;
+    HAIR_ASSERT((unsigned)path < sizeof method_of[0] / sizeof method_of[0][0]);
+    return method_of[kind][path][view->lod != NULL];
+}
+
+// Return the render path that HAIR_RENDER_PATH_AUTO selects.
+static hair_render_path find_fastest_for(const struct hair_renderer* renderer, enum kind kind,
+                                         const hair_view* view)
+{
+    bool is_of_lines = view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_uses_analytic_coverage(view);
+    int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines + 2 * (view->lod != NULL) : 4;
     HAIR_ASSERT(0 <= column && column < 5 && renderer->driver < sizeof fastest / sizeof *fastest);
     hair_render_path path = fastest[renderer->driver].path[column];
     size_t vertices = hair_geometry_count_vertices(renderer->geometry);
     if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MAX_CACHED)
         return HAIR_RENDER_PATH_TESSELLATION;
-    if (path != HAIR_RENDER_PATH_COMPUTE ||
-        (is_computable(view) && !view->shader && has_few_samples(renderer->gl)))
+    if (path != HAIR_RENDER_PATH_COMPUTE) return path;
+    if (kind == PLAIN && methods[find_method(kind, view, path)].is_computed && has_few_samples(renderer->gl))
         return path;
     return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
 }
 
-// Return whether the view needs the vertex cache. Motion vectors compare its vertices, and
-// sorted segments index them.
-static bool keeps_vertices(const hair_view* view)
+bool hair_draw_uses_analytic_coverage(const hair_view* view)
 {
-    return view->pass == HAIR_PASS_MOTION || hair_draw_uses_alpha(view);
-}
-
-// A level of detail leaves out most vertices of the cache and places others differently, so it uses
-// per-view vertices.
-bool hair_draw_uses_view_cache(const hair_view* view)
-{
-    return view->lod && !keeps_vertices(view) &&
-           (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE);
-}
-
-bool hair_draw_uses_vertex_cache(const hair_view* view)
-{
-    return (view->render_path == HAIR_RENDER_PATH_CACHED || view->render_path == HAIR_RENDER_PATH_COMPUTE) &&
-           !hair_draw_uses_view_cache(view);
-}
-
-bool hair_draw_caches_sides(const hair_view* view)
-{
-    return view->render_path == HAIR_RENDER_PATH_CACHED && hair_draw_uses_view_cache(view);
-}
-
-bool hair_draw_is_paired(const hair_view* view)
-{
-    return view->primitive == HAIR_PRIMITIVE_RIBBONS && !hair_draw_uses_analytic_coverage(view) &&
-           view->render_path == HAIR_RENDER_PATH_CACHED;
-}
-
-// Return whether per-view vertices suffice. They hold a position, a width and a colour.
-static bool is_view_cacheable(const hair_view* view)
-{
-    return (view->pass == HAIR_PASS_COLOR || view->pass == HAIR_PASS_DEPTH) && !view->shader;
-}
-
-hair_render_path hair_draw_path(const struct hair_renderer* renderer, const hair_view* view)
-{
-    if (keeps_vertices(view)) return HAIR_RENDER_PATH_CACHED;
-    hair_render_path path =
-        view->render_path == HAIR_RENDER_PATH_AUTO ? find_fastest_for(renderer, view) : view->render_path;
-    if (path == HAIR_RENDER_PATH_COMPUTE && !is_computable(view)) path = HAIR_RENDER_PATH_CACHED;
-    return path == HAIR_RENDER_PATH_CACHED && view->lod && !is_view_cacheable(view)
-               ? HAIR_RENDER_PATH_INSTANCED
-               : path;
-}
-
-bool hair_draw_is_shaded(const hair_view* view, const struct hair_gl_shader* shader)
-{
-    return view->pass == HAIR_PASS_COLOR && !view->lod && !(shader && shader->pixels) &&
-           hair_draw_uses_vertex_cache(view);
+    return view->pass == HAIR_PASS_OPACITY ||
+           (view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA);
 }
 
 bool hair_draw_uses_occlusion(const hair_view* view)
 {
     return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
+}
+
+void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* view,
+                         struct hair_gl_shader* shader, struct hair_draw_plan* out)
+{
+    const struct hair_geometry* geometry = renderer->geometry;
+    bool is_colored = view->pass == HAIR_PASS_COLOR, has_uvs = hair_geometry_has_uvs(geometry);
+    enum kind kind = find_kind(view, shader);
+    hair_render_path path = view->render_path == HAIR_RENDER_PATH_AUTO
+                                ? find_fastest_for(renderer, kind, view)
+                                : view->render_path;
+    enum method method = find_method(kind, view, path);
+    memset(out, 0, sizeof *out);
+    out->view = view;
+    out->shader = is_colored ? shader : NULL;
+    out->path = methods[method].path;
+    out->vertices = methods[method].vertices;
+    out->is_computed = methods[method].is_computed;
+    out->blending = kind == SORTED    ? HAIR_BLENDING_SORTED
+                    : kind == OPACITY ? HAIR_BLENDING_UNSORTED
+                                      : HAIR_BLENDING_NONE;
+    out->is_paired =
+        view->primitive == HAIR_PRIMITIVE_RIBBONS && !out->blending && out->path == HAIR_RENDER_PATH_CACHED;
+    out->has_sides = method == VIEW;
+    out->has_strand_list = method != TESS;
+    out->is_textured = is_colored && view->color_texture && has_uvs;
+    out->is_painted = is_colored && renderer->lighting->groom_color && geometry->look.groom_colors > 0;
+    out->has_root_uvs = out->is_textured || (out->shader && has_uvs);
+    out->light_values = hair_lighting_value_count(&geometry->look, view);
 }

@@ -5,6 +5,8 @@
 
 #include <string.h>
 
+// Features of compute rasterisation. DEPTH selects depth without colour, and WIDENED per-view vertices.
+#define FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
 // Find the positions of the samples in a pixel.
@@ -122,10 +124,9 @@ static size_t count_numbers(const struct hair_raster_params* params, hair_gl_pas
     return (size_t)params->columns * params->rows * params->samples * (with & HAIR_GL_WITH(DEPTH) ? 1 : 2);
 }
 
-hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, hair_gl_pass with,
-                                    const struct hair_raster_params* params)
+hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_RASTER] = renderer->frame;
+    const struct hair_raster_params* params = &plan->raster;
     struct hair_gl* gl = renderer->gl;
     struct hair_raster* raster = &renderer->raster;
     hair_result result = HAIR_OK;
@@ -136,7 +137,8 @@ hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, hair_gl_pass
     if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
     if (!result) result = ensure_tiles(gl, raster, params->tiles);
     if (result) return result;
-    return ensure_room(gl, "hair nearest", count_numbers(params, with), &raster->nearest, &raster->room);
+    return ensure_room(gl, "hair nearest", count_numbers(params, plan->draw), &raster->nearest,
+                       &raster->room);
 }
 
 void hair_draw_free_raster(struct hair_renderer* renderer)
@@ -154,8 +156,10 @@ static uint32_t groups_for(uint64_t threads)
     return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
-void hair_draw_rasterise(struct hair_renderer* renderer, hair_gl_pass with, struct hair_raster_params* params)
+void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
+    const hair_gl_pass with = plan->draw & FEATURES;
+    struct hair_raster_params* params = &plan->raster;
     struct hair_gl* gl = renderer->gl;
     struct hair_raster* raster = &renderer->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
@@ -178,13 +182,13 @@ void hair_draw_rasterise(struct hair_renderer* renderer, hair_gl_pass with, stru
     hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
 }
 
-void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_raster_params* params)
+void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
-    HAIR_ASSERT(params->tiles > 0);
+    HAIR_ASSERT(plan->raster.tiles > 0);
     GLint mode[2] = {GL_FILL, GL_FILL};
     gl->GetIntegerv(GL_POLYGON_MODE, mode);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(6 * params->tiles));
+    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(6 * plan->raster.tiles));
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)mode[0]);
 }

@@ -20,9 +20,9 @@ static hair_result make_index(struct hair_renderer* renderer, size_t segments)
     return HAIR_OK;
 }
 
-hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer)
+hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_SORTED_SEGMENTS] = renderer->frame;
+    (void)plan;
     struct hair_gl* gl = renderer->gl;
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.segments;
@@ -31,7 +31,6 @@ hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer)
         result = hair_gl_storage(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t), NULL,
                                  &sorted_segments->bucket);
     if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
-    if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, 0);
     return result;
 }
 

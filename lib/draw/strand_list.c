@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static hair_result make_lists(struct hair_renderer* renderer, int occlusion)
+static hair_result make_lists(struct hair_renderer* renderer)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_strand_list* strand_list = &renderer->strand_list;
@@ -25,9 +25,7 @@ static hair_result make_lists(struct hair_renderer* renderer, int occlusion)
     if (!result && !strand_list->command)
         result = hair_gl_storage(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command), NULL,
                                  &strand_list->command);
-    return result ? result
-                  : hair_gl_ensure_programs(gl, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS,
-                                            occlusion ? HAIR_GL_WITH(OCCLUSION) : 0);
+    return result;
 }
 
 // Return the indices of one instance of 64 strands for each segment count n, n/2, ... 1, from which
@@ -53,7 +51,7 @@ static uint16_t* write_indices(const struct hair_gl* gl, uint32_t segments, int 
     return indices;
 }
 
-hair_result hair_draw_ensure_indices(struct hair_renderer* renderer, int paired)
+static hair_result ensure_indices(struct hair_renderer* renderer, int paired)
 {
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(paired == 0 || paired == 1);
@@ -76,10 +74,11 @@ hair_result hair_draw_ensure_indices(struct hair_renderer* renderer, int paired)
     return HAIR_OK;
 }
 
-hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, int occlusion)
+hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_STRAND_LIST] = renderer->frame;
-    return make_lists(renderer, occlusion);
+    hair_result result = make_lists(renderer);
+    if (!result && !plan->is_computed) result = ensure_indices(renderer, plan->is_paired);
+    return result;
 }
 
 void hair_draw_free_strand_list(struct hair_renderer* renderer)
@@ -123,20 +122,20 @@ static struct hair_strand_list_key describe(const struct hair_renderer* renderer
     return of;
 }
 
-void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_params* params,
-                                  int occlusion)
+void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                                  const struct hair_draw_params* params)
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_strand_list* strand_list = &renderer->strand_list;
     GLuint buffers[] = {strand_list->start, strand_list->strand, strand_list->command};
     HAIR_ASSERT(strand_list->key && strand_list->command);
     struct hair_strand_list_key of = describe(renderer, params);
-    hair_gl_pass with = occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
-    if (!occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
+    hair_gl_pass with = plan->has_occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
+    if (!plan->has_occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
     hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, renderer->geometry->patches);
-    if (occlusion) of.program_generation = 0; // No other view has the same occluded patches.
+    if (plan->has_occlusion) of.program_generation = 0; // No other view has the same occluded patches.
     *strand_list->key = of;
 }
 

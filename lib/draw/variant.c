@@ -1,75 +1,114 @@
-// variant.c - choice of the program variants that a look and a view need.
+// variant.c - passes of a view, in the variants that its plan and the look need.
 #include "lib/draw/draw.h"
-#include "lib/draw/params.h"
-
-static const hair_gl_pass row_of_path[] = {[HAIR_RENDER_PATH_TESSELLATION] = HAIR_GL_TESSELLATED,
-                                           [HAIR_RENDER_PATH_INSTANCED] = HAIR_GL_INSTANCED,
-                                           [HAIR_RENDER_PATH_CACHED] = HAIR_GL_CACHED,
-                                           [HAIR_RENDER_PATH_COMPUTE] = HAIR_GL_RESOLVE_TILES};
-
-bool hair_draw_is_textured(const struct hair_renderer* renderer, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && view->color_texture && hair_geometry_has_uvs(renderer->geometry);
-}
-
-bool hair_draw_is_painted(const struct hair_renderer* renderer, const hair_view* view)
-{
-    return view->pass == HAIR_PASS_COLOR && renderer->lighting->groom_color &&
-           renderer->geometry->look.groom_colors > 0;
-}
-
-bool hair_draw_wants_uvs(const struct hair_renderer* renderer, const hair_view* view,
-                         const struct hair_gl_shader* shader)
-{
-    return hair_draw_is_textured(renderer, view) || (shader && hair_geometry_has_uvs(renderer->geometry));
-}
-
-static hair_gl_pass features_of(const struct hair_renderer* renderer, const hair_view* view,
-                                const struct hair_gl_shader* shader)
-{
-    hair_gl_pass features = 0;
-    if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
-    if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
-    if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
-    if (view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading == HAIR_SHADING_FIBRES)
-        features |= HAIR_GL_WITH(FIBRES);
-    if (hair_draw_uses_analytic_coverage(view))
-        features |= HAIR_GL_WITH(ALPHA_COVERAGE);
-    else if (view->primitive == HAIR_PRIMITIVE_LINES)
-        features |= HAIR_GL_WITH(LINES);
-    if (view->lod) features |= HAIR_GL_WITH(WIDENED);
-    if (hair_lighting_is_blocked(view)) features |= HAIR_GL_WITH(OPAQUE_SHADOWS);
-    if (hair_draw_wants_uvs(renderer, view, shader)) features |= HAIR_GL_WITH(ROOT_UV);
-    if (hair_draw_is_painted(renderer, view)) features |= HAIR_GL_WITH(GROOM_COLORS);
-    return features;
-}
 
 // Features of shading, for views that shade vertices in a separate pass.
 #define SHADE_FEATURES                                                                                       \
     (HAIR_GL_WITH(FIBRES) | HAIR_GL_WITH(ROOT_UV) | HAIR_GL_WITH(GROOM_COLORS) | HAIR_GL_WITH(OPAQUE_SHADOWS))
 
-hair_result hair_draw_ensure_program(struct hair_renderer* renderer, hair_gl_pass pass,
-                                     struct hair_gl_shader* shader, GLuint* out)
+static hair_gl_pass find_features(const struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
-    if (shader) return hair_gl_ensure_user_program(renderer->gl, shader, pass, out);
-    hair_result result = hair_gl_ensure_program(renderer->gl, pass);
-    if (!result) *out = hair_gl_find(renderer->gl, pass)->program;
+    const hair_view* view = plan->view;
+    const hair_look* look = &renderer->geometry->look;
+    hair_gl_pass features = 0;
+    if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
+    if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
+    if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
+    if (view->pass == HAIR_PASS_COLOR && look->shading == HAIR_SHADING_FIBRES)
+        features |= HAIR_GL_WITH(FIBRES);
+    if (plan->blending)
+        features |= HAIR_GL_WITH(ALPHA_COVERAGE);
+    else if (view->primitive == HAIR_PRIMITIVE_LINES)
+        features |= HAIR_GL_WITH(LINES);
+    if (view->lod) features |= HAIR_GL_WITH(WIDENED);
+    if (hair_lighting_is_blocked(view)) features |= HAIR_GL_WITH(OPAQUE_SHADOWS);
+    if (plan->has_root_uvs) features |= HAIR_GL_WITH(ROOT_UV);
+    if (plan->is_painted) features |= HAIR_GL_WITH(GROOM_COLORS);
+    if (hair_look_is_styled(look)) features |= HAIR_GL_WITH(STYLED);
+    return features;
+}
+
+// Return the row of the pass that shades or writes vertices before they are drawn, or -1.
+static int find_shade_row(const struct hair_draw_plan* plan)
+{
+    const hair_view* view = plan->view;
+    bool shades_pixels = plan->shader && plan->shader->pixels;
+    if (plan->vertices == HAIR_VERTICES_PER_VIEW)
+        return plan->has_sides ? HAIR_GL_EXPAND_VIEW_SIDES : HAIR_GL_EXPAND_VIEW;
+    if (plan->vertices == HAIR_VERTICES_CACHED && view->pass == HAIR_PASS_COLOR && !view->lod &&
+        !shades_pixels)
+        return HAIR_GL_SHADE;
+    return -1;
+}
+
+static hair_gl_pass find_draw_row(const struct hair_draw_plan* plan)
+{
+    if (plan->is_computed) return HAIR_GL_RESOLVE_TILES;
+    switch (plan->vertices) {
+    case HAIR_VERTICES_TESSELLATED: return HAIR_GL_TESSELLATED;
+    case HAIR_VERTICES_PROCEDURAL: return HAIR_GL_INSTANCED;
+    case HAIR_VERTICES_PER_VIEW: return HAIR_GL_VIEW_CACHED;
+    default: return plan->is_paired ? HAIR_GL_CACHED_PAIRED : HAIR_GL_CACHED;
+    }
+}
+
+// Add all rows from `first` to `last`, each with the features that it supports.
+static void add(struct hair_draw_plan* plan, hair_gl_pass first, hair_gl_pass last, hair_gl_pass features)
+{
+    for (hair_gl_pass row = first; row <= last; ++row) {
+        HAIR_ASSERT(plan->pass_count < HAIR_DRAW_MAX_PASSES);
+        plan->pass[plan->pass_count++] = hair_gl_add_features(row, features);
+    }
+}
+
+void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass state,
+                           struct hair_draw_plan* plan)
+{
+    hair_gl_pass features = find_features(renderer, plan) | state, row = find_draw_row(plan);
+    int shade_row = find_shade_row(plan);
+    plan->pass_count = 0;
+    if (state & HAIR_GL_WITH(OCCLUSION)) add(plan, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, features);
+    if (plan->vertices == HAIR_VERTICES_CACHED || plan->light_values)
+        add(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
+    if (plan->light_values) add(plan, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, features);
+    if (plan->has_strand_list) add(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);
+    if (shade_row >= 0) add(plan, (hair_gl_pass)shade_row, (hair_gl_pass)shade_row, features);
+    plan->shade = shade_row >= 0 ? plan->pass[plan->pass_count - 1] : 0;
+    if (plan->is_computed) add(plan, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, features);
+    if (plan->blending == HAIR_BLENDING_SORTED) add(plan, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, features);
+    if (shade_row == HAIR_GL_SHADE) features = (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
+    add(plan, row, row, features);
+    plan->draw = plan->pass[plan->pass_count - 1];
+}
+
+hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_plan* plan)
+{
+    struct hair_gl* gl = renderer->gl;
+    hair_gl_pass shaded = plan->shade ? plan->shade : plan->draw; // The application's shader runs here.
+    hair_result result = HAIR_OK;
+    GLuint program = 0;
+    for (uint32_t i = 0; i < plan->pass_count && !result; ++i) {
+        hair_gl_pass pass = plan->pass[i];
+        if (plan->shader && pass == shaded)
+            result = hair_gl_ensure_user_program(gl, plan->shader, pass, &program);
+        else
+            result = hair_gl_ensure_program(gl, pass);
+        if (result || (pass != plan->draw && pass != plan->shade)) continue;
+        if (!plan->shader || pass != shaded) program = hair_gl_find(gl, pass)->program;
+        *(pass == plan->draw ? &plan->draw_program : &plan->shade_program) = program;
+    }
     return result;
 }
 
-hair_gl_pass hair_draw_find_passes(const struct hair_renderer* renderer, const hair_view* view,
-                                   const struct hair_gl_shader* shader, hair_gl_pass* shade)
+hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,
+                                 bool may_collide)
 {
-    HAIR_ASSERT((size_t)view->render_path < sizeof row_of_path / sizeof *row_of_path);
-    hair_gl_pass features = features_of(renderer, view, shader), row = row_of_path[view->render_path];
-    if (hair_draw_is_paired(view)) row = HAIR_GL_CACHED_PAIRED;
-    *shade = 0;
-    if (hair_draw_is_shaded(view, shader)) *shade = hair_gl_add_features(HAIR_GL_SHADE, features);
-    if (hair_draw_uses_view_cache(view)) {
-        int sides = hair_draw_caches_sides(view);
-        *shade = hair_gl_add_features(sides ? HAIR_GL_EXPAND_VIEW_SIDES : HAIR_GL_EXPAND_VIEW, features);
-        return hair_gl_add_features(sides ? HAIR_GL_VIEW_CACHED : row, features);
-    }
-    if (row == HAIR_GL_RESOLVE_TILES) return hair_gl_add_features(row, features);
-    return !*shade ? row | features : row | (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
+    const hair_gl_pass occlusion = hair_draw_uses_occlusion(plan->view) ? HAIR_GL_WITH(OCCLUSION) : 0;
+    const struct hair_geometry* geometry = renderer->geometry;
+    hair_draw_find_passes(renderer, occlusion, plan);
+    hair_result result = hair_draw_compile(renderer, plan);
+    if (result || !may_collide || geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_NONE)
+        return result;
+    result = hair_geometry_ensure_hit_programs(renderer->geometry);
+    hair_draw_find_passes(renderer, occlusion | HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS), plan);
+    return result ? result : hair_draw_compile(renderer, plan);
 }

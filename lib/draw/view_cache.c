@@ -13,12 +13,11 @@ static const struct {
 
 // Return the size of a part in bytes. Drawn ribbons have two sides and no tangent. Compute
 // rasterisation uses tangents. Buffers keep the larger size.
-static size_t size_of(const hair_view* view, int part, size_t vertices)
+static size_t size_of(const struct hair_draw_plan* plan, int part, size_t vertices)
 {
-    if (part == HAIR_VIEW_CACHE_TANGENT && hair_draw_caches_sides(view)) return 0;
-    if (part == HAIR_VIEW_CACHE_SHADED && view->pass == HAIR_PASS_DEPTH) return 0;
-    return vertices * parts[part].size *
-           (part == HAIR_VIEW_CACHE_POSITION && hair_draw_is_paired(view) ? 2 : 1);
+    if (part == HAIR_VIEW_CACHE_TANGENT && plan->has_sides) return 0;
+    if (part == HAIR_VIEW_CACHE_SHADED && plan->view->pass == HAIR_PASS_DEPTH) return 0;
+    return vertices * parts[part].size * (part == HAIR_VIEW_CACHE_POSITION && plan->is_paired ? 2 : 1);
 }
 
 static void free_part(struct hair_renderer* renderer, int part)
@@ -43,16 +42,15 @@ static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t 
     return result;
 }
 
-hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, const hair_view* view)
+hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    renderer->used[HAIR_DRAW_VIEW_CACHE] = renderer->frame;
     struct hair_view_cache* view_cache = &renderer->view_cache;
     size_t vertices = hair_geometry_count_vertices(renderer->geometry);
     hair_result result = HAIR_OK;
     if (view_cache->vertices != vertices) hair_draw_free_view_cache(renderer);
     view_cache->vertices = vertices;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
-        result = ensure_part(renderer, i, size_of(view, i, vertices));
+        result = ensure_part(renderer, i, size_of(plan, i, vertices));
     if (result) hair_draw_free_view_cache(renderer);
     return result;
 }

@@ -9,6 +9,7 @@
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
     struct hair_self_shadow_state* own = &lighting->self_shadow;
+    if (!own->density) return; // The first buffer that is made.
     hair_gl_free_buffer_texture(lighting->gl, &own->texture);
     hair_gl_free_buffer(lighting->gl, &own->density);
     hair_gl_free_buffer(lighting->gl, &own->box);
@@ -52,10 +53,7 @@ static hair_result make(struct hair_lighting* lighting, const struct hair_geomet
             hair_gl_storage(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t), NULL, &own->density);
     if (!result && !own->box)
         result = hair_gl_storage(gl, "hair density box", 6 * sizeof(uint32_t), NULL, &own->box);
-    if (!result) result = make_light(lighting, geometry, each);
-    if (result) return result;
-    return hair_gl_ensure_programs(gl, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE,
-                                   geometry->follower_collision.field ? HAIR_GL_WITH(COLLIDERS) : 0);
+    return result ? result : make_light(lighting, geometry, each);
 }
 
 static void fill(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t groups)

@@ -73,9 +73,13 @@ hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_
     return hair_look_is_styled(&geometry->look) ? hair_gl_add_features(pass, HAIR_GL_WITH(STYLED)) : pass;
 }
 
+bool hair_geometry_has_hits(const struct hair_geometry* geometry)
+{
+    return geometry->follower_collision.active && geometry->push_out_weight > 0;
+}
+
 hair_gl_pass hair_geometry_choose_variant(const struct hair_geometry* geometry, hair_gl_pass pass)
 {
-    if (geometry->follower_collision.active && geometry->push_out_weight > 0)
-        pass = hair_gl_add_features(pass, HAIR_GL_WITH(HITS));
+    if (hair_geometry_has_hits(geometry)) pass = hair_gl_add_features(pass, HAIR_GL_WITH(HITS));
     return hair_geometry_add_style(geometry, pass);
 }

@@ -51,6 +51,8 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
 void hair_geometry_bind(struct hair_geometry* geometry);
 // Return `pass` with the styling features that the look needs.
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass);
+// Return whether displayed followers have met colliders, which needs program variants.
+bool hair_geometry_has_hits(const struct hair_geometry* geometry);
 // Return `pass` with the features that the look and, near colliders, follower collision need.
 hair_gl_pass hair_geometry_choose_variant(const struct hair_geometry* geometry, hair_gl_pass pass);
 
