@@ -75,8 +75,8 @@ hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct ha
 void hair_draw_free_unused(struct hair_renderer* renderer, uint32_t frame);
 // Free all resources.
 void hair_draw_free_resources(struct hair_renderer* renderer);
-// Read back the vertices of all followers, like hair_geometry_read_vertex_cache(). Keep the cache as
-// long as one that is drawn.
+// Read back the vertices of all followers, like hair_geometry_read_vertex_cache(). Keep the cache
+// as long as one that is drawn.
 hair_result hair_draw_read_vertices(struct hair_renderer* renderer, hair_vec4** out);
 
 // Compute the light that reaches each vertex, for a plan with self-shadowing. Defined in
@@ -88,8 +88,8 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
 hair_result hair_draw_ensure_strand_list(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 void hair_draw_free_strand_list(struct hair_renderer* renderer);
 // List the strands that are drawn, unless the list is up to date with `params` and the smoothed
-// guides. With occlusion culling, leave out occluded patches and always rebuild the list. The inputs
-// of followers must be bound.
+// guides. With occlusion culling, leave out occluded patches and always rebuild the list. The
+// inputs of followers must be bound.
 void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                                   const struct hair_draw_params* params);
 // Draw the listed strands with the current program. Nonzero `paired` draws triangles between two
@@ -111,14 +111,14 @@ bool hair_draw_uses_occlusion(const hair_view* view);
 
 // Functions of variant.c.
 
-// Write the passes of a plan. `state` has the features OCCLUSION if patches are tested for occlusion,
-// HITS if followers have met colliders, and COLLIDERS if colliders block light.
+// Write the passes of a plan. `state` has the features OCCLUSION if patches are tested for
+// occlusion, HITS if followers have met colliders, and COLLIDERS if colliders block light.
 void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass state,
                            struct hair_draw_plan* plan);
 // Compile the passes of a plan.
 hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_plan* plan);
-// Compile all passes that drawing by the plan may need. If `may_collide`, include those for followers
-// that have met colliders.
+// Compile all passes that drawing by the plan may need. If `may_collide`, include those for
+// followers that have met colliders.
 hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,
                                  bool may_collide);
 

@@ -1,5 +1,5 @@
-// plan.c - the plan of a view. The render path is the requested path, or the fastest measured path of
-// this driver. Two tables say what the view draws by that path.
+// plan.c - the plan of a view. The render path is the requested path, or the fastest measured path
+// of this driver. Two tables say what the view draws by that path.
 #include "lib/draw/draw.h"
 
 #include <math.h>
@@ -30,21 +30,20 @@ enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KI
 
 // The method of each kind of view by render path, without and with a level of detail.
 //
-// A level of detail leaves out most vertices of the vertex cache and places others differently, so it
-// uses per-view vertices. They hold a position, a width and a colour. Other outputs need vertices
-// that the vertex shader computes. Motion vectors compare vertices of the vertex cache, and sorted
-// segments index them. Pixels by compute are opaque, and hold only colour or depth. Lines
-// take the column `cached` in place of `compute`.
-// clang-format off
+// A level of detail leaves out most vertices of the vertex cache and places others differently, so
+// it uses per-view vertices. They hold a position, a width and a colour. Other outputs need
+// vertices that the vertex shader computes. Motion vectors compare vertices of the vertex cache,
+// and sorted segments index them. Pixels by compute are opaque, and hold only colour or depth.
+// Lines take the column `cached` in place of `compute`. clang-format off
 static const uint8_t method_of[KINDS][4][2] = {
     //                 tessellation    instanced       cached          compute
-    [PLAIN]         = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, VIEW},  {COMP,  COMPV}},
-    [VERTEX_SHADER] = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {COMP,  COMPV}},
-    [PIXEL_SHADER]  = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [SORTED]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
-    [OPACITY]       = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [IDS]           = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+    [PLAIN] = {{TESS, TESS}, {PROC, PROC}, {CACHE, VIEW}, {COMP, COMPV}},
+    [VERTEX_SHADER] = {{TESS, TESS}, {PROC, PROC}, {CACHE, PROC}, {COMP, COMPV}},
+    [PIXEL_SHADER] = {{TESS, TESS}, {PROC, PROC}, {CACHE, PROC}, {CACHE, PROC}},
+    [SORTED] = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+    [OPACITY] = {{TESS, TESS}, {PROC, PROC}, {CACHE, PROC}, {CACHE, PROC}},
+    [IDS] = {{TESS, TESS}, {PROC, PROC}, {CACHE, PROC}, {CACHE, PROC}},
+    [MOTION] = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
 };
 // clang-format on
 

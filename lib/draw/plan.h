@@ -10,12 +10,13 @@
 // Source of the vertices that a view draws.
 enum hair_vertex_source {
     HAIR_VERTICES_TESSELLATED, // The tessellator computes them.
-    HAIR_VERTICES_PROCEDURAL, // The vertex shader computes them, for the strands of the strand list.
+    // The vertex shader computes them, for the strands of the strand list.
+    HAIR_VERTICES_PROCEDURAL,
     HAIR_VERTICES_CACHED, // The vertex cache has those of all followers.
     HAIR_VERTICES_PER_VIEW, // The view cache has those of the strand list.
 };
 
-// How strands are blended into the framebuffer.
+// Blending of strands into the framebuffer.
 enum hair_blending {
     HAIR_BLENDING_NONE,
     HAIR_BLENDING_UNSORTED, // By coverage, in any order.

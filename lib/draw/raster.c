@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-// Features of compute rasterisation. DEPTH selects depth without colour, and WIDENED per-view vertices.
+// Features of compute rasterisation. DEPTH selects depth without colour, and WIDENED per-view
+// vertices.
 #define FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 

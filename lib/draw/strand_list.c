@@ -135,7 +135,8 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);
     hair_gl_run(gl, HAIR_GL_SCAN_STRANDS | with, 1);
     hair_gl_run(gl, HAIR_GL_COMPACT_STRANDS | with, renderer->geometry->patches);
-    if (plan->has_occlusion) of.program_generation = 0; // No other view has the same occluded patches.
+    // No other view has the same occluded patches.
+    if (plan->has_occlusion) of.program_generation = 0;
     *strand_list->key = of;
 }
 

@@ -83,7 +83,8 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
 hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
-    hair_gl_pass shaded = plan->shade ? plan->shade : plan->draw; // The application's shader runs here.
+    // The application's shader runs here.
+    hair_gl_pass shaded = plan->shade ? plan->shade : plan->draw;
     hair_result result = HAIR_OK;
     GLuint program = 0;
     for (uint32_t i = 0; i < plan->pass_count && !result; ++i) {
