@@ -3,7 +3,7 @@
 
 #define MAX_UNUSED_FRAMES 240 // Toggling a setting must not reallocate each time.
 
-// Ensure -------------------------------------------------------------------------------------------
+// Ensure ------------------------------------------------------------------------------------------
 
 static hair_result ensure_fibres(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
@@ -37,7 +37,7 @@ static hair_result ensure_history(struct hair_renderer* renderer, struct hair_dr
     return result;
 }
 
-// Release ------------------------------------------------------------------------------------------
+// Release -----------------------------------------------------------------------------------------
 
 static void free_fibres(struct hair_renderer* renderer)
 {
@@ -69,7 +69,7 @@ static void free_self_shadow(struct hair_renderer* renderer)
     hair_lighting_free_self_shadow(renderer->lighting);
 }
 
-// The table ----------------------------------------------------------------------------------------
+// The table ---------------------------------------------------------------------------------------
 
 static const struct {
     hair_result (*ensure)(struct hair_renderer* renderer, struct hair_draw_plan* plan);
