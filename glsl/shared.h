@@ -267,7 +267,7 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_CACHED_TANGENT 7 // vec4 per vertex. xyz in [0, 1] stand for [-1, 1].
 #define HAIR_UNIT_FIELD 8    // Distance field: signed distance, m.
 #define HAIR_UNIT_COLLIDER 9    // Number of the nearest collider.
-#define HAIR_UNIT_FIBRE 10   // Table of lib/draw/fibre.h.
+#define HAIR_UNIT_FIBRE 10   // Table of lib/light/fibre.h.
 #define HAIR_UNIT_AIR 11     // Velocity of the fluid at the centres of its cells, m/s.
 // Textures of the fluid passes. The others are bound as their slots say.
 #define HAIR_UNIT_VELOCITY 0 // HAIR_BIND_VELOCITY before the step.

@@ -1,7 +1,7 @@
 // fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
 // et al. 2003, with the longitudinal part after d'Eon et al. 2011. The model of many fibres is dual
 // scattering (Zinke et al. 2008), with the number of fibres in front of a point as in a Poisson
-// process. lib/draw/fibre.c tabulates the azimuthal part.
+// process. lib/light/fibre.c tabulates the azimuthal part.
 //
 // Longitudinal lobes are made symmetric, so that the path of light is reversible. They are divided
 // by a factor q that is fitted to conserve energy, to 0.7 % for a fibre without tilt.

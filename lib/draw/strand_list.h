@@ -7,7 +7,7 @@
 
 // Inputs that a list was built from.
 struct hair_strand_list_key {
-    uint32_t program_generation; // Value of hair_gl.made. 0 if there is no list.
+    uint32_t program_generation; // Value of hair_gl.program_generation. 0 if there is no list.
     uint32_t runs; // Run of smooth.comp, if the list depends on the positions of hair.
     struct hair_draw_params params; // Parameters that the list depends on. All others are 0.
 };
