@@ -91,6 +91,11 @@ report: setup ## build/report/index.html: run time against error on one page, af
 	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
 	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
 
+docs: ## build/docs/index.html: the headers of include/hair and their guide as HTML, by doxygen
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/docs/packages.txt
+	@mkdir -p build && rm -rf build/docs
+	@doxygen tools/docs/Doxyfile
+
 test: setup ## Every test that a change must pass
 	@$(MAKE) -j$(JOBS) all examples $(TESTS)
 	@$(MAKE) check glsl consumer run-tests
@@ -218,7 +223,7 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles symbols formatted ## Check the order of folders, circles of files, exported names and formatting
+check: rooms circles symbols comments lines functions words formatted ## Check the order of folders, circles of files, exported names and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
@@ -249,6 +254,18 @@ install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFI
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
+TEXTS := lib/*/*.[ch] lib/*/*.cpp lib/*/*.inl include/hair/*.h tools/*.[ch] tools/*.inl tools/*/*.[ch] tools/*/*.cpp \
+  tests/*/*.[ch] tests/*/*.cpp
+TEXTS := $(wildcard $(TEXTS)) $(GLSL)
+comments:
+	@LC_ALL=C awk -f tools/check/comments.awk $(TEXTS)
+lines:
+	@LC_ALL=C awk -f tools/check/lines.awk $(TEXTS)
+functions:
+	@awk -f tools/check/functions.awk $(filter lib/%.c lib/%.cpp tools/%.c tools/%.cpp,$(TEXTS))
+words:
+	@awk -f tools/check/words.awk $(filter lib/% glsl/%,$(TEXTS))
+
 SOURCES = $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
 # A machine without clang-format-14 skips this check.
 formatted:
@@ -263,4 +280,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols formatted consumer install install-tree format help clean
+.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols comments lines functions words formatted consumer install install-tree format help clean

@@ -12,7 +12,7 @@
 #define hair_mat4 mat4
 #define hair_uint uint
 #define HAIR_STRUCT(T) T
-#define HAIR_SIZE(T, n)
+#define HAIR_SIZE(T)
 #else
 #include <stdint.h>
 typedef struct hair_vec4 {
@@ -24,9 +24,9 @@ typedef struct hair_mat4 {
 typedef uint32_t hair_uint;
 #define HAIR_STRUCT(T) struct T
 #ifdef __cplusplus
-#define HAIR_SIZE(T, n) static_assert(sizeof(struct T) == n, #T " is not as GLSL lays it out");
+#define HAIR_SIZE(T) static_assert(sizeof(struct T) % 16 == 0, #T " needs members unused0, ... at its end");
 #else
-#define HAIR_SIZE(T, n) _Static_assert(sizeof(struct T) == n, #T " is not as GLSL lays it out");
+#define HAIR_SIZE(T) _Static_assert(sizeof(struct T) % 16 == 0, #T " needs members unused0, ... at its end");
 #endif
 #endif
 
@@ -91,12 +91,14 @@ typedef uint32_t hair_uint;
 #define HAIR_BIND_ROOT_TRANSFORM 3       // hair_root_transform[] per guide.
 #define HAIR_BIND_SCALP 4      // float[]. xyz per scalp vertex, in the space of the application.
 #define HAIR_BIND_SCALP_REST 5 // float[]. xyz per scalp vertex at rest, in groom space. Read-only.
-#define HAIR_BIND_ROOT_BINDING 6       // hair_root_binding[] of guides, then of followers. Read-only.
+// hair_root_binding[] of guides, then of followers. Read-only.
+#define HAIR_BIND_ROOT_BINDING 6
 #define HAIR_BIND_FOLLOWER 7   // hair_follower[]
 
 // Buffers of the passes that find followers inside colliders.
 #define HAIR_BIND_HIT 3    // float[] per follower. First vertex inside, or HAIR_NO_HIT.
-#define HAIR_BIND_REPAIR 4 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
+// uvec2[] per follower and control point of strands/repair.glsl. Four halves.
+#define HAIR_BIND_REPAIR 4
 #define HAIR_BIND_LIST 5 // uint[]. Two counts, used alternately, then the followers to be repaired.
 // Read-only buffers of hit.comp with HAIR_HIT_GROUP and of the pass that writes the vertex cache.
 // They have these in place of textures of guides and followers.
@@ -157,7 +159,8 @@ typedef uint32_t hair_uint;
 
 // float[]. Hi-Z: farthest depth of every texel of every level. See glsl/draw/hiz.glsl.
 #define HAIR_BIND_HIZ 0
-#define HAIR_BIND_GUIDE_BOUNDS 1 // hair_vec4[] per guide and part. Lower corner, then upper corner, m.
+// hair_vec4[] per guide and part. Lower corner, then upper corner, m.
+#define HAIR_BIND_GUIDE_BOUNDS 1
 #define HAIR_BIND_OCCLUSION_PATCH 2 // hair_patch[]
 
 // Buffers of the fluid passes. They read what they do not write as textures.
@@ -201,6 +204,9 @@ typedef uint32_t hair_uint;
 #define HAIR_FOUND_FASTEST 2 // m/s, as bits of a float.
 #define HAIR_FOUND_STRETCH 3 // Relative error of a length, as bits of a float.
 #define HAIR_FOUND_COUNT 4
+// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion,
+// in metres.
+#define HAIR_CONTACT_FIT 0.02
 // Guides per work group in programs with HAIR_PASS1, one subgroup per guide.
 #define HAIR_PASS1_GUIDES 28
 // Two headers, used alternately, follow the counters at HAIR_SOLVER_STATS_COUNT. A header holds the
@@ -251,7 +257,8 @@ typedef uint32_t hair_uint;
 // index at which its members end. Then the members.
 #define HAIR_UNIT_CELL 3
 #define HAIR_UNIT_NODE 4     // float[]. HAIR_BIND_NODE.
-#define HAIR_UNIT_ROOT_TRANSFORM 6     // HAIR_BIND_RIDE, for passes that need the scalp motion.
+// HAIR_BIND_ROOT_TRANSFORM, for passes that need the scalp motion.
+#define HAIR_UNIT_ROOT_TRANSFORM 6
 #define HAIR_UNIT_HIT 6      // float per follower, as at HAIR_BIND_HIT.
 #define HAIR_UNIT_REPAIR 7   // vec4 per follower and control point.
 // Textures of the vertex cache, for draws from it, in place of what it was computed from.
@@ -267,7 +274,8 @@ typedef uint32_t hair_uint;
 #define HAIR_UNIT_ADVECTED 1  // HAIR_BIND_VELOCITY after advection.
 #define HAIR_UNIT_FACE_FRACTION 2
 #define HAIR_UNIT_PRESSURE 3
-// HAIR_BIND_CROWD in fours, of a grid over the whole box. For porous.comp, in place of pressure.
+// HAIR_BIND_HAIR_GRID in fours, of a grid over the whole box. For porous.comp, in place of
+// pressure.
 #define HAIR_UNIT_THICKET 3
 #define HAIR_UNIT_RHS 4
 #define HAIR_UNIT_WALL_VELOCITY 6
@@ -390,7 +398,8 @@ typedef uint32_t hair_uint;
 #define HAIR_REPAIR_CONTROLS 10  // Control points stored per follower.
 #define HAIR_REPAIR_THREADS 32   // Threads of a work group.
 #define HAIR_REPAIR_SAMPLES 64   // Maximum segments of a follower that are tested.
-#define HAIR_COLLISION_IS_SINGLE_GUIDE 1 // HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
+// HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
+#define HAIR_COLLISION_IS_SINGLE_GUIDE 1
 
 // A guide at rest, in groom space.
 struct hair_guide {
@@ -400,7 +409,7 @@ struct hair_guide {
     float     arc_length; // m.
     hair_uint unused;
 };
-HAIR_SIZE(hair_guide, 32)
+HAIR_SIZE(hair_guide)
 
 // A guide vertex at rest, in groom space.
 struct hair_rest {
@@ -414,14 +423,14 @@ struct hair_rest {
     hair_vec4
         frame;
 };
-HAIR_SIZE(hair_rest, 48)
+HAIR_SIZE(hair_rest)
 
 // A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. All quantities are
 // divided by the mass of one metre of hair, which makes masses lengths. Follow-the-leader uses
-// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K r + a'
-// and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a damping
-// rate. Its segment.w is the part of this rate that acts against the turn of the segment before,
-// 1/s.
+// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K
+// r + a' and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a
+// damping rate. Its segment.w is the part of this rate that acts against the turn of the segment
+// before, 1/s.
 struct hair_rod {
     // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
     // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it
@@ -439,7 +448,7 @@ struct hair_rod {
     // Row of L D L^T of implicit Euler, the fallback method.
     hair_vec4 factor_euler;
 };
-HAIR_SIZE(hair_rod, 64)
+HAIR_SIZE(hair_rod)
 
 // A guide vertex in motion. Positions are relative to the head's origin, because floats then
 // resolve micrometres far from the world's origin. The displacement is stored and not differenced,
@@ -452,7 +461,7 @@ struct hair_state {
     // xyz: displacement over the last substep, in the world, m. w: tension / line density, m^2/s^2.
     hair_vec4 displacement;
 };
-HAIR_SIZE(hair_state, 32)
+HAIR_SIZE(hair_state)
 
 // A pin of a guide vertex, beside the scalp. Pins are in the order of guides and their vertices.
 struct hair_held {
@@ -464,7 +473,7 @@ struct hair_held {
     // next pin in the list is of the same guide.
     hair_vec4 span;
 };
-HAIR_SIZE(hair_held, 32)
+HAIR_SIZE(hair_held)
 
 // History of a guide vertex for BDF2, beside its state. Velocities are stored as displacements per
 // substep.
@@ -474,7 +483,7 @@ struct hair_history {
     // the end of the last substep.
     hair_vec4 rate_before;
 };
-HAIR_SIZE(hair_history, 32)
+HAIR_SIZE(hair_history)
 
 // A sphere with two equal ends, a capsule, or a capsule around another shape. It is given at the
 // start and at the end of the step, from the head's origin.
@@ -485,7 +494,7 @@ struct hair_capsule {
     // w: maximum distance that an end travels, m.
     hair_vec4 spin;
 };
-HAIR_SIZE(hair_capsule, 80)
+HAIR_SIZE(hair_capsule)
 
 // The collider itself, where a hair_capsule only encloses it, at the start and at the end of the
 // step.
@@ -495,7 +504,7 @@ struct hair_body {
     hair_vec4 rotation[2]; // Unit quaternions of one hemisphere.
     hair_vec4 size;        // xyz: as the shape says, m. w: hair_shape.
 };
-HAIR_SIZE(hair_body, 80)
+HAIR_SIZE(hair_body)
 
 // A collider, for scenes with any number of them.
 struct hair_contact {
@@ -508,7 +517,7 @@ struct hair_contact {
     // margin, m.
     hair_vec4 ball;
 };
-HAIR_SIZE(hair_contact, 16 * HAIR_CONTACT_TEXELS)
+HAIR_SIZE(hair_contact)
 
 // Pose of the head at the end of a substep.
 struct hair_substep {
@@ -517,7 +526,7 @@ struct hair_substep {
     // its end.
     hair_vec4 displacement;
 };
-HAIR_SIZE(hair_substep, 32)
+HAIR_SIZE(hair_substep)
 
 // Parameters of a step that all its substeps share. Frequencies are angular.
 struct hair_step_params {
@@ -567,7 +576,7 @@ struct hair_step_params {
     HAIR_STRUCT(hair_capsule) collider[HAIR_STEP_COLLIDERS];
     HAIR_STRUCT(hair_body) body[HAIR_STEP_COLLIDERS];
 };
-HAIR_SIZE(hair_step_params, 240 + HAIR_STEP_SUBSTEPS * 32 + HAIR_STEP_COLLIDERS * 160)
+HAIR_SIZE(hair_step_params)
 
 // Wind parameters of the rod solvers.
 struct hair_wind_params {
@@ -599,14 +608,14 @@ struct hair_wind_params {
     // origin, m. w: time, s, below 0.
     hair_vec4 at[HAIR_STEP_SUBSTEPS];
 };
-HAIR_SIZE(hair_wind_params, 160 + 16 * HAIR_WIND_BALLS + 32 * HAIR_WIND_SOURCES + 16 * HAIR_STEP_SUBSTEPS)
+HAIR_SIZE(hair_wind_params)
 
 // Contribution of a guide vertex to the hair-hair grid, in the grid's units.
 struct hair_grid_splat {
     hair_uint mass, volume;
     hair_uint first, end; // Vertices of its guide.
 };
-HAIR_SIZE(hair_grid_splat, 16)
+HAIR_SIZE(hair_grid_splat)
 
 // Parameters of the hair-hair grid of mass, momentum and volume. The grid moves with the head.
 struct hair_grid_params {
@@ -624,7 +633,7 @@ struct hair_grid_params {
     // 1 / mass, in units, of a length of strand that never lies at one node.
     float     per_strand;
 };
-HAIR_SIZE(hair_grid_params, 80)
+HAIR_SIZE(hair_grid_params)
 
 // Parameters of occlusion culling against the application's depth.
 struct hair_occlusion_params {
@@ -646,7 +655,7 @@ struct hair_occlusion_params {
     hair_uint clips;    // 1 if geometry outside the texture is not visible.
     hair_uint guides;
 };
-HAIR_SIZE(hair_occlusion_params, 128)
+HAIR_SIZE(hair_occlusion_params)
 
 // Parameters of the compute rasteriser. Pixels are in row order. The samples of a pixel are
 // adjacent.
@@ -668,7 +677,7 @@ struct hair_raster_params {
     // Positions in the pixel of samples 2 i and 2 i + 1: xy and zw.
     hair_vec4 at[HAIR_RASTER_SAMPLES / 2];
 };
-HAIR_SIZE(hair_raster_params, 128 + 8 * HAIR_RASTER_SAMPLES)
+HAIR_SIZE(hair_raster_params)
 
 // Parameters of the activity test of guides that may have come to rest.
 struct hair_activity_params {
@@ -677,7 +686,7 @@ struct hair_activity_params {
     hair_uint anchors;  // 1 if the current positions become the anchors.
     float     rate;     // Speed per displacement, 1/s.
 };
-HAIR_SIZE(hair_activity_params, 16)
+HAIR_SIZE(hair_activity_params)
 
 // Parameters by which motion.comp measures guides after the last substep.
 struct hair_motion_params {
@@ -690,7 +699,7 @@ struct hair_motion_params {
     float     wait;  // Time that damping needs to calm any guide, s.
     float     creep; // Time added to `wait` per metre of a guide's length, s/m.
 };
-HAIR_SIZE(hair_motion_params, 48)
+HAIR_SIZE(hair_motion_params)
 
 // Parameters by which energy.comp watches the guides after a step.
 struct hair_energy_params {
@@ -699,7 +708,7 @@ struct hair_energy_params {
     float     time;   // Length of the step's substeps, s.
     float     rate;   // Speed per displacement, 1/s.
 };
-HAIR_SIZE(hair_energy_params, 16)
+HAIR_SIZE(hair_energy_params)
 
 // Mechanical energy of a guide, divided by its mass per metre, m^3/s^2.
 struct hair_energy {
@@ -711,7 +720,7 @@ struct hair_energy {
     // half as much as the one after it.
     hair_vec4 window;
 };
-HAIR_SIZE(hair_energy, 32)
+HAIR_SIZE(hair_energy)
 
 // A strand that is interpolated while drawing. t goes from 0 at its root to 1 at its tip, and u = t
 // length_ratio. g_k(u) and F_k(u) are the position and frame of guide k. o(t) is the cubic Bezier
@@ -731,7 +740,7 @@ struct hair_follower {
     // xyz: control points in guide 0's frame, m. [0].w: radius, as a fraction of the look's.
     hair_vec4 offset[4];
 };
-HAIR_SIZE(hair_follower, 96)
+HAIR_SIZE(hair_follower)
 
 // Root binding: the point on the scalp to which a root is bound, at rest.
 struct hair_root_binding {
@@ -739,7 +748,7 @@ struct hair_root_binding {
     float     weight1, weight2;          // Barycentric weights of corner1 and corner2.
     float     away_x, away_y, away_z;    // Offset from the point to the root, m.
 };
-HAIR_SIZE(hair_root_binding, 32)
+HAIR_SIZE(hair_root_binding)
 
 // Times of hair_root_transform.
 #define HAIR_ROOT_TRANSFORM_THEN 0 // End of the last substep before this step.
@@ -755,10 +764,10 @@ struct hair_root_transform {
     hair_vec4 shift[HAIR_ROOT_TRANSFORMS]; // xyz: m, in the head's frame.
     hair_vec4 turn[HAIR_ROOT_TRANSFORMS];  // Unit quaternions.
 };
-HAIR_SIZE(hair_root_transform, HAIR_ROOT_TRANSFORMS * 32)
+HAIR_SIZE(hair_root_transform)
 
 // Bits of hair_scalp_params.what.
-#define HAIR_SCALP_CHANGED 1u // The scalp was given since the last step.
+#define HAIR_SCALP_CHANGED 1u // The scalp was set since the last step.
 #define HAIR_SCALP_RESET 2u // There is no history.
 #define HAIR_SCALP_AGAIN 4u // The step has already begun. Only its substeps continue.
 
@@ -779,7 +788,7 @@ struct hair_scalp_params {
     hair_uint smooth_vertices;
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_scalp_params, 80)
+HAIR_SIZE(hair_scalp_params)
 
 // Followers that are drawn together, in an order that may be cut short. Grooms make patches of at
 // most HAIR_MAX_ISOLINES followers.
@@ -795,7 +804,7 @@ struct hair_patch {
     float     importance;    // Factor of the size on the screen.
     hair_uint occluded;        // 1 if the last occlusion culling found the patch occluded.
 };
-HAIR_SIZE(hair_patch, 64)
+HAIR_SIZE(hair_patch)
 
 // Place and range of the distance field.
 struct hair_field_params {
@@ -805,7 +814,7 @@ struct hair_field_params {
     // xyz: 1 / sides of the box, 1/m. w: distance that stands for all greater distances, m.
     hair_vec4 inverse;
 };
-HAIR_SIZE(hair_field_params, 48)
+HAIR_SIZE(hair_field_params)
 
 // A collider in the head's frame.
 struct hair_field_collider {
@@ -819,7 +828,7 @@ struct hair_field_collider {
     hair_uint number; // Index among the instance's colliders.
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_field_collider, 96)
+HAIR_SIZE(hair_field_collider)
 
 // A collider to be drawn, and its bounding box in its own axes.
 struct hair_debug_collider {
@@ -827,7 +836,7 @@ struct hair_debug_collider {
     hair_vec4 lower; // xyz: m.
     hair_vec4 upper; // xyz: m.
 };
-HAIR_SIZE(hair_debug_collider, 128)
+HAIR_SIZE(hair_debug_collider)
 
 // Parameters of colliders that are drawn for debugging, cut open at a slice of the distance field.
 struct hair_debug_params {
@@ -845,7 +854,7 @@ struct hair_debug_params {
     hair_vec4 air;
     HAIR_STRUCT(hair_debug_collider) shown[HAIR_DEBUG_COLLIDERS];
 };
-HAIR_SIZE(hair_debug_params, 112 + HAIR_DEBUG_COLLIDERS * 128)
+HAIR_SIZE(hair_debug_params)
 
 // HAIR_BRICK^3 voxels, and the colliders that reach into them.
 struct hair_field_brick {
@@ -854,7 +863,7 @@ struct hair_field_brick {
     hair_uint count;
     hair_uint unused;
 };
-HAIR_SIZE(hair_field_brick, 16)
+HAIR_SIZE(hair_field_brick)
 
 // Parameters of the fluid. Its box is a cube along the world's axes.
 struct hair_fluid_params {
@@ -875,7 +884,7 @@ struct hair_fluid_params {
     float     viscous;   // Drag of strands per viscous force, times the step, m^2.
     hair_uint unused;
 };
-HAIR_SIZE(hair_fluid_params, 144)
+HAIR_SIZE(hair_fluid_params)
 
 // A level of the fluid's grid, and what a pass does there. Each level has half as many cells along
 // an axis as the level before it.
@@ -887,14 +896,14 @@ struct hair_fluid_level {
     float     relax; // Relaxation factor.
     hair_uint unused;
 };
-HAIR_SIZE(hair_fluid_level, 32)
+HAIR_SIZE(hair_fluid_level)
 
 // Velocity of a collider. At a position p it is velocity + cross(spin, p).
 struct hair_fluid_motion {
     hair_vec4 velocity; // xyz: at the head's origin, m/s.
     hair_vec4 spin;     // xyz: 1/s.
 };
-HAIR_SIZE(hair_fluid_motion, 32)
+HAIR_SIZE(hair_fluid_motion)
 
 // Curves of a look along a strand.
 #define HAIR_CURVE_TAPER 0
@@ -927,7 +936,7 @@ struct hair_strand_look {
     float     max_width; // Factor of the offsets, at least 1.
     hair_uint unused;
 };
-HAIR_SIZE(hair_strand_look, (HAIR_CURVES * HAIR_CURVE_INTERVALS + 2 * HAIR_TURN_PLACES) * 16 + 64)
+HAIR_SIZE(hair_strand_look)
 
 // A strand that is drawn without a tessellator.
 struct hair_strand {
@@ -936,7 +945,7 @@ struct hair_strand {
     float     widened; // Factor within `width` that compensates for strands that are left out.
     float     whole;   // Number of segments. The fraction is that of the last one.
 };
-HAIR_SIZE(hair_strand, 16)
+HAIR_SIZE(hair_strand)
 
 // An indirect command. A draw begins with what OpenGL reads of an indexed indirect draw. The
 // dispatch that writes per-view vertices begins with three work group counts.
@@ -948,7 +957,7 @@ struct hair_draw_command {
     hair_uint each;    // Vertices per strand, in the dispatch.
     hair_uint unused0;
 };
-HAIR_SIZE(hair_draw_command, 32)
+HAIR_SIZE(hair_draw_command)
 
 // Colours of strands.
 struct hair_tint {
@@ -966,7 +975,7 @@ struct hair_tint {
     float     groom_color_power; // Exponent that darkens the groom's colours.
     hair_uint unused0, unused1;
 };
-HAIR_SIZE(hair_tint, (HAIR_CURVE_INTERVALS + 2) * 16 + 48)
+HAIR_SIZE(hair_tint)
 
 // xyz with w = 0: unit direction to the light. xyz with w = 1: position of the light from the
 // head's origin, m.
@@ -1049,7 +1058,6 @@ struct hair_draw_params {
     // Matrices of r, g and b. The irradiance on a plane of unit normal n is (n, 1) sky (n, 1).
     hair_mat4 sky[3];
 };
-HAIR_SIZE(hair_draw_params, 5 * 64 + 10 * 16 + 80 + sizeof(struct hair_tint) + sizeof(struct hair_strand_look) +
-                                HAIR_LIGHTS * HAIR_LIGHT_VECTORS * 16 + (HAIR_SHADOW_MAPS + 3) * 64)
+HAIR_SIZE(hair_draw_params)
 
 #endif

@@ -20,7 +20,8 @@ ROW("Colliders from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
         "tools/scenes/bullet.json --show hair,head,colliders")
 
-ROW("Wind as a fluid around the head, whose gusts travel through it; of its air, blue is lee and red faster than the wind")
+ROW("Wind as a fluid around the head, whose gusts travel through it; of its air, blue is lee and red faster "
+    "than the wind")
 PICTURE("Wind of 3 m/s from the left", "--scene wind --frames 24:25")
 PICTURE("A fifth of a second later", "--scene wind --frames 30:31")
 PICTURE("Its air (--show wind)", "--scene wind --show head,wind --frames 24:25")
@@ -28,7 +29,8 @@ PICTURE("A fifth of a second later", "--scene wind --show head,wind --frames 30:
 PICTURE("What a lock feels of it: drag=0.1", "--scene wind --set drag=0.1 --frames 24:25")
 
 ROW("Three ways to make followers of the same guides")
-PICTURE("Single strand: offsets from one guide (interpolation=single)", "--scene demo --set interpolation=single")
+PICTURE("Single strand: offsets from one guide (interpolation=single)",
+        "--scene demo --set interpolation=single")
 PICTURE("Multi strand: between three guides (interpolation=multi)", "--scene demo --set interpolation=multi")
 PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
 
@@ -71,38 +73,47 @@ ROW("Variety: what chance, water, dye and light make of one colour")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
 PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_darkening=0.6")
 PICTURE("A fraction of grey hairs (streaks by strand)",
-        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_clumping=0 --set streak_color.r=0.6 --set "
+        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_clumping=0 --set "
+        "streak_color.r=0.6 --set "
         "streak_color.g=0.6 --set streak_color.b=0.6")
 PICTURE("Dyed tips: a ramp of eight colours",
-        "--scene demo --set color=blond --set tint_red=1,1,1,1,0.8,0.35,0.1,0.05 --set tint_green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
+        "--scene demo --set color=blond --set tint_red=1,1,1,1,0.8,0.35,0.1,0.05 --set "
+        "tint_green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
         "tint_blue=1,1,1,1,1.5,2.2,2.5,2.5")
-PICTURE("Lines with a highlight that glitters (sparkle=1)", "--scene demo --set shading=lines --set sparkle=1")
+PICTURE("Lines with a highlight that glitters (sparkle=1)",
+        "--scene demo --set shading=lines --set sparkle=1")
 
 ROW("Shading of the host's own, and ours in it")
-PICTURE("Ours, changed towards the tips (--shader frost.glsl)", "--scene demo --shader tools/scenes/frost.glsl")
+PICTURE("Ours, changed towards the tips (--shader frost.glsl)",
+        "--scene demo --shader tools/scenes/frost.glsl")
 PICTURE("Locks by number, darker from root to tip (--shader strands.glsl)",
         "--scene demo --shader tools/scenes/strands.glsl")
 
 ROW("Thin strands: one sample a pixel, four, and one that shows shares")
 PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1 --supersample 1")
 PICTURE("Opaque, four samples", "tools/scenes/far.json --supersample 1")
-PICTURE("Shares of pixels, sorted and blended (coverage=alpha), one sample", "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=alpha")
+PICTURE("Shares of pixels, sorted and blended (coverage=alpha), one sample",
+        "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=alpha")
 PICTURE("Opaque, 64 samples, as all pictures of this sheet", "tools/scenes/far.json")
 
 ROW("Level of detail: fewer strands, as much wider, of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")
 PICTURE("A lower one: 15 % of the strands, half the segments",
-        "tools/scenes/far.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set lod.segment_fraction=0.5")
+        "tools/scenes/far.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set "
+        "lod.segment_fraction=0.5")
 PICTURE("The lower one, zoomed in",
-        "tools/scenes/near.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set lod.segment_fraction=0.5")
+        "tools/scenes/near.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set "
+        "lod.segment_fraction=0.5")
 PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
         "tools/scenes/near.json --set lod=on")
 
 ROW("Light that hair leaves to itself, with a lamp behind it")
 PICTURE("By depth behind a shadow map (self_shadow=depth)", "--scene demo --set self_shadow=depth")
-PICTURE("By its strands: along them, and through a grid of how much hair there is (self_shadow=strands)", "--scene demo")
+PICTURE("By its strands: along them, and through a grid of how much hair there is (self_shadow=strands)",
+        "--scene demo")
 PICTURE("The same on blond hair", "--scene demo --set color=blond")
 
 ROW("Lights")
-PICTURE("One from far away, a blue point behind, a red spot beside it, all with shadows; surroundings", "tools/scenes/lights.json")
+PICTURE("One from far away, a blue point behind, a red spot beside it, all with shadows; surroundings",
+        "tools/scenes/lights.json")
 PICTURE("The same on blond hair", "tools/scenes/lights.json --set color=blond")

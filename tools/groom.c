@@ -324,11 +324,9 @@ static void print_repairs(const hair_import_stats* repairs)
 
 static void print_asset(const hair_asset_info* info)
 {
-    static const char* const abouts[] = {"generated", "hair, all strands", "tfx4, .tfx version 4, guides",
-                                         "tfx3, .tfx version 3, guides",
-                                         "tfx2, .tfx version 2 as text, guides"};
     const float *l = info->lower, *u = info->upper;
-    printf("%-10s %s\n", "format:", abouts[info->format]);
+    printf("%-10s %s, %s\n", "format:", hair_format_name(info->format),
+           info->strand_set == HAIR_STRAND_SET_FULL ? "all strands" : "guides");
     printf("%-10s %u, of %u in the file\n", "strands:", info->strand_count, info->file_strands);
     printf("%-10s %u, of %u in the file; fewest %u, most %u to a strand\n", "vertices:", info->vertex_count,
            info->file_vertices, info->min_vertices, info->max_vertices);

@@ -1,6 +1,6 @@
-// collide/collider_distance.glsl - the exact signed distance to the surface of a shape in its own space,
-// without rounding, and the unit gradient. lib/collide/distance.c has the same functions for the
-// CPU.
+// collider_distance.glsl - the exact signed distance to the surface of a shape in its own
+// space, without rounding, and the unit gradient. lib/collide/distance.c has the same functions for
+// the CPU.
 // Values of hair_shape.
 #define SHAPE_SPHERE 0u
 #define SHAPE_CAPSULE 1u
@@ -11,9 +11,12 @@
 
 float box_distance(vec3 size, vec3 p, out vec3 gradient)
 {
-    vec3  q = abs(p) - size, beyond = max(q, 0.0), side = vec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
+    vec3 q = abs(p) - size, beyond = max(q, 0.0),
+         side = vec3(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0, p.z < 0.0 ? -1.0 : 1.0);
     float away = length(beyond), deepest = max(q.x, max(q.y, q.z));
-    vec3  face = q.x == deepest ? vec3(1.0, 0.0, 0.0) : q.y == deepest ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+    vec3 face = q.x == deepest   ? vec3(1.0, 0.0, 0.0)
+                : q.y == deepest ? vec3(0.0, 1.0, 0.0)
+                                 : vec3(0.0, 0.0, 1.0);
     gradient   = side * (away > 1e-12 ? beyond / away : face);
     return away + min(deepest, 0.0);
 }
@@ -53,7 +56,9 @@ float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
     if (shape <= SHAPE_CAPSULE) {
         vec3  axis = vec3(0.0, shape == SHAPE_CAPSULE ? clamp(p.y, -size.y, size.y) : 0.0, 0.0);
         float away = length(p - axis);
-        gradient   = away > 1e-12 ? (p - axis) / away : shape == SHAPE_CAPSULE ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+        gradient = away > 1e-12             ? (p - axis) / away
+                   : shape == SHAPE_CAPSULE ? vec3(1.0, 0.0, 0.0)
+                                            : vec3(0.0, 1.0, 0.0);
         return away - size.x;
     }
     if (shape == SHAPE_BOX) return box_distance(size, p, gradient);

@@ -1,7 +1,8 @@
-// collide/mesh_distance.glsl - signed distance to the surface of a collision mesh, interpolated between the
-// nodes of its grid, and the unit gradient. Positions are in the mesh's own space. Outside the grid
-// the distance continues from the point where the grid ends. lib/collide/distance.c has the same
-// function for the CPU. NODE(i) is the i-th node of all collision meshes.
+// mesh_distance.glsl - signed distance to the surface of a collision mesh, interpolated
+// between the nodes of its grid, and the unit gradient. Positions are in the mesh's own space.
+// Outside the grid the distance continues from the point where the grid ends.
+// lib/collide/distance.c has the same function for the CPU. NODE(i) is the i-th node of all
+// collision meshes.
 struct mesh_grid {
     vec4  place; // xyz: first node, m. w: spacing of nodes, m.
     uvec3 size;  // Nodes along x, y and z.
@@ -15,13 +16,15 @@ float mesh_distance(mesh_grid mesh, vec3 p, out vec3 gradient)
     vec3  at     = (p - mesh.place.xyz) / mesh.place.w, within = clamp(at, vec3(0.0), last);
     uvec3 corner = min(uvec3(within), size - 2u);
     vec3  t      = within - vec3(corner);
-    uint  i      = mesh.first + corner.x + size.x * (corner.y + size.y * corner.z), row = size.x, layer = size.x * size.y;
+    uint i = mesh.first + corner.x + size.x * (corner.y + size.y * corner.z), row = size.x,
+         layer = size.x * size.y;
     vec4  near   = vec4(NODE(i), NODE(i + 1u), NODE(i + row), NODE(i + row + 1u));
-    vec4  far    = vec4(NODE(i + layer), NODE(i + layer + 1u), NODE(i + layer + row), NODE(i + layer + row + 1u));
+    vec4 far = vec4(NODE(i + layer), NODE(i + layer + 1u), NODE(i + layer + row), NODE(i + layer + row + 1u));
     vec4  flat_  = mix(near, far, t.z), steps = far - near;
     vec2  line   = mix(flat_.xy, flat_.zw, t.y), rise = flat_.zw - flat_.xy;
     float value  = mix(line.x, line.y, t.x);
-    vec3  slope  = vec3(line.y - line.x, mix(rise.x, rise.y, t.x), mix(mix(steps.x, steps.y, t.x), mix(steps.z, steps.w, t.x), t.y));
+    vec3 slope = vec3(line.y - line.x, mix(rise.x, rise.y, t.x),
+                      mix(mix(steps.x, steps.y, t.x), mix(steps.z, steps.w, t.x), t.y));
     gradient     = direction_or(slope, vec3(0.0, 1.0, 0.0));
     if (at == within) return value;
     vec3 away = mesh.place.w * (at - within) + value * gradient;

@@ -12,7 +12,8 @@ void main()
     uint  columns = uint(params.air.x);
     vec2  at      = (vec2(gl_InstanceID % columns, gl_InstanceID / columns) + 0.5) / params.air.xy;
     vec3  p       = params.corner.xyz + at.x * params.side[0].xyz + at.y * params.side[1].xyz;
-    vec3  from    = rotate(params.rotation, p), u = rotate(quat_conjugate(params.rotation), air_then(from, from, 0.0));
+    vec3 from = rotate(params.rotation, p),
+         u = rotate(quat_conjugate(params.rotation), air_then(from, from, 0.0));
     float speed   = length(u) / params.air.w;
     vec3  way     = direction_or(u, normalize(params.side[0].xyz));
     vec3  beside  = direction_or(cross(params.plane.xyz, way), normalize(params.side[1].xyz));

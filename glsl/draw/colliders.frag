@@ -17,8 +17,9 @@ hair_field_collider own; // The collider, with its own axes in place of the head
 vec3 normal_at(vec3 p, float h)
 {
     const vec2 k = vec2(1.0, -1.0);
-    return normalize(k.xyy * collider_distance(own, p + h * k.xyy) + k.yyx * collider_distance(own, p + h * k.yyx) +
-                     k.yxy * collider_distance(own, p + h * k.yxy) + k.xxx * collider_distance(own, p + h * k.xxx));
+    return normalize(
+        k.xyy * collider_distance(own, p + h * k.xyy) + k.yyx * collider_distance(own, p + h * k.yyx) +
+        k.yxy * collider_distance(own, p + h * k.yxy) + k.xxx * collider_distance(own, p + h * k.xxx));
 }
 
 void main()
@@ -62,7 +63,8 @@ void main()
     vec3 facing = cut ? -way : normal_at(p, 10.0 * fine);
     vec3 hue    = 0.5 + 0.35 * cos(6.2831853 * (0.38196601 * float(own.number) + vec3(0.0, 0.33, 0.67)));
     vec3 at     = shown.collider.position.xyz + rotate(shown.collider.rotation, p);
-    vec3 normal_there = rotate(params.rotation, rotate(shown.collider.rotation, facing)), sum = sky_at(normal_there);
+    vec3 normal_there = rotate(params.rotation, rotate(shown.collider.rotation, facing)),
+         sum = sky_at(normal_there);
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam beam = beam_at(i, rotate(params.rotation, at));
         sum += 0.3 * beam.irradiance * max(dot(normal_there, beam.to), 0.0);

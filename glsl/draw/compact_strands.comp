@@ -15,6 +15,7 @@ void main()
     hair_patch_lines lines = find_lines(number);
     for (uint i = gl_LocalInvocationID.x; i < lines.strands; i += HAIR_GROUP_SIZE) {
         float fraction = i + 1u == lines.strands ? lines.fading : 1.0;
-        strand[start[number] + i] = hair_strand(lines.first + i, lines.thickness * fraction, lines.widened, lines.whole);
+        strand[start[number] + i] =
+            hair_strand(lines.first + i, lines.thickness * fraction, lines.widened, lines.whole);
     }
 }

@@ -1,4 +1,4 @@
-// draw/coverage.glsl - how much of a pixel a strand covers.
+// coverage.glsl - how much of a pixel a strand covers.
 //
 // Seen along a strand, a square pixel projects to a trapezoid: a density that is constant in the
 // middle and falls linearly to 0 at both sides.
@@ -18,4 +18,7 @@ float fraction_before(float x, float outer, float inner)
     return x < 0.0 ? tail : 1.0 - tail;
 }
 
-float coverage_of(vec4 s) { return clamp(fraction_before(s.x + s.y, s.z, s.w) - fraction_before(s.x - s.y, s.z, s.w), 0.0, 1.0); }
+float coverage_of(vec4 s)
+{
+    return clamp(fraction_before(s.x + s.y, s.z, s.w) - fraction_before(s.x - s.y, s.z, s.w), 0.0, 1.0);
+}

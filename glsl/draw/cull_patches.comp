@@ -11,7 +11,10 @@ layout(binding = HAIR_UNIT_REPAIR) uniform samplerBuffer repair_texture;
 #endif
 
 layout(std430, binding = HAIR_BIND_GUIDE_BOUNDS) readonly restrict buffer guide_bounds_buffer { vec4 box[]; };
-layout(std430, binding = HAIR_BIND_OCCLUSION_PATCH) restrict buffer occlusion_patch_buffer { hair_patch patches[]; };
+layout(std430, binding = HAIR_BIND_OCCLUSION_PATCH) restrict buffer occlusion_patch_buffer
+{
+    hair_patch patches[];
+};
 
 #define GIVE 1.1 // See strands/lod.glsl.
 #define TURNS (HAIR_GROUP_SIZE / HAIR_OCCLUSION_PARTS) // Threads that look up a part.
@@ -35,7 +38,8 @@ vec3 find_repair(uint number)
     if (draw.follower_collision == HAIR_COLLISION_IS_SINGLE_GUIDE) return max_value;
     int first = int(number) * HAIR_REPAIR_CONTROLS;
     max_value.y    = max(texelFetch(repair_texture, first).x, 0.0);
-    for (int i = 1; i < HAIR_REPAIR_CONTROLS; ++i) max_value.x = max(max_value.x, length(texelFetch(repair_texture, first + i).xyz));
+    for (int i = 1; i < HAIR_REPAIR_CONTROLS; ++i)
+        max_value.x = max(max_value.x, length(texelFetch(repair_texture, first + i).xyz));
 #endif
     return max_value;
 }
@@ -45,7 +49,8 @@ float max_of(int curve, float from, float to)
 {
     int   last = int(ceil(to * float(HAIR_CURVE_INTERVALS)));
     float max_value = 0.0;
-    for (int k = int(from * float(HAIR_CURVE_INTERVALS)); k <= last; ++k) max_value = max(max_value, given[curve][k]);
+    for (int k = int(from * float(HAIR_CURVE_INTERVALS)); k <= last; ++k)
+        max_value = max(max_value, given[curve][k]);
     return max_value;
 }
 
@@ -80,13 +85,16 @@ void widen(uint number, float thickness)
 {
     hair_follower f       = fetch_whole(number);
     vec3          repair  = find_repair(number);
-    float         length_ = GIVE * f.length_ratio * box[2u * (f.guide0 * HAIR_OCCLUSION_PARTS + HAIR_OCCLUSION_PARTS) - 1u].w;
-    float         last    = f.length_ratio * (1.0 + repair.y), each = 1.0 / (float(HAIR_OCCLUSION_PARTS) * f.length_ratio);
+    float length_ =
+        GIVE * f.length_ratio * box[2u * (f.guide0 * HAIR_OCCLUSION_PARTS + HAIR_OCCLUSION_PARTS) - 1u].w;
+    float last = f.length_ratio * (1.0 + repair.y),
+          each = 1.0 / (float(HAIR_OCCLUSION_PARTS) * f.length_ratio);
     for (uint part = 0u; part < HAIR_OCCLUSION_PARTS; ++part) {
         bool  ends = part == HAIR_OCCLUSION_PARTS - 1u;
         float from = float(part) * each, to = ends ? 1.0 : min(from + each, 1.0);
         if (float(part) > last * float(HAIR_OCCLUSION_PARTS)) break;
-        float by = find_beside(f, length_, repair.z, min(from, 0.999), to) + repair.x + hide.thick * thickness * f.offset[0].w;
+        float by = find_beside(f, length_, repair.z, min(from, 0.999), to) + repair.x +
+                   hide.thick * thickness * f.offset[0].w;
         if (ends) by += length_ * (1.0 + repair.y) * max(1.0 - 1.0 / last, 0.0);
         widen(part, f.guide0, by);
         if (f.multi > 0.0) widen(part, f.guide1, by);
@@ -108,10 +116,13 @@ bool is_occluded(vec3 low, vec3 high, int turn)
         to   = max(to, at.xy / at.w);
         near = min(near, at.z / at.w);
     }
-    vec2 beside = vec2(hide.beside_x, hide.beside_y), texels = vec2(hide.width, hide.height) / float(HAIR_HIZ_FIRST);
+    vec2 beside = vec2(hide.beside_x, hide.beside_y),
+         texels = vec2(hide.width, hide.height) / float(HAIR_HIZ_FIRST);
     from = hide.clips != 0u ? max(from - beside, 0.0) : from - beside;
     to   = hide.clips != 0u ? min(to + beside, 1.0) : to + beside;
-    if (!(all(greaterThanEqual(from, vec2(0.0))) && all(lessThanEqual(to, vec2(1.0))) && all(lessThan(from, to)))) return false;
+    if (!(all(greaterThanEqual(from, vec2(0.0))) && all(lessThanEqual(to, vec2(1.0))) &&
+          all(lessThan(from, to))))
+        return false;
     ivec2 first = ivec2(hide.first_x, hide.first_y), max_value = ivec2(ceil(texels)) - 1;
     ivec2 a = min(ivec2(from * texels), max_value) - first, b = min(ivec2(to * texels), max_value) - first;
     hiz_level level = first_level();
@@ -135,10 +146,12 @@ void main()
         for (int k = 0; k < 3; ++k) lower[i][k] = upper[i][k] = 0xffffffffu;
     if (i == 0u) seen = 0u;
     for (uint k = i; k < HAIR_CURVES * (HAIR_CURVE_INTERVALS + 1u); k += HAIR_GROUP_SIZE)
-        given[k % HAIR_CURVES][k / HAIR_CURVES] = curve_at(int(k % HAIR_CURVES), float(k / HAIR_CURVES) / float(HAIR_CURVE_INTERVALS)).x;
+        given[k % HAIR_CURVES][k / HAIR_CURVES] =
+            curve_at(int(k % HAIR_CURVES), float(k / HAIR_CURVES) / float(HAIR_CURVE_INTERVALS)).x;
     synchronise();
     float thickness = dot(patches[number].map_thickness, draw.map_weights);
-    for (uint k = i; k < patches[number].count; k += HAIR_GROUP_SIZE) widen(patches[number].first + k, thickness);
+    for (uint k = i; k < patches[number].count; k += HAIR_GROUP_SIZE)
+        widen(patches[number].first + k, thickness);
     synchronise();
     uint  part = i / TURNS;
     uvec3 low = uvec3(lower[part][0], lower[part][1], lower[part][2]);

@@ -1,4 +1,4 @@
-// draw/debug_params.glsl - colliders that are drawn for debugging: their buffer, and the transformation
+// debug_params.glsl - colliders that are drawn for debugging: their buffer, and the transformation
 // from the head's frame to clip space.
 #include "draw_params.glsl"
 #include "rotation.glsl"

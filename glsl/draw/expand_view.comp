@@ -11,12 +11,21 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_STRAND) uniform usamplerBuffer strand_texture;
-layout(std430, binding = HAIR_BIND_LIST_COMMAND) readonly restrict buffer command_buffer { hair_draw_command command[]; };
+layout(std430, binding = HAIR_BIND_LIST_COMMAND) readonly restrict buffer command_buffer
+{
+    hair_draw_command command[];
+};
 #ifdef HAIR_SIDES
 layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer clip_buffer { vec4 clip[]; };
 #else
-layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer cached_position_buffer { vec4 expanded[]; };
-layout(std430, binding = HAIR_BIND_CACHED_TANGENT) writeonly restrict buffer cached_tangent_buffer { uvec2 cached_tangent[]; };
+layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer cached_position_buffer
+{
+    vec4 expanded[];
+};
+layout(std430, binding = HAIR_BIND_CACHED_TANGENT) writeonly restrict buffer cached_tangent_buffer
+{
+    uvec2 cached_tangent[];
+};
 #endif
 #ifndef HAIR_DEPTH
 layout(std430, binding = HAIR_BIND_SHADED) writeonly restrict buffer shaded_buffer { uvec2 shaded[]; };
@@ -45,7 +54,8 @@ void write_place(uint at, strand_vertex v)
 
 void main()
 {
-    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x, each = command[HAIR_EXPAND_VIEW_COMMAND].each;
+    uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x,
+         each = command[HAIR_EXPAND_VIEW_COMMAND].each;
     uint place = i / each, k = i % each, at = place * (draw.segments + 1u) + k;
     if (place >= command[HAIR_EXPAND_VIEW_COMMAND].strands) return;
     uvec4 record = texelFetch(strand_texture, int(place));

@@ -8,14 +8,21 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_HISTOGRAM) restrict buffer bucket_buffer { uint bin[]; };
 layout(std430, binding = HAIR_BIND_STRAND) readonly restrict buffer strand_buffer { hair_strand strand[]; };
-layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer { hair_draw_command command[]; };
-layout(std430, binding = HAIR_BIND_SORTED_SEGMENTS) writeonly restrict buffer sorted_buffer { uvec2 sorted[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer
+{
+    hair_draw_command command[];
+};
+layout(std430, binding = HAIR_BIND_SORTED_SEGMENTS) writeonly restrict buffer sorted_buffer
+{
+    uvec2 sorted[];
+};
 
 vec3 position_at(uint number, float t)
 {
     int   at;
     float fraction = place_between(number, t, at);
-    return mix(texelFetch(cached_position_texture, at).xyz, texelFetch(cached_position_texture, at + 1).xyz, fraction);
+    return mix(texelFetch(cached_position_texture, at).xyz, texelFetch(cached_position_texture, at + 1).xyz,
+               fraction);
 }
 
 void main()

@@ -1,4 +1,4 @@
-// draw/hiz.glsl - Hi-Z of the application's depth (Greene, Kass and Miller 1993): the farthest depth of
+// hiz.glsl - Hi-Z of the application's depth (Greene, Kass and Miller 1993): the farthest depth of
 // every texel. The levels follow each other in one buffer. Depth is signed, so that a greater value
 // is farther away.
 #ifndef HAIR_HIZ_GLSL
@@ -18,7 +18,8 @@ struct hiz_level {
 
 hiz_level next_level(hiz_level level)
 {
-    return hiz_level((level.size + HAIR_HIZ_NEXT - 1) / HAIR_HIZ_NEXT, level.first + level.size.x * level.size.y);
+    return hiz_level((level.size + HAIR_HIZ_NEXT - 1) / HAIR_HIZ_NEXT,
+                     level.first + level.size.x * level.size.y);
 }
 
 hiz_level first_level() { return hiz_level(ivec2(hide.columns, hide.rows), 0); }

@@ -9,7 +9,8 @@ void main()
     for (uint k = 1u; k < hide.level; ++k) before = next_level(before);
     hiz_level own = next_level(before);
     if (i >= own.size.x * own.size.y) return;
-    ivec2 from = ivec2(i % own.size.x, i / own.size.x) * HAIR_HIZ_NEXT, to = min(from + HAIR_HIZ_NEXT, before.size);
+    ivec2 from = ivec2(i % own.size.x, i / own.size.x) * HAIR_HIZ_NEXT,
+          to = min(from + HAIR_HIZ_NEXT, before.size);
     float far  = -NOWHERE;
     for (int y = from.y; y < to.y; ++y)
         for (int x = from.x; x < to.x; ++x) far = max(far, farthest[before.first + y * before.size.x + x]);

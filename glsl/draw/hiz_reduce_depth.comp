@@ -14,6 +14,7 @@ void main()
     ivec2 to   = min(from + HAIR_HIZ_FIRST, ivec2(hide.width, hide.height));
     float far  = -NOWHERE;
     for (int y = from.y; y < to.y; ++y)
-        for (int x = from.x; x < to.x; ++x) far = max(far, hide.sign * texelFetch(occluder_depth, ivec2(x, y), 0).x);
+        for (int x = from.x; x < to.x; ++x)
+            far = max(far, hide.sign * texelFetch(occluder_depth, ivec2(x, y), 0).x);
     farthest[i] = far;
 }

@@ -1,4 +1,4 @@
-// draw/lod_contract.glsl - displacement of strands that are drawn wider to compensate for strands that
+// lod_contract.glsl - displacement of strands that are drawn wider to compensate for strands that
 // are left out. A strand moves towards the middle of its neighbours by the width that it gains. The
 // outline of all strands stays, and inside it their total coverage stays.
 #include "strands/follower.glsl"
@@ -16,7 +16,8 @@ guide_point middle_of(hair_follower follower, float u)
     guide_point a = fetch_guide(follower.guide1, u, true), b = fetch_guide(follower.guide2, u, true);
     float       fraction = follower.multi / 3.0;
     own.position += fraction * (a.position + b.position - 2.0 * own.position);
-    own.tangent = direction_or(own.tangent + fraction * (a.tangent + b.tangent - 2.0 * own.tangent), own.tangent);
+    own.tangent =
+        direction_or(own.tangent + fraction * (a.tangent + b.tangent - 2.0 * own.tangent), own.tangent);
     return own;
 }
 

@@ -6,13 +6,17 @@
 layout(local_size_x = HAIR_COUNT_THREADS) in;
 
 layout(std430, binding = HAIR_BIND_HISTOGRAM) restrict buffer bucket_buffer { uint bin[]; };
-layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer { hair_draw_command command[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer
+{
+    hair_draw_command command[];
+};
 
 shared uint sums[HAIR_COUNT_THREADS];
 
 void main()
 {
-    uint i = gl_LocalInvocationID.x, each = uint(HAIR_SORT_BUCKETS / HAIR_COUNT_THREADS), first = i * each, sum = 0u;
+    uint i = gl_LocalInvocationID.x, each = uint(HAIR_SORT_BUCKETS / HAIR_COUNT_THREADS), first = i * each,
+         sum = 0u;
     for (uint k = first; k < first + each; ++k) sum += bin[k];
 
     // Inclusive prefix sum over the threads (Hillis and Steele 1986).
@@ -29,5 +33,6 @@ void main()
         bin[k]  = start;
         start += count;
     }
-    if (i == HAIR_COUNT_THREADS - 1u) command[HAIR_SORTED_COMMAND] = hair_draw_command(2u * sums[i], 1u, 0u, 0u, 0u, 0u, 0u, 0u);
+    if (i == HAIR_COUNT_THREADS - 1u)
+        command[HAIR_SORTED_COMMAND] = hair_draw_command(2u * sums[i], 1u, 0u, 0u, 0u, 0u, 0u, 0u);
 }

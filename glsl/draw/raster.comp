@@ -12,7 +12,10 @@
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer { hair_draw_command command[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buffer
+{
+    hair_draw_command command[];
+};
 #ifdef HAIR_DEPTH
 layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uint nearest[]; };
 #elif defined(HAIR_LONG_ATOMICS)
@@ -35,7 +38,10 @@ vec4 line_of(raster_outline o)
 }
 
 // Return half of a ribbon's width, pixels.
-float half_of(raster_outline o) { return 0.5 * max(distance(o.corner[0].xy, o.corner[1].xy), distance(o.corner[2].xy, o.corner[3].xy)); }
+float half_of(raster_outline o)
+{
+    return 0.5 * max(distance(o.corner[0].xy, o.corner[1].xy), distance(o.corner[2].xy, o.corner[3].xy));
+}
 
 ivec4 bounds_of(raster_ribbon r, raster_outline o)
 {
@@ -43,7 +49,8 @@ ivec4 bounds_of(raster_ribbon r, raster_outline o)
     vec2 lower = min(min(o.corner[0].xy, o.corner[1].xy), min(o.corner[2].xy, o.corner[3].xy));
     vec2 upper = max(max(o.corner[0].xy, o.corner[1].xy), max(o.corner[2].xy, o.corner[3].xy));
     // A ribbon that is not finite is nowhere.
-    bool there = r.seen.x < r.seen.y && all(lessThan(lower, max_value)) && all(greaterThanEqual(upper, vec2(0.0)));
+    bool there =
+        r.seen.x < r.seen.y && all(lessThan(lower, max_value)) && all(greaterThanEqual(upper, vec2(0.0)));
     return there ? ivec4(max(lower, vec2(0.0)), min(upper, max_value - 1.0)) : ivec4(0, 0, -1, -1);
 }
 
@@ -66,7 +73,8 @@ float slant_of(vec2 way) { return way.x / (abs(way.y) < 1e-6 ? 1e-6 : way.y); }
 // Return the maximum number of pieces of a row.
 uint pieces_of(raster_outline o, ivec4 about)
 {
-    float half_ = half_of(o), max_value = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
+    float half_ = half_of(o),
+          max_value = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
     return 1u + uint(min(max_value, float(about.z - about.x))) / HAIR_RASTER_PIECE;
 }
 
@@ -82,7 +90,8 @@ void fill(uint segment, raster_outline o, ivec4 about, int y, uint piece)
     int   last  = min(min(int(max(x.x, x.y) + half_), about.z), first + HAIR_RASTER_PIECE - 1);
     uint  told = raster.tiles, row = uint(y) / HAIR_RASTER_TILE * raster.across;
     for (int i = first; i <= last; ++i) {
-        uint at = (uint(y) * raster.columns + uint(i)) * raster.samples, own = row + uint(i) / HAIR_RASTER_TILE;
+        uint at = (uint(y) * raster.columns + uint(i)) * raster.samples,
+             own = row + uint(i) / HAIR_RASTER_TILE;
         for (uint s = 0u; s < raster.samples; ++s) {
             float fraction, depth;
             if (!sees(o, vec2(i, y) + sample_at(s), fraction, depth)) continue;
@@ -121,7 +130,8 @@ void main()
     }
     synchronise();
     for (uint i = own; i < ends[HAIR_RASTER_SEGMENTS - 1]; i += HAIR_GROUP_SIZE) {
-        uint  k = segment_of(i), piece = i - (k > 0u ? ends[k - 1u] : 0u), each = pieces_of(outlines[k], bounds[k]);
+        uint k = segment_of(i), piece = i - (k > 0u ? ends[k - 1u] : 0u),
+             each = pieces_of(outlines[k], bounds[k]);
         ivec4 about = bounds[k];
         fill(base + k, outlines[k], about, about.y + int(piece / each), piece % each);
     }

@@ -1,4 +1,4 @@
-// draw/raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
+// raster.glsl - ribbons of segments in the window, for the compute rasteriser. They lie between
 // vertices of the vertex cache or, with levels of detail, between per-view vertices. Their shape is
 // that of ribbon.geom.
 #include "draw/vertex_cache.glsl"
@@ -88,14 +88,19 @@ float turn(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
 
 // Return whether a point is within a triangle of non-zero area. `e` holds the cross products from
 // the point to consecutive corners. They are of one sign if the point is inside.
-bool is_within(vec3 e) { return e.x + e.y + e.z != 0.0 && (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0)))); }
+bool is_within(vec3 e)
+{
+    return e.x + e.y + e.z != 0.0 &&
+           (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0))));
+}
 
 // Find a ribbon, drawn as two triangles, at a pixel position. `share` is the fraction from one end
 // to the other, and `depth` is the depth there. Return false if neither triangle covers the
 // position.
 bool sees(raster_outline o, vec2 place, out float fraction, out float depth)
 {
-    vec2 a = o.corner[0].xy - place, b = o.corner[1].xy - place, c = o.corner[2].xy - place, d = o.corner[3].xy - place;
+    vec2 a = o.corner[0].xy - place, b = o.corner[1].xy - place, c = o.corner[2].xy - place,
+         d = o.corner[3].xy - place;
     vec3 first = vec3(turn(b, c), turn(c, a), turn(a, b)), second = vec3(-first.x, turn(d, c), turn(b, d));
     bool there = is_within(first);
     fraction = depth = 0.0;

@@ -23,7 +23,8 @@ vec4 color_of(uint segment, vec2 place)
     // Fraction along the strand, from the fraction along the picture.
     float there = fraction * w.x / mix(w.y, w.x, fraction);
     int   at = vertex_of(segment, width, is_there);
-    return mix(texelFetch(shaded_texture, at), texelFetch(shaded_texture, at + 1), mix(r.seen.x, r.seen.y, there));
+    return mix(texelFetch(shaded_texture, at), texelFetch(shaded_texture, at + 1),
+               mix(r.seen.x, r.seen.y, there));
 }
 #endif
 

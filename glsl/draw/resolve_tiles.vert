@@ -12,5 +12,6 @@ void main()
     uvec2 tile  = uvec2(number % raster.across, number / raster.across) + uvec2(corner & 1u, corner >> 1u);
     vec2  fraction = min(vec2(tile * HAIR_RASTER_TILE) / vec2(raster.columns, raster.rows), 1.0);
     bool  there = texelFetch(tile_texture, int(number)).x != 0u;
-    gl_Position = there ? vec4(mix(raster.part.xy, raster.part.zw, fraction), 0.0, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
+    gl_Position =
+        there ? vec4(mix(raster.part.xy, raster.part.zw, fraction), 0.0, 1.0) : vec4(0.0, 0.0, 0.0, 1.0);
 }

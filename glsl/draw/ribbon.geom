@@ -49,7 +49,8 @@ void pass_on(int end, float across)
 // terms, see draw/coverage.glsl.
 float widen(vec4 center, vec3 side, out vec4 fraction)
 {
-    vec4  clip  = draw.view_to_clip * (draw.view * center), by = draw.view_to_clip * (draw.view * vec4(side, 0.0));
+    vec4 clip = draw.view_to_clip * (draw.view * center),
+         by = draw.view_to_clip * (draw.view * vec4(side, 0.0));
     vec2  pixel = 0.5 * draw.viewport.xy * (by.xy - clip.xy / clip.w * by.w) / clip.w;
     float half_ = length(pixel);
     if (!(half_ > 1e-9)) return 0.0;

@@ -1,4 +1,4 @@
-// draw/ribbon.glsl - the vector from the middle of a ribbon that faces the eye to its side. strand.xyz
+// ribbon.glsl - the vector from the middle of a ribbon that faces the eye to its side. strand.xyz
 // is the middle from the head's origin, m. strand.w is half the width, m.
 vec3 side_of(vec4 strand, vec3 tangent)
 {

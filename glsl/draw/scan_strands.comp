@@ -7,7 +7,10 @@
 layout(local_size_x = HAIR_COUNT_THREADS) in;
 
 layout(std430, binding = HAIR_BIND_START) restrict buffer start_buffer { uint start[]; };
-layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer { hair_draw_command command[]; };
+layout(std430, binding = HAIR_BIND_COMMAND) writeonly restrict buffer command_buffer
+{
+    hair_draw_command command[];
+};
 
 shared uint sums[HAIR_COUNT_THREADS];
 shared uint max_value; // Maximum segments of a strand.
@@ -32,8 +35,10 @@ void write_commands(uint at, uint strands, uint each, uint before, uint corners,
 {
     uint indices = corners * each, first = corners * before;
     uint left = strands % HAIR_INSTANCE_STRANDS, whole = strands - left;
-    command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u, 0u, strands, 0u, 0u);
-    command[at + 1u] = hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
+    command[at] = hair_draw_command(HAIR_INSTANCE_STRANDS * indices, whole / HAIR_INSTANCE_STRANDS, first, 0u,
+                                    0u, strands, 0u, 0u);
+    command[at + 1u] =
+        hair_draw_command(left * indices, 1u, first, whole * (draw.segments + 1u) * ends, 0u, 0u, 0u, 0u);
 }
 
 // Write the dispatch of one thread per indexed vertex, in the dimensions of workgroup.glsl.

@@ -16,6 +16,6 @@ void main()
         uint          number   = i / each;
         float         t        = place_of(i % each, float(draw.segments));
         hair_follower follower = fetch_follower(number);
-        shaded[i]              = pack_color(shade(fragment_of(follower, number, evaluate(follower, number, t), t)));
+        shaded[i] = pack_color(shade(fragment_of(follower, number, evaluate(follower, number, t), t)));
     }
 }

@@ -16,5 +16,5 @@ void main()
     vec3  tone  = voxels > 0.0 ? mix(vec3(0.25, 0.55, 1.0), vec3(0.02, 0.06, 0.2), depth)
                                : mix(vec3(1.0, 0.45, 0.25), vec3(0.2, 0.02, 0.02), depth);
     float shade = abs(voxels) < 0.5 ? 1.0 : 0.7;
-    color       = vec4(mix(abs(voxels) < 0.5 ? vec3(1.0) : shade * tone, tone, clamp(line - 0.5, 0.0, 1.0)), 1.0);
+    color = vec4(mix(abs(voxels) < 0.5 ? vec3(1.0) : shade * tone, tone, clamp(line - 0.5, 0.0, 1.0)), 1.0);
 }

@@ -7,7 +7,8 @@ layout(location = 0) out vec3 slice_position;
 
 void main()
 {
-    vec3 p = params.corner.xyz + float(gl_VertexID & 1) * params.side[0].xyz + float(gl_VertexID >> 1) * params.side[1].xyz;
+    vec3 p = params.corner.xyz + float(gl_VertexID & 1) * params.side[0].xyz +
+             float(gl_VertexID >> 1) * params.side[1].xyz;
     slice_position = rotate(params.rotation, p);
     gl_Position    = to_clip(p);
 }

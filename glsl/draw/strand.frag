@@ -24,7 +24,10 @@ layout(location = 6) in vec3 clip_before;
 #ifdef HAIR_IDS
 layout(location = 0) out uvec4 color;
 
-void main() { color = uvec4(strand_numbers.xy + 1u, uint(clamp(strand_place.x, 0.0, 1.0) * 65535.0 + 0.5), 0u); }
+void main()
+{
+    color = uvec4(strand_numbers.xy + 1u, uint(clamp(strand_place.x, 0.0, 1.0) * 65535.0 + 0.5), 0u);
+}
 #elif defined(HAIR_MOTION)
 layout(location = 0) out vec4 color;
 

@@ -1,4 +1,4 @@
-// draw/strand.glsl - a vertex of a drawn strand: its position, its width and, where colour is drawn, its
+// strand.glsl - a vertex of a drawn strand: its position, its width and, where colour is drawn, its
 // colour. Shading runs per vertex and not per sample of a pixel, because light changes slowly along
 // a strand and not at all across it.
 
@@ -37,8 +37,9 @@ layout(binding = HAIR_UNIT_GROOM_COLOR) uniform samplerBuffer groom_color_textur
 vec3 color_at(uint number, float t)
 {
     float along = t * float(HAIR_CURVE_INTERVALS);
-    int   k     = min(int(along), HAIR_CURVE_INTERVALS - 1), at = int(number) * (HAIR_CURVE_INTERVALS + 1) + k;
-    vec3  own   = mix(texelFetch(groom_color_texture, at).rgb, texelFetch(groom_color_texture, at + 1).rgb, along - float(k));
+    int k = min(int(along), HAIR_CURVE_INTERVALS - 1), at = int(number) * (HAIR_CURVE_INTERVALS + 1) + k;
+    vec3 own = mix(texelFetch(groom_color_texture, at).rgb, texelFetch(groom_color_texture, at + 1).rgb,
+                   along - float(k));
     return mix(ramp_at(t), pow(max(own, 0.0), vec3(draw.tint.groom_color_power)), draw.tint.groom_color);
 }
 #else
@@ -104,7 +105,9 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     v.place    = vec3(t, 0.0, 0.0);
     v.before   = point.position;
 #ifdef HAIR_SHADED
-    v.color = texelFetch(shaded_texture, int(number * (draw.segments + 1u) + uint(t * float(draw.segments) + 0.5))).rgb;
+    v.color =
+        texelFetch(shaded_texture, int(number * (draw.segments + 1u) + uint(t * float(draw.segments) + 0.5)))
+            .rgb;
 #else
     if (draw.colored != 0u) {
         hair_fragment f = fragment_of(follower, number, point, t);

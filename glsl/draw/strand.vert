@@ -17,7 +17,8 @@ void main()
     uint vertex = uint(gl_VertexID);
 #endif
     uint  each   = draw.segments + 1u;
-    uvec4 record = texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
+    uvec4 record =
+        texelFetch(strand_texture, int(uint(gl_InstanceID) * HAIR_INSTANCE_STRANDS + vertex / each));
     // Vertices beyond the last segment of a strand lie at its tip.
     vec3  own = uintBitsToFloat(record.yzw); // width, widened and whole of hair_strand.
     float t   = place_of(vertex % each, own.z);
@@ -26,7 +27,8 @@ void main()
     pass_on(v);
 #ifdef HAIR_PAIRED
     float across = (gl_VertexID & 1) == 0 ? -1.0 : 1.0;
-    gl_Position  = draw.view_to_clip * (draw.view * vec4(v.position.xyz + across * side_of(v.position, v.tangent), 1.0));
+    gl_Position =
+        draw.view_to_clip * (draw.view * vec4(v.position.xyz + across * side_of(v.position, v.tangent), 1.0));
 #ifdef HAIR_NUMBERED
     strand_place.w = across;
 #endif

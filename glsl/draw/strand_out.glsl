@@ -1,4 +1,4 @@
-// draw/strand_out.glsl - outputs of a vertex of a strand.
+// strand_out.glsl - outputs of a vertex of a strand.
 #include "draw/varyings.glsl"
 
 layout(location = 0) out vec4 strand_position; // xyz: from the head's origin, m. w: radius, m.

@@ -1,4 +1,4 @@
-// draw/varyings.glsl - varyings of a strand beside its position and colour.
+// varyings.glsl - varyings of a strand beside its position and colour.
 #if defined(HAIR_IDS) || defined(HAIR_USER_PIXELS)
 #define HAIR_NUMBERED 1
 #endif

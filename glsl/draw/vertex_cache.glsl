@@ -1,4 +1,4 @@
-// draw/vertex_cache.glsl - the position of a follower, read from the vertex cache that expand.comp
+// vertex_cache.glsl - the position of a follower, read from the vertex cache that expand.comp
 // writes. It replaces strands/evaluate.glsl.
 #include "strands/follower.glsl"
 
@@ -21,7 +21,8 @@ hair_point evaluate(hair_follower follower, uint number, float t)
 {
     int   at;
     float fraction  = place_between(number, t, at);
-    vec4  vertex = mix(texelFetch(cached_position_texture, at), texelFetch(cached_position_texture, at + 1), fraction);
+    vec4 vertex =
+        mix(texelFetch(cached_position_texture, at), texelFetch(cached_position_texture, at + 1), fraction);
     vec3  a      = texelFetch(cached_tangent_texture, at).xyz * 2.0 - 1.0;
     vec3  b      = texelFetch(cached_tangent_texture, at + 1).xyz * 2.0 - 1.0;
     return hair_point(vertex.xyz, direction_or(mix(a, b, fraction), a), vertex.w);

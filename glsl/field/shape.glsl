@@ -18,7 +18,8 @@ float collider_distance(hair_field_collider collider, vec3 position)
 #ifdef HAIR_MESHES
     if (collider.shape == SHAPE_MESH) {
         vec3      gradient;
-        mesh_grid mesh = mesh_grid(collider.grid, uvec3(collider.nodes_x, collider.nodes_y, collider.nodes_z), collider.first);
+        mesh_grid mesh = mesh_grid(collider.grid, uvec3(collider.nodes_x, collider.nodes_y, collider.nodes_z),
+                                   collider.first);
         return collider.size.w * mesh_distance(mesh, p / collider.size.w, gradient) - collider.position.w;
     }
 #endif

@@ -28,7 +28,8 @@ hair_field_collider fetch_collider(uint i)
 #ifdef HAIR_MESHES
     uvec4 nodes = texelFetch(collider_texture, at + 4);
     collider.grid  = uintBitsToFloat(texelFetch(collider_texture, at + 3));
-    collider.nodes_x = nodes.x, collider.nodes_y = nodes.y, collider.nodes_z = nodes.z, collider.first = nodes.w;
+    collider.nodes_x = nodes.x, collider.nodes_y = nodes.y, collider.nodes_z = nodes.z,
+    collider.first = nodes.w;
 #endif
     return collider;
 }

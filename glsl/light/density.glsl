@@ -1,4 +1,4 @@
-// light/density.glsl - the grid of hair density: its place, and its value at a position.
+// density.glsl - the grid of hair density: its place, and its value at a position.
 //
 // The grid is fixed in the head's frame and encloses all hair. Its cells have the requested size,
 // or the size at which HAIR_DENSITY_NODES nodes suffice. A node holds the area of the strands
@@ -14,9 +14,13 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_DENSITY) restrict buffer density_buffer { uint density[]; };
-// Minima of x, y and z, then minima of their inverted bits, in the encoding of light/float_key.glsl.
+// Minima of x, y and z, then minima of their inverted bits, in the encoding of
+// light/float_key.glsl.
 layout(std430, binding = HAIR_BIND_DENSITY_BOX) restrict buffer box_buffer { uint box[6]; };
-layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer { vec4 strand_vertex[]; };
+layout(std430, binding = HAIR_BIND_DENSITY_STRAND) readonly restrict buffer strand_buffer
+{
+    vec4 strand_vertex[];
+};
 
 #define MAX_MET 30.0 // Strands after which no light is left.
 

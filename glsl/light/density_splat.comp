@@ -17,7 +17,8 @@ void put(density_grid grid, vec3 place, float amount)
         uvec3 corner = uvec3(k & 1u, k >> 1u & 1u, k >> 2u);
         vec3  fraction  = mix(1.0 - part, part, vec3(corner));
         uint  at     = node + corner.x + grid.nodes.x * (corner.y + grid.nodes.y * corner.z);
-        atomicAdd(density[at], uint(min(amount * fraction.x * fraction.y * fraction.z, 1e3) * HAIR_DENSITY_UNITS + 0.5));
+        atomicAdd(density[at],
+                  uint(min(amount * fraction.x * fraction.y * fraction.z, 1e3) * HAIR_DENSITY_UNITS + 0.5));
     }
 }
 
@@ -29,7 +30,8 @@ void main()
     density_grid     grid  = find_grid();
     uint             count = lines.strands * draw.segments;
     for (uint i = gl_LocalInvocationID.x; i < count; i += HAIR_GROUP_SIZE) {
-        uint  strand = i / draw.segments, vertex = (lines.first + strand) * (draw.segments + 1u) + i % draw.segments;
+        uint strand = i / draw.segments,
+             vertex = (lines.first + strand) * (draw.segments + 1u) + i % draw.segments;
         vec4  a = strand_vertex[vertex], b = strand_vertex[vertex + 1u];
         vec3  from = place_in(grid, a.xyz), way = place_in(grid, b.xyz) - from;
         float width  = (a.w + b.w) * lines.thickness * (strand + 1u == lines.strands ? lines.fading : 1.0);

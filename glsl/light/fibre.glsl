@@ -1,4 +1,4 @@
-// light/fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
+// fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
 // et al. 2003, with the longitudinal part after d'Eon et al. 2011. The model of many fibres is dual
 // scattering (Zinke et al. 2008), with the number of fibres in front of a point as in a Poisson
 // process. lib/light/fibre.c tabulates the azimuthal part.
@@ -44,7 +44,7 @@ float log_bessel(float x)
     float small = t * (0.2659732 + t * (0.0360768 + t * 0.0045813));
     small       = 1.0 + t * (3.5156229 + t * (3.0899424 + t * (1.2067492 + small)));
     float large = u * (-0.02057706 + u * (0.02635537 + u * (-0.01647633 + u * 0.00392377)));
-    large       = 0.39894228 + u * (0.01328592 + u * (0.00225319 + u * (-0.00157565 + u * (0.00916281 + large))));
+    large = 0.39894228 + u * (0.01328592 + u * (0.00225319 + u * (-0.00157565 + u * (0.00916281 + large))));
     return x < 3.75 ? log(small) : x - 0.5 * log(x) + log(large);
 }
 
@@ -113,7 +113,8 @@ vec3 scatter_often(fibre_angles a, fibre_scattering multiple, vec3 once, float d
     vec3  behind = min(b * f2 / gone + b3 * f2 / (gone * gone * gone), 1.0);
     float f = dot(multiple.on, vec3(0.3333)), bb = dot(b, vec3(0.3333)), bbb = bb * bb * bb;
     vec2  own = sqrt(multiple.variance);
-    float once_more = sqrt(dot(multiple.variance, vec2(2.0, 1.0))), thrice = sqrt(dot(multiple.variance, vec2(2.0, 3.0)));
+    float once_more = sqrt(dot(multiple.variance, vec2(2.0, 1.0))),
+          thrice = sqrt(dot(multiple.variance, vec2(2.0, 3.0)));
     float deviation = (1.0 + 0.7 * f * f) * (bb * once_more + bbb * thrice);
     deviation /= bb + bbb * dot(own, vec2(2.0, 3.0));
     float spread = met * f * multiple.variance.x, v = deviation * deviation;
@@ -122,8 +123,9 @@ vec3 scatter_often(fibre_angles a, fibre_scattering multiple, vec3 once, float d
     vec2  level = vec2(0.0, 1.0);
     vec3  back_once = behind * (longitudinal(a, v, level) * (1.0 - on) * 0.31830989);
     vec3  back_often = behind * (longitudinal(a, v + spread, level) * (1.0 - on) * 0.31830989);
-    vec3  through = multiple.on * (longitudinal(a, multiple.variance.x + spread, level) * on * 0.31830989) +
-                   multiple.back * (longitudinal(a, multiple.variance.y + spread, level) * (1.0 - on) * 0.31830989);
+    vec3 through =
+        multiple.on * (longitudinal(a, multiple.variance.x + spread, level) * on * 0.31830989) +
+        multiple.back * (longitudinal(a, multiple.variance.y + spread, level) * (1.0 - on) * 0.31830989);
     return direct * (once + draw.fibre.w * back_once) +
            max(passed - direct, 0.0) * draw.fibre.w * (through + draw.fibre.w * back_often);
 }

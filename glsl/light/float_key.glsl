@@ -1,4 +1,4 @@
-// light/float_key.glsl - an encoding of floats as bits in the order of the floats, for atomic minima and
+// float_key.glsl - an encoding of floats as bits in the order of the floats, for atomic minima and
 // maxima.
 #ifndef HAIR_FLOAT_KEY_GLSL
 #define HAIR_FLOAT_KEY_GLSL

@@ -1,4 +1,4 @@
-// light/lights.glsl - light that arrives at a point, from each light and from the surroundings.
+// lights.glsl - light that arrives at a point, from each light and from the surroundings.
 #ifndef HAIR_LIGHTS_GLSL
 #define HAIR_LIGHTS_GLSL
 

@@ -8,7 +8,10 @@
 #include "light/density.glsl"
 #include "light/lights.glsl"
 
-layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer { float light_of_node[]; };
+layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) writeonly restrict buffer node_buffer
+{
+    float light_of_node[];
+};
 
 #define SKY_WAYS 6
 #define SKY_STEPS 5     // Each is twice as long as the one before.
@@ -48,20 +51,23 @@ float sky_at_node(density_grid grid, vec3 place, vec3 position)
 
 void light(density_grid grid, uint node)
 {
-    vec3 place    = vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
+    vec3 place =
+        vec3(node % grid.nodes.x, node / grid.nodes.x % grid.nodes.y, node / (grid.nodes.x * grid.nodes.y));
     vec3 position = rotate(draw.head, grid.lower + grid.cell * place);
     light_of_node[node * draw.light_values] = sky_at_node(grid, place, position);
     for (uint i = 0u; i < draw.lights; ++i) {
         vec4  at    = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
         float reach = at.w > 0.0 ? length(at.xyz - position) : 1e9;
-        light_of_node[node * draw.light_values + 1u + i] = met_towards(grid, place, position, beam_at(i, position).to, reach);
+        light_of_node[node * draw.light_values + 1u + i] =
+            met_towards(grid, place, position, beam_at(i, position).to, reach);
     }
 }
 
 void main()
 {
     density_grid grid = find_grid();
-    uint         end = grid.nodes.x * grid.nodes.y * grid.nodes.z, stride = gl_NumWorkGroups.x * gl_NumWorkGroups.y * HAIR_GROUP_SIZE;
+    uint end = grid.nodes.x * grid.nodes.y * grid.nodes.z,
+         stride = gl_NumWorkGroups.x * gl_NumWorkGroups.y * HAIR_GROUP_SIZE;
     for (uint node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; node < end; node += stride)
         if (density[node] > 0u) light(grid, node);
 }

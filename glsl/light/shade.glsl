@@ -1,4 +1,4 @@
-// light/shade.glsl - light that a strand reflects to the eye.
+// shade.glsl - light that a strand reflects to the eye.
 #include "draw_params.glsl"
 #include "light/lights.glsl"
 #include "light/shadow.glsl"
@@ -86,7 +86,8 @@ vec3 hair_shade(hair_fragment f)
     vec3  albedo  = albedo_of(f), normal = normal_of(f), sum = vec3(0.0);
     float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0), open = 1.0;
     vec2  glossy  = draw.specular.zw / variance_of(f.seed);
-    vec3  to_root = normalize(f.tangent + shift * normal), to_tip = normalize(f.tangent - 1.5 * shift * normal);
+    vec3 to_root = normalize(f.tangent + shift * normal),
+         to_tip = normalize(f.tangent - 1.5 * shift * normal);
     vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam beam = beam_at(i, f.position);
@@ -94,7 +95,8 @@ vec3 hair_shade(hair_fragment f)
         vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
         float     along   = dot(f.tangent, beam.to);
         float     diffuse = sqrt(max(1.0 - along * along, 0.0));
-        vec3      glints  = draw.specular.x * lobe(to_root, halfway, glossy.x) + tinted * lobe(to_tip, halfway, glossy.y);
+        vec3 glints =
+            draw.specular.x * lobe(to_root, halfway, glossy.x) + tinted * lobe(to_tip, halfway, glossy.y);
         // Light from behind passes through the fibre but does not glint on its near side.
         float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
         sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));

@@ -1,4 +1,4 @@
-// light/shading.glsl - light from a strand to the eye as views need it: by the library's shader, or by
+// shading.glsl - light from a strand to the eye as views need it: by the library's shader, or by
 // the application's, which may call the library's.
 #if defined(HAIR_USER_VERTICES) || (defined(HAIR_USER_PIXELS) && !defined(HAIR_OF_VERTICES))
 #define HAIR_USER_SHADER 1

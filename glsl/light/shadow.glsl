@@ -1,4 +1,4 @@
-// light/shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
+// shadow.glsl - the fraction of a light that passes through hair and past opaque geometry in front
 // of a point.
 //
 // The fraction through hair is that of vertex_transmittance.comp for strand vertices, where it is
@@ -51,7 +51,8 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     if (taps == 0) return vec4(1.0);
     vec3  at    = find_place_in_map(map, position);
     vec2  texel = 1.0 / vec2(textureSize(hair_shadow_map[map], 0));
-    float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034), from_light = distance_to_light(number, position);
+    float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034),
+          from_light = distance_to_light(number, position);
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
     vec4  sum   = vec4(0.0);
     for (int i = 0; i < taps; ++i) {
@@ -80,7 +81,8 @@ float light_past_bodies(uint number, vec3 position)
     int  taps = map < uint(HAIR_SHADOW_MAPS) ? 9 : 0; // Not constant, as above.
     if (taps == 0) return 1.0;
     vec3  at    = find_place_in_map(map, position);
-    float min_value = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)), sum = 0.0;
+    float min_value = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)),
+          sum = 0.0;
     vec2  size  = vec2(textureSize(opaque_shadow_map[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
     vec2  first = floor(place), part = place - first, rest = 1.0 - part;
     mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);

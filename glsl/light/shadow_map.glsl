@@ -1,4 +1,4 @@
-// light/shadow_map.glsl - positions in the depth maps of lights. The maps are orthographic, or in
+// shadow_map.glsl - positions in the depth maps of lights. The maps are orthographic, or in
 // perspective for lights with a position.
 #ifndef HAIR_SHADOW_MAP_GLSL
 #define HAIR_SHADOW_MAP_GLSL

@@ -1,5 +1,5 @@
-// light/strand_color.glsl - the colour of a strand along its length, and random variation of its colour, its
-// roughness and the tilt of its scales.
+// strand_color.glsl - the colour of a strand along its length, and random variation of its colour,
+// its roughness and the tilt of its scales.
 #include "draw_params.glsl"
 #include "random.glsl"
 

@@ -19,7 +19,10 @@
 #include "light/shadow_map.glsl"
 #include "random.glsl"
 
-layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer { float light_of_node[]; };
+layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer
+{
+    float light_of_node[];
+};
 layout(std430, binding = HAIR_BIND_LIGHT) writeonly restrict buffer light_buffer { uint light_of_vertex[]; };
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW_MAPS];
 
@@ -97,7 +100,8 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
     float each = depth_by_metre(light, find_place_in_map(map, s.at).z, distance_to_light(light, s.at));
     float own = OWN_DEPTH * s.radius * each, turn = random(s.seed + 0x3c6ef372u), open = 0.0;
     for (int i = 0; i < TAPS; ++i) {
-        float x  = (float(i) + turn) / float(TAPS) * 2.0 - 1.0, across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
+        float x = (float(i) + turn) / float(TAPS) * 2.0 - 1.0,
+              across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
         vec3  p  = s.at + 0.5 * abs(x) * ((x < 0.0 ? s.before : s.after) - s.at) + across * side;
         vec3  at = find_place_in_map(map, p);
         ivec2 texel = ivec2(floor(at.xy * size));

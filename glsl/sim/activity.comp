@@ -8,7 +8,10 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 layout(std430, binding = HAIR_BIND_STATE) readonly restrict buffer state_buffer { hair_state state[]; };
 layout(std430, binding = HAIR_BIND_ANCHOR) restrict buffer anchor_buffer { vec4 anchor[]; };
 layout(std430, binding = HAIR_BIND_ACTIVITY) restrict buffer activity_buffer { uint activity[]; };
-layout(std140, binding = HAIR_BIND_ACTIVITY_PARAMS) uniform activity_params_buffer { hair_activity_params params; };
+layout(std140, binding = HAIR_BIND_ACTIVITY_PARAMS) uniform activity_params_buffer
+{
+    hair_activity_params params;
+};
 
 // Distance and speed as bits. Non-negative floats have the same order as their bits.
 shared uint max_value[2];

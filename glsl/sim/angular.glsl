@@ -21,7 +21,8 @@ struct angular_moves {
 // < 2. The symbol w is the squared norm of the derivative of d.
 angular_moves angular_force(vec4 head, vec3 x0, vec3 x1, vec3 x2, vec3 link, vec3 next, float k)
 {
-    float l = length(link), ratio = length(next) / l, weight = 1.0 + (1.0 + ratio) * (1.0 + ratio) + ratio * ratio;
+    float l = length(link), ratio = length(next) / l,
+          weight = 1.0 + (1.0 + ratio) * (1.0 + ratio) + ratio * ratio;
     vec3  r = rotate(head, link) / l, e = direction_or(x1 - x0, r);
     vec3  arm = rotate(quat_between(r, e), rotate(head, next)), d = (x1 + arm) - x2;
     float stiffness = k / (1.0 + 1.5 * weight * k), open = 0.5 * (1.0 + dot(e, r));

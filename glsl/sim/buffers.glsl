@@ -1,4 +1,4 @@
-// sim/buffers.glsl - storage and uniform buffers of compute passes, at the slots of shared.h.
+// buffers.glsl - storage and uniform buffers of compute passes, at the slots of shared.h.
 #include "shared.h"
 #include "workgroup.glsl"
 

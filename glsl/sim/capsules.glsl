@@ -1,12 +1,12 @@
-// sim/capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out of
-// them.
+// capsules.glsl - colliders of redblack as capsules at one moment, and the push of a vertex out
+// of them.
 
 struct capsule { // A collider at one moment.
     vec3  start, axis;
     float radius;
 };
 
-// Return the collider at a fraction `share` of the step, enlarged by `margin`.
+// Return the collider at `fraction` of the step, enlarged by `margin`.
 capsule collider_at(hair_capsule collider, float fraction, float margin)
 {
     vec4 a = mix(collider.start[0], collider.end[0], fraction);

@@ -5,7 +5,10 @@ layout(binding = HAIR_UNIT_CONTACT) uniform usamplerBuffer contact_texture;
 layout(binding = HAIR_UNIT_CELL) uniform usamplerBuffer cell_texture;
 layout(binding = HAIR_UNIT_NODE) uniform samplerBuffer node_texture;
 
-uvec4 contact_bits(uint k, uint part) { return texelFetch(contact_texture, int(uint(HAIR_CONTACT_TEXELS) * k + part)); }
+uvec4 contact_bits(uint k, uint part)
+{
+    return texelFetch(contact_texture, int(uint(HAIR_CONTACT_TEXELS) * k + part));
+}
 vec4  contact_part(uint k, uint part) { return uintBitsToFloat(contact_bits(k, part)); }
 uint  cell_entry(uint i) { return texelFetch(cell_texture, int(i)).x; }
 

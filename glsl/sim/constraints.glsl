@@ -1,5 +1,5 @@
-// sim/constraints.glsl - distance, angular and collision constraints of a guide in shared memory, after
-// Tariq 2010, "Hair".
+// constraints.glsl - distance, angular and collision constraints of a guide in shared memory,
+// after Tariq 2010, "Hair".
 //
 // A work group has one thread per vertex. Each function is one phase, in which no two threads touch
 // the same vertex. The scalp pins vertices 0 and 1, which never move.
@@ -47,7 +47,8 @@ uvec2 find_colliders(vec3 position, float fraction)
 {
     uvec2 found = uvec2(0u);
     for (uint k = 0u; k < params.colliders; ++k) {
-        capsule collider = collider_at(params.collider[k], fraction, params.collision_margin + COLLISION_REACH);
+        capsule collider =
+            collider_at(params.collider[k], fraction, params.collision_margin + COLLISION_REACH);
         if (length(from_axis(position, collider)) < collider.radius) found[k / 32u] |= 1u << (k % 32u);
     }
     return found;

@@ -95,7 +95,8 @@ float depth_in(uint k, vec3 start, vec3 d, vec3 head_moved, out float was, out v
     float   depth = now.radius - away;
     normal        = away > 1e-9 ? out_b / away : vec3(0.0, 1.0, 0.0);
     if (dot(out_b, out_a) < 0.0) {
-        float a = dot(pass, pass), b = dot(out_a, pass), c = dot(out_a, out_a) - now.radius * now.radius, root = b * b - a * c;
+        float a = dot(pass, pass), b = dot(out_a, pass), c = dot(out_a, out_a) - now.radius * now.radius,
+              root = b * b - a * c;
         if (c > 0.0 && b < 0.0 && root > 0.0) {
             normal = normalize(out_a + pass * ((-b - sqrt(root)) / a));
             depth  = now.radius - dot(normal, out_b);
@@ -157,7 +158,9 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
     float far = length(way), grip = friction * max(depth, 0.0);
     bool  stuck = far <= grip;
     made.d += depth * normal - (stuck ? way : way * (grip / far));
-    made.slip    = depth <= 0.0 ? vec4(0.0) : stuck ? vec4(0.0, 0.0, 0.0, friction) : vec4(way * (friction / far), grip / far);
+    made.slip = depth <= 0.0 ? vec4(0.0)
+                : stuck      ? vec4(0.0, 0.0, 0.0, friction)
+                             : vec4(way * (friction / far), grip / far);
     made.freedom = stuck ? vec4(normal, STICKS) : left_of(made.freedom, normal);
 }
 

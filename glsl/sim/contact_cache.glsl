@@ -11,8 +11,8 @@
 void  cache_close(uint i) {}
 bool  is_out_of_cached(uvec2 colliders, vec3 end, float way, float granted) { return false; }
 void  touch_cached(vec3 head_moved, out vec3 normal, out vec3 surface, out float friction) {}
-uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value, inout float was_max,
-                     inout float depth, inout uvec2 from, inout uvec2 around)
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value,
+                     inout float was_max, inout float depth, inout uvec2 from, inout uvec2 around)
 {
     return uvec2(0u);
 }
@@ -84,7 +84,8 @@ void advance_cached(vec3 start)
 {
     vec4 margin = vec4(0.0, 0.0, 0.0, params.collision_margin);
     for (uint a = 0u; a < CACHED; ++a) {
-        vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a), then = mix(begins, ends, fraction_then) + margin;
+        vec4 begins = CACHED_START(a), ends = CACHED_END(a), turns = CACHED_TURN(a),
+             then = mix(begins, ends, fraction_then) + margin;
         cached_now[a]  = mix(begins, ends, fraction_now) + margin;
         cached_way[a]  = vec4(cached_now[a].xyz - then.xyz, length(cached_now[a].xyz - then.xyz));
         cached_spin[a] = vec4(turns.xyz * (fraction_now - fraction_then), turns.w);
@@ -99,8 +100,8 @@ vec4 deepest_out, deepest_way, deepest_spin;
 
 // Cached variant of the search in leave_deepest(). Return a bit mask of the members tested. Return
 // no bits if the vertex may pass through a sphere.
-uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value, inout float was_max,
-                     inout float depth, inout uvec2 from, inout uvec2 around)
+uvec2 look_at_cached(uint i, uvec2 colliders, uvec2 owed, vec3 end, float way, inout float max_value,
+                     inout float was_max, inout float depth, inout uvec2 from, inout uvec2 around)
 {
     if ((colliders & ~local(close)) != uvec2(0u)) return uvec2(0u);
     bool  whole = false;

@@ -33,13 +33,13 @@ float moves_of(uint k) { return COLLIDER_SPIN(k).w * (fraction_now - fraction_th
 
 // collider_then() and collider_now() return a capsule at the start and end of the substep. If a
 // guide has several threads, each of them computes other capsules, once per moment. A capsule
-// written by share_collider() is visible after COLLIDERS_BARRIER, and in the next substep by
+// written by store_collider() is visible after COLLIDERS_BARRIER, and in the next substep by
 // collider_then().
 #if defined(HAIR_COLLIDER_GRID) || defined(HAIR_THREAD_PER_GUIDE)
 #define COLLIDERS_BARRIER
 void    begin_colliders() {}
 void    next_colliders() {}
-void    share_collider(uint k, capsule now) {}
+void    store_collider(uint k, capsule now) {}
 capsule collider_then(uint k) { return collider_at(k, fraction_then); }
 capsule collider_now(uint k) { return collider_at(k, fraction_now); }
 #else
@@ -51,7 +51,7 @@ shared vec4 shared_start[MOMENTS * GROUP_GUIDES], shared_axis[MOMENTS * GROUP_GU
 // Index of the first capsule at the end of the substep.
 uint moment;
 
-void share_collider(uint k, capsule now)
+void store_collider(uint k, capsule now)
 {
     shared_start[moment + k] = vec4(now.start, now.radius);
     shared_axis[moment + k]  = vec4(now.axis, now.square);
@@ -61,12 +61,15 @@ void share_collider(uint k, capsule now)
 void begin_colliders()
 {
     moment = MOMENTS * guide_of_group;
-    for (uint k = lane; k < params.colliders; k += lanes) share_collider(k, collider_at(k, fraction_now));
+    for (uint k = lane; k < params.colliders; k += lanes) store_collider(k, collider_at(k, fraction_now));
 }
 uint moment_before() { return 2u * MOMENTS * guide_of_group + uint(HAIR_FEW_COLLIDERS) - moment; }
 void next_colliders() { moment = moment_before(); }
 
-capsule shared_collider(uint n) { return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w); }
+capsule shared_collider(uint n)
+{
+    return capsule(shared_start[n].xyz, shared_axis[n].xyz, shared_start[n].w, shared_axis[n].w);
+}
 capsule collider_then(uint k) { return shared_collider(moment_before() + k); }
 capsule collider_now(uint k) { return shared_collider(moment + k); }
 #endif

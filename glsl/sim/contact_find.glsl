@@ -10,7 +10,8 @@ void find_root()
     for (uint n = list.x + lane; n < min(list.y, list.x + uint(HAIR_CELL_COLLIDERS)); n += lanes) {
         uint member = cell_entry(n), k = member & HAIR_ENTRY_NUMBER;
         vec4 ball   = BALL(k);
-        if (length(root_now - ball.xyz) < ball.w + params.collision_margin) sunk = max(sunk, root_depth_in(k, (member & HAIR_ENTRY_WALKED) != 0u));
+        if (length(root_now - ball.xyz) < ball.w + params.collision_margin)
+            sunk = max(sunk, root_depth_in(k, (member & HAIR_ENTRY_WALKED) != 0u));
     }
     sunk = group_max(sunk);
 }
@@ -35,7 +36,8 @@ void find_colliders(vec3 head_moved)
     if (group_any(bvec2(lacks, false)).x) {
         find_root();
         FOR_VERTICES(guide_count) {
-            vec3  way = local(wanted) - head_moved, position = root_now + GET(place) + local(wanted) - root_moved;
+            vec3 way = local(wanted) - head_moved,
+                 position = root_now + GET(place) + local(wanted) - root_moved;
             float far = length(way);
             if (!has_lists) local(reachable) = uvec2(0u);
             if (local(slack) > 0.0 && !has_listed(i, halfway(position, way, far), far)) {

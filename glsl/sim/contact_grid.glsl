@@ -7,7 +7,10 @@
 #define ROUNDS 6u
 #define AGAIN 1e-6 // Minimum depth in another collider at which the search goes on, m
 
-uvec2 first_of(uvec2 bits) { return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y); }
+uvec2 first_of(uvec2 bits)
+{
+    return bits.x != 0u ? uvec2(0u, bits.x & -bits.x) : uvec2(1u, bits.y & -bits.y);
+}
 
 // Loop over the bits of both words in one loop, because a software rasteriser executes even an
 // empty loop once.
@@ -27,8 +30,8 @@ bool is_around(uint k, vec3 end, float way)
 // Push a displacement out of the deepest collider, and return the number of pushes. Colliders in
 // `owed` hold the vertex and have not pushed yet. They come first. `colliders` is reduced to the
 // colliders nearby. `is_out` is set if no collider can push the vertex again.
-uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, float enough_depth, vec3 head_moved,
-                   vec2 granted, inout outcome made, inout uvec2 met, out bool is_out)
+uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, float enough_depth,
+                   vec3 head_moved, vec2 granted, inout outcome made, inout uvec2 met, out bool is_out)
 {
     vec3  end  = start + made.d - head_moved, normal, surface;
     float max_value = -FARTHEST, was_max = -FARTHEST, depth = 0.0, way = length(made.d - head_moved), was;
@@ -98,18 +101,21 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, 
     owed &= ~from;
     if ((owed & colliders) != uvec2(0u)) return 1u;
     if (all_cached) {
-        is_out = is_out_of_cached(colliders, start + made.d - head_moved, length(made.d - head_moved), granted.x);
+        is_out =
+            is_out_of_cached(colliders, start + made.d - head_moved, length(made.d - head_moved), granted.x);
     // A push increases the distance from a ball by at least its component along the normal.
     } else if (!HAS_CACHE) {
         vec3  pushed = made.d - before;
         float far    = length(pushed);
-        is_out       = max(was_max - granted.y, max(second.w - dot(pushed, second.xyz), third + far) - AGAIN) <= granted.x &&
+        is_out = max(was_max - granted.y, max(second.w - dot(pushed, second.xyz), third + far) - AGAIN) <=
+                     granted.x &&
                  clears > 2.0 * far;
     }
     return 1u;
 }
 
-void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, inout outcome made, inout uvec2 met)
+void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, inout outcome made,
+             inout uvec2 met)
 {
     vec2  granted = granted_to(i);
     uvec2 owed = kept, tried;
@@ -125,7 +131,8 @@ void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, i
         around &= ~local(walked);
         uvec2 bodies = n < 2u ? colliders & local(walked) : uvec2(0u);
 #endif
-        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met, is_out);
+        pushed = leave_deepest(i, start, around, owed, n > 0u ? AGAIN : 0.0, head_moved, granted, made, met,
+                               is_out);
 #ifdef HAIR_BODIES
         EACH_BIT(bodies) {
             take_rounds(BODY_STEPS + 2u);

@@ -16,8 +16,6 @@ LOCAL(uvec2, walked);
 #endif
 bool has_lists = false;
 
-// Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion.
-#define FIT 0.02    // m
 // Minimum radius in which `close` is enough.
 #define ABOUT 0.001 // m
 
@@ -37,12 +35,19 @@ vec3 halfway(vec3 position, vec3 way, float far)
 }
 
 // Return the member of a list for a bit, or 0 for no bit.
-uint member_at(uint first, uvec2 at) { return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u; }
+uint member_at(uint first, uvec2 at)
+{
+    return at.y != 0u ? cell_entry(first + 32u * at.x + uint(findLSB(at.y))) : 0u;
+}
 
 uvec2 mask_of(uvec2 at) { return at.x == 0u ? uvec2(at.y, 0u) : uvec2(0u, at.y); }
 
 // Return a sphere with the margin, at a fraction of the step.
-vec4 sphere_at(uint k, float fraction) { return mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), fraction) + vec4(0.0, 0.0, 0.0, params.collision_margin); }
+vec4 sphere_at(uint k, float fraction)
+{
+    return mix(COLLIDER_START(k, 0), COLLIDER_END(k, 0), fraction) +
+           vec4(0.0, 0.0, 0.0, params.collision_margin);
+}
 
 struct sphere {
     // The sphere at the end of the step, and its displacement from the time when the list is made.
@@ -121,7 +126,7 @@ void list_colliders(uint i, vec3 middle, float far)
 {
     uvec2 list  = cell_members(middle), all = uvec2(0u), near = uvec2(0u), others = uvec2(0u);
     float about = min(ABOUT + 1.5 * far, params.cells_slack);
-    float reach = FIT + max(0.5 * far, params.cells_slack), nearest = reach;
+    float reach = HAIR_CONTACT_FIT + max(0.5 * far, params.cells_slack), nearest = reach;
     uint  count = min(list.y - list.x, uint(HAIR_CELL_COLLIDERS));
     uint  member[AT_ONCE], next[AT_ONCE], end = list.x + count;
     for (uint a = 0u; a < AT_ONCE; ++a) next[a] = cell_entry(min(list.x + a, end - 1u));

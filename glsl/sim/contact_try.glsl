@@ -6,7 +6,8 @@
 
 void update_follower_collision(uint i, vec3 head_moved, bool keep)
 {
-    outcome made = allowed(i, local(wanted), local(reachable), keep ? local(met) : BITS(0u), head_moved, local(met));
+    outcome made =
+        allowed(i, local(wanted), local(reachable), keep ? local(met) : BITS(0u), head_moved, local(met));
     PUT(moved, made.d);
     local(touch) = made.freedom;
     local(slip)  = made.slip;
@@ -18,7 +19,8 @@ void try_wanted(vec3 head_moved, bool keep)
     FOR_VERTICES(guide_count) {
         PUT(moved, local(wanted));
         if (COLLIDERS) local(touch) = local(slip) = vec4(0.0);
-        if (COLLIDERS && !LISTS_REACHING && local(reachable) != BITS(0u)) update_follower_collision(i, head_moved, keep);
+        if (COLLIDERS && !LISTS_REACHING && local(reachable) != BITS(0u))
+            update_follower_collision(i, head_moved, keep);
     }
     if (COLLIDERS && LISTS_REACHING) {
         EACH_REACHING { update_follower_collision(i, head_moved, keep); }

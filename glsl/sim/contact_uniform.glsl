@@ -17,20 +17,19 @@ uint bodies()
 }
 
 // Find the colliders that the guide can touch in this substep, and for each vertex those that it
-// can touch. Later tests use only these. Fitting lengths is assumed to move a vertex at most 2 cm
-// farther than its free motion.
+// can touch. Later tests use only these.
 void find_colliders(vec3 head_moved)
 {
     if (!COLLIDERS) return;
     uint  near    = 0u;
-    float longest = guide_length + length(root_moved - head_moved) + 0.02;
+    float longest = guide_length + length(root_moved - head_moved) + HAIR_CONTACT_FIT;
     // A guide with a free root or with pins may be anywhere.
     if (root_is_free || PINNED) longest = 2.0 * FARTHEST;
     sunk = 0.0;
     for (uint k = lane; k < params.colliders; k += lanes) {
         capsule now = collider_at(k, fraction_now);
         float   off = length(from_axis(root_now, now)) - now.radius;
-        share_collider(k, now);
+        store_collider(k, now);
         if (off < longest + moves_of(k)) near |= 1u << k;
         if ((1u << k & bodies()) == 0u) sunk = max(sunk, -off);
     }
@@ -45,7 +44,7 @@ void find_colliders(vec3 head_moved)
         local(reachable) = local(met) = 0u;
         if (local(slack) > 0.0) {
             vec3  position = root_now + GET(place) + local(wanted) - root_moved;
-            float reach    = 0.02 + length(local(wanted) - head_moved);
+            float reach    = HAIR_CONTACT_FIT + length(local(wanted) - head_moved);
             EACH_BIT(near) {
                 capsule collider = collider_now(k);
                 vec3    off   = from_axis(position, collider);
@@ -58,7 +57,8 @@ void find_colliders(vec3 head_moved)
 
 // Push a vertex out of one collider after the other, capsules first. A push out of a second
 // collider may lead into the first. Then all are tested once more.
-void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, inout outcome made, inout uint met)
+void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, inout outcome made,
+             inout uint met)
 {
     vec2 granted  = granted_to(i);
     uint contacts = 2u;
@@ -67,7 +67,8 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
         vec3 normal, surface;
         contacts = 0u;
         EACH_BIT(colliders & ~bodies()) {
-            float was, depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
+            float was,
+                depth = depth_in(k, start, made.d, head_moved, was, normal) - max(was - granted.y, granted.x);
             // The displacement of the surface matters only in contact.
             if (depth > 0.0 || (kept & bit) != 0u) {
                 surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
@@ -78,7 +79,8 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
         }
 #ifdef HAIR_BODIES
         EACH_BIT(colliders & bodies()) {
-            float depth = depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
+            float depth =
+                depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
             if (depth > 0.0 || (kept & bit) != 0u) {
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                 met |= bit;

@@ -24,7 +24,7 @@ vec3 by_parts(vec2 fraction, vec3 v)
 }
 
 // Compute drags and drifts at vertex i, whose velocity is about hv / h. Drag moves a strand by at
-// most its length in a substep. `share` is the fraction of the vertex's inertia that has weight.
+// most its length in a substep. `fraction` is the part of the vertex's inertia that has weight.
 void feel_air(uint i, vec3 before, float fraction, vec3 hv)
 {
     float h     = SUBSTEP;

@@ -71,7 +71,8 @@ void add_bending(uint g, uint first, uint count, inout vec4 sum)
 #ifdef HAIR_MIXED
         vec4 bend = bend_of(i, i > first ? material[i - 1u] : scalp);
 #else
-        vec4 bend = bend_of(i, i > first ? normalize(state[i].position.xyz - state[i - 1u].position.xyz) : along_of(scalp));
+        vec4 bend = bend_of(i, i > first ? normalize(state[i].position.xyz - state[i - 1u].position.xyz)
+                                         : along_of(scalp));
 #endif
         sum.z += bend.w;
         grain += rod[i].strain.w * (length(bend.xyz) + TURN_GRAIN) * TURN_GRAIN;

@@ -111,8 +111,10 @@ void main()
     uint i = uint(gl_VertexID) - first;
     vec3 x = vertex(i), kept = beside(i), target = rotate(rotation, rest_position(i).xyz);
 #if HAIR_PHASE == 0
-    float dt = params.gravity.w, frequency = mix(params.shape_frequency_root, params.shape_frequency_tip, float(i) / float(count - 1u));
-    vec3  p = pull(x - head + params.keep * kept + params.gravity.xyz * (dt * dt), target, frequency * frequency, dt);
+    float dt = params.gravity.w, frequency = mix(params.shape_frequency_root, params.shape_frequency_tip,
+                                                 float(i) / float(count - 1u));
+    vec3 p = pull(x - head + params.keep * kept + params.gravity.xyz * (dt * dt), target,
+                  frequency * frequency, dt);
     kept = x;
     x    = i < 2u ? target : p;
 #elif HAIR_PHASE == 1

@@ -36,10 +36,12 @@ bool accept(int method, bool waits, vec3 head_moved)
 #endif
         // Limit the speed that follow-the-leader added.
         if (IS_LEADER(method)) {
-            float fastest  = length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+            float fastest =
+                length(root_moved) + 4.0 * SUBSTEP * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
             vec3  root_d   = GET_AT(moved, 0u), relative = d - root_d;
             float speed    = length(relative);
-            float keeps    = (heavy && i + 1u == guide_count) || (PINNED && local(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
+            float keeps =
+                (heavy && i + 1u == guide_count) || (PINNED && local(slack) == 0.0) ? 1.0 : LEADER_KEEPS;
             kept           = root_d + keeps * relative * (speed > fastest ? fastest / speed : 1.0);
         }
         // Round as store() and load() do, so that the number of substeps per dispatch does not
@@ -56,10 +58,12 @@ bool accept(int method, bool waits, vec3 head_moved)
 #endif
         local(displacement) = kept / leap_part;
         if (i < guide_count)
-            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
+            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) >
+                               floatBitsToUint(FARTHEST * FARTHEST);
     }
     bvec2 found = group_any(bvec2(lost, struck));
-    if (own_method == SHAKE) known = IS_SHAKE(method) ? leap_part : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
+    if (own_method == SHAKE)
+        known = IS_SHAKE(method) ? leap_part : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
 #ifdef HAIR_PASS1
     if (HAIR_SOLVER == SHAKE && COLLIDERS && !found.y) return !group_any(bvec2(turns || found.x, false)).x;
@@ -72,7 +76,8 @@ bool accept(int method, bool waits, vec3 head_moved)
         PUT(place, rotate(turn_now, rest_from_root(i)));
         local(displacement) = still;
 #ifdef HAIR_MIXED
-        SHARED_READ(section) = quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
+        SHARED_READ(section) =
+            quat_multiply(turn_now, rest[min(guide_first + i, params.vertices - 1u)].frame);
         local(force) = local(turned) = local(turned_before) = vec3(0.0);
         local(reaction) = vec3(0.0);
 #endif

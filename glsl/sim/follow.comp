@@ -10,10 +10,10 @@
 //   t' ~ t + (d_1 - d_0) / l + h^2 Q a / I + (c u - (u . Q r) Q p) / I,   C = c r + p, p across r
 //
 // r is the rest direction, and Q the rotation of the segment before it from the rest pose. a
-// contains the stiffness K and the rest shape, which bears part of gravity (lib/rod/follow_segments.c).
-// Normalising t' makes the pull to the rest direction implicit, so that any stiffness is stable. A
-// segment is affected only by the segments before it. Its oscillation cannot feed theirs. The shape
-// at rest follows from the root on, whatever came before.
+// contains the stiffness K and the rest shape, which bears part of gravity
+// (lib/rod/follow_segments.c). Normalising t' makes the pull to the rest direction implicit, so
+// that any stiffness is stable. A segment is affected only by the segments before it. Its
+// oscillation cannot feed theirs. The shape at rest follows from the root on, whatever came before.
 //
 // A collider keeps a vertex above the plane of its contact. The direction is turned until the
 // vertex lies on the plane, where friction holds the vertex if it can. The planes of a substep are

@@ -52,7 +52,8 @@ vec3 kept_above(uint k, vec3 d, bool met)
 // its plane.
 vec3 direction_above(uint k, vec3 leader, vec3 between, vec3 way, float len, bool met)
 {
-    vec3 normal = GET_AT(edge, k), d = leader + len * way - between, to = between + kept_above(k, d, met) - leader;
+    vec3 normal = GET_AT(edge, k), d = leader + len * way - between,
+         to = between + kept_above(k, d, met) - leader;
     PUT_AT(handed, k, d);
     if (!COLLIDERS) return way;
     float up = dot(to, normal), across = length(to - up * normal);
@@ -82,7 +83,8 @@ void draw_strand_after_root(bool met)
         }
         vec3 inertial = GET_AT(lever, k), relative = GET_AT(lever, k + 1u) - inertial;
         vec3 felt = params.kick * params.gravity.xyz + inertial - leader;
-        vec3 pull = params.kick * rotate(turn, f.strain.xyz) + f.strain.w * felt - dot(felt, way) * rotate(turn, f.factor.xyz);
+        vec3 pull = params.kick * rotate(turn, f.strain.xyz) + f.strain.w * felt -
+                    dot(felt, way) * rotate(turn, f.factor.xyz);
         vec3 led  = f.segment.w * params.gravity.w * (rotate(swung, between) - between);
         vec3 to   = between + (relative + led) / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;
         last      = is_direction(to, len) ? normalize(to) : last;

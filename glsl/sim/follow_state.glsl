@@ -34,20 +34,23 @@ void store()
 void finish(vec3 head_moved)
 {
     bool  lost    = false;
-    float fastest = length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
+    float fastest =
+        length(root_moved) + 4.0 * params.gravity.w * sqrt(2.0 * length(params.gravity.xyz) * guide_length);
     vec3  root_d  = GET_AT(moved, 0u);
     FOR_VERTICES(guide_count) {
         vec3  d = GET(moved), from_head = rounded(root_now + (GET(place) + (d - root_moved)));
         if (COLLIDERS) {
             vec3 n = local(touch).xyz;
             local(plane) = GET(edge);
-            if (local(touch).w == SLIDES || local(touch).w == STICKS) d -= max(dot(d - root_moved, n), 0.0) * n;
+            if (local(touch).w == SLIDES || local(touch).w == STICKS)
+                d -= max(dot(d - root_moved, n), 0.0) * n;
         }
         float speed = length(d - root_d);
         PUT(place, from_head - root_now);
         local(displacement) = root_d + (d - root_d) * (speed > fastest ? fastest / speed : 1.0);
         if (i < guide_count)
-            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) > floatBitsToUint(FARTHEST * FARTHEST);
+            lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) >
+                               floatBitsToUint(FARTHEST * FARTHEST);
     }
     if (!group_any(bvec2(lost, false)).x) return;
     vec3 still = dot(head_moved, head_moved) < FARTHEST * FARTHEST ? head_moved : vec3(0.0);

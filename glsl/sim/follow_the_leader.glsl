@@ -36,7 +36,8 @@ void draw_span(vec4 span, inout vec3 last)
 {
     uint  from = uint(span.x), to = uint(span.y);
     vec3  goal = GET_AT(moved, to);
-    float more = given(span, (GET_AT(place, to) - GET_AT(place, from)) + (goal - GET_AT(moved, from))), done = 0.0;
+    float more = given(span, (GET_AT(place, to) - GET_AT(place, from)) + (goal - GET_AT(moved, from))),
+          done = 0.0;
     for (uint n = 0u; n < PINNED_ROUNDS; ++n) {
         draw_on(from, to, more, last);
         PUT_AT(moved, to, goal);

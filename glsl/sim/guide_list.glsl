@@ -2,7 +2,10 @@
 
 // Return the index of a list's length in health[]. The work groups of an indirect dispatch come
 // before it.
-uint length_of_list(uint list) { return uint(HAIR_SOLVER_STATS_COUNT) + uint(HAIR_SOLVER_STATS_LIST) * list + 3u; }
+uint length_of_list(uint list)
+{
+    return uint(HAIR_SOLVER_STATS_COUNT) + uint(HAIR_SOLVER_STATS_LIST) * list + 3u;
+}
 
 void clear_list(uint list)
 {

@@ -9,9 +9,18 @@ layout(std430, binding = HAIR_BIND_STATE) readonly buffer state_buffer { hair_st
 layout(std430, binding = HAIR_BIND_HISTORY) readonly buffer history_buffer { hair_history history[]; };
 layout(std430, binding = HAIR_BIND_HAIR_GRID) buffer hair_grid_buffer { int hair_grid[]; };
 layout(std430, binding = HAIR_BIND_SPLAT) readonly buffer splat_buffer { hair_grid_splat splat[]; };
-layout(std430, binding = HAIR_BIND_REST_DENSITY) readonly buffer rest_density_buffer { float rest_density[]; };
-layout(std430, binding = HAIR_BIND_ACCELERATION) writeonly buffer acceleration_buffer { vec4 acceleration[]; };
-layout(std140, binding = HAIR_BIND_HAIR_GRID_PARAMS) uniform hair_grid_params_buffer { hair_grid_params params; };
+layout(std430, binding = HAIR_BIND_REST_DENSITY) readonly buffer rest_density_buffer
+{
+    float rest_density[];
+};
+layout(std430, binding = HAIR_BIND_ACCELERATION) writeonly buffer acceleration_buffer
+{
+    vec4 acceleration[];
+};
+layout(std140, binding = HAIR_BIND_HAIR_GRID_PARAMS) uniform hair_grid_params_buffer
+{
+    hair_grid_params params;
+};
 
 uint  thread() { return hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; }
 uvec3 nodes() { return uvec3(params.nodes_x, params.nodes_y, params.nodes_z); }
@@ -50,7 +59,7 @@ vec3 speed_of(uint i)
 // Return the position in the middle of the block of substeps, in cells from node 0. A constant
 // force over a block has its mean lever arm there. Forces without a torque at these positions
 // therefore keep angular momentum.
-vec3 spot_of(uint i, vec3 speed)
+vec3 grid_position(uint i, vec3 speed)
 {
     vec3 from = rotate(quat_conjugate(params.rotation), state[i].position.xyz) - params.lower.xyz;
     return from / params.lower.w + params.ahead * speed;
@@ -64,9 +73,12 @@ vec3 spot_of(uint i, vec3 speed)
 #else
 #define OVERHANG 0.0
 #endif
-bool is_inside(vec3 at) { return all(lessThanEqual(abs(at - clamp(at, vec3(0.0), vec3(nodes() - 1u))), vec3(OVERHANG))); }
+bool is_inside(vec3 at)
+{
+    return all(lessThanEqual(abs(at - clamp(at, vec3(0.0), vec3(nodes() - 1u))), vec3(OVERHANG)));
+}
 
-void find_spot(vec3 at)
+void find_stencil(vec3 at)
 {
     at     = clamp(at, vec3(0.0), vec3(nodes() - 1u));
     lowest = min(uvec3(at), nodes() - 2u);

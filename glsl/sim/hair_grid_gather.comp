@@ -31,7 +31,8 @@ sums sums_at(uint at)
 // m^2 is 1/N for N equal strands.
 float company_at(uint node)
 {
-    float mass = float(hair_grid[node]), alike = float(hair_grid[node + HAIR_GRID_ALIKE]) / (params.per_strand * mass * mass);
+    float mass = float(hair_grid[node]),
+          alike = float(hair_grid[node + HAIR_GRID_ALIKE]) / (params.per_strand * mass * mass);
     return clamp(2.0 * (1.0 - alike), 0.0, 1.0);
 }
 
@@ -74,9 +75,10 @@ void main()
     if (i >= params.vertices) return;
     acceleration[i] = vec4(0.0);
     if (!counts(i)) return;
-    vec3 v = speed_of(i), at = spot_of(i, v);
+    vec3 v = speed_of(i), at = grid_position(i, v);
     if (!is_inside(at)) return;
-    find_spot(at);
-    vec3 a  = params.cohesion * HAIR_GRID_SPEED * drawn_at(v) + 6.0 * params.pressure_stiffness / params.lower.w * pressed();
+    find_stencil(at);
+    vec3 a = params.cohesion * HAIR_GRID_SPEED * drawn_at(v) +
+             6.0 * params.pressure_stiffness / params.lower.w * pressed();
     acceleration[i] = vec4(rotate(params.rotation, a), 0.0);
 }

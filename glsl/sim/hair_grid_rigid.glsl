@@ -20,7 +20,7 @@ struct motion {
 // unit per vertex. The added inertia keeps these errors from making a large angular velocity.
 float min_inertia(float units) { return 1e-5 + 16.0 / units; }
 
-// Solve I w = l by I = L D L^T. Pivots are at least `least`, even with rounding.
+// Solve I w = l by I = L D L^T. Pivots are at least `min_value`, even with rounding.
 vec3 solve_inertia(vec3 diagonal, vec3 products, vec3 l, float min_value)
 {
     float xy = -products.z, xz = -products.y, yz = -products.x;

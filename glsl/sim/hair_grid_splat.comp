@@ -20,7 +20,7 @@ vec4 own_below, own_above; // Mass of the guide at the four lower and the four u
 bool add_own(uint j)
 {
     if (!counts(j)) return false;
-    vec3 from  = spot_of(j, speed_of(j)) - vec3(lowest);
+    vec3 from  = grid_position(j, speed_of(j)) - vec3(lowest);
     vec3 lower = max(1.0 - abs(from), 0.0), upper = max(1.0 - abs(from - 1.0), 0.0);
     vec4 mass  = float(splat[j].mass) * vec4(lower.x, upper.x, lower.x, upper.x) * vec4(lower.yy, upper.yy);
     own_below += lower.z * mass;
@@ -100,8 +100,8 @@ void main()
 {
     uint i = thread();
     if (i >= params.vertices || !counts(i)) return;
-    vec3 speed = speed_of(i), at = spot_of(i, speed);
+    vec3 speed = speed_of(i), at = grid_position(i, speed);
     if (!is_inside(at)) return;
-    find_spot(at);
+    find_stencil(at);
     add_all(i, speed);
 }

@@ -48,7 +48,8 @@ void solve_implicit(bool euler)
 #endif
     uint i = lane;
     bool there = i < guide_count;
-    uint row_of = there ? guide_first + i : (params.rounds + 1u) * params.vertices, next = there ? params.vertices : 0u;
+    uint row_of = there ? guide_first + i : (params.rounds + 1u) * params.vertices,
+         next = there ? params.vertices : 0u;
     uint pair = i & ~1u, rounds = params.rounds;
     vec3 r = there ? GET(moved) : vec3(0.0);
     for (uint reach = 2u; reach < guide_count && rounds > 0u; reach *= 2u, --rounds, row_of += next) {

@@ -36,7 +36,8 @@ void stiffen_solution(float b)
     FOR_VERTICES(segments) {
         vec3  after   = AFTER_VEC3(handed);
         float massive = 1.0 + b * params.damping + b * b * local(aim).w;
-        float stiffly = b * b * (local(hinge_along) - (i + 1u < segments ? after.x : 0.0)) / local(rest_length);
+        float stiffly =
+            b * b * (local(hinge_along) - (i + 1u < segments ? after.x : 0.0)) / local(rest_length);
         local(solution) = massive * local(solution) + stiffly;
     }
     GROUP_BARRIER;
@@ -72,11 +73,13 @@ void correct_lengths(int method, uint n)
             along_before = of_start ? first : before;
             along        = of_start ? GET(lever) : along;
         }
-        vec3 by_own    = local(slack) * (COLLIDERS ? pass_back(local(touch), local(slip), GET(edge)) : GET(edge));
+        vec3 by_own =
+            local(slack) * (COLLIDERS ? pass_back(local(touch), local(slip), GET(edge)) : GET(edge));
         vec3 by_before = local(slack) * (COLLIDERS ? pass_back(local(touch), local(slip), before) : before);
-        local(row)       = vec4(i > 0u ? -dot(by_own, along_before) : 0.0, dot(by_own, along), 0.0, -local(excess));
+        local(row) = vec4(i > 0u ? -dot(by_own, along_before) : 0.0, dot(by_own, along), 0.0, -local(excess));
         // Hand the terms of this vertex to the rows of the neighbours.
-        PUT(handed, vec3(dot(by_before, along_before), -dot(by_before, along), -local(excess) / local(rest_length)));
+        PUT(handed,
+            vec3(dot(by_before, along_before), -dot(by_before, along), -local(excess) / local(rest_length)));
     }
     GROUP_BARRIER;
     FOR_VERTICES(segments) {

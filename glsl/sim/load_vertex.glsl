@@ -16,6 +16,7 @@ void load_vertex(uint i, hair_state was, vec4 segment, bool pulled)
     load_pin(i);
 #endif
 #ifdef HAIR_GRID
-    local(hair_acceleration) = texelFetch(acceleration_texture, int(guide_first + min(i, guide_count - 1u))).xyz;
+    local(hair_acceleration) =
+        texelFetch(acceleration_texture, int(guide_first + min(i, guide_count - 1u))).xyz;
 #endif
 }

@@ -67,7 +67,8 @@ void find_planes(vec3 head_moved)
 void renew_pressure(bool all)
 {
     FOR_VERTICES(guide_count) {
-        bool other = length(local(reaction_found) - local(pressing)) > PRESSURE_CHANGE * length(local(pressing));
+        bool other =
+            length(local(reaction_found) - local(pressing)) > PRESSURE_CHANGE * length(local(pressing));
         if (all || other) local(pressing) = local(reaction_found);
     }
 }

@@ -29,7 +29,8 @@ void add_other_end(bool up, inout carried s)
     uint other = up ? 31u : 0u;
     s.turn    = symmetric(add_other(other, s.turn.diagonal), add_other(other, s.turn.beside));
     s.force   = symmetric(add_other(other, s.force.diagonal), add_other(other, s.force.beside));
-    s.between = mat3(add_other(other, s.between[0]), add_other(other, s.between[1]), add_other(other, s.between[2]));
+    s.between =
+        mat3(add_other(other, s.between[0]), add_other(other, s.between[1]), add_other(other, s.between[2]));
     s.right_turn  = add_other(other, s.right_turn);
     s.right_force = add_other(other, s.right_force);
 }

@@ -32,7 +32,8 @@ void put_mobility(uint i)
     mat3 w = mat3(local(mobility));
 #ifdef HAIR_WIND
     w *= local(mobilities).x;
-    w += local(mobility) * (local(mobilities).y - local(mobilities).x) * outerProduct(local(flow), local(flow));
+    w += local(mobility) * (local(mobilities).y - local(mobilities).x) *
+         outerProduct(local(flow), local(flow));
 #endif
     if (COLLIDERS && local(touch).w != FREE) {
         w = full(local(freedom));
@@ -81,7 +82,8 @@ bool put_rows(bool exact, float looser)
         vec3  f = GET(handed), to = AFTER_VEC3(moved) - GET(moved), between = BETWEEN;
         vec3  then = along_of(SHARED_READ(section)), t = along_of(SHARED_READ(tried));
         float l = local(rest_length), pull = l * dot(t, f);
-        symmetric c = symmetric(ROW(hinge_diagonal, i) + ROW(hinge_diagonal, i + 1u), ROW(hinge_beside, i) + ROW(hinge_beside, i + 1u));
+        symmetric c = symmetric(ROW(hinge_diagonal, i) + ROW(hinge_diagonal, i + 1u),
+                                ROW(hinge_beside, i) + ROW(hinge_beside, i + 1u));
         vec3 moment = ROW(hinge_moment, i + 1u) - ROW(hinge_moment, i);
         // Tension resists turning, compression does the opposite.
         if (exact) c = minus(plus(c, multiple_of_one(pull)), times(0.5 * l, twice_mixed(t, f)));

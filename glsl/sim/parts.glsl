@@ -64,7 +64,11 @@ float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half
 // Difference of the displacements of a segment's ends in the last leap.
 LOCAL(vec3, spread_before);
 #define PUT_SPREAD PUT(handed, leap_part * local(displacement))
-#define KEEP_SPREAD FOR_VERTICES(guide_count - 1u) { local(spread_before) = AFTER_VEC3(handed) - GET(handed); }
+#define KEEP_SPREAD                                                                                          \
+    FOR_VERTICES(guide_count - 1u)                                                                           \
+    {                                                                                                        \
+        local(spread_before) = AFTER_VEC3(handed) - GET(handed);                                             \
+    }
 #define SPREAD_BEFORE local(spread_before)
 #endif
 

@@ -66,7 +66,8 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 #ifdef HAIR_WIND
     PUT(moved, dragged_back(i, b, GET(moved)));
 #endif
-    if (IS_BACK(method) && !leaps) PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / local(slack) * local(displacement));
+    if (IS_BACK(method) && !leaps)
+        PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / local(slack) * local(displacement));
 }
 
 #ifdef KEEPS_RATES
@@ -85,8 +86,10 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 // sqrt(stiffness). Bending itself is implicit.
 float guessed_part(uint i)
 {
-    float h = params.gravity.w, stiffness = local(strain).w * local(rest_length) * min(params.ratio.x, params.ratio.z);
-    float w = abs(local(tension)) * inversesqrt(max(stiffness, 1e-20)), d = length(local(displacement) - root_moved);
+    float h = params.gravity.w,
+          stiffness = local(strain).w * local(rest_length) * min(params.ratio.x, params.ratio.z);
+    float w = abs(local(tension)) * inversesqrt(max(stiffness, 1e-20)),
+          d = length(local(displacement) - root_moved);
     return mix(1.0, GUESSED, max(smoothstep(SLOW, FAST, w * h), 1.0 - smoothstep(STILL * h, MOVING * h, d)));
 }
 
@@ -135,11 +138,14 @@ void predict(int method)
 
     FOR_VERTICES(guide_count) {
         // Fraction of the vertex's inertia that has weight. See lib/rod/tip_inertia.c.
-        float fraction  = heavy && i > 0u && i + 1u < guide_count
-                           ? min(0.5 * (rod[guide_first + i - 1u].segment.x + local(rest_length)) * local(slack), 1.0) : 1.0;
+        float fraction =
+            heavy && i > 0u && i + 1u < guide_count
+                ? min(0.5 * (rod[guide_first + i - 1u].segment.x + local(rest_length)) * local(slack), 1.0)
+                : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);
-        feel_air(i, before, fraction, IS_SHAKE(method) ? leap_part * local(displacement) : rate_from(i, method));
+        feel_air(i, before, fraction,
+                 IS_SHAKE(method) ? leap_part * local(displacement) : rate_from(i, method));
 #endif
         local(wanted)  = held_move(i);
         vec3 bending = by_segments(i);

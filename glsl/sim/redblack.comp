@@ -55,7 +55,8 @@ void main()
     float     fraction        = float(i) / float(count - 1u);
     float     frequency    = mix(params.shape_frequency_root, params.shape_frequency_tip, fraction);
     // Rest links before vertex i and before vertex i-1.
-    vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz, next = at_rest.position.xyz - before;
+    vec3 before = rest[first + max(min(i, count - 1u), 1u) - 1u].position.xyz,
+         next = at_rest.position.xyz - before;
     vec3 link   = before - rest[first + max(min(i, count - 1u), 2u) - 2u].position.xyz;
     if (i == 0u) broken = 0u;
     synchronise();
@@ -81,7 +82,8 @@ void main()
             synchronise();
             angular_moves moves = angular_moves(vec3(0.0), vec3(0.0));
             if (here && !pinned)
-                moves = angular_force(rotation, vertex[i - 2u], vertex[i - 1u], p, link, next, params.angular * dt * dt);
+                moves = angular_force(rotation, vertex[i - 2u], vertex[i - 1u], p, link, next,
+                                      params.angular * dt * dt);
             move_end[i]    = moves.end;
             move_couple[i] = moves.couple;
             synchronise();
@@ -117,7 +119,8 @@ void main()
         displacement = x - start + head;
         // A strand that is not finite, or is farther away than any hair, returns to its rest pose.
         // It moves with the head unless the head's own motion is too large.
-        if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 || dot(displacement, displacement) > 1e8))
+        if (here && (!is_finite(x) || !is_finite(displacement) || dot(x, x) > 1e8 ||
+                     dot(displacement, displacement) > 1e8))
             broken = 1u;
         synchronise();
         if (broken != 0u) {

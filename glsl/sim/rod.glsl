@@ -44,7 +44,10 @@ vec3 clamp_way, clamp_at_rest; // Direction of the clamp, and the same direction
 bool root_is_free;
 bool loose, broken; // Results of measure().
 
-vec3 rest_from_root(uint i) { return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest; }
+vec3 rest_from_root(uint i)
+{
+    return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest;
+}
 
 // Seconds of the present motion, which covers a substep or a part of one.
 #ifdef HAIR_MIXED
@@ -98,7 +101,7 @@ void find_edges()
     }
 }
 
-#define MIN_GRANT 3e-7  // Fraction of the guide's length. Rounding of positions is a tenth of it.
+#define MIN_GRANT 6e-8  // Fraction of the guide's length, the rounding of its positions.
 #define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
 
 // Return the permitted error of length of segment i, by the relative `tolerance`. In contact, slow

@@ -50,8 +50,11 @@ vec4 turn_between(flat_triangle rest, flat_triangle now)
 root_transform find_root_transform(uint g, root_transform before)
 {
     hair_root_binding root_binding = root_bindings[g];
-    flat_triangle at_rest = flatten(vertex_at_rest(root_binding.corner0), vertex_at_rest(root_binding.corner1), vertex_at_rest(root_binding.corner2));
-    flat_triangle now     = flatten(vertex_now(root_binding.corner0), vertex_now(root_binding.corner1), vertex_now(root_binding.corner2));
+    flat_triangle at_rest =
+        flatten(vertex_at_rest(root_binding.corner0), vertex_at_rest(root_binding.corner1),
+                vertex_at_rest(root_binding.corner2));
+    flat_triangle now = flatten(vertex_now(root_binding.corner0), vertex_now(root_binding.corner1),
+                                vertex_now(root_binding.corner2));
     root_transform found = before;
     if (at_rest.sound && now.sound) {
         vec4 turn = turn_between(at_rest, now);
@@ -62,7 +65,10 @@ root_transform find_root_transform(uint g, root_transform before)
     return is_sound(vec4(found.shift, 0.0)) ? found : before;
 }
 
-root_transform kept(uint g, int which) { return root_transform(root_transforms[g].shift[which].xyz, root_transforms[g].turn[which]); }
+root_transform kept(uint g, int which)
+{
+    return root_transform(root_transforms[g].shift[which].xyz, root_transforms[g].turn[which]);
+}
 
 void put(uint g, int which, root_transform r)
 {
@@ -85,7 +91,8 @@ void main()
     put(g, HAIR_ROOT_TRANSFORM_END, end);
     bool past = (on.flags & HAIR_SCALP_RESET) == 0u;
     if (!past || on.substeps > 0u) {
-        put(g, HAIR_ROOT_TRANSFORM_BEFORE, past && on.substeps > 1u ? root_transform_between(start, end, on.fraction_before) : then);
+        put(g, HAIR_ROOT_TRANSFORM_BEFORE,
+            past && on.substeps > 1u ? root_transform_between(start, end, on.fraction_before) : then);
         put(g, HAIR_ROOT_TRANSFORM_AFTER, past ? root_transform_between(start, end, on.fraction_after) : end);
     }
 }

@@ -24,7 +24,8 @@ layout(binding = HAIR_UNIT_ROOT_TRANSFORM) uniform samplerBuffer root_transform_
 root_transform root_transform_of(uint guide_number, int which)
 {
     int at = int(guide_number) * 2 * HAIR_ROOT_TRANSFORMS + which;
-    return root_transform(texelFetch(root_transform_texture, at).xyz, texelFetch(root_transform_texture, at + HAIR_ROOT_TRANSFORMS));
+    return root_transform(texelFetch(root_transform_texture, at).xyz,
+                          texelFetch(root_transform_texture, at + HAIR_ROOT_TRANSFORMS));
 }
 
 // Return the scalp motion at a fraction of the step. A negative fraction, which only the start of a
@@ -32,11 +33,15 @@ root_transform root_transform_of(uint guide_number, int which)
 root_transform root_transform_at(uint guide_number, float fraction)
 {
     if (fraction < 0.0) return root_transform_of(guide_number, HAIR_ROOT_TRANSFORM_THEN);
-    return root_transform_between(root_transform_of(guide_number, HAIR_ROOT_TRANSFORM_START), root_transform_of(guide_number, HAIR_ROOT_TRANSFORM_END), fraction);
+    return root_transform_between(root_transform_of(guide_number, HAIR_ROOT_TRANSFORM_START),
+                                  root_transform_of(guide_number, HAIR_ROOT_TRANSFORM_END), fraction);
 }
 
 // Return the place that scalp motion gives to a place in the head at rest.
 vec3 carry(root_transform r, vec3 root, vec3 place) { return root + r.shift + rotate(r.turn, place - root); }
 // Return the place in the head at rest that scalp motion brings to `place`.
-vec3 carry_back(root_transform r, vec3 root, vec3 place) { return root + rotate(quat_conjugate(r.turn), place - root - r.shift); }
+vec3 carry_back(root_transform r, vec3 root, vec3 place)
+{
+    return root + rotate(quat_conjugate(r.turn), place - root - r.shift);
+}
 #endif

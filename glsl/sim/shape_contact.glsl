@@ -40,15 +40,18 @@ float body_distance(vec4 size, mesh_grid mesh, vec3 at, out vec3 gradient)
 
 float depth_of_place(uint k, vec3 place)
 {
-    vec3 gradient, at = rotate(quat_conjugate(body_turn(k, fraction_now)), place - body_place(k, fraction_now));
-    return BODY_POSITION(k, 0).w + params.collision_margin - body_distance(BODY_SIZE(k), mesh_of(k), at, gradient);
+    vec3 gradient,
+        at = rotate(quat_conjugate(body_turn(k, fraction_now)), place - body_place(k, fraction_now));
+    return BODY_POSITION(k, 0).w + params.collision_margin -
+           body_distance(BODY_SIZE(k), mesh_of(k), at, gradient);
 }
 
 // Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. If the vertex
 // may have passed through the collider, sphere tracing in the collider's own space finds the entry.
 // Each step of the tracing is as long as the distance to the surface. The vertex stops at the
 // entry.
-float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal, out vec3 surface)
+float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal,
+                    out vec3 surface)
 {
     vec4  turn_then = body_turn(k, fraction_then), turn_after = body_turn(k, fraction_now);
     vec3  place_then = body_place(k, fraction_then), place_after = body_place(k, fraction_now);
@@ -56,7 +59,8 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
     vec3  b = rotate(quat_conjugate(turn_after), end - place_after), outwards = vec3(0.0, 1.0, 0.0);
     vec4  size = BODY_SIZE(k);
     mesh_grid mesh = mesh_of(k);
-    float around = BODY_POSITION(k, 0).w + params.collision_margin, way = length(b - a), t = 1.0, depth = 0.0, was = 0.0;
+    float around = BODY_POSITION(k, 0).w + params.collision_margin, way = length(b - a), t = 1.0, depth = 0.0,
+          was = 0.0;
     for (uint i = 0u; i < BODY_STEPS && t <= 1.0; ++i) {
         vec3  gradient, at = mix(a, b, t);
         float distance = body_distance(size, mesh, at, gradient) - around;
@@ -83,6 +87,7 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
     }
     vec3 touched = b + depth * outwards;
     normal       = rotate(turn_after, outwards);
-    surface      = head_moved + place_after - place_then + rotate(turn_after, touched) - rotate(turn_then, touched);
+    surface =
+        head_moved + place_after - place_then + rotate(turn_after, touched) - rotate(turn_then, touched);
     return depth - max(was - granted.y, granted.x);
 }

@@ -198,7 +198,8 @@ void broadcast(vec3 v)
 vec3 broadcast_from(uint thread)
 {
     uint k = broadcasting + (thread & (lanes - 1u));
-    return vec3(broadcast_values[k], broadcast_values[k + uint(MAX_VERTICES)], broadcast_values[k + uint(2 * MAX_VERTICES)]);
+    return vec3(broadcast_values[k], broadcast_values[k + uint(MAX_VERTICES)],
+                broadcast_values[k + uint(2 * MAX_VERTICES)]);
 }
 
 float group_sum(float v)

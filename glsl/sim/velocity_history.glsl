@@ -36,8 +36,10 @@ void keep_rates(uint i, int method, vec3 d, vec3 kept)
     // A vertex that begins to touch loses its past across the surface. A vertex that sticks loses
     // all of its past. A vertex that continues to slide keeps it. Only then does a curved surface
     // turn the motion by as much as other forces do, and not by 9/4 of that.
-    bool touches = local(touch).w != FREE, comes = touches && (leapt || local(touched) == 0.0), sticks = local(touch).w == STICKS;
-    vec3 rate_on = d + pass_on(local(touch), local(rate) - d), before_on = d + pass_on(local(touch), spilled(rate_before) - d);
+    bool touches = local(touch).w != FREE, comes = touches && (leapt || local(touched) == 0.0),
+         sticks = local(touch).w == STICKS;
+    vec3 rate_on = d + pass_on(local(touch), local(rate) - d),
+         before_on = d + pass_on(local(touch), spilled(rate_before) - d);
     local(rate)        = sticks ? d : comes ? rate_on : local(rate);
     spilled(rate_before) = sticks ? d : comes ? before_on : spilled(rate_before);
     local(touched)     = touches ? 1.0 : 0.0;
@@ -56,7 +58,8 @@ vec3 pressed(uint i, int method)
 {
 #if defined(HAIR_COLLIDERS) && defined(KEEPS_RATES) && !defined(HAIR_COLLIDER_GRID)
     vec3 taken = GET(moved) - local(wanted);
-    if (LEAPS(method) || local(touched) == 0.0) return min(PRESSED, MAX_PRESSED / max(length(taken), 1e-9)) * taken;
+    if (LEAPS(method) || local(touched) == 0.0)
+        return min(PRESSED, MAX_PRESSED / max(length(taken), 1e-9)) * taken;
 #endif
     return vec3(0.0);
 }

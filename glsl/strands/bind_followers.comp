@@ -19,10 +19,13 @@ void main()
     hair_root_binding root_binding = root_bindings[on.guides + i];
     uint  g     = follower[i].guide0;
     vec3  away  = vec3(root_binding.away_x, root_binding.away_y, root_binding.away_z);
-    vec3  root  = rotate(params.rotation_now, bound_point(root_binding) + rotate(root_transforms[g].turn[HAIR_ROOT_TRANSFORM_END], away));
+    vec3 root =
+        rotate(params.rotation_now,
+               bound_point(root_binding) + rotate(root_transforms[g].turn[HAIR_ROOT_TRANSFORM_END], away));
     vec3  first = root_of(g);
     float w1 = follower[i].weight1, w2 = follower[i].weight2;
-    vec3  blended = (1.0 - w1 - w2) * first + w1 * root_of(follower[i].guide1) + w2 * root_of(follower[i].guide2);
+    vec3 blended =
+        (1.0 - w1 - w2) * first + w1 * root_of(follower[i].guide1) + w2 * root_of(follower[i].guide2);
     vec4  back    = quat_conjugate(texelFetch(frame_texture, int(g * on.smooth_vertices)));
     vec3  single = rotate(back, root - first), own = rotate(back, root - blended);
     // Values that are not finite come from the application. Guides did not follow them either.

@@ -6,15 +6,22 @@
 #include "strands/packed.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer cached_position_buffer { vec4 expanded[]; };
-layout(std430, binding = HAIR_BIND_CACHED_TANGENT) writeonly restrict buffer cached_tangent_buffer { uvec2 cached_tangent[]; };
+layout(std430, binding = HAIR_BIND_CACHED_POSITION) writeonly restrict buffer cached_position_buffer
+{
+    vec4 expanded[];
+};
+layout(std430, binding = HAIR_BIND_CACHED_TANGENT) writeonly restrict buffer cached_tangent_buffer
+{
+    uvec2 cached_tangent[];
+};
 
 void main()
 {
     vertex_range run  = find_vertex_range();
     uint       each = draw.segments + 1u;
     for (uint i = run.first; i < run.end; i += run.stride) {
-        hair_point point = evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
+        hair_point point =
+            evaluate(fetch_follower(i / each), i / each, float(i % each) / float(draw.segments));
         expanded[i]         = vec4(point.position, point.radius);
         cached_tangent[i] = pack_tangent(point.tangent);
     }

@@ -1,13 +1,22 @@
-// strands/fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
+// fetch.glsl - reads of smoothed guides and followers from textures. With HAIR_STORED they come
 // from storage buffers, which GPUs read several times as fast. OpenGL does not guarantee storage
 // buffers to the stages that draw.
 #include "shared.h"
 #include "strands/position_texture.glsl"
 
 #ifdef HAIR_STORED
-layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer { vec4 stored_position[]; };
-layout(std430, binding = HAIR_BIND_STORED_TANGENT) readonly restrict buffer tangent_buffer { vec4 stored_tangent[]; };
-layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer { vec4 stored_frame[]; };
+layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer
+{
+    vec4 stored_position[];
+};
+layout(std430, binding = HAIR_BIND_STORED_TANGENT) readonly restrict buffer tangent_buffer
+{
+    vec4 stored_tangent[];
+};
+layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer
+{
+    vec4 stored_frame[];
+};
 layout(std430, binding = HAIR_BIND_STORED_FOLLOWER) readonly restrict buffer follower_buffer {
     hair_follower stored_follower[];
 };
@@ -32,8 +41,10 @@ hair_follower fetch_whole(uint number)
     uvec4         ids   = texelFetch(follower_texture, at);
     vec4          reals = uintBitsToFloat(texelFetch(follower_texture, at + 1));
     follower.guide0 = ids.x, follower.guide1 = ids.y, follower.guide2 = ids.z, follower.seed = ids.w;
-    follower.weight1 = reals.x, follower.weight2 = reals.y, follower.length_ratio = reals.z, follower.multi = reals.w;
-    for (int i = 0; i < 4; ++i) follower.offset[i] = uintBitsToFloat(texelFetch(follower_texture, at + 2 + i));
+    follower.weight1 = reals.x, follower.weight2 = reals.y, follower.length_ratio = reals.z,
+    follower.multi = reals.w;
+    for (int i = 0; i < 4; ++i)
+        follower.offset[i] = uintBitsToFloat(texelFetch(follower_texture, at + 2 + i));
     return follower;
 }
 #endif

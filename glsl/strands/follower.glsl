@@ -1,4 +1,4 @@
-// strands/follower.glsl - interpolation of a follower from guides, as shared.h defines it. Drawing code
+// follower.glsl - interpolation of a follower from guides, as shared.h defines it. Drawing code
 // calls it through strands/evaluate.glsl.
 #ifndef HAIR_FOLLOWER_GLSL
 #define HAIR_FOLLOWER_GLSL
@@ -109,7 +109,8 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
         float       w1 = follower.weight1, w2 = follower.weight2, w0 = 1.0 - w1 - w2;
         vec3        own     = vec3(follower.offset[1].w, follower.offset[2].w, follower.offset[3].w);
         vec3        blended = w0 * g0.position + w1 * g1.position + w2 * g2.position;
-        vec3        beside  = w0 * along + follower.length_ratio * (w1 * g1.guide_length * g1.tangent + w2 * g2.guide_length * g2.tangent);
+        vec3 beside = w0 * along + follower.length_ratio * (w1 * g1.guide_length * g1.tangent +
+                                                            w2 * g2.guide_length * g2.tangent);
         along    = mix(along, beside, multi) + multi_slope * (blended - position);
         position = mix(position, blended, multi);
         slope    = (1.0 - multi) * slope + multi_slope * (own - offset);
@@ -126,6 +127,9 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
     return hair_point(position + turned + r.away, direction_or(along, g0.tangent), radius);
 }
 
-hair_point interpolate(hair_follower follower, float t, repair r) { return interpolate(follower, t, r, true); }
+hair_point interpolate(hair_follower follower, float t, repair r)
+{
+    return interpolate(follower, t, r, true);
+}
 
 #endif

@@ -1,4 +1,4 @@
-// strands/frames.glsl - parallel transport of frames along a guide, by the smallest rotation from each
+// frames.glsl - parallel transport of frames along a guide, by the smallest rotation from each
 // segment to the next.
 //
 // F_i = T_i F_(i-1), where T_i rotates the direction of segment i-1 into that of segment i.

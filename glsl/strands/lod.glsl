@@ -1,4 +1,4 @@
-// strands/lod.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
+// lod.glsl - level of detail: the fraction of its strands with which a patch is drawn, and the
 // number of their segments.
 #include "strands/position_texture.glsl"
 
@@ -13,7 +13,10 @@ struct hair_detail {
     float thickness; // Factor that compensates for the strands left out.
 };
 
-vec3 guide_at(uint guide, uint sample_) { return texelFetch(position_texture, int(guide * draw.smooth_vertices + sample_)).xyz; }
+vec3 guide_at(uint guide, uint sample_)
+{
+    return texelFetch(position_texture, int(guide * draw.smooth_vertices + sample_)).xyz;
+}
 
 float pixels_per_metre(vec3 position)
 {
@@ -24,7 +27,8 @@ float pixels_per_metre(vec3 position)
 bool is_in_view(vec3 center, float radius)
 {
     vec4 p     = vec4(center, 1.0);
-    vec4 sides = vec4(dot(draw.sides[0], p), dot(draw.sides[1], p), dot(draw.sides[2], p), dot(draw.sides[3], p));
+    vec4 sides =
+        vec4(dot(draw.sides[0], p), dot(draw.sides[1], p), dot(draw.sides[2], p), dot(draw.sides[3], p));
     return all(greaterThan(sides, vec4(-radius)));
 }
 
@@ -44,7 +48,8 @@ bool is_occluded(vec3 eye, vec3 center, float radius)
     vec3  to_skull = draw.head_sphere.xyz - eye, to_ball = center - eye;
     float a = length(to_skull), b = length(to_ball);
     if (a <= draw.head_sphere.w || b - radius < a) return false;
-    float head_sphere = asin(draw.head_sphere.w / a), between = acos(clamp(dot(to_skull, to_ball) / (a * b), -1.0, 1.0));
+    float head_sphere = asin(draw.head_sphere.w / a),
+          between = acos(clamp(dot(to_skull, to_ball) / (a * b), -1.0, 1.0));
     return between + asin(min(radius / b, 1.0)) < head_sphere;
 }
 
@@ -53,16 +58,20 @@ hair_detail find_detail(uint guide, vec4 patch_)
 {
     float max_value   = float(draw.segments) * draw.segment_fraction;
     float fraction  = draw.strand_fraction, segments = max(max_value, 1.0);
-    if (draw.culls == 0u && draw.pixels_per_unit == 0.0) return hair_detail(fraction, segments, pow(max(fraction, 1e-6), -draw.width_power));
+    if (draw.culls == 0u && draw.pixels_per_unit == 0.0)
+        return hair_detail(fraction, segments, pow(max(fraction, 1e-6), -draw.width_power));
     vec3  root  = guide_at(guide, 0u);
-    float reach = WIDEST * draw.radius + GIVE * draw.strand.max_width * patch_.x + draw.strand.max_stray * patch_.y + draw.strand.max_offset;
+    float reach = WIDEST * draw.radius + GIVE * draw.strand.max_width * patch_.x +
+                  draw.strand.max_stray * patch_.y + draw.strand.max_offset;
     if (draw.culls > 0u && !is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
     if (draw.pixels_per_unit > 0.0) {
-        float scale = max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
-                                                      pixels_per_metre(guide_at(guide, draw.smooth_vertices - 1u))));
+        float scale =
+            max(pixels_per_metre(root), max(pixels_per_metre(guide_at(guide, draw.smooth_vertices / 2u)),
+                                            pixels_per_metre(guide_at(guide, draw.smooth_vertices - 1u))));
         float size  = scale * patch_.z;
         if (draw.head_sphere.w > 0.0) {
-            vec3 eye = draw.eye.w > 0.0 ? draw.eye.xyz : draw.head_sphere.xyz + 1000.0 * draw.head_sphere.w * draw.eye.xyz;
+            vec3 eye = draw.eye.w > 0.0 ? draw.eye.xyz
+                                        : draw.head_sphere.xyz + 1000.0 * draw.head_sphere.w * draw.eye.xyz;
             if (is_occluded(eye, root, reach)) return hair_detail(0.0, 1.0, 1.0);
             size *= mix(1.0, draw.occluded_importance, occluded_at(eye, root));
         }

@@ -1,4 +1,4 @@
-// strands/look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
+// look.glsl - deviations of a strand by its look: curves along it, strays, kinks and curls, as
 // offsets across the strand in its guide's frame. Kinks, curls and cuts need HAIR_STYLED.
 #include "draw_params.glsl"
 #include "random.glsl"
@@ -66,12 +66,14 @@ aside curl(uint guide, uint seed, float t, float length_)
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
     float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / (1.0 + spread);
     float places = float(HAIR_TURN_PLACES);
-    float at = places * fract(t * turns + draw.strand.curl_guide_phase * lock.x + draw.strand.curl_strand_phase * own.x);
+    float at = places * fract(t * turns + draw.strand.curl_guide_phase * lock.x +
+                              draw.strand.curl_strand_phase * own.x);
     int   k  = min(int(at), HAIR_TURN_PLACES - 1);
     float x  = at - float(k);
     mat2x4 c = mat2x4(draw.strand.loop[k], draw.strand.loop[HAIR_TURN_PLACES + k]);
     if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
-    aside a = aside(vec4(1.0, x, x * x, x * x * x) * c, turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
+    aside a = aside(vec4(1.0, x, x * x, x * x * x) * c,
+                    turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
     return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));
 }
 
@@ -80,7 +82,8 @@ aside curl(uint guide, uint seed, float t, float length_)
 void cut(inout hair_follower follower)
 {
     float fraction = draw.strand.drawn * (1.0 - draw.strand.length_variation * random(follower.seed + 3u));
-    vec3  a = follower.offset[0].xyz, b = follower.offset[1].xyz, c = follower.offset[2].xyz, d = follower.offset[3].xyz;
+    vec3 a = follower.offset[0].xyz, b = follower.offset[1].xyz, c = follower.offset[2].xyz,
+         d = follower.offset[3].xyz;
     vec3  ab = mix(a, b, fraction), bc = mix(b, c, fraction), cd = mix(c, d, fraction);
     vec3  abc = mix(ab, bc, fraction), bcd = mix(bc, cd, fraction);
     follower.offset[1].xyz = ab;

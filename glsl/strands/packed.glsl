@@ -1,4 +1,4 @@
-// strands/packed.glsl - packing of strand vertices for storage. See HAIR_BIND_CACHED_TANGENT and
+// packed.glsl - packing of strand vertices for storage. See HAIR_BIND_CACHED_TANGENT and
 // HAIR_BIND_SHADED.
 #include "shared.h"
 

@@ -1,4 +1,4 @@
-// strands/patch.glsl - the number of strands of a patch that are drawn, their width and their number of
+// patch.glsl - the number of strands of a patch that are drawn, their width and their number of
 // segments. Every drawing path calls it.
 //
 // All of these change continuously. The last strand thins out before it disappears. Segments begin
@@ -25,7 +25,8 @@ hair_patch_lines find_lines(uint number)
     return hair_patch_lines(record.x, record.y, draw.segments, float(draw.segments), 1.0, 1.0, 1.0);
 #else
 #ifdef HAIR_OCCLUSION
-    if (texelFetch(patch_texture, at + 3).w != 0u) return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0);
+    if (texelFetch(patch_texture, at + 3).w != 0u)
+        return hair_patch_lines(record.x, 0u, 1u, 1.0, 1.0, 1.0, 1.0);
 #endif
     float mapped    = dot(uintBitsToFloat(texelFetch(patch_texture, at + 1)), draw.map_weights);
     float thickness = dot(uintBitsToFloat(texelFetch(patch_texture, at + 2)), draw.map_weights);

@@ -1,4 +1,4 @@
-// strands/position_texture.glsl - positions of the samples of smoothed guides. xyz is relative to the
+// position_texture.glsl - positions of the samples of smoothed guides. xyz is relative to the
 // head's origin. w is the length from the root.
 #ifndef HAIR_POSITION_TEXTURE_GLSL
 #define HAIR_POSITION_TEXTURE_GLSL

@@ -1,5 +1,5 @@
-// repair.comp - the curves of strands/repair.glsl that push followers out of colliders. One thread per
-// follower of the list of hit.comp.
+// repair.comp - the curves of strands/repair.glsl that push followers out of colliders. One thread
+// per follower of the list of hit.comp.
 //
 // A strand that is deep inside has guides on different sides of the collider. It is freed of all
 // guides but its own (Tariq 2010), from well above the first vertex inside. Vertices that remain
@@ -90,7 +90,8 @@ void push(int own, float t, vec3 step)
     if (k == 0) weight = vec4(0.0, 0.0, weight.z - weight.x, weight.w);
     if (k == 1) weight.x = 0.0;
     step /= max(dot(weight, weight), 1e-4);
-    for (int i = k == 0 ? 2 : 0; i < 4; ++i) control[(k - 1 + i) * HAIR_REPAIR_THREADS + own].xyz += weight[i] * step;
+    for (int i = k == 0 ? 2 : 0; i < 4; ++i)
+        control[(k - 1 + i) * HAIR_REPAIR_THREADS + own].xyz += weight[i] * step;
 }
 
 void push_out(int own, uint samples, float slide, float margin)

@@ -1,4 +1,4 @@
-// strands/repair.glsl - the two curves that push a follower out of colliders. Both are uniform cubic
+// repair.glsl - the two curves that push a follower out of colliders. Both are uniform cubic
 // B-splines of few control points. They therefore have no kinks or jumps.
 //
 //   away(t)   displacement, 0 at the root

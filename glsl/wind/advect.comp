@@ -18,9 +18,9 @@ void main()
         vec4  near, far;
         float advected = ambient_at(from - fluid.shift.xyz)[axis];
         if (is_in_box(from)) {
-            fluid_spot spot = spot_at(axis, from);
-            fetch_faces(velocity_texture, axis, spot, near, far);
-            advected = between(near, far, spot.part);
+            face_stencil stencil = stencil_at(axis, from);
+            fetch_faces(velocity_texture, axis, stencil, near, far);
+            advected = between(near, far, stencil.part);
         }
         velocity[face_of(axis, at)] = advected;
     }

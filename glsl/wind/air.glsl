@@ -84,7 +84,8 @@ vec3 air_then(vec3 position, vec3 place, float time)
 {
     vec3 u     = wind.velocity.xyz + gust_at(place, time), past = u;
     vec3 down  = direction_or(wind.velocity.xyz, vec3(0.0));
-    for (uint k = 0u; k < wind.balls; ++k) past = around_ball(past, (position - wind.ball[k].xyz) / wind.ball[k].w, down);
+    for (uint k = 0u; k < wind.balls; ++k)
+        past = around_ball(past, (position - wind.ball[k].xyz) / wind.ball[k].w, down);
     u = wind.box.w > 0.0 ? in_fluid(place, u) : mix(u, past, wind.shelter);
     for (uint k = 0u; k < wind.sources; ++k) u += from_source(k, place);
     return wind.volume != 0u ? u + from_texture(place) : u;

@@ -5,5 +5,6 @@
 
 vec3 ambient_at(vec3 place)
 {
-    return fluid.wind.xyz + gust_of(fluid.gust_turn, fluid.gust_from, fluid.wind.w, fluid.lower.xyz + fluid.lower.w * place);
+    return fluid.wind.xyz +
+           gust_of(fluid.gust_turn, fluid.gust_from, fluid.wind.w, fluid.lower.xyz + fluid.lower.w * place);
 }

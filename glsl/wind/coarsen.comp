@@ -18,7 +18,9 @@ void main()
         uint  sum = 2u;
         for (int k = 0; k < 4; ++k) {
             ivec3 fine = 2 * at + (k & 1) * a + (k >> 1) * b;
-            sum += texelFetch(face_fraction_texture, int(level.slot) + index_of(fine, level.cells + 1u)).x >> (10 * axis) & 1023u;
+            sum += texelFetch(face_fraction_texture, int(level.slot) + index_of(fine, level.cells + 1u)).x >>
+                       (10 * axis) &
+                   1023u;
         }
         slot |= sum / 4u << (10 * axis);
     }

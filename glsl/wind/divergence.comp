@@ -22,7 +22,8 @@ void main()
     if (i >= fluid.cells * fluid.cells * fluid.cells) return;
     ivec3 at  = place_of(i, fluid.cells);
     float sum = 0.0;
-    for (int axis = 0; axis < 3; ++axis) sum += flow_through(axis, at) - flow_through(axis, at + axis_of(axis));
+    for (int axis = 0; axis < 3; ++axis)
+        sum += flow_through(axis, at) - flow_through(axis, at + axis_of(axis));
     rhs[i]    = sum;
     pressure[i] = 0.0;
 }

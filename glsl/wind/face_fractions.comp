@@ -8,7 +8,10 @@
 #include "field.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
-layout(std430, binding = HAIR_BIND_WALL_VELOCITY) writeonly buffer wall_velocity_buffer { float wall_velocity[]; };
+layout(std430, binding = HAIR_BIND_WALL_VELOCITY) writeonly buffer wall_velocity_buffer
+{
+    float wall_velocity[];
+};
 layout(std430, binding = HAIR_BIND_FACE_FRACTION) writeonly buffer face_fraction_buffer { uint slots[]; };
 layout(std430, binding = HAIR_BIND_MOTION) readonly buffer motion_buffer { hair_fluid_motion motion[]; };
 
@@ -25,7 +28,8 @@ vec3 box_place(vec3 place)
 float distance_at(vec3 place)
 {
     vec3 in_field = box_place(place);
-    return (field_holds(in_field) ? textureLod(field_texture, in_field, 0.0).x : field.inverse.w) / fluid.lower.w;
+    return (field_holds(in_field) ? textureLod(field_texture, in_field, 0.0).x : field.inverse.w) /
+           fluid.lower.w;
 }
 
 // Return the open fraction of a face with the given centre. a and b are the two directions along
@@ -70,7 +74,8 @@ void main()
         float fraction  = border && fluid.open == 0u ? 0.0 : 1.0;
         if (any(greaterThanEqual(at, ivec3(fluid.cells) + axis_of(axis)))) fraction = 0.0;
         if (fluid.colliders != 0u && fraction > 0.0) {
-            fraction = find_open_fraction(middle, vec3(axis_of((axis + 1) % 3)), vec3(axis_of((axis + 2) % 3)));
+            fraction =
+                find_open_fraction(middle, vec3(axis_of((axis + 1) % 3)), vec3(axis_of((axis + 2) % 3)));
             if (fraction < 1.0) velocity = find_wall_velocity(middle);
         }
         slot |= uint(fraction * 1023.0 + 0.5) << (10 * axis);

@@ -11,7 +11,8 @@ layout(binding = HAIR_UNIT_GUST) uniform sampler3D gust_texture;
 // `speed` is the standard deviation.
 vec3 gust_of(vec4 turn, vec4 from, float speed, vec3 place)
 {
-    return speed > 0.0 ? speed * textureLod(gust_texture, from.xyz + from.w * rotate(turn, place), 0.0).xyz : vec3(0.0);
+    return speed > 0.0 ? speed * textureLod(gust_texture, from.xyz + from.w * rotate(turn, place), 0.0).xyz
+                       : vec3(0.0);
 }
 
 #endif

@@ -16,12 +16,12 @@ float corrected(int axis, ivec3 at, float advected, vec3 place, vec3 from)
 {
     vec4       near, far, near_to, far_to;
     vec3       to    = backtrace(place, 1.0) - fluid.shift.xyz; // In the current box.
-    fluid_spot own   = spot_at(axis, place), source = spot_at(axis, from);
+    face_stencil own   = stencil_at(axis, place), source = stencil_at(axis, from);
     fetch_faces(velocity_texture, axis, own, near, far);
     float      was   = between(near, far, own.part);
     fetch_faces(velocity_texture, axis, source, near, far);
     if (!is_in_box(to) || !is_in_box(place)) return advected;
-    fluid_spot target = spot_at(axis, to);
+    face_stencil target = stencil_at(axis, to);
     fetch_faces(advected_texture, axis, target, near_to, far_to);
     float      better = advected + 0.5 * (was - between(near_to, far_to, target.part));
     return clamp(better, min_of(min(near, far)), max_of(max(near, far)));

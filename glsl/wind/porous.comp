@@ -16,7 +16,10 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 layout(binding = HAIR_UNIT_THICKET) uniform isamplerBuffer thicket_texture; // Mass and momentum.
 layout(binding = HAIR_UNIT_BARE_FACE_FRACTION) uniform usamplerBuffer bare_face_fraction_texture;
 layout(binding = HAIR_UNIT_BARE_WALL_VELOCITY) uniform samplerBuffer bare_wall_velocity_texture;
-layout(std430, binding = HAIR_BIND_WALL_VELOCITY) writeonly buffer wall_velocity_buffer { float wall_velocity[]; };
+layout(std430, binding = HAIR_BIND_WALL_VELOCITY) writeonly buffer wall_velocity_buffer
+{
+    float wall_velocity[];
+};
 layout(std430, binding = HAIR_BIND_FACE_FRACTION) writeonly buffer face_fraction_buffer { uint slots[]; };
 
 // Return mass and momentum of hair at a position, linear between nodes. Nodes are the centres of
@@ -31,7 +34,8 @@ vec4 hair_at(vec3 place)
     for (int k = 0; k < 8; ++k) {
         ivec3 corner = ivec3(k & 1, k >> 1 & 1, k >> 2);
         vec3  fraction  = mix(1.0 - part, part, vec3(corner));
-        sum += fraction.x * fraction.y * fraction.z * vec4(texelFetch(thicket_texture, index_of(low + corner, fluid.nodes)));
+        sum += fraction.x * fraction.y * fraction.z *
+               vec4(texelFetch(thicket_texture, index_of(low + corner, fluid.nodes)));
     }
     return sum;
 }

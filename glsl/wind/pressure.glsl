@@ -20,7 +20,7 @@ int cell_of(ivec3 at) { return int(level.cell) + index_of(at, level.cells); }
 
 fluid_cell fetch_cell(ivec3 at)
 {
-    int        n = int(level.cells), own = cell_of(at), slot = int(level.slot) + index_of(at, level.cells + 1u);
+    int n = int(level.cells), own = cell_of(at), slot = int(level.slot) + index_of(at, level.cells + 1u);
     ivec3      stride = ivec3(1, n, n * n), next = ivec3(1, n + 1, (n + 1) * (n + 1));
     uint       lower  = texelFetch(face_fraction_texture, slot).x;
     fluid_cell cell   = fluid_cell(0.0, 0.0, texelFetch(rhs_texture, own).x);

@@ -11,12 +11,15 @@ layout(binding = HAIR_UNIT_BARE_FACE_FRACTION) uniform usamplerBuffer bare_face_
 layout(binding = HAIR_UNIT_BARE_WALL_VELOCITY) uniform samplerBuffer bare_wall_velocity_texture;
 layout(std430, binding = HAIR_BIND_VELOCITY) buffer velocity_buffer { float velocity[]; };
 
-// Return the mean velocity through the part of a face that colliders leave open. Hair leaves the
-// fraction `share` of the face to air of the given speed.
+// Return the mean velocity through the part of a face that colliders leave open. Hair leaves
+// `fraction` of the face to air of the given speed.
 float among_hair(int slot, int face, int axis, float fraction, float speed)
 {
-    float bare = face_fraction(texelFetch(bare_face_fraction_texture, slot).x, axis), hair = texelFetch(wall_velocity_texture, face).x;
-    return (fraction * speed + (1.0 - fraction) * hair - (1.0 - bare) * texelFetch(bare_wall_velocity_texture, face).x) / bare;
+    float bare = face_fraction(texelFetch(bare_face_fraction_texture, slot).x, axis),
+          hair = texelFetch(wall_velocity_texture, face).x;
+    return (fraction * speed + (1.0 - fraction) * hair -
+            (1.0 - bare) * texelFetch(bare_wall_velocity_texture, face).x) /
+           bare;
 }
 
 void main()

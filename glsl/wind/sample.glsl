@@ -2,25 +2,25 @@
 #include "wind/fluid.glsl"
 
 // The lowest of the eight faces around a position, and the fractions beyond it.
-struct fluid_spot {
+struct face_stencil {
     ivec3 face;
     vec3  part;
 };
 
-fluid_spot spot_at(int axis, vec3 place)
+face_stencil stencil_at(int axis, vec3 place)
 {
     ivec3      along = axis_of(axis);
     vec3       from  = clamp(place - 0.5 * vec3(1 - along), vec3(0.0), vec3(int(fluid.cells) - 1 + along));
-    fluid_spot spot;
-    spot.face = min(ivec3(from), int(fluid.cells) - 2 + along);
-    spot.part = from - vec3(spot.face);
-    return spot;
+    face_stencil stencil;
+    stencil.face = min(ivec3(from), int(fluid.cells) - 2 + along);
+    stencil.part = from - vec3(stencil.face);
+    return stencil;
 }
 
 // Fetch the velocities of the eight faces in the order of their indices.
-void fetch_faces(samplerBuffer from, int axis, fluid_spot spot, out vec4 near, out vec4 far)
+void fetch_faces(samplerBuffer from, int axis, face_stencil stencil, out vec4 near, out vec4 far)
 {
-    int at = face_of(axis, spot.face), y = int(fluid.cells) + 1, z = y * y;
+    int at = face_of(axis, stencil.face), y = int(fluid.cells) + 1, z = y * y;
     near = vec4(texelFetch(from, at).x, texelFetch(from, at + 1).x, texelFetch(from, at + y).x,
                 texelFetch(from, at + y + 1).x);
     at += z;

@@ -12,6 +12,7 @@ typedef struct hair_asset hair_asset;
 
 // Files -------------------------------------------------------------------------------------------
 
+/// Format of a file of strands.
 typedef enum hair_format {
     /// No file. The asset comes from hair_asset_generate().
     HAIR_FORMAT_NONE = 0,

@@ -53,6 +53,7 @@ typedef struct hair_shader hair_shader;
 
 // Results -----------------------------------------------------------------------------------------
 
+/// Result of a call that can fail.
 typedef enum hair_result {
     /// Success.
     HAIR_OK = 0,
@@ -80,6 +81,7 @@ HAIR_API const char* hair_result_string(hair_result result);
 
 // Application callbacks ---------------------------------------------------------------------------
 
+/// Severity of a sentence in the log.
 typedef enum hair_log_level { HAIR_LOG_ERROR = 0, HAIR_LOG_WARNING, HAIR_LOG_INFO } hair_log_level;
 
 /// Callbacks for memory and log messages, provided by the application. The library calls them on

@@ -41,6 +41,7 @@ typedef struct hair_import_stats {
 
 // Maps on the scalp -------------------------------------------------------------------------------
 
+/// Source of the values of a map.
 typedef enum hair_map_source {
     /// No values. The map is 1 everywhere.
     HAIR_MAP_SOURCE_NONE = 0,

@@ -9,7 +9,7 @@
 /// A function along a strand, given by 8 values. at[i] is the value at i/7 of the length, from root
 /// to tip. The interpolation is a monotone cubic without overshoot (Fritsch and Butland 1984).
 typedef struct hair_curve {
-    float at[8];
+    float at[8]; ///< Values at 0, 1/7, ... 1 of the length.
 } hair_curve;
 
 /// Return the curve that goes linearly from `root` to `tip`.
@@ -212,6 +212,7 @@ HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
 
 // Presets of shape --------------------------------------------------------------------------------
 
+/// Preset of the shape of strands, for hair_look_apply_preset().
 typedef enum hair_look_preset {
     HAIR_LOOK_NATURAL = 0, ///< The defaults.
     HAIR_LOOK_STRAIGHT, ///< Sleek, with hardly any strays.
@@ -253,6 +254,7 @@ HAIR_API hair_result hair_look_fit_curl(hair_look* look, const float* positions,
 
 // Presets of colour -------------------------------------------------------------------------------
 
+/// Preset of the colour of strands, for hair_look_color().
 typedef enum hair_color {
     HAIR_COLOR_BROWN = 0, ///< The defaults.
     HAIR_COLOR_DARK_BROWN,

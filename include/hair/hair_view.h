@@ -66,6 +66,7 @@ typedef enum hair_render_path {
     HAIR_RENDER_PATH_AUTO
 } hair_render_path;
 
+/// Primitive that strands are drawn as.
 typedef enum hair_primitive {
     HAIR_PRIMITIVE_RIBBONS = 0, ///< Camera-facing ribbons of true width.
     HAIR_PRIMITIVE_LINES ///< Lines, one pixel wide. Cheaper.
@@ -208,6 +209,7 @@ HAIR_API void hair_shader_destroy(hair_shader* shader);
 
 // Lights ------------------------------------------------------------------------------------------
 
+/// Kind of a light.
 typedef enum hair_light_kind {
     HAIR_LIGHT_DIRECTIONAL = 0, ///< A light at infinity, such as the sun.
     HAIR_LIGHT_POINT, ///< A light that shines in all directions.

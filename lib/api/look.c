@@ -147,7 +147,7 @@ static hair_vec3 vertex_of(const struct example* e, uint32_t i)
     return hair_sub(hair_load3(e->positions + 3 * (size_t)i), e->first);
 }
 
-// Compute the x and z coordinates across the axis at fraction `share` of the length. Search from
+// Compute the x and z coordinates across the axis at `fraction` of the length. Search from
 // segment `i` on, which starts `before` metres along the example.
 static void look_at(const struct example* e, float fraction, uint32_t* i, float* before, float out[2])
 {

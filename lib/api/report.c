@@ -125,9 +125,8 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
 
 // Memory ------------------------------------------------------------------------------------------
 
-// Return the bytes of an instance's buffers and textures for one kind of work. Missing objects are
-// 0.
-static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
+// Return the bytes of an instance's buffers for one kind of work. Missing buffers are 0.
+static uint64_t buffer_bytes_of(const hair_instance* hair, hair_gl_category work)
 {
     const struct hair_sim* sim = &hair->sim;
     const struct hair_geometry* geometry = &hair->geometry;
@@ -179,17 +178,30 @@ static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
                                     geometry->uv, lighting->groom_color, renderer->raster.params,
                                     renderer->raster.nearest, renderer->raster.tile},
     };
-    const GLuint textures[HAIR_GL_CATEGORIES][MAX_TEXTURES] = {
-        [HAIR_GL_CATEGORY_WIND] = {air->air, sim->wind_state.gusts},
-        [HAIR_GL_CATEGORY_FIELD] = {hair->field.distance, hair->field.number},
-        [HAIR_GL_CATEGORY_HIT] = {geometry->follower_collision.image},
-        [HAIR_GL_CATEGORY_COLOR] = {lighting->fibres.texture},
-    };
     HAIR_ASSERT((unsigned)work < HAIR_GL_CATEGORIES);
     uint64_t bytes = 0;
     for (int i = 0; i < MAX_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
-    for (int i = 0; i < MAX_TEXTURES; ++i) bytes += hair_gl_texture_bytes(gl, textures[work][i]);
     return bytes;
+}
+
+// Return the bytes of an instance's textures for one kind of work. Missing textures are 0.
+static uint64_t texture_bytes_of(const hair_instance* hair, hair_gl_category work)
+{
+    const GLuint textures[HAIR_GL_CATEGORIES][MAX_TEXTURES] = {
+        [HAIR_GL_CATEGORY_WIND] = {hair->sim.wind_coupling.fluid.air, hair->sim.wind_state.gusts},
+        [HAIR_GL_CATEGORY_FIELD] = {hair->field.distance, hair->field.number},
+        [HAIR_GL_CATEGORY_HIT] = {hair->geometry.follower_collision.image},
+        [HAIR_GL_CATEGORY_COLOR] = {hair->lighting.fibres.texture},
+    };
+    uint64_t bytes = 0;
+    for (int i = 0; i < MAX_TEXTURES; ++i)
+        bytes += hair_gl_texture_bytes(&hair->context->gl, textures[work][i]);
+    return bytes;
+}
+
+static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
+{
+    return buffer_bytes_of(hair, work) + texture_bytes_of(hair, work);
 }
 
 // The report --------------------------------------------------------------------------------------

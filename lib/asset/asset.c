@@ -3,15 +3,20 @@
 
 #define MAX_STRANDS 4194304 // Maximum, as of hair_groom_desc.strand_count.
 
+// Formats, in the order in which the first bytes are tried. Those without `encode` are read only.
 static const struct format {
+    hair_format format;
     bool (*is)(const unsigned char* bytes, size_t size);
     hair_result (*decode)(const struct hair_source* source, hair_asset* asset);
+    hair_result (*measure)(const hair_asset* asset, size_t* size);
+    void (*encode)(const hair_asset* asset, unsigned char* bytes);
 } formats[] = {
-    {hair_is_hairfile, hair_decode_hairfile},
-    {hair_is_tfx4, hair_decode_tfx4},
-    {hair_is_tfx3, hair_decode_tfx3},
-    {hair_is_tfx_text, hair_decode_tfx_text},
+    {HAIR_FORMAT_HAIR, hair_is_hairfile, hair_decode_hairfile, hair_size_hairfile, hair_encode_hairfile},
+    {HAIR_FORMAT_TFX4, hair_is_tfx4, hair_decode_tfx4, hair_size_tfx4, hair_encode_tfx4},
+    {HAIR_FORMAT_TFX3, hair_is_tfx3, hair_decode_tfx3, NULL, NULL},
+    {HAIR_FORMAT_TFX2, hair_is_tfx_text, hair_decode_tfx_text, NULL, NULL},
 };
+#define FORMATS (sizeof formats / sizeof *formats)
 
 static hair_result refuse(const struct hair_source* source)
 {
@@ -24,8 +29,11 @@ static hair_result refuse(const struct hair_source* source)
 
 static hair_result decode_raw(const struct hair_source* source, hair_asset* asset)
 {
-    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
-        if (formats[i].is(source->bytes, source->size)) return formats[i].decode(source, asset);
+    for (size_t i = 0; i < FORMATS; ++i) {
+        if (!formats[i].is(source->bytes, source->size)) continue;
+        asset->format = formats[i].format;
+        return formats[i].decode(source, asset);
+    }
     return refuse(source);
 }
 
@@ -75,19 +83,17 @@ hair_result hair_asset_decode(const hair_host* host, const hair_import* import, 
 hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void* bytes, size_t capacity,
                               size_t* size)
 {
-    bool hairfile = format == HAIR_FORMAT_HAIR;
-    if (!hairfile && format != HAIR_FORMAT_TFX4)
-        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
-                         "format is %u, not HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4", (unsigned)format);
+    const struct format* found = NULL;
+    for (size_t i = 0; i < FORMATS; ++i)
+        if (formats[i].format == format && formats[i].encode) found = &formats[i];
+    if (!found)
+        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "format is %u, which cannot be written",
+                         (unsigned)format);
     size_t needed;
-    hair_result result = hairfile ? hair_size_hairfile(asset, &needed) : hair_size_tfx4(asset, &needed);
+    hair_result result = found->measure(asset, &needed);
     if (result) return result;
     *size = needed;
-    if (!bytes || capacity < needed) return HAIR_OK;
-    if (hairfile)
-        hair_encode_hairfile(asset, bytes);
-    else
-        hair_encode_tfx4(asset, bytes);
+    if (bytes && capacity >= needed) found->encode(asset, bytes);
     return HAIR_OK;
 }
 

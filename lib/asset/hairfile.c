@@ -150,7 +150,6 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
     if (result) return result;
 
     HAIR_ASSERT(header.points_at >= HEADER);
-    asset->format = HAIR_FORMAT_HAIR;
     asset->strand_set = HAIR_STRAND_SET_FULL;
     for (uint32_t i = 0; i < header.strands; ++i) strands->vertices[i] = count_vertices(source, &header, i);
     const unsigned char* points = source->bytes + header.points_at;

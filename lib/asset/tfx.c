@@ -33,14 +33,12 @@ struct section {
 };
 
 struct layout {
-    hair_format format;
     uint32_t header, floats; // bytes of the header, floats of a position
     uint32_t colors_at; // byte of the offset of colours
     struct section sections[SECTIONS]; // positions first
 };
 
-static const struct layout version3 = {HAIR_FORMAT_TFX3,
-                                       296,
+static const struct layout version3 = {296,
                                        3,
                                        156,
                                        {{144, 12, 1, "positions"},
@@ -50,8 +48,7 @@ static const struct layout version3 = {HAIR_FORMAT_TFX3,
                                         {160, 4, 0, "guides of strands"},
                                         {164, 8, 1, "texture coordinates of vertices"}}};
 
-static const struct layout version4 = {HAIR_FORMAT_TFX4,
-                                       160,
+static const struct layout version4 = {160,
                                        4,
                                        28,
                                        {{12, 16, 1, "positions"},
@@ -115,7 +112,6 @@ static hair_result decode(const struct hair_source* source, const struct layout*
     if (result) return result;
 
     HAIR_ASSERT((uint64_t)count * each == strands->vertex_count);
-    asset->format = layout->format;
     asset->strand_set = HAIR_STRAND_SET_GUIDES;
     for (uint32_t i = 0; i < count; ++i) strands->vertices[i] = each;
     const unsigned char* at = source->bytes + hair_read_u32(source->bytes + layout->sections[0].at);

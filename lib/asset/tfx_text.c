@@ -221,7 +221,6 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
         result = hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices);
     if (result) return result;
 
-    asset->format = HAIR_FORMAT_TFX2;
     asset->strand_set = HAIR_STRAND_SET_GUIDES;
     reader.warned = true;
     rewind_to_start(&reader, &asset->strands);

@@ -13,7 +13,8 @@ extern "C" {
 // A shape that has been met, with its collision mesh.
 struct hair_cached_shape {
     const btCollisionShape* shape;
-    uint64_t fingerprint; // hash of its numbers. Another hash means another shape at the same address.
+    // hash of its numbers. Another hash means another shape at the same address.
+    uint64_t fingerprint;
     hair_collision_mesh* mesh; // NULL if the shape can have none, which the log has said.
     uint32_t round; // number of the hair_bullet_clear() round in which the shape was last met
 };
@@ -72,7 +73,7 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
                                  const hair_gather& context);
 
 // Functions of collision_meshes.cpp.
-// Return the entry of a shape, or NULL if the shape has not been met with this print.
+// Return the entry of a shape, or NULL if the shape is not cached with this fingerprint.
 hair_cached_shape* hair_bullet_find(hair_bullet* bullet, const btCollisionShape* shape, uint64_t fingerprint);
 // Store the collision mesh of a shape and take ownership. NULL stands for a shape that can have
 // none.
@@ -91,7 +92,7 @@ hair_result hair_bullet_add_collision_mesh(hair_bullet* bullet, const btCollisio
 hair_result hair_bullet_make_collision_mesh(hair_bullet* bullet, const btCollisionShape* shape,
                                             uint64_t fingerprint, const struct hair_mesh& mesh, float room,
                                             const hair_collision_mesh** out);
-// Continue the FNV-1a hash `print` with `bytes`. Defined in collision_meshes.cpp.
+// Continue the FNV-1a hash `fingerprint` with `bytes`. Defined in collision_meshes.cpp.
 uint64_t hair_bullet_fingerprint(uint64_t fingerprint, const void* bytes, size_t size);
 
 hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape, const hair_gather& context,

@@ -16,15 +16,16 @@ struct hair_collider_list {
 };
 
 struct hair_colliders {
-    // `before` is the list of the previous step. It has room for as many colliders as `now` has.
+    // `previous` is the list of the previous step. It has room for as many colliders as `current`
+    // has.
     struct hair_collider_list current, previous;
-    uint32_t* match; // index in `before` of each collider of `now`, or HAIR_UNMATCHED
-    uint32_t capacity; // of pair
+    uint32_t* match; // index in `previous` of each collider of `current`, or HAIR_UNMATCHED
+    uint32_t capacity; // of match
     uint32_t capsules; // result of hair_colliders_capsules()
     uint32_t bodies; // result of hair_colliders_bodies()
     uint32_t contacts; // number of all but collision meshes without data
     uint32_t meshes; // number of collision meshes among the contacts
-    int changed; // 1 if `now` differs from `before`
+    int changed; // 1 if `current` differs from `previous`
 };
 
 #define HAIR_UNMATCHED UINT32_MAX
@@ -66,10 +67,10 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
 // rounding.
 void hair_collider_extent(const hair_collider* collider, hair_vec3* middle, hair_vec3* half);
 
-// End the step: `now` becomes `before`.
+// End the step: `current` becomes `previous`.
 void hair_colliders_end_step(struct hair_colliders* colliders);
 
-// Forget the previous poses, because they do not tell how colliders move.
+// Forget the previous poses, because they do not show how colliders move.
 void hair_colliders_reset(struct hair_colliders* colliders);
 
 #endif

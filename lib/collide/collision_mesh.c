@@ -45,7 +45,7 @@ static float farthest_from_origin(const struct hair_triangles* t)
 }
 
 // Choose the voxel size and the thickness of a shell. The mesh with its shell fits into the
-// resolution. With the room around it, it fits into MOST_VOXELS.
+// resolution. With the padding around it, the mesh fits into MAX_VOXELS.
 static void choose_voxel(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
                          hair_collision_mesh_info* info)
 {

@@ -13,14 +13,15 @@ struct hair_collision_mesh {
     hair_host host; // owner of the memory
     atomic_uint holders;
     hair_collision_mesh_info info;
-    uint64_t content_hash; // hash of the content. Collision meshes with equal marks have equal shapes.
+    // hash of the content. Collision meshes with equal hashes have equal shapes.
+    uint64_t content_hash;
     uint32_t size[3]; // number of nodes along x, y, z
     float origin[3]; // position of the first node, m
     float voxel; // distance between nodes, m
     // Signed distance at each node, m, negative inside. Node (i, j, k) is at i + size[0] (j +
-    // size[1] k). The surface and the room around it stay HAIR_COLLISION_MESH_PADDING voxels away
-    // from the grid's faces. Distances are exact up to HAIR_COLLISION_MESH_BAND voxels from the
-    // mesh, and nearly exact beyond.
+    // size[1] k). The surface and the padding around it stay HAIR_COLLISION_MESH_PADDING voxels
+    // away from the grid's faces. Distances are exact up to HAIR_COLLISION_MESH_BAND voxels from
+    // the mesh, and nearly exact beyond.
     float* distance;
 };
 

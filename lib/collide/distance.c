@@ -1,5 +1,5 @@
-// distance.c - the exact signed distance to colliders. glsl/collide/collider_distance.glsl is the GPU
-// version.
+// distance.c - the exact signed distance to colliders. glsl/collide/collider_distance.glsl is the
+// GPU version.
 #include "lib/collide/distance.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 // grid.c - the contacts that guides can have in a step, and bounding boxes of their motion.
 #include "lib/collide/grid.h"
 
-#define WALK 12 // Iterations: BODY_STEPS of glsl/sim/shape_contact.glsl, plus the start and the end.
+// Iterations: BODY_STEPS of glsl/sim/shape_contact.glsl, plus the start and the end.
+#define WALK 12
 
 uint32_t hair_entry_rounds(uint32_t member)
 {

@@ -1,7 +1,7 @@
 // grid.h - the colliders that hair can touch in one step, as a grid of lists. Positions are
 // relative to the head.
 //
-// The list of a cell has every collider that comes within `give` of the cell at some time of the
+// The list of a cell has every collider that comes within `slack` of the cell at some time of the
 // step. Cells at the grid's faces extend to infinity, so that every point has a list. A list that
 // would be too long keeps the nearest colliders.
 #ifndef HAIR_COLLIDE_GRID_H

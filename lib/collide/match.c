@@ -1,4 +1,4 @@
-// match.c - pairing of colliders by key. The order is mostly that of the previous step. Otherwise
+// match.c - matching of colliders by key. The order is mostly that of the previous step. Otherwise
 // both are sorted and merged.
 #include "lib/collide/match.h"
 

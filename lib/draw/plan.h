@@ -16,7 +16,7 @@ enum hair_vertex_source {
     HAIR_VERTICES_PER_VIEW, // The view cache has those of the strand list.
 };
 
-// How strands are blended into the framebuffer.
+// Blending of strands into the framebuffer.
 enum hair_blending {
     HAIR_BLENDING_NONE,
     HAIR_BLENDING_UNSORTED, // Blended by coverage, in any order.

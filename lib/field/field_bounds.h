@@ -31,7 +31,8 @@ static inline uint32_t hair_field_bricks(const struct hair_field_box* box)
 // including, `end`. Equal bounds mean no bricks.
 struct hair_placed_collider {
     struct hair_field_collider collider;
-    const hair_collision_mesh* mesh; // NULL if the collider is no collision mesh, or one without data.
+    // NULL if the collider is no collision mesh, or one without data.
+    const hair_collision_mesh* mesh;
     uint32_t place; // Place of the mesh in hair_sdf_pool.
     uint16_t first[3], end[3];
 };

@@ -21,7 +21,7 @@ struct hair_sdf_pool {
     uint32_t count, capacity; // Number of places, and capacity.
 };
 
-// Add a user of `form`. Its place stays `place` until hair_sdf_pool_release().
+// Add a user of `collision_mesh`. Its place stays `place` until hair_sdf_pool_release().
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* collision_meshes,
                                   const hair_collision_mesh* collision_mesh, uint32_t* place);
 // Remove a user.

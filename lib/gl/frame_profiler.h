@@ -35,7 +35,7 @@ static inline struct hair_gl_frame* hair_gl_profiler_frame(struct hair_gl_profil
     return &profiler->frame[number % HAIR_GL_FRAMES];
 }
 
-// Begin a pass. Do nothing if gl->ledger is NULL.
+// Begin a pass. Do nothing if gl->profiler is NULL.
 void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass);
 // End a pass.
 void hair_gl_profiler_end(struct hair_gl* gl, hair_gl_pass pass);

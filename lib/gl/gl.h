@@ -132,7 +132,7 @@ struct hair_gl {
 #undef FUNCTION
 };
 
-// functions.c, program.c, driver_quirks.c --------------------------------------------------------------
+// functions.c, program.c, driver_quirks.c ---------------------------------------------------------
 
 // Load the functions, check the version and test for driver bugs.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);

@@ -79,13 +79,14 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define SIZES HAIR_GL_SIZES
 #define WITH(name) HAIR_GL_WITH(name)
 #define STRAND_FEATURES \
-    SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | \
-        WITH(FEW_GUIDES)
+    SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | \
+        WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(FEW_GUIDES)
 #define DRAW_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(IDS) | WITH(OPAQUE_SHADOWS) | \
-        WITH(ALPHA_COVERAGE) | WITH(WIDENED)
+    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
+        WITH(IDS) | WITH(OPAQUE_SHADOWS) | WITH(ALPHA_COVERAGE) | WITH(WIDENED)
 #define STAGE_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS) | WITH(WIDENED) | WITH(HITS)
+    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS) | \
+        WITH(WIDENED) | WITH(HITS)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
@@ -96,7 +97,8 @@ PASS(FLUID_CLEAR, "wind/clear", WIND, 0, "HAIR_FLUID=1 sim/hair_grid_clear.comp"
 PASS(FLUID_SPLAT, "wind/splat", WIND, 0, "HAIR_FLUID=1 sim/hair_grid_splat.comp")
 PASS(FLUID_POROUS, "wind/porous", WIND, 0, "HAIR_FLUID=1 wind/porous.comp")
 PASS(FLUID_ADVECT, "wind/advect", WIND, 0, "HAIR_FLUID=1 wind/advect.comp")
-PASS(FLUID_MACCORMACK_CORRECT, "wind/maccormack_correct", WIND, 0, "HAIR_FLUID=1 wind/maccormack_correct.comp")
+PASS(FLUID_MACCORMACK_CORRECT, "wind/maccormack_correct", WIND, 0,
+     "HAIR_FLUID=1 wind/maccormack_correct.comp")
 PASS(FLUID_DIVERGENCE, "wind/divergence", WIND, 0, "HAIR_FLUID=1 wind/divergence.comp")
 PASS(FLUID_SMOOTH, "wind/smooth", WIND, 0, "HAIR_FLUID=1 wind/smooth.comp")
 PASS(FLUID_JACOBI, "wind/jacobi", WIND, 0, "HAIR_FLUID=1 wind/jacobi.comp")
@@ -109,7 +111,8 @@ PASS(RESET, "sim/reset", RESET, WITH(ROD) | WITH(SKINNED) | WITH(MIXED), "sim/re
 PASS(ROTATE_STATE, "sim/rotate_state", ROTATE_STATE, WITH(ROD) | WITH(MIXED), "sim/rotate_state.comp")
 PASS(UNPACK_SCALP, "sim/unpack_scalp", UNPACK_SCALP, 0, "HAIR_SKINNED=1 sim/unpack_scalp.comp")
 PASS(ROOT_TRANSFORMS, "sim/root_transforms", ROOT_TRANSFORMS, 0, "HAIR_SKINNED=1 sim/root_transforms.comp")
-PASS(BIND_FOLLOWERS, "strands/bind_followers", BIND_FOLLOWERS, 0, "HAIR_SKINNED=1 strands/bind_followers.comp")
+PASS(BIND_FOLLOWERS, "strands/bind_followers", BIND_FOLLOWERS, 0,
+     "HAIR_SKINNED=1 strands/bind_followers.comp")
 PASS(ACTIVITY, "sim/activity", ACTIVITY, 0, "sim/activity.comp")
 PASS(MOTION_OF_GUIDES, "sim/diagnose_motion", DIAGNOSE, 0, "sim/motion.comp")
 PASS(ENERGY, "sim/diagnose_energy", DIAGNOSE, WITH(MIXED), "sim/energy.comp")
@@ -117,7 +120,8 @@ PASS(HAIR_GRID_CLEAR, "sim/hair_grid_clear", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair
 PASS(HAIR_GRID_SPLAT, "sim/hair_grid_splat", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_splat.comp")
 PASS(HAIR_GRID_GATHER, "sim/hair_grid_gather", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_gather.comp")
 PASS(DIRECT, "sim/direct", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
-PASS(ACCURATE, "sim/accurate", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=0 sim/rod.comp")
+PASS(ACCURATE, "sim/accurate", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2),
+     "HAIR_SOLVER=0 sim/rod.comp")
 PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
 PASS(MIXED_SOLVER, "sim/mixed", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
 PASS(FOLLOW, "sim/follow", SOLVE, STRAND_FEATURES, "sim/follow.comp")
@@ -134,25 +138,36 @@ PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert
 PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED), "strands/smooth.comp")
 PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED), "HAIR_STORED=1 strands/expand.comp")
 PASS(HIT, "strands/hit", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/hit.comp")
-PASS(HIT_GROUP, "strands/hit_group", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
-PASS(PREPASS, "strands/hit_prepass", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese strands/hit.frag")
+PASS(HIT_GROUP, "strands/hit_group", HIT, WITH(STYLED),
+     "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
+PASS(PREPASS, "strands/hit_prepass", HIT, WITH(STYLED),
+     "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese "
+     "strands/hit.frag")
 PASS(PREPASS_HIT, "strands/hit_gather", HIT, 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 strands/hit.comp")
 PASS(REPAIR, "strands/repair", REPAIR, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/repair.comp")
 PASS(HIZ_REDUCE_DEPTH, "draw/hiz_reduce_depth", OCCLUSION, 0, "draw/hiz_reduce_depth.comp")
 PASS(HIZ_DOWNSAMPLE, "draw/hiz_downsample", OCCLUSION, 0, "draw/hiz_downsample.comp")
 PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")
 PASS(CULL_PATCHES, "draw/cull_patches", OCCLUSION, WITH(HITS), "draw/cull_patches.comp")
-PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION), "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
+PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION),
+     "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
 PASS(INSTANCED, "draw/instanced", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
-PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
-PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED), "HAIR_VERTEX_CACHE=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
+PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
+     "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
+PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
+     "HAIR_VERTEX_CACHE=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag "
+     "HAIR_DEPTH?draw/depth.frag")
 PASS(EXPAND_VIEW, "draw/expand_view", COLOR, STAGE_FEATURES, "draw/expand_view.comp")
-PASS(EXPAND_VIEW_SIDES, "draw/expand_view_sides", COLOR, STAGE_FEATURES | WITH(LINES), "HAIR_SIDES=1 draw/expand_view.comp")
-PASS(VIEW_CACHED, "draw/view_cached", COLOR, WITH(DEPTH) | WITH(LINES), "draw/view_cache.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
+PASS(EXPAND_VIEW_SIDES, "draw/expand_view_sides", COLOR, STAGE_FEATURES | WITH(LINES),
+     "HAIR_SIDES=1 draw/expand_view.comp")
+PASS(VIEW_CACHED, "draw/view_cached", COLOR, WITH(DEPTH) | WITH(LINES),
+     "draw/view_cache.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
 PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, WITH(DEPTH), "draw/raster_clear.comp")
 PASS(RASTER, "draw/raster", COLOR, WITH(DEPTH) | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
-PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, WITH(DEPTH) | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/resolve_tiles.vert draw/resolve_tiles.frag")
-PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS), "HAIR_VERTEX_CACHE=1 draw/shade.comp")
+PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, WITH(DEPTH) | WITH(WIDENED),
+     "HAIR_VERTEX_CACHE=1 draw/resolve_tiles.vert draw/resolve_tiles.frag")
+PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
+     "HAIR_VERTEX_CACHE=1 draw/shade.comp")
 PASS(SCAN_STRANDS, "draw/scan_strands", SCAN_STRANDS, WITH(OCCLUSION), "draw/scan_strands.comp")
 PASS(COMPACT_STRANDS, "draw/compact_strands", COMPACT_STRANDS, WITH(OCCLUSION), "draw/compact_strands.comp")
 PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "HAIR_VERTEX_CACHE=1 draw/histogram.comp")
@@ -160,8 +175,10 @@ PASS(PREFIX_SUM, "draw/prefix_sum", COLOR, 0, "draw/prefix_sum.comp")
 PASS(SCATTER, "draw/scatter", COLOR, 0, "HAIR_VERTEX_CACHE=1 HAIR_SCATTER=1 draw/histogram.comp")
 PASS(DENSITY_BOUNDS, "light/density_bounds", SELF_SHADOW, 0, "light/density_bounds.comp")
 PASS(DENSITY_SPLAT, "light/density_splat", SELF_SHADOW, 0, "light/density_splat.comp")
-PASS(NODE_TRANSMITTANCE, "light/node_transmittance", SELF_SHADOW, WITH(COLLIDERS), "light/node_transmittance.comp")
-PASS(VERTEX_TRANSMITTANCE, "light/vertex_transmittance", SELF_SHADOW, WITH(COLLIDERS), "light/vertex_transmittance.comp")
+PASS(NODE_TRANSMITTANCE, "light/node_transmittance", SELF_SHADOW, WITH(COLLIDERS),
+     "light/node_transmittance.comp")
+PASS(VERTEX_TRANSMITTANCE, "light/vertex_transmittance", SELF_SHADOW, WITH(COLLIDERS),
+     "light/vertex_transmittance.comp")
 PASS(COLLIDERS, "draw/colliders", COLLIDERS, 0, "HAIR_MESHES=1 draw/colliders.vert draw/colliders.frag")
 PASS(SLICE, "draw/colliders_slice", COLLIDERS, 0, "draw/slice.vert draw/slice.frag")
 PASS(AIR, "draw/air", AIR, 0, "draw/air.vert draw/guides.frag")

@@ -1,5 +1,5 @@
-// user_shader.c - programs with the application's text in place of light/user_shader.glsl. Only requested
-// programs are compiled and take memory.
+// user_shader.c - programs with the application's text in place of light/user_shader.glsl. Only
+// requested programs are compiled and take memory.
 #include "lib/gl/gl.h"
 
 #include <string.h>

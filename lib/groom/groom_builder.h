@@ -54,7 +54,7 @@ struct hair_groom_builder {
     hair_vec4* map_fraction; // thickness in each set as a fraction of map_thickness
 };
 
-// Steps, in order. Each reports a failure by one sentence and leaves its results in the draft.
+// Steps, in order. Each reports a failure by one sentence and leaves its results in the builder.
 hair_result hair_build_strands(struct hair_groom_builder* builder);
 hair_result hair_build_scalp(struct hair_groom_builder* builder);
 hair_result hair_build_guides(struct hair_groom_builder* builder);
@@ -68,8 +68,10 @@ hair_result hair_scalp_candidates(struct hair_groom_builder* builder);
 // Find the closest point on the scalp of all candidates. The candidates of scalp.c have theirs
 // already.
 hair_result hair_build_scalp_points(struct hair_groom_builder* builder);
-hair_result hair_build_maps(struct hair_groom_builder* builder); // Read the maps for all candidates.
-void hair_apply_thickness(struct hair_groom_builder* builder); // Scale the radii of followers by the maps.
+// Read the maps for all candidates.
+hair_result hair_build_maps(struct hair_groom_builder* builder);
+// Scale the radii of followers by the maps.
+void hair_apply_thickness(struct hair_groom_builder* builder);
 hair_result hair_build_patches(struct hair_groom_builder* builder);
 hair_result hair_strand_followers(struct hair_groom_builder* builder);
 hair_result hair_guide_followers(struct hair_groom_builder* builder);
@@ -77,7 +79,8 @@ hair_result hair_scalp_followers(struct hair_groom_builder* builder);
 // Give followers the radii and colours of strands.
 hair_result hair_build_strand_attributes(struct hair_groom_builder* builder);
 hair_result
-hair_build_root_bindings(struct hair_groom_builder* builder); // Bind guides and followers to the scalp.
+// Bind guides and followers to the scalp.
+hair_build_root_bindings(struct hair_groom_builder* builder);
 
 // Reorder the neighbouring candidates in `queue` so that the front needs another patch than the
 // back. Return the length of the front, or 0 if maps allow one patch for all.

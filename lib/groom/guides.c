@@ -1,10 +1,10 @@
 // guides.c - selection of the strands that are simulated.
 //
-// From full strands the guides are chosen so that they represent the haircut. The marks of a strand
-// form a point in 12 dimensions. The distance between two points measures how far two strands are
-// apart along their length. The set is split at the mean of the axis of largest variance. The
-// halves are split again, down to one guide per cell. The guide is the strand nearest to the mean
-// of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
+// From full strands the guides are chosen so that they represent the haircut. The shape samples of
+// a strand form a point in 12 dimensions. The distance between two points measures how far two
+// strands are apart along their length. The set is split at the mean of the axis of largest
+// variance. The halves are split again, down to one guide per cell. The guide is the strand nearest
+// to the mean of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
 #include "lib/groom/groom_builder.h"
 
 #include <float.h>
@@ -105,7 +105,7 @@ static uint32_t cut(const struct choice* choice, const struct cell* cell)
 
 // Return the number of `guides` for the first of two cells. Each cell gets at least one and at most
 // one per strand.
-static uint32_t share_out(const struct cell* front, const struct cell* back, uint32_t guides)
+static uint32_t count_front_guides(const struct cell* front, const struct cell* back, uint32_t guides)
 {
     double a = weigh(front), b = weigh(back);
     if (!(a + b > 0)) a = front->count, b = back->count;
@@ -128,10 +128,10 @@ static void choose(struct choice* choice, const struct cell* cell, uint32_t guid
     HAIR_ASSERT(0 < at && at < cell->count);
     struct cell front = measure(choice, cell->order, at);
     struct cell back = measure(choice, cell->order + at, cell->count - at);
-    uint32_t fraction = share_out(&front, &back, guides);
-    HAIR_ASSERT(1 <= fraction && fraction < guides);
-    choose(choice, &front, fraction, depth + 1);
-    choose(choice, &back, guides - fraction, depth + 1);
+    uint32_t front_guides = count_front_guides(&front, &back, guides);
+    HAIR_ASSERT(1 <= front_guides && front_guides < guides);
+    choose(choice, &front, front_guides, depth + 1);
+    choose(choice, &back, guides - front_guides, depth + 1);
 }
 
 static uint32_t count_guides(const struct hair_groom_builder* builder)

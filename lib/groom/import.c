@@ -96,7 +96,7 @@ static hair_result clean(struct hair_groom_builder* builder)
     return HAIR_OK;
 }
 
-// Compute the first vertex, the length and the marks of each strand.
+// Compute the first vertex, the length and the shape samples of each strand.
 static void measure(struct hair_groom_builder* builder)
 {
     const struct hair_strands* strands = &builder->strands;

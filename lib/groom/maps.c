@@ -71,8 +71,8 @@ static hair_result check_maps(const struct hair_groom_builder* builder, uint32_t
     return result;
 }
 
-// Find the values before and after a coordinate along a side. `share` is the weight of the second
-// value.
+// Find the values before and after a coordinate along a side. `fraction` is the weight of the
+// second value.
 static void find_between(float uv, uint32_t size, uint32_t at[2], float* fraction)
 {
     // Values are at the texel centres.
@@ -122,7 +122,8 @@ static void read_maps(struct hair_groom_builder* builder, uint32_t sets, uint32_
     float density[HAIR_MAP_SETS], thickness[HAIR_MAP_SETS], max = 0;
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
         const hair_map_set* set = builder->desc->map_sets[i < sets ? i : sets - 1];
-        density[i] = fminf(fmaxf(value_at(builder, &set->density, scalp_point), 0), 1); // Correct rounding.
+        // Correct rounding.
+        density[i] = fminf(fmaxf(value_at(builder, &set->density, scalp_point), 0), 1);
         thickness[i] = fmaxf(value_at(builder, &set->thickness, scalp_point), 0);
         max = fmaxf(max, thickness[i]);
     }

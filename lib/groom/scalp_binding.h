@@ -18,9 +18,9 @@ struct hair_root_bindings {
     float* uv; // of the root of each follower. NULL without scalp UVs.
 };
 
-// Add a reference. Any thread. NULL is ignored. Return `seats`.
+// Add a reference. Any thread. NULL is ignored. Return `root_bindings`.
 struct hair_root_bindings* hair_root_bindings_retain(struct hair_root_bindings* root_bindings);
-// Remove a reference and free `seats` with the last one. Any thread. NULL is ignored.
+// Remove a reference and free `root_bindings` with the last one. Any thread. NULL is ignored.
 void hair_root_bindings_release(struct hair_root_bindings* root_bindings);
 
 #endif

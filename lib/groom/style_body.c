@@ -89,7 +89,8 @@ float hair_body_distance(hair_vec3 p)
     d = blend(d, capsule_distance(&neck, m), 0.05f);
     if (p.y < 1.42f) return d; // The head is far above.
     d = blend(d, face_distance(&m), 0.016f);
-    return fminf(d, ellipsoid_distance(&head_sphere, m)); // Without a fillet, roots stay on the surface.
+    // Without a fillet, roots stay on the surface.
+    return fminf(d, ellipsoid_distance(&head_sphere, m));
 }
 
 static hair_vec3 gradient(float (*distance)(hair_vec3), hair_vec3 p)

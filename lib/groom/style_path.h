@@ -4,7 +4,7 @@
 
 #include "lib/base/math.h"
 
-#define HAIR_STYLE_PATH_POINTS 2048 // Maximum number of points of a course.
+#define HAIR_STYLE_PATH_POINTS 2048 // Maximum number of points of a path.
 // Distance between points, m. A tenth of the sharpest bend radius of the built-in haircuts.
 #define HAIR_STYLE_PATH_STRIDE 0.002f
 
@@ -39,7 +39,7 @@ float hair_noise(hair_vec3 p, float scale, uint32_t seed);
 // maximum.
 void hair_style_path_add(struct hair_style_path* path, hair_vec3 p);
 
-// Shorten the course to `most` metres. At most one stride is removed.
+// Shorten the path to `max` metres. At most one stride is removed.
 void hair_style_path_trim(struct hair_style_path* path, float max);
 
 struct hair_curl {
@@ -50,7 +50,7 @@ struct hair_curl {
     float flat; // 1 gives a helix, 0 a plane wave.
 };
 
-// Wind the course into a helix, in a frame transported along it without twist, outside the bust.
+// Wind the path into a helix, in a frame transported along it without twist, outside the bust.
 void hair_style_path_add_curl(struct hair_style_path* path, const struct hair_curl* curl);
 
 #endif

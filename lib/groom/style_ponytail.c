@@ -33,7 +33,7 @@ static void comb_to_tie(hair_vec3 root, struct hair_style_path* path)
     }
 }
 
-// Append a cubic Hermite curve from the end of the course through the hair tie.
+// Append a cubic Hermite curve from the end of the path through the hair tie.
 static void gather(hair_vec3 through, hair_vec3 normal, struct hair_style_path* path)
 {
     hair_vec3 a = path->point[path->count - 1];

@@ -83,7 +83,8 @@ static float parting_azimuth(const struct build* build, float side)
 {
     float x = build->parting.front + side * PARTING_HALF;
     float azimuth = 0;
-    for (int i = 0; i < 4; ++i) { // The hairline is nearly level there, so this converges to a micrometre.
+    // The hairline is nearly level there, so this converges to a micrometre.
+    for (int i = 0; i < 4; ++i) {
         float y = (hair_scalp_hairline(azimuth) - HAIR_SKULL_HEIGHT) / HAIR_SKULL_Y;
         azimuth = asinf(x / (HAIR_SKULL_X * sqrtf(1 - y * y)));
     }
@@ -156,7 +157,7 @@ static void add_outline(struct build* build)
 // Inner vertices ----------------------------------------------------------------------------------
 
 // Draw candidates evenly by area: keep a direction in proportion to the area stretch of the skull
-// there. `share` receives the fraction of directions that were kept.
+// there. `fraction` receives the fraction of directions that were kept.
 static void draw_candidates(struct build* build, float* fraction)
 {
     const float max = HAIR_SKULL_Y * HAIR_SKULL_Z;

@@ -29,13 +29,13 @@ static void write_light(const hair_light* light, const struct hair_pose* head,
                         hair_vec4 out[HAIR_LIGHT_VECTORS])
 {
     hair_vec3 to = hair_normalize(hair_load3(light->direction), hair_v3(0, 1, 0));
-    int spot = light->kind == HAIR_LIGHT_SPOT;
+    bool is_cone = light->kind == HAIR_LIGHT_SPOT;
     float edges = cosf(light->inner_angle) - cosf(light->outer_angle);
     out[HAIR_LIGHT_TO] = (hair_vec4){to.x, to.y, to.z, 0};
     out[HAIR_LIGHT_COLOR] = (hair_vec4){light->color[0], light->color[1], light->color[2], 1};
     out[HAIR_LIGHT_AXIS] =
-        spot ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer_angle)} : (hair_vec4){0, 0, 0, -1};
-    out[HAIR_LIGHT_MORE] = (hair_vec4){spot ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
+        is_cone ? (hair_vec4){to.x, to.y, to.z, cosf(light->outer_angle)} : (hair_vec4){0, 0, 0, -1};
+    out[HAIR_LIGHT_MORE] = (hair_vec4){is_cone ? 1 / fmaxf(edges, 1e-6f) : 1, 0, 0, HAIR_SHADOW_MAPS};
     out[HAIR_LIGHT_MAP] = (hair_vec4){HAIR_SHADOW_MAPS, light->opaque_bias, 0, 0};
     if (light->kind == HAIR_LIGHT_DIRECTIONAL) return;
     float at[3];

@@ -105,7 +105,7 @@ static double fraction_of(struct block a, struct block own, struct block far)
 }
 
 // Reduce the system of a guide. Write to `last` the final solve after each possible number of
-// rounds. Return the number of rounds after which the influence is at most `least`.
+// rounds. Return the number of rounds after which the influence is at most `min`.
 static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
                              double min, hair_vec4* out, hair_vec4* last)
 {

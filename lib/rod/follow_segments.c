@@ -1,5 +1,5 @@
-// follow_segments.c - the parameters of each segment for glsl/sim/follow.comp: its stiffness, and the
-// moments of all masses beyond.
+// follow_segments.c - the parameters of each segment for glsl/sim/follow.comp: its stiffness, and
+// the moments of all masses beyond.
 //
 // The energy of segment i in the direction t is
 //

@@ -31,7 +31,7 @@
 #define MAX_PER_FRAME_DIRECT 16
 #define MAX_STIFF 1e6 // Maximum of h^2 K_ii / m_i.
 #define MIXED_STIFFER 2e4 // Multiple of that maximum that the mixed scheme can solve.
-#define MIXED_STIFFER_FREE 1e5 // Multiple of MOST_STIFF_FREE that the mixed scheme can solve.
+#define MIXED_STIFFER_FREE 1e5 // Multiple of MAX_STIFF_FREE that the mixed scheme can solve.
 // Maximum of h^2 K_ii / m_i for a free strand. Only its mass determines its motion as a whole.
 #define MAX_STIFF_FREE 1e4
 

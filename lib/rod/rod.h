@@ -63,11 +63,11 @@ static inline struct hair_rods_report hair_rods_report_none(void)
 // Compute the gravity preload of guides, as gravity_preload.c describes. The preload depends on no
 // solver and no substep.
 //
-// The rest strain of a guide with a clamped root balances the fraction `gravity_preload` of
-// gravity. With 1 the groom is in equilibrium. A strand that is too soft would still buckle out of
-// the groom, or need a rest strain further than 1 from the groom's own. Such a guide is made up to
-// 3 times as stiff, by as little as keeps it stable. A guide that needs more stiffness sags to a
-// pose that it can keep.
+// The rest strain of a guide with a clamped root balances the fraction
+// hair_physics.gravity_preload of gravity. With 1 the groom is in equilibrium. A strand that is too
+// soft would still buckle out of the groom, or need a rest strain further than 1 from the groom's
+// own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. A guide that
+// needs more stiffness sags to a pose that it can keep.
 void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                                const hair_physics* physics, struct hair_rod_borne* out,
                                struct hair_rods_report* report);
@@ -102,7 +102,7 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
                          const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
                          hair_solver solver, int mixed);
 
-// Return the maximum number of rounds of cyclic reduction for a guide of `most_vertices` vertices.
+// Return the maximum number of rounds of cyclic reduction for a guide of `max_vertices` vertices.
 uint32_t hair_rods_rounds(uint32_t max_vertices);
 
 // Reduce the systems of the solver's own method for work groups. Write one vec4 per vertex and

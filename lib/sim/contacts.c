@@ -2,13 +2,9 @@
 // each cell, are in GPU buffers.
 #include "lib/sim/sim.h"
 
-// Assumed maximum displacement by the fitting of lengths, beyond free motion, m. FIT of
-// glsl/sim/contact_grid_lists.glsl has this value too.
-#define FIT 0.02f
 // Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
 // colliders.
 #define FASTEST 5.0f
-#define MAX_SLACK 0.1f // Maximum of half the way of a vertex, m.
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 #define FARTHEST 1e4f // m. FARTHEST of glsl/sim/rod.glsl.
 // Maximum iterations of sphere tracing in a list on a software rasteriser. See rounds_of_list() in
@@ -24,7 +20,7 @@ static struct hair_collider_grid_desc describe(const struct hair_sim* sim, doubl
     int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim);
     return (struct hair_collider_grid_desc){
         .reach = may ? FARTHEST : fminf(far, FARTHEST),
-        .slack = FIT + fminf(half, MAX_SLACK),
+        .slack = (float)HAIR_CONTACT_FIT + fminf(half, HAIR_CONTACT_SLACK),
         .margin = sim->physics.collision_margin,
         .fraction_start = fraction_start,
         .max_rounds = sim->gl->software ? MAX_ROUNDS : UINT32_MAX,
@@ -130,7 +126,7 @@ void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* pa
     params->cells_x = cells->cells[0];
     params->cells_y = cells->cells[1];
     params->cells_z = cells->cells[2];
-    params->cells_slack = cells->made_for.slack - FIT;
+    params->cells_slack = cells->made_for.slack - (float)HAIR_CONTACT_FIT;
 }
 
 void hair_contacts_bind(const struct hair_sim* sim)

@@ -47,24 +47,24 @@ static uint32_t grid_fours(const struct hair_grid* hair_grid)
     return (HAIR_GRID_NODE_NUMBERS * node_count(hair_grid) + 3) / 4;
 }
 
-struct spot {
+struct stencil {
     uint32_t node[3]; // The lowest of the eight nodes around.
     float part[3]; // Fraction of the way to the next node, per axis.
 };
 
-static struct spot spot_of(const struct hair_grid* hair_grid, const hair_vec4* position)
+static struct stencil stencil_at(const struct hair_grid* hair_grid, const hair_vec4* position)
 {
     const float at[3] = {position->x - hair_grid->lower.x, position->y - hair_grid->lower.y,
                          position->z - hair_grid->lower.z};
-    struct spot spot;
+    struct stencil stencil;
     for (int k = 0; k < 3; ++k) {
         float g = fminf(fmaxf(at[k] / hair_grid->cell, 0), (float)(hair_grid->nodes[k] - 1));
         uint32_t n = (uint32_t)g;
-        spot.node[k] = n < hair_grid->nodes[k] - 2 ? n : hair_grid->nodes[k] - 2;
-        spot.part[k] = g - (float)spot.node[k];
-        HAIR_ASSERT(0 <= spot.part[k] && spot.part[k] <= 1);
+        stencil.node[k] = n < hair_grid->nodes[k] - 2 ? n : hair_grid->nodes[k] - 2;
+        stencil.part[k] = g - (float)stencil.node[k];
+        HAIR_ASSERT(0 <= stencil.part[k] && stencil.part[k] <= 1);
     }
-    return spot;
+    return stencil;
 }
 
 static uint32_t node_at(const struct hair_grid* hair_grid, uint32_t x, uint32_t y, uint32_t z)
@@ -98,7 +98,7 @@ static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struc
     const struct hair_grid* hair_grid = &sim->hair_grid;
     for (int place = 0; place < 2; ++place) {
         for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
-            struct spot s = spot_of(hair_grid, &rest[i].position);
+            struct stencil s = stencil_at(hair_grid, &rest[i].position);
             uint32_t bin = node_at(hair_grid, s.node[0], s.node[1], s.node[2]);
             if (place)
                 layout->vertex[layout->bin[bin + 1]++] = i;
@@ -117,7 +117,7 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
                           const struct layout* layout, uint32_t i)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
-    struct spot s = spot_of(hair_grid, &rest[i].position);
+    struct stencil s = stencil_at(hair_grid, &rest[i].position);
     double sum = 0, cell = (double)hair_grid->cell;
     for (uint32_t n = 0; n < 27; ++n) {
         uint32_t x = s.node[0] + n % 3 - 1, y = s.node[1] + n / 3 % 3 - 1, z = s.node[2] + n / 9 - 1;
@@ -140,7 +140,7 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
-        struct spot s = spot_of(hair_grid, &rest[i].position);
+        struct stencil s = stencil_at(hair_grid, &rest[i].position);
         layout->volume[i] = layout->mass[i] / mass_around(sim, rest, layout, i);
         for (uint32_t c = 0; c < 8; ++c) {
             double weight = layout->volume[i];

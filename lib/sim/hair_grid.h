@@ -18,7 +18,7 @@
 
 // The hair-hair grid. All 0 until hair first has cohesion or volume.
 struct hair_grid {
-    // Buffers, as in shared.h, and the texture of `push`.
+    // Buffers, as in shared.h, and the texture of `acceleration`.
     GLuint params, grid, splat, rest_density, acceleration, texture;
     hair_vec3 lower; // Position of node 0 in the head's frame, m.
     float cell; // Distance between nodes, m.

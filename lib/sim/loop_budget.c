@@ -13,7 +13,8 @@
 // follow-the-leader.
 #define TRIED 2u
 #define LOOKS 9u // Length checks per method.
-#define STEPS 8u // Newton steps between the length checks. MOST_STEPS of glsl/sim/length_constraints.glsl.
+// Newton steps between the length checks. MAX_STEPS of glsl/sim/length_constraints.glsl.
+#define STEPS 8u
 // Sweeps of follow-the-leader with a heavy tip. HEAVY_ROUNDS of glsl/sim/follow_the_leader.glsl, to
 // and fro, and one more.
 #define HEAVY_SWEEPS 13

@@ -4,7 +4,7 @@
 //   byte  0  "hairsave"
 //         8  u32 version
 //        12  u64 size of the whole state in bytes
-//        20  the fields, in the order of walk()
+//        20  the fields, in the order of serialize()
 //   the end  u64 FNV-1a hash of all bytes before
 //
 // The hash detects damage. Every field is checked as well, because an attacker can compute the hash
@@ -17,7 +17,7 @@
 #include "lib/base/bytes.h"
 #include "lib/collide/collision_mesh.h"
 
-// Version of the fields in walk() and of their meaning. Raise it with any change of these.
+// Version of the fields in serialize() and of their meaning. Raise it with any change of these.
 #define VERSION 15
 #define HEADER 20
 #define TRAILER 8
@@ -39,7 +39,7 @@ _Static_assert(offsetof(hair_collider, friction) == 52 && sizeof(struct hair_pos
 #define MAX_CELLS 1e16 // Maximum distance of the fluid's box from the world's origin, in cells.
 #define MAX_QUIET_TIME 1e9 // s
 #define MAX_SUBSTEP_SCALE 16 // 1 / the minimum of hair_physics.substep_rate.
-// Number of words of a collider before the mark of its collision mesh and its key.
+// Number of words of a collider before the hash of its collision mesh and its key.
 #define COLLIDER_WORDS 14
 #define COLLIDER_BYTES (4 * COLLIDER_WORDS + 16)
 #define RESOLVED_PIN_BYTES 36
@@ -54,7 +54,8 @@ struct loaded {
     uint32_t pins;
 };
 
-// Return the collision mesh with a mark among the present colliders. Return NULL if there is none.
+// Return the collision mesh with a content hash among the present colliders. Return NULL if there
+// is none.
 static const hair_collision_mesh* find_mesh(const struct hair_colliders* colliders, uint64_t hash)
 {
     const struct hair_collider_list* lists[] = {&colliders->current, &colliders->previous};
@@ -168,7 +169,7 @@ static void serialize_bend(struct hair_serializer* s, struct hair_sim* sim)
 }
 
 // Serialize a skinned scalp and the scalp motion. hair_sim_load() has created the buffers.
-static void serialize_skin(struct hair_serializer* s, struct hair_sim* sim, int skinned)
+static void serialize_scalp_motion(struct hair_serializer* s, struct hair_sim* sim, int skinned)
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     if (!skinned || s->result) return;
@@ -267,7 +268,7 @@ static void serialize(struct hair_serializer* s, struct hair_sim* sim, struct lo
                           sim->guide_vertices * sizeof(struct hair_history));
     serialize_bend(s, sim);
     serialize_hair_grid(s, &sim->hair_grid, sim->guide_vertices);
-    serialize_skin(s, sim, skinned);
+    serialize_scalp_motion(s, sim, skinned);
     serialize_sleep(s, sim);
     hair_serialize_uint(s, "how many times as long substeps are", &sim->substep_scale, MAX_SUBSTEP_SCALE);
     hair_serialize_double(s, "time since hair was seen", &sim->unseen, 0, 1);

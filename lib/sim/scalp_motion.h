@@ -10,15 +10,15 @@
 #include "lib/gl/gl.h"
 #include "lib/groom/scalp_binding.h"
 
-// All members but `seats` are 0 until the application first sets a scalp.
+// All members but `root_bindings` are 0 until the application first sets a scalp.
 struct hair_scalp_motion {
-    struct hair_root_bindings*
-        root_bindings; // Root bindings, of which a reference is held. NULL without a scalp.
+    // Root bindings, of which a reference is held. NULL without a scalp.
+    struct hair_root_bindings* root_bindings;
     // Buffers, as in shared.h. scalp[0] is the scalp of the last step, and scalp[1] that of the
     // next.
     GLuint root_transform, root_binding, rest, scalp[2], params;
-    GLuint texture; // Texture of `ride`.
-    struct hair_pose space; // Pose in the world of the space that scalp[1] is given in.
+    GLuint texture; // Texture of `root_transform`.
+    struct hair_pose space; // Pose in the world of the space of scalp[1].
     int changed; // 1 if a scalp has been set since the last step.
     hair_vec4 rotation, offset; // Transform of scalp[0] to the head's frame, as in shared.h.
 };
@@ -27,7 +27,8 @@ struct hair_sim;
 
 void hair_scalp_motion_free(struct hair_sim* sim);
 
-// Create buffers and programs, once. The scalp counts as at rest so far. `seats` is not NULL.
+// Create buffers and programs, once. The scalp counts as at rest so far. `root_bindings` is not
+// NULL.
 hair_result hair_scalp_motion_create(struct hair_sim* sim);
 
 // Set the scalp of the next step, xyz per vertex. hair_scalp_motion_create() has succeeded.

@@ -26,10 +26,10 @@ struct hair_serializer {
     } buffer[HAIR_SERIALIZER_BUFFERS]; // The buffers read so far.
 };
 
-// Serialize a number from 0 to `most`.
+// Serialize a number from 0 to `max`.
 void hair_serialize_uint(struct hair_serializer* c, const char* name, uint32_t* value, uint32_t max);
 void hair_serialize_flag(struct hair_serializer* c, const char* name, int* flag);
-// Serialize a number from -most to `most`.
+// Serialize a number from -max to `max`.
 void hair_serialize_float(struct hair_serializer* c, const char* name, float* value, double max);
 void hair_serialize_double(struct hair_serializer* c, const char* name, double* value, double min,
                            double max);

@@ -216,8 +216,8 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
     hair_wind_write(&sim->wind_state, sim->gl, &now);
 }
 
-// Run `total` substeps. sim->left is already the time that remains after them. `again` is 1 if the
-// step has begun already.
+// Run `total` substeps. sim->accumulator is already the time that remains after them. `again` is 1
+// if the step has begun already.
 static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
 {
     struct hair_step_params params = {0};
@@ -279,7 +279,7 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
 }
 
 // Free what is no longer used.
-static void tidy_up(struct hair_sim* sim)
+static void free_unused(struct hair_sim* sim)
 {
     if (!sim->colliders.current.count && sim->contacts.collider) hair_contacts_free(sim);
     if (!hair_grid_is_on(sim) && sim->hair_grid.texture) hair_grid_free(sim);
@@ -318,7 +318,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     sim->head_at_last_step = sim->head;
     hair_colliders_end_step(&sim->colliders);
     hair_sleep_submit_query(sim, disturbed, dt);
-    tidy_up(sim);
+    free_unused(sim);
     return HAIR_OK;
 }
 
@@ -380,7 +380,8 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     }
     hair_pins_teleport(sim, &from, to);
     hair_sleep_wake(sim);
-    sim->hair_grid.substeps_done = 0; // The grid's accelerations are for the old rotation of the head.
+    // The grid's accelerations are for the old rotation of the head.
+    sim->hair_grid.substeps_done = 0;
     hair_colliders_reset(&sim->colliders); // Old positions imply no velocities.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);

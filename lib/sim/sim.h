@@ -20,6 +20,8 @@
 
 #include <stdbool.h>
 
+#define HAIR_CONTACT_SLACK 0.1f // Maximum of half the way of a vertex in a substep, m.
+
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
 // All 0 until an instance first has them.
 struct hair_contacts {
@@ -28,7 +30,7 @@ struct hair_contacts {
     struct hair_collider_grid grid;
     // Buffers of the colliders and of the grid's cells, and their textures for shaders.
     GLuint collider, collider_texture, cell, cell_texture;
-    uint32_t* held; // Places in `forms` of the collision meshes in use.
+    uint32_t* held; // Places in `sdf_pool` of the collision meshes in use.
     uint32_t holds; // Length of `held`.
 };
 
@@ -43,8 +45,8 @@ struct hair_rods {
     int held; // 1 if `borne` is up to date for `borne_for`.
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
-    int struck; // Value of sim->struck that the rods were made for.
-    uint32_t pinned; // Value of sim->pins.which that the rods were made for.
+    int struck; // Value of sim->had_contact that the rods were made for.
+    uint32_t pinned; // Value of sim->pins.vertex_hash that the rods were made for.
     uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
 };
 
@@ -63,10 +65,12 @@ struct hair_sim {
     int by_thread; // 1 prefers a thread per guide to a work group per guide.
     int two_pass; // 1 if guides may go through two programs. See main() of glsl/sim/rod.comp.
     uint32_t list; // Guide list of the last dispatch, 0 or 1. Dispatches alternate between them.
-    int had_contact; // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    // 1 once there were colliders. Impacts shorten the accurate solver's own substep.
+    int had_contact;
     double last_substep; // Length of the last substep done, s. Displacements are over this time.
     double next_substep; // Length of the current substep, s. 0 if unknown, as after loading.
-    uint32_t substep_scale; // Multiple of the solver's own substep length. 0 until rods are first made.
+    // Multiple of the solver's own substep length. 0 until rods are first made.
+    uint32_t substep_scale;
     double unseen; // Time since a view last showed any of this hair, s.
     uint32_t guides, guide_vertices, smooth_vertices;
     uint32_t max_vertices; // Maximum number of vertices of a guide.
@@ -134,8 +138,8 @@ bool hair_grid_is_on(const struct hair_sim* sim);
 
 // Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
 bool hair_contacts_are_any(const struct hair_sim* sim);
-// Find the colliders in reach during a step of dt. `share_start` is the fraction of the step that
-// has been done, and may be negative.
+// Find the colliders in reach during a step of dt. `fraction_start` is the fraction of the step
+// that has been done, and may be negative.
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start);
 // Write the parameters that hair_contacts_find() found.
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params);

@@ -27,11 +27,11 @@
 // Fraction of hair_physics.sleep_threshold that the distance still to go may have. The head may
 // move a quarter. The rest is for motion between measurements.
 #define FRACTION 0.5f
-#define HEAD_FRACTION 0.25f // Fraction of hair_physics.sleep_threshold that motion of the head may have.
+// Fraction of hair_physics.sleep_threshold that motion of the head may have.
+#define HEAD_FRACTION 0.25f
 #define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
-// Distance from the hair beyond which a collider has no effect, without the margin, m. It stands
-// for FIT and MAX_SLACK of contacts.c.
-#define AROUND 0.1f
+// Distance from the hair beyond which a collider has no effect, without the margin, m.
+#define AROUND ((float)HAIR_CONTACT_FIT + HAIR_CONTACT_SLACK)
 #define MAX_GROUPS 256
 #define LONGEST_WAIT 1000000000u // Maximum wait of a save, ns. Steps never wait.
 
@@ -135,7 +135,7 @@ bool hair_sleep_is_disturbed(const struct hair_sim* sim)
     return !(far <= HEAD_FRACTION * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
 
-// Restart the calm period under the current conditions.
+// Restart the quiet time under the current conditions.
 static void reset_quiet_time(struct hair_sim* sim)
 {
     struct hair_sleep* sleep = &sim->sleep;

@@ -24,11 +24,11 @@ struct hair_activity {
 struct hair_sleep {
     int asleep;
     double quiet_time; // Simulated time since an event last disturbed the hair, s.
-    double due; // Value of `calm` at which guides are measured next, s.
+    double due; // Value of `quiet_time` at which guides are measured next, s.
     uint32_t samples; // Number of measurements since the last such event.
     struct hair_activity now; // Activity in the current round of measurements.
     float before; // Distance in the previous round, m. Negative if there was none.
-    double since; // Value of `calm` at the start of the current round, s.
+    double since; // Value of `quiet_time` at the start of the current round, s.
     double span, span_before; // Duration of the last round and of the round before that, s.
     // State of the pending measurement. `waits` is 1 while there is one, `known` once it is
     // answered.
@@ -40,11 +40,11 @@ struct hair_sleep {
     struct hair_pose head;
     hair_physics physics;
     hair_wind wind;
-    uint32_t program_generation; // Value of gl->made.
+    uint32_t program_generation; // Value of gl->program_generation.
     int disturbed; // 1 if any other event has disturbed the hair since the last step.
     uint32_t parity; // Alternating index of the answer, as in hair_activity_params.
     GLuint anchor, activity, readback, params; // Buffers. 0 until needed.
-    const float* mapped; // Contents of `seen`.
+    const float* mapped; // Contents of `readback`.
     GLsync fence;
 };
 

@@ -22,7 +22,7 @@ struct hair_sim;
 
 void hair_diagnosis_free(struct hair_sim* sim);
 
-// Decide whether to watch the coming step, and create what watching needs. `stirred` is 1 if
+// Decide whether to watch the coming step, and create what watching needs. `disturbed` is 1 if
 // something drives the hair.
 hair_result hair_diagnosis_ensure(struct hair_sim* sim, int disturbed);
 
@@ -32,7 +32,7 @@ void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps);
 // Discard earlier energies, because the guides have been moved.
 void hair_diagnosis_reset(struct hair_sim* sim);
 
-// Fill in `health`. Wait for the GPU.
+// Fill in `solver_stats`. Wait for the GPU.
 hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solver_stats);
 
 #endif

@@ -52,7 +52,7 @@ struct hair_fluid_hair {
 };
 
 struct hair_fluid_level_at {
-    uint32_t cells, slot, cell; // As in hair_fluid_level.
+    uint32_t cells, slot, cell; // See hair_fluid_level.
 };
 
 struct hair_fluid {
@@ -97,7 +97,7 @@ struct hair_fluid_now {
     struct hair_fluid_strands strands;
     double dt; // Duration of the step, in s.
     const struct hair_collider_field* field;
-    const struct hair_colliders* colliders; // Colliders, which move from `before` to `now`.
+    const struct hair_colliders* colliders; // Colliders, which move from `previous` to `current`.
     double colliders_dt; // Duration of their motion, in s.
 };
 

@@ -33,7 +33,8 @@ int main(void)
     desc.look = &look;
     if (hair_create(context, groom, &desc, &hair)) return 1;
 
-    hair_collider body[] = {hair_collider_default(), hair_collider_default()}; // The skull, the shoulders.
+    // The skull, the shoulders.
+    hair_collider body[] = {hair_collider_default(), hair_collider_default()};
     body[0].shape = HAIR_SHAPE_CAPSULE;
     body[0].position[1] = 1.63f;
     body[0].size[0] = 0.08f, body[0].size[1] = 0.015f;
@@ -79,7 +80,8 @@ int main(void)
     if (!file) return 1;
     glReadPixels(0, 0, SIZE, SIZE, GL_RGB, GL_UNSIGNED_BYTE, pixels);
     fprintf(file, "P6\n%d %d\n255\n", SIZE, SIZE);
-    for (int y = SIZE; y--;) fwrite(pixels[y], 1, sizeof pixels[y], file); // OpenGL starts at the bottom.
+    // OpenGL starts at the bottom.
+    for (int y = SIZE; y--;) fwrite(pixels[y], 1, sizeof pixels[y], file);
     printf("wrote hello.ppm\n");
     hair_destroy(hair), hair_groom_destroy(groom), hair_asset_destroy(asset);
     hair_context_destroy(context), hair_egl_destroy(egl);

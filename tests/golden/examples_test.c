@@ -35,7 +35,7 @@ static void read_ppm(const char* path, uint8_t* pixels)
     fclose(file);
 }
 
-static void the_example_draws_hair(void** state)
+static void example_draws_hair_like_its_golden_picture(void** state)
 {
     static uint8_t pixels[3 * WIDTH * HEIGHT];
     const char* name = *state;
@@ -57,7 +57,8 @@ int main(void)
     enum { COUNT = sizeof names / sizeof *names };
     struct CMUnitTest tests[COUNT];
     for (int i = 0; i < COUNT; ++i)
-        tests[i] = (struct CMUnitTest){
-            .name = names[i], .test_func = the_example_draws_hair, .initial_state = (void*)names[i]};
+        tests[i] = (struct CMUnitTest){.name = names[i],
+                                       .test_func = example_draws_hair_like_its_golden_picture,
+                                       .initial_state = (void*)names[i]};
     return cmocka_run_group_tests_name("examples", tests, NULL, NULL);
 }

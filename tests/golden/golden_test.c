@@ -54,7 +54,7 @@ static double lit_fraction(const uint8_t* with, const uint8_t* without)
     return (double)lit / (WIDTH * HEIGHT);
 }
 
-static void the_picture_is_the_same_as_last_time_and_shows_hair(void** state)
+static void scene_equals_its_golden_picture_and_shows_hair(void** state)
 {
     static uint8_t with[3 * WIDTH * HEIGHT], without[3 * WIDTH * HEIGHT];
     const struct golden* golden = *state;
@@ -82,7 +82,7 @@ int main(void)
     struct CMUnitTest tests[COUNT];
     for (int i = 0; i < COUNT; ++i)
         tests[i] = (struct CMUnitTest){.name = goldens[i].name,
-                                       .test_func = the_picture_is_the_same_as_last_time_and_shows_hair,
+                                       .test_func = scene_equals_its_golden_picture_and_shows_hair,
                                        .initial_state = (void*)&goldens[i]};
     return cmocka_run_group_tests_name("pictures", tests, NULL, NULL);
 }

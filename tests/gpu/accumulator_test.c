@@ -221,31 +221,31 @@ static void in_every_way(void** state, void (*check)(struct hair_test* test, hai
     hair_groom_destroy(groom);
 }
 
-static void strands_are_the_same_at_every_frame_rate(void** state)
+static void strands_move_equally_at_every_frame_rate(void** state)
 {
     in_every_way(state, strands_are_the_same);
 }
-static void whole_portions_are_whole_substeps(void** state)
+static void frames_of_whole_substeps_leave_no_remainder(void** state)
 {
     in_every_way(state, portions_are_substeps);
 }
-static void the_same_steps_give_the_same_bits(void** state)
+static void equal_steps_give_equal_bits(void** state)
 {
     in_every_way(state, steps_give_the_same_bits);
 }
-static void a_moving_head_is_followed_alike_at_every_frame_rate(void** state)
+static void strands_follow_a_moving_head_at_every_frame_rate(void** state)
 {
     in_every_way(state, a_moving_head_is_followed);
 }
-static void no_time_changes_nothing(void** state)
+static void step_of_no_time_changes_nothing(void** state)
 {
     in_every_way(state, nothing_changes);
 }
-static void beyond_the_longest_step_time_slows_and_the_log_says_so_once(void** state)
+static void step_longer_than_max_dt_is_cut_and_logged_once(void** state)
 {
     in_every_way(state, time_slows);
 }
-static void a_step_of_very_many_substeps_is_like_many_steps(void** state)
+static void step_of_many_substeps_equals_many_steps(void** state)
 {
     in_every_way(state, a_long_step_is_many_steps);
 }
@@ -254,13 +254,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(strands_are_the_same_at_every_frame_rate),
-        HAIR_TEST(whole_portions_are_whole_substeps),
-        HAIR_TEST(the_same_steps_give_the_same_bits),
-        HAIR_TEST(a_moving_head_is_followed_alike_at_every_frame_rate),
-        HAIR_TEST(no_time_changes_nothing),
-        HAIR_TEST(beyond_the_longest_step_time_slows_and_the_log_says_so_once),
-        HAIR_TEST(a_step_of_very_many_substeps_is_like_many_steps),
+        HAIR_TEST(strands_move_equally_at_every_frame_rate),
+        HAIR_TEST(frames_of_whole_substeps_leave_no_remainder),
+        HAIR_TEST(equal_steps_give_equal_bits),
+        HAIR_TEST(strands_follow_a_moving_head_at_every_frame_rate),
+        HAIR_TEST(step_of_no_time_changes_nothing),
+        HAIR_TEST(step_longer_than_max_dt_is_cut_and_logged_once),
+        HAIR_TEST(step_of_many_substeps_equals_many_steps),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

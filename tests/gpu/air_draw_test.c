@@ -73,7 +73,7 @@ static struct picture picture;
 
 // Check the drawn area. An arrow is a quarter of the spacing wide and as long as the spacing, so it
 // covers an eighth.
-static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
+static void uniform_wind_draws_grey_arrows_of_the_grid_spacing(void** state)
 {
     struct hair_test_living living = start(state);
     hair_wind wind = hair_wind_default();
@@ -93,7 +93,7 @@ static void an_even_wind_is_grey_and_as_long_as_places_are_apart(void** state)
 }
 
 // Check the colours around a ball of 3 cm, in the middle of a picture of 18 by 42 cm.
-static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
+static void arrows_are_blue_behind_a_ball_and_red_beside_it(void** state)
 {
     for (int model = 0; model < 2; ++model) {
         struct hair_test_living living = start(state);
@@ -117,7 +117,7 @@ static void air_is_blue_behind_a_ball_and_red_beside_it(void** state)
     }
 }
 
-static void nothing_is_seen_where_no_step_had_wind(void** state)
+static void arrows_are_absent_when_no_step_had_wind(void** state)
 {
     struct hair_test_living living = start(state);
     hair_wind wind = hair_wind_default();
@@ -141,9 +141,9 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(an_even_wind_is_grey_and_as_long_as_places_are_apart),
-        HAIR_TEST(air_is_blue_behind_a_ball_and_red_beside_it),
-        HAIR_TEST(nothing_is_seen_where_no_step_had_wind),
+        HAIR_TEST(uniform_wind_draws_grey_arrows_of_the_grid_spacing),
+        HAIR_TEST(arrows_are_blue_behind_a_ball_and_red_beside_it),
+        HAIR_TEST(arrows_are_absent_when_no_step_had_wind),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -54,7 +54,7 @@ static void expect(hair_vec3 got, double x, double y, double z, double tolerance
                  y, z);
 }
 
-static void gusts_are_as_strong_as_is_asked_and_alike_nearby(void** state)
+static void gusts_have_the_set_intensity_and_are_alike_nearby(void** state)
 {
     enum { COUNT = 400 };
     hair_vec3 at[COUNT];
@@ -101,7 +101,7 @@ static void place_in_gusts(const struct hair_test_living* living, const double w
 
 // Check that gusts move with the wind, for any frame times, motion of the head, and change of the
 // wind's direction.
-static void gusts_go_with_the_wind(void** state)
+static void gusts_travel_with_the_wind(void** state)
 {
     const hair_vec3 origin = {0, 0, 0};
     struct hair_test_living living = tracers(*state, &origin, 1);
@@ -163,7 +163,7 @@ static void a_ball_shelters_what_is_behind_it(void** state)
     hair_test_die(&living);
 }
 
-static void sources_blow_as_they_say(void** state)
+static void wind_sources_blow_with_their_settings(void** state)
 {
     const hair_vec3 at[] = {{0, 0, 0.5f}, {0, 0, -1}, {1.1f, 0, 1}, {1.3f, 0, 0}};
     struct hair_test_living living = tracers(*state, at, 4);
@@ -197,7 +197,7 @@ static GLuint make_texture(const float velocity[3])
     return texture;
 }
 
-static void the_applications_own_wind_blows_where_it_is_finite(void** state)
+static void wind_texture_blows_only_where_it_is_finite(void** state)
 {
     struct hair_test* test = *state;
     const hair_vec3 at[] = {{1, 1, 1}, {5, 1, 1}};
@@ -227,7 +227,7 @@ static void the_applications_own_wind_blows_where_it_is_finite(void** state)
     hair_test_die(&living);
 }
 
-static void what_cannot_be_is_refused(void** state)
+static void wind_out_of_range_is_refused(void** state)
 {
     struct hair_test* test = *state;
     const hair_vec3 origin = {0, 0, 0};
@@ -253,7 +253,7 @@ static void what_cannot_be_is_refused(void** state)
     hair_test_die(&living);
 }
 
-static void gusts_go_on_from_a_saved_state(void** state)
+static void gusts_continue_from_a_saved_state(void** state)
 {
     const hair_vec3 at[] = {{0, 0, 0}, {1, 0.5f, 0}};
     struct hair_test_living first = tracers(*state, at, 2), second = tracers(*state, at, 2);
@@ -279,13 +279,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(gusts_are_as_strong_as_is_asked_and_alike_nearby),
-        HAIR_TEST(gusts_go_with_the_wind),
+        HAIR_TEST(gusts_have_the_set_intensity_and_are_alike_nearby),
+        HAIR_TEST(gusts_travel_with_the_wind),
         HAIR_TEST(a_ball_shelters_what_is_behind_it),
-        HAIR_TEST(sources_blow_as_they_say),
-        HAIR_TEST(the_applications_own_wind_blows_where_it_is_finite),
-        HAIR_TEST(what_cannot_be_is_refused),
-        HAIR_TEST(gusts_go_on_from_a_saved_state),
+        HAIR_TEST(wind_sources_blow_with_their_settings),
+        HAIR_TEST(wind_texture_blows_only_where_it_is_finite),
+        HAIR_TEST(wind_out_of_range_is_refused),
+        HAIR_TEST(gusts_continue_from_a_saved_state),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -73,7 +73,7 @@ static double mean_alpha(const float* pixels, GLsizei side)
 }
 
 // Check few strands, so that two rarely share a pixel. A pixel is 1/48 m.
-static void strands_of_any_width_cover_what_finer_pixels_see(void** state)
+static void alpha_of_any_width_equals_supersampled_coverage(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[4 * SIDE * FINE * SIDE * FINE];
     static const float widths[] = {0.08f, 0.25f, 0.5f, 1, 1.5f};
@@ -135,7 +135,7 @@ static void the_nearest_strand_is_in_front(void** state)
     finish(&f);
 }
 
-static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** state)
+static void nearer_geometry_depth_and_state_stay_as_they_were(void** state)
 {
     static float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
     static const float near = 0.2f, blue[4] = {0, 0, 0.5f, 1};
@@ -161,7 +161,7 @@ static void what_is_nearer_stays_and_depth_and_state_are_as_they_were(void** sta
     finish(&f);
 }
 
-static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
+static void segments_are_not_sorted_without_alpha_coverage(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state, 64, 0.002f);
@@ -180,10 +180,10 @@ static void hair_of_which_no_shares_are_asked_is_not_sorted(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(strands_of_any_width_cover_what_finer_pixels_see),
+        HAIR_TEST(alpha_of_any_width_equals_supersampled_coverage),
         HAIR_TEST(the_nearest_strand_is_in_front),
-        HAIR_TEST(what_is_nearer_stays_and_depth_and_state_are_as_they_were),
-        HAIR_TEST(hair_of_which_no_shares_are_asked_is_not_sorted),
+        HAIR_TEST(nearer_geometry_depth_and_state_stay_as_they_were),
+        HAIR_TEST(segments_are_not_sorted_without_alpha_coverage),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

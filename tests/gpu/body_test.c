@@ -136,7 +136,7 @@ static double across(int pixel)
 // Check that hair behind the plate is black, and that hair beside it is as bright as without the
 // plate. Pixels within 6 cm of the edge are ignored, because segments interpolate light between
 // vertices.
-static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
+static void hair_behind_an_opaque_body_is_black_by_every_method(void** state)
 {
     static float open[4 * SIZE * SIZE];
     for (int i = 0; i < 4; ++i) {
@@ -165,7 +165,7 @@ static void behind_a_body_hair_is_black_by_any_shadow_and_shading(void** state)
 
 // Compare the transmitted light behind a plate in the map of hair with that behind a plate in the
 // map of opaque geometry. Each depends on the distance of the strand behind the plate.
-static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
+static void opaque_shadow_is_full_beyond_its_bias_in_metres(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
         struct fixture* f = start(state);
@@ -197,7 +197,7 @@ static void a_body_is_no_thicket_and_its_bias_is_in_metres(void** state)
     }
 }
 
-static void every_light_has_bodies_of_its_own(void** state)
+static void each_light_uses_its_own_opaque_shadow_map(void** state)
 {
     struct fixture* f = start(state);
     uint32_t held[4] = {0};
@@ -241,7 +241,7 @@ static void look_from_lamp(hair_light* light)
 
 // Check a plate of opaque geometry on one side, and a plate in the map of hair. The depths of both
 // give metres along each ray.
-static void maps_may_be_in_perspective(void** state)
+static void opaque_shadow_maps_may_be_in_perspective(void** state)
 {
     for (int shadow = 0; shadow < 2; ++shadow) {
         struct fixture* f = start(state);
@@ -292,7 +292,7 @@ static uint32_t count_passes(const struct fixture* f, const char* words)
     return found;
 }
 
-static void without_bodies_no_program_knows_of_them(void** state)
+static void programs_have_no_opaque_shadows_without_a_map(void** state)
 {
     struct fixture* f = start(state);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
@@ -312,7 +312,7 @@ static void without_bodies_no_program_knows_of_them(void** state)
     finish(f);
 }
 
-static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
+static void odd_maps_and_matrices_give_finite_colors(void** state)
 {
     struct fixture* f = start(state);
     GLuint odd[3];
@@ -347,7 +347,7 @@ static void no_map_and_no_matrix_makes_what_is_not_a_number(void** state)
     finish(f);
 }
 
-static void what_is_no_map_of_a_light_is_refused(void** state)
+static void texture_that_is_no_shadow_map_is_refused(void** state)
 {
     struct fixture* f = start(state);
     float* m = f->light[0].shadow_matrix;
@@ -381,13 +381,13 @@ static void what_is_no_map_of_a_light_is_refused(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(behind_a_body_hair_is_black_by_any_shadow_and_shading),
-        HAIR_TEST(a_body_is_no_thicket_and_its_bias_is_in_metres),
-        HAIR_TEST(every_light_has_bodies_of_its_own),
-        HAIR_TEST(maps_may_be_in_perspective),
-        HAIR_TEST(without_bodies_no_program_knows_of_them),
-        HAIR_TEST(no_map_and_no_matrix_makes_what_is_not_a_number),
-        HAIR_TEST(what_is_no_map_of_a_light_is_refused),
+        HAIR_TEST(hair_behind_an_opaque_body_is_black_by_every_method),
+        HAIR_TEST(opaque_shadow_is_full_beyond_its_bias_in_metres),
+        HAIR_TEST(each_light_uses_its_own_opaque_shadow_map),
+        HAIR_TEST(opaque_shadow_maps_may_be_in_perspective),
+        HAIR_TEST(programs_have_no_opaque_shadows_without_a_map),
+        HAIR_TEST(odd_maps_and_matrices_give_finite_colors),
+        HAIR_TEST(texture_that_is_no_shadow_map_is_refused),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

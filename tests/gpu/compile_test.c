@@ -128,7 +128,7 @@ static void draw(struct fixture* f, const hair_view* view, float* pixels)
 
 // Programs ----------------------------------------------------------------------------------------
 
-static void each_program_is_compiled_when_something_first_needs_it(void** state)
+static void programs_are_compiled_on_first_use(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = {.test = *state};
@@ -170,7 +170,7 @@ static double now_ms(void)
     return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
 }
 
-static void what_a_host_keeps_is_not_compiled_again_and_draws_the_same(void** state)
+static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct cache cache = {0};
@@ -210,7 +210,7 @@ static uint32_t count_links(struct hair_gl* gl)
     return hair_test_trace_count("glLinkProgram");
 }
 
-static void what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew(void** state)
+static void damaged_cache_entries_are_recompiled_and_replaced(void** state)
 {
     struct cache cache = {0};
     hair_context* context = make_context(*state, &cache);
@@ -276,7 +276,7 @@ static uint64_t reported(struct fixture* f)
 }
 
 // Check that everything an instance can have is counted once, and freed.
-static void memory_is_what_instances_report_and_all_comes_back(void** state)
+static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
@@ -323,7 +323,7 @@ static void memory_is_what_instances_report_and_all_comes_back(void** state)
     finish(&f);
 }
 
-static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes(void** state)
+static void memory_over_the_limit_is_refused_and_changes_nothing(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
@@ -353,7 +353,7 @@ static void what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else
 }
 
 // Compare the pictures before, meanwhile and after, on every render path.
-static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
+static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
 {
     static float pixels[2][4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
@@ -394,7 +394,7 @@ static void what_no_view_asks_for_any_more_is_freed_and_made_again(void** state)
 
 // Check a depth pass after colour. It draws the vertices that the colour pass wrote, and does not
 // keep their shaded colours.
-static void vertices_that_depth_goes_on_asking_for_stay_without_their_colours(void** state)
+static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(*state, NULL);
@@ -421,14 +421,14 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(each_program_is_compiled_when_something_first_needs_it),
-        HAIR_TEST(what_a_host_keeps_is_not_compiled_again_and_draws_the_same),
-        HAIR_TEST(what_comes_back_damaged_or_cut_off_is_compiled_and_kept_anew),
+        HAIR_TEST(programs_are_compiled_on_first_use),
+        HAIR_TEST(cached_programs_are_not_recompiled_and_draw_the_same),
+        HAIR_TEST(damaged_cache_entries_are_recompiled_and_replaced),
         HAIR_TEST(a_cache_without_both_functions_is_refused),
-        HAIR_TEST(memory_is_what_instances_report_and_all_comes_back),
-        HAIR_TEST(what_is_beyond_the_limit_is_refused_by_both_numbers_and_nothing_else_changes),
-        HAIR_TEST(what_no_view_asks_for_any_more_is_freed_and_made_again),
-        HAIR_TEST(vertices_that_depth_goes_on_asking_for_stay_without_their_colours),
+        HAIR_TEST(memory_is_the_sum_of_instances_and_is_all_freed),
+        HAIR_TEST(memory_over_the_limit_is_refused_and_changes_nothing),
+        HAIR_TEST(unused_view_memory_is_freed_and_made_again_on_use),
+        HAIR_TEST(cached_vertices_stay_for_depth_when_colors_are_freed),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -131,7 +131,7 @@ static void hurt_one(struct hair_test* test, const hair_groom* groom, int way, u
     for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
 }
 
-static void what_is_not_finite_goes_back_to_rest_alone_and_is_counted(void** state)
+static void only_nonfinite_strands_are_reset_and_counted(void** state)
 {
     static const float bad[] = {NAN, NAN, INFINITY, -3e38f};
     struct hair_test* test = *state;
@@ -151,7 +151,7 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_is_not_finite_goes_back_to_rest_alone_and_is_counted),
+        HAIR_TEST(only_nonfinite_strands_are_reset_and_counted),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

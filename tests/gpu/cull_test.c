@@ -109,7 +109,7 @@ static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
 
 // Check eyes around and inside the hair, with any direction. Hair is drawn if a vertex is in view,
 // and mostly culled if it is wholly out of view.
-static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void** state)
+static void only_hair_out_of_view_is_culled(void** state)
 {
     static float at[3 * MAX];
     struct fixture f = start(state);
@@ -145,7 +145,7 @@ static void hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out(void*
     finish(&f);
 }
 
-static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
+static void depth_clamp_disables_near_and_far_culling(void** state)
 {
     struct fixture f = start(state);
     hair_view view = hair_view_default();
@@ -162,7 +162,7 @@ static void nothing_is_cut_off_near_or_far_where_depth_is_clamped(void** state)
 }
 
 // Check that hair that may be anywhere is drawn.
-static void hair_of_free_roots_is_drawn_wherever_its_groom_is(void** state)
+static void hair_with_free_roots_is_never_view_culled(void** state)
 {
     struct fixture f = start(state);
     hair_view view = hair_view_default();
@@ -192,7 +192,7 @@ static float differ(const float* a, const float* b)
 }
 
 // Compare the picture with one for which everything is computed anew.
-static void what_has_not_changed_is_not_listed_again(void** state)
+static void strand_list_is_reused_while_nothing_changes(void** state)
 {
     static float kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
     struct fixture f = start(state);
@@ -237,7 +237,7 @@ static uint32_t count_primitives(struct fixture* f, const hair_view* view, float
 }
 
 // Check close views with every kind of projection. With free roots no patch may be left out.
-static void patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same(void** state)
+static void culled_patches_do_not_change_the_picture(void** state)
 {
     static float some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
     struct fixture f = start(state);
@@ -276,7 +276,7 @@ static hair_memory memory_of(struct fixture* f)
 
 // Check draws without lights, with a light, and with a light that has a shadow map. Only the shadow
 // map makes the library bind a texture and a sampler.
-static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state)
+static void lights_cost_nothing_when_there_are_none(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     struct fixture f = start(state);
@@ -312,7 +312,7 @@ static void without_lights_nothing_is_bound_or_run_or_kept_for_them(void** state
 }
 
 // Check frames of a step and a draw, with colliders in reach of followers and all passes timed.
-static void no_frame_waits_for_the_gpu(void** state)
+static void frames_do_not_wait_for_the_gpu(void** state)
 {
     struct fixture f = start(state);
     hair_view view = hair_view_default();
@@ -345,13 +345,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(hair_out_of_view_makes_no_draw_and_no_hair_in_view_is_left_out),
-        HAIR_TEST(nothing_is_cut_off_near_or_far_where_depth_is_clamped),
-        HAIR_TEST(hair_of_free_roots_is_drawn_wherever_its_groom_is),
-        HAIR_TEST(what_has_not_changed_is_not_listed_again),
-        HAIR_TEST(patches_out_of_view_are_not_tessellated_and_the_picture_is_the_same),
-        HAIR_TEST(without_lights_nothing_is_bound_or_run_or_kept_for_them),
-        HAIR_TEST(no_frame_waits_for_the_gpu),
+        HAIR_TEST(only_hair_out_of_view_is_culled),
+        HAIR_TEST(depth_clamp_disables_near_and_far_culling),
+        HAIR_TEST(hair_with_free_roots_is_never_view_culled),
+        HAIR_TEST(strand_list_is_reused_while_nothing_changes),
+        HAIR_TEST(culled_patches_do_not_change_the_picture),
+        HAIR_TEST(lights_cost_nothing_when_there_are_none),
+        HAIR_TEST(frames_do_not_wait_for_the_gpu),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -57,7 +57,7 @@ static void run(struct hair_test* test, uint32_t shape, float (*points)[4], floa
 
 // Compare GLSL with C. Either gradient is right at points that are about equally near to two parts
 // of the surface. There the distance at a small step along the gradient must be larger by the step.
-static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
+static void distances_and_gradients_are_equal_in_glsl_and_c(void** state)
 {
     static float points[POINTS][4], found[POINTS][4];
     uint32_t seed = 7;
@@ -88,7 +88,7 @@ static void glsl_and_c_have_the_same_distances_and_gradients(void** state)
 
 // Check the closed form. From any point, one step of the distance along the gradient leads to the
 // surface, and no shorter step in another direction does.
-static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(void** state)
+static void distance_is_the_shortest_way_to_the_surface(void** state)
 {
     (void)state;
     uint32_t seed = 11;
@@ -116,7 +116,7 @@ static void one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one(
 }
 
 // Compare the sign with the definition of the shape.
-static void the_sign_says_what_is_inside(void** state)
+static void distance_is_negative_only_inside(void** state)
 {
     (void)state;
     uint32_t seed = 13;
@@ -138,7 +138,7 @@ static void the_sign_says_what_is_inside(void** state)
     }
 }
 
-static void a_collider_is_its_shape_turned_moved_and_rounded(void** state)
+static void collider_distance_heeds_pose_and_rounding(void** state)
 {
     (void)state;
     hair_collider collider = hair_collider_default();
@@ -159,10 +159,10 @@ static void a_collider_is_its_shape_turned_moved_and_rounded(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(glsl_and_c_have_the_same_distances_and_gradients),
-        cmocka_unit_test(one_step_along_the_gradient_leads_to_the_surface_and_no_shorter_one),
-        cmocka_unit_test(the_sign_says_what_is_inside),
-        cmocka_unit_test(a_collider_is_its_shape_turned_moved_and_rounded),
+        HAIR_TEST(distances_and_gradients_are_equal_in_glsl_and_c),
+        cmocka_unit_test(distance_is_the_shortest_way_to_the_surface),
+        cmocka_unit_test(distance_is_negative_only_inside),
+        cmocka_unit_test(collider_distance_heeds_pose_and_rounding),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

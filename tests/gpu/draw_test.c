@@ -92,7 +92,7 @@ static double coverage(const float* pixels, GLsizei side)
 
 // Check that four samples per pixel cover the same area as sixteen pixels in its place. Ribbons of
 // about a pixel have their true width in both.
-static void samples_and_smaller_pixels_see_the_same_width(void** state)
+static void multisampling_and_supersampling_see_the_same_width(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
     struct fixture f = start(state, 0.002f);
@@ -122,7 +122,7 @@ static void a_wider_strand_covers_more(void** state)
 
 // Check that guides are grey at rest, and red where they are stretched. Here all guides are
 // stretched by a tenth.
-static void guides_are_drawn_in_the_colour_of_their_stretch(void** state)
+static void guides_are_colored_by_their_stretch(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state, 0.001f);
@@ -162,9 +162,9 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(colour_and_depth_passes_leave_the_same_depth),
-        HAIR_TEST(samples_and_smaller_pixels_see_the_same_width),
+        HAIR_TEST(multisampling_and_supersampling_see_the_same_width),
         HAIR_TEST(a_wider_strand_covers_more),
-        HAIR_TEST(guides_are_drawn_in_the_colour_of_their_stretch),
+        HAIR_TEST(guides_are_colored_by_their_stretch),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -56,7 +56,7 @@ static void null_objects_are_argument_errors(void** state)
     hair_asset_destroy(NULL);
 }
 
-static void null_arguments_are_named(void** state)
+static void null_arguments_are_refused_by_name(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -256,7 +256,7 @@ static void check_fields(struct user* user, const struct subject* subject)
         check_field(user, subject, &subject->fields.field[i]);
 }
 
-static void every_number_outside_its_range_is_named(void** state)
+static void numbers_outside_their_range_are_refused_by_name(void** state)
 {
     check_subjects(state, check_fields);
 }
@@ -290,7 +290,7 @@ static void check_ends(struct user* user, const struct subject* subject)
     hair_test_frame_free(&frame);
 }
 
-static void both_ends_of_every_range_are_inside(void** state)
+static void ends_of_every_range_are_accepted(void** state)
 {
     check_subjects(state, check_ends);
 }
@@ -313,14 +313,14 @@ static void check_made(struct user* user, const struct subject* subject)
     }
 }
 
-static void a_desc_of_another_version_or_without_its_default_function_is_refused(void** state)
+static void desc_of_another_version_or_without_header_is_refused(void** state)
 {
     check_subjects(state, check_made);
 }
 
 // Check that callers compiled against an older header may pass shorter structs. Fields beyond the
 // end have their defaults.
-static void a_shorter_desc_of_an_older_caller_is_taken(void** state)
+static void shorter_desc_of_an_older_caller_is_accepted(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -359,7 +359,7 @@ static void transforms_that_are_not_rigid_are_refused(void** state)
     drop(hair, groom);
 }
 
-static void steps_that_are_no_time_are_refused(void** state)
+static void step_of_negative_or_nan_time_is_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -370,7 +370,7 @@ static void steps_that_are_no_time_are_refused(void** state)
     drop(hair, groom);
 }
 
-static void a_substep_that_would_take_for_ever_is_refused(void** state)
+static void substep_that_is_too_short_is_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -387,7 +387,7 @@ static void a_substep_that_would_take_for_ever_is_refused(void** state)
     drop(hair, groom);
 }
 
-static void wrong_colliders_are_named_and_change_nothing(void** state)
+static void invalid_colliders_are_named_and_change_nothing(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -421,7 +421,7 @@ static void wrong_colliders_are_named_and_change_nothing(void** state)
     drop(hair, groom);
 }
 
-static void views_without_sense_are_refused(void** state)
+static void invalid_views_are_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -497,16 +497,16 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(null_objects_are_argument_errors),
-        HAIR_TEST(null_arguments_are_named),
-        HAIR_TEST(every_number_outside_its_range_is_named),
-        HAIR_TEST(both_ends_of_every_range_are_inside),
-        HAIR_TEST(a_desc_of_another_version_or_without_its_default_function_is_refused),
-        HAIR_TEST(a_shorter_desc_of_an_older_caller_is_taken),
+        HAIR_TEST(null_arguments_are_refused_by_name),
+        HAIR_TEST(numbers_outside_their_range_are_refused_by_name),
+        HAIR_TEST(ends_of_every_range_are_accepted),
+        HAIR_TEST(desc_of_another_version_or_without_header_is_refused),
+        HAIR_TEST(shorter_desc_of_an_older_caller_is_accepted),
         HAIR_TEST(transforms_that_are_not_rigid_are_refused),
-        HAIR_TEST(steps_that_are_no_time_are_refused),
-        HAIR_TEST(a_substep_that_would_take_for_ever_is_refused),
-        HAIR_TEST(wrong_colliders_are_named_and_change_nothing),
-        HAIR_TEST(views_without_sense_are_refused),
+        HAIR_TEST(step_of_negative_or_nan_time_is_refused),
+        HAIR_TEST(substep_that_is_too_short_is_refused),
+        HAIR_TEST(invalid_colliders_are_named_and_change_nothing),
+        HAIR_TEST(invalid_views_are_refused),
         HAIR_TEST(a_failed_call_leaves_the_instance_as_it_was),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

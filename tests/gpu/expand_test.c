@@ -100,7 +100,7 @@ static void compare(struct fixture* f, const hair_look* look)
     hair_free(&f->test->host.host, vertices);
 }
 
-static void followers_are_where_the_reference_has_them(void** state)
+static void followers_equal_the_reference(void** state)
 {
     static const uint32_t segments[] = {1, 2, 31, 64, 65, 256};
     struct fixture f = start(state);
@@ -157,7 +157,7 @@ static hair_look any_look(uint32_t* random)
     return look;
 }
 
-static void any_look_is_as_in_the_reference(void** state)
+static void followers_of_any_look_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     uint32_t random = 7;
@@ -234,7 +234,7 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     free(got);
 }
 
-static void tangents_of_any_look_are_as_in_the_reference(void** state)
+static void tangents_of_any_look_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     uint32_t random = 70;
@@ -248,7 +248,7 @@ static void tangents_of_any_look_are_as_in_the_reference(void** state)
 }
 
 // Check positions far from the origin of the world, to the rounding of floats there.
-static void what_is_read_is_in_the_world(void** state)
+static void positions_are_read_in_world_space(void** state)
 {
     struct fixture f = start(state);
     hair_look look = hair_look_default();
@@ -269,7 +269,7 @@ static void what_is_read_is_in_the_world(void** state)
     finish(&f);
 }
 
-static void no_more_than_the_capacity_is_written(void** state)
+static void read_positions_writes_at_most_the_capacity(void** state)
 {
     static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
     struct fixture f = start(state);
@@ -290,9 +290,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(followers_are_where_the_reference_has_them),   HAIR_TEST(any_look_is_as_in_the_reference),
-        HAIR_TEST(tangents_of_any_look_are_as_in_the_reference), HAIR_TEST(what_is_read_is_in_the_world),
-        HAIR_TEST(no_more_than_the_capacity_is_written),
+        HAIR_TEST(followers_equal_the_reference),
+        HAIR_TEST(followers_of_any_look_equal_the_reference),
+        HAIR_TEST(tangents_of_any_look_equal_the_reference),
+        HAIR_TEST(positions_are_read_in_world_space),
+        HAIR_TEST(read_positions_writes_at_most_the_capacity),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

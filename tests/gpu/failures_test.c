@@ -33,7 +33,7 @@ static void drop(hair_instance* hair, hair_groom* groom)
 
 // Missing OpenGL ----------------------------------------------------------------------------------
 
-static void without_a_current_context_every_call_says_so(void** state)
+static void calls_without_a_current_context_are_opengl_errors(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom;
@@ -75,7 +75,7 @@ static void* all_but_one(const char* name, void* user)
     return strcmp(name, user) == 0 ? NULL : hair_egl_get_proc(name, NULL);
 }
 
-static void each_missing_function_is_named(void** state)
+static void missing_opengl_functions_are_named(void** state)
 {
     static const char* const names[] = {
 #define FUNCTION(type, name, parameters) "gl" #name,
@@ -97,7 +97,7 @@ static void each_missing_function_is_named(void** state)
     }
 }
 
-static void glsl_that_is_not_there_or_wrong_is_an_opengl_error(void** state)
+static void missing_or_invalid_glsl_is_an_opengl_error(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = NULL;
@@ -190,7 +190,7 @@ static void hair_step_finds_it(struct hair_test* test, struct broken* b)
     hair_test_ok(test, hair_step(b->hair, 1.0f / 60));
 }
 
-static void a_solver_that_is_found_broken_is_an_opengl_error(void** state)
+static void solver_with_a_broken_shader_is_an_opengl_error(void** state)
 {
     struct hair_test* test = *state;
     expect(0, "cp -r glsl/* $D");
@@ -231,7 +231,7 @@ static int exit_code_of_an_old_driver(void)
     return host.blocks ? 3 : 0;
 }
 
-static void a_driver_that_is_too_old_is_an_opengl_error(void** state)
+static void driver_older_than_4_5_is_an_opengl_error(void** state)
 {
     (void)state;
     if (!strstr((const char*)glGetString(GL_RENDERER), "llvmpipe"))
@@ -266,7 +266,7 @@ static void* with_old_version(const char* name, void* user)
     return address;
 }
 
-static void an_old_context_is_told_its_version(void** state)
+static void error_of_an_old_context_has_its_version(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = NULL;
@@ -281,12 +281,12 @@ int main(int count, char** arguments)
     if (count == 2 && !strcmp(arguments[1], "old-driver")) return exit_code_of_an_old_driver();
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(without_a_current_context_every_call_says_so),
-        HAIR_TEST(each_missing_function_is_named),
-        HAIR_TEST(glsl_that_is_not_there_or_wrong_is_an_opengl_error),
-        HAIR_TEST(a_solver_that_is_found_broken_is_an_opengl_error),
-        HAIR_TEST(a_driver_that_is_too_old_is_an_opengl_error),
-        HAIR_TEST(an_old_context_is_told_its_version),
+        HAIR_TEST(calls_without_a_current_context_are_opengl_errors),
+        HAIR_TEST(missing_opengl_functions_are_named),
+        HAIR_TEST(missing_or_invalid_glsl_is_an_opengl_error),
+        HAIR_TEST(solver_with_a_broken_shader_is_an_opengl_error),
+        HAIR_TEST(driver_older_than_4_5_is_an_opengl_error),
+        HAIR_TEST(error_of_an_old_context_has_its_version),
     };
     if (hair_test_shell_start("/bin/sh")) return 1;
     int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

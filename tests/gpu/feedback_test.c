@@ -69,7 +69,7 @@ static double step(struct fixture* f, int frame, double* moved)
     return (double)worst / f->length;
 }
 
-static void five_steps_are_those_of_compute(void** state)
+static void transform_feedback_and_compute_agree_for_five_steps(void** state)
 {
     for (int off = 0; off < 3; ++off) { // All forces, no angular forces, or no angular constraints.
         hair_physics physics = hair_physics_default();
@@ -85,7 +85,7 @@ static void five_steps_are_those_of_compute(void** state)
     }
 }
 
-static void what_is_not_finite_goes_back_to_rest_alone(void** state)
+static void only_nonfinite_strands_are_reset(void** state)
 {
     struct fixture f = start(state, NULL);
     struct hair_state* bad = calloc(f.vertices, sizeof *bad);
@@ -107,7 +107,7 @@ static void what_is_not_finite_goes_back_to_rest_alone(void** state)
     finish(&f);
 }
 
-static void other_solvers_have_none(void** state)
+static void transform_feedback_of_other_solvers_is_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
@@ -124,9 +124,9 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(five_steps_are_those_of_compute),
-        HAIR_TEST(what_is_not_finite_goes_back_to_rest_alone),
-        HAIR_TEST(other_solvers_have_none),
+        HAIR_TEST(transform_feedback_and_compute_agree_for_five_steps),
+        HAIR_TEST(only_nonfinite_strands_are_reset),
+        HAIR_TEST(transform_feedback_of_other_solvers_is_refused),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

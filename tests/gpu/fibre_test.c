@@ -79,7 +79,7 @@ static void light_everywhere(struct hair_test* test, const struct hair_fibre* fi
 
 // Check a white furnace. A fibre that absorbs nothing, lit with a radiance of 1 from all
 // directions, is invisible against its background.
-static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
+static void white_fibre_is_invisible_in_a_white_furnace(void** state)
 {
     static const float along[] = {0.1f, 0.3f, 0.6f, 1};
     for (int r = 0; r < 4; ++r) {
@@ -97,7 +97,7 @@ static void a_white_fibre_cannot_be_seen_in_a_white_furnace(void** state)
 
 // Check tilted scales. They gain in some directions what they lose in others, which is the price of
 // a symmetric function.
-static void tilted_scales_move_light_and_lose_none(void** state)
+static void cuticle_tilt_moves_light_and_loses_none(void** state)
 {
     struct hair_fibre fibre = {0.3f, 0.3f, 1.55f};
     float found[EYES][4];
@@ -113,7 +113,7 @@ static void tilted_scales_move_light_and_lose_none(void** state)
     hair_test_near("radiance over all directions", 0, sum / weight, 1, 0.01);
 }
 
-static void light_may_go_the_other_way(void** state)
+static void scattering_is_reciprocal(void** state)
 {
     static const float tilts[] = {0, 0.05f, 0.3f};
     for (int t = 0; t < 3; ++t) {
@@ -130,9 +130,9 @@ static void light_may_go_the_other_way(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_white_fibre_cannot_be_seen_in_a_white_furnace),
-        HAIR_TEST(tilted_scales_move_light_and_lose_none),
-        HAIR_TEST(light_may_go_the_other_way),
+        HAIR_TEST(white_fibre_is_invisible_in_a_white_furnace),
+        HAIR_TEST(cuticle_tilt_moves_light_and_loses_none),
+        HAIR_TEST(scattering_is_reciprocal),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

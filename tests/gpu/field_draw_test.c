@@ -108,7 +108,7 @@ static double depth_at(double z)
     return 0.5 + 0.5 * clip / -z;
 }
 
-static void a_collider_is_drawn_where_it_is_with_its_depth(void** state)
+static void colliders_are_drawn_at_their_place_with_depth(void** state)
 {
     start(state);
     draw();
@@ -130,7 +130,7 @@ static void a_collider_is_drawn_where_it_is_with_its_depth(void** state)
 
 // Check a slice at z = 0 of the head, which is z = -1 of the world. Everything nearer to the eye is
 // cut away.
-static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** state)
+static void field_slice_is_red_inside_and_blue_outside(void** state)
 {
     start(state);
     hair_field_info info = hair_field_info_default();
@@ -160,7 +160,7 @@ static void a_slice_is_white_at_surfaces_red_inside_and_blue_outside(void** stat
     finish();
 }
 
-static void without_colliders_nothing_is_drawn_and_there_is_no_field(void** state)
+static void field_and_picture_are_empty_without_colliders(void** state)
 {
     start(state);
     hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof *f.colliders));
@@ -171,7 +171,7 @@ static void without_colliders_nothing_is_drawn_and_there_is_no_field(void** stat
     finish();
 }
 
-static void without_a_slice_there_is_no_field(void** state)
+static void field_is_absent_without_a_slice(void** state)
 {
     start(state);
     draw();
@@ -186,10 +186,10 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_collider_is_drawn_where_it_is_with_its_depth),
-        HAIR_TEST(a_slice_is_white_at_surfaces_red_inside_and_blue_outside),
-        HAIR_TEST(without_colliders_nothing_is_drawn_and_there_is_no_field),
-        HAIR_TEST(without_a_slice_there_is_no_field),
+        HAIR_TEST(colliders_are_drawn_at_their_place_with_depth),
+        HAIR_TEST(field_slice_is_red_inside_and_blue_outside),
+        HAIR_TEST(field_and_picture_are_empty_without_colliders),
+        HAIR_TEST(field_is_absent_without_a_slice),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -92,7 +92,7 @@ static void check_voxels(struct fixture* f)
     hair_test_field_free(&read);
 }
 
-static void every_voxel_holds_the_distance_to_the_nearest_form_or_shape(void** state)
+static void voxels_hold_the_distance_to_the_nearest_mesh_or_shape(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -111,7 +111,7 @@ static void every_voxel_holds_the_distance_to_the_nearest_form_or_shape(void** s
 
 // Compare a collision mesh of a ball with a sphere, to half a voxel of the field. The voxels of the
 // mesh are finer.
-static void a_form_of_a_ball_is_a_ball(void** state)
+static void mesh_of_a_ball_equals_a_sphere(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -136,7 +136,7 @@ static void a_form_of_a_ball_is_a_ball(void** state)
     end(&f);
 }
 
-static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state)
+static void mesh_is_uploaded_once_for_all_instances(void** state)
 {
     struct fixture f;
     struct hair_collider_field other;
@@ -160,7 +160,7 @@ static void a_form_is_there_once_for_all_colliders_of_all_instances(void** state
 }
 
 // Check meshes that replace each other repeatedly. A released mesh makes room.
-static void forms_that_come_and_go_take_no_more_memory_than_a_few(void** state)
+static void meshes_that_come_and_go_reuse_their_memory(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -178,7 +178,7 @@ static void forms_that_come_and_go_take_no_more_memory_than_a_few(void** state)
     end(&f);
 }
 
-static void a_form_outlives_its_maker_while_a_field_has_it(void** state)
+static void mesh_stays_alive_while_a_field_uses_it(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -191,7 +191,7 @@ static void a_form_outlives_its_maker_while_a_field_has_it(void** state)
     end(&f);
 }
 
-static void a_form_that_is_not_there_is_no_collider(void** state)
+static void collider_without_its_mesh_is_ignored(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -201,7 +201,7 @@ static void a_form_that_is_not_there_is_no_collider(void** state)
     end(&f);
 }
 
-static void a_host_without_memory_is_an_error_and_leaves_no_form(void** state)
+static void refused_memory_is_an_error_and_leaves_no_mesh(void** state)
 {
     struct fixture f;
     begin(*state, &f);
@@ -224,13 +224,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_voxel_holds_the_distance_to_the_nearest_form_or_shape),
-        HAIR_TEST(a_form_of_a_ball_is_a_ball),
-        HAIR_TEST(a_form_is_there_once_for_all_colliders_of_all_instances),
-        HAIR_TEST(forms_that_come_and_go_take_no_more_memory_than_a_few),
-        HAIR_TEST(a_form_outlives_its_maker_while_a_field_has_it),
-        HAIR_TEST(a_form_that_is_not_there_is_no_collider),
-        HAIR_TEST(a_host_without_memory_is_an_error_and_leaves_no_form),
+        HAIR_TEST(voxels_hold_the_distance_to_the_nearest_mesh_or_shape),
+        HAIR_TEST(mesh_of_a_ball_equals_a_sphere),
+        HAIR_TEST(mesh_is_uploaded_once_for_all_instances),
+        HAIR_TEST(meshes_that_come_and_go_reuse_their_memory),
+        HAIR_TEST(mesh_stays_alive_while_a_field_uses_it),
+        HAIR_TEST(collider_without_its_mesh_is_ignored),
+        HAIR_TEST(refused_memory_is_an_error_and_leaves_no_mesh),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

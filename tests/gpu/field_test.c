@@ -82,7 +82,7 @@ static void check_voxels(struct fixture* f, uint32_t count)
     hair_test_field_free(&read);
 }
 
-static void every_voxel_holds_the_distance_to_the_nearest_collider_and_its_number(void** state)
+static void voxels_hold_distance_and_index_of_the_nearest_collider(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -95,7 +95,7 @@ static void every_voxel_holds_the_distance_to_the_nearest_collider_and_its_numbe
     end(&f);
 }
 
-static void the_box_has_from_32_to_256_voxels_along_its_longest_side(void** state)
+static void field_has_32_to_256_voxels_along_its_longest_side(void** state)
 {
     struct fixture f;
     static const float asked[] = {0.0005f, 0.002f, 0.005f, 0.02f, 1};
@@ -110,7 +110,7 @@ static void the_box_has_from_32_to_256_voxels_along_its_longest_side(void** stat
     end(&f);
 }
 
-static void the_box_holds_the_hair_at_rest_and_some_of_its_swing_but_no_more_than_its_reach(void** state)
+static void field_holds_the_hair_but_not_more_than_its_reach(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -180,7 +180,7 @@ static void sample(struct fixture* f, const float (*points)[4], struct sample* o
 // Check interpolation between voxels. Its error is 1 / 4R voxels at a collider with a radius of R
 // voxels. It is up to a half between two colliders, and up to 0.87 at edges. Gradients are compared
 // away from all three.
-static void between_voxels_distance_sign_gradient_and_number_are_right(void** state)
+static void samples_between_voxels_are_right(void** state)
 {
     static float points[POINTS][4];
     static struct sample found[POINTS];
@@ -248,7 +248,7 @@ static void assert_as_made_at_once(struct fixture* f, uint32_t count)
     hair_field_destroy(&fresh);
 }
 
-static void after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once(void** state)
+static void updated_field_equals_a_new_field_bit_for_bit(void** state)
 {
     struct fixture f;
     begin(*state, elsewhere, &f);
@@ -267,7 +267,7 @@ static void after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once(void** 
 }
 
 // Remove the functions of OpenGL, and check that an update without motion calls none.
-static void nothing_moved_is_no_call_of_opengl(void** state)
+static void field_update_without_motion_calls_no_opengl(void** state)
 {
     struct fixture f;
     begin(*state, elsewhere, &f);
@@ -292,7 +292,7 @@ static void nothing_moved_is_no_call_of_opengl(void** state)
 
 // Check colliders that move with the head. Their position in the world is rounded at each step, and
 // the errors must not add up.
-static void what_moves_with_the_head_is_not_written_again(void** state)
+static void colliders_that_move_with_the_head_are_not_rewritten(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -319,7 +319,7 @@ static void what_moves_with_the_head_is_not_written_again(void** state)
     end(&f);
 }
 
-static void there_is_no_field_where_no_collider_is_near(void** state)
+static void field_is_absent_without_a_collider_near(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -346,7 +346,7 @@ static void there_is_no_field_where_no_collider_is_near(void** state)
 
 // Hostile colliders -------------------------------------------------------------------------------
 
-static void whatever_the_colliders_nothing_that_is_not_finite_is_written(void** state)
+static void field_of_any_colliders_is_finite(void** state)
 {
     static const hair_collider hostile[] = {
         {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {1e-30f, 0}, .scale = 1, .friction = 1},
@@ -408,7 +408,7 @@ static void APIENTRY make_nothing(GLuint texture, GLsizei levels, GLenum format,
     (void)texture, (void)levels, (void)format, (void)x, (void)y, (void)z;
 }
 
-static void a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_first(void** state)
+static void field_recovers_from_refused_driver_memory(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -425,7 +425,7 @@ static void a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_firs
     end(&f);
 }
 
-static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(void** state)
+static void field_recovers_from_refused_host_memory(void** state)
 {
     struct fixture f;
     begin(*state, origin, &f);
@@ -446,7 +446,7 @@ static void a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first(
 
 // The application's view --------------------------------------------------------------------------
 
-static void the_host_is_given_textures_and_where_they_are(void** state)
+static void field_info_has_textures_and_their_place(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
@@ -493,19 +493,19 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_voxel_holds_the_distance_to_the_nearest_collider_and_its_number),
-        HAIR_TEST(between_voxels_distance_sign_gradient_and_number_are_right),
-        HAIR_TEST(the_box_has_from_32_to_256_voxels_along_its_longest_side),
-        HAIR_TEST(the_box_holds_the_hair_at_rest_and_some_of_its_swing_but_no_more_than_its_reach),
-        HAIR_TEST(after_any_motion_the_field_is_bit_for_bit_as_if_made_at_once),
-        HAIR_TEST(nothing_moved_is_no_call_of_opengl),
-        HAIR_TEST(what_moves_with_the_head_is_not_written_again),
-        HAIR_TEST(there_is_no_field_where_no_collider_is_near),
-        HAIR_TEST(whatever_the_colliders_nothing_that_is_not_finite_is_written),
+        HAIR_TEST(voxels_hold_distance_and_index_of_the_nearest_collider),
+        HAIR_TEST(samples_between_voxels_are_right),
+        HAIR_TEST(field_has_32_to_256_voxels_along_its_longest_side),
+        HAIR_TEST(field_holds_the_hair_but_not_more_than_its_reach),
+        HAIR_TEST(updated_field_equals_a_new_field_bit_for_bit),
+        HAIR_TEST(field_update_without_motion_calls_no_opengl),
+        HAIR_TEST(colliders_that_move_with_the_head_are_not_rewritten),
+        HAIR_TEST(field_is_absent_without_a_collider_near),
+        HAIR_TEST(field_of_any_colliders_is_finite),
         HAIR_TEST(ten_thousand_colliders_are_one_field),
-        HAIR_TEST(a_driver_without_memory_is_an_error_and_the_next_time_is_as_the_first),
-        HAIR_TEST(a_host_without_memory_is_an_error_and_the_next_time_is_as_the_first),
-        HAIR_TEST(the_host_is_given_textures_and_where_they_are),
+        HAIR_TEST(field_recovers_from_refused_driver_memory),
+        HAIR_TEST(field_recovers_from_refused_host_memory),
+        HAIR_TEST(field_info_has_textures_and_their_place),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -36,7 +36,7 @@ static double fastest(const struct hair_test_fluid* f)
 
 // Projection --------------------------------------------------------------------------------------
 
-static void nothing_is_left_to_be_driven_out_of_cells(void** state)
+static void projection_leaves_no_divergence(void** state)
 {
     static const struct {
         const char* name;
@@ -116,7 +116,7 @@ static double behind(const struct hair_test_fluid* f, const double* velocity, do
     return hair_test_fluid_at(f, velocity, 0, place);
 }
 
-static void air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it(void** state)
+static void flow_around_a_ball_is_symmetric_with_a_calm_wake(void** state)
 {
     enum { BEFORE = 30, STEPS = 60 };
     struct hair_test_fluid f;
@@ -144,7 +144,7 @@ static void air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it(void
     hair_test_fluid_end(&f);
 }
 
-static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(void** state)
+static void uniform_wind_stays_uniform_around_a_moving_head(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, 16, 0, &f);
@@ -173,7 +173,7 @@ static void without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes(voi
 
 // Compare the middle of the fluid with the pattern that the wind carries unchanged: their
 // correlation, and the fraction of energy that arrives.
-static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
+static void gusts_enter_the_grid_and_travel_with_the_wind(void** state)
 {
     struct hair_test_fluid f;
     struct hair_wind_state air = {0};
@@ -211,7 +211,7 @@ static void gusts_come_in_with_the_wind_and_travel_through_the_box(void** state)
 
 // A moving collider -------------------------------------------------------------------------------
 
-static void a_ball_that_moves_through_still_air_pushes_it_along(void** state)
+static void moving_ball_drags_still_air_along(void** state)
 {
     struct hair_test_fluid f;
     hair_collider ball;
@@ -250,7 +250,7 @@ static double energy(const double* velocity, size_t count)
     return rms * rms * (double)count / 2;
 }
 
-static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
+static void closed_grid_keeps_its_air_and_loses_energy(void** state)
 {
     struct hair_test_fluid f;
     struct hair_fluid_desc desc = hair_test_fluid_desc(32);
@@ -299,7 +299,7 @@ static void in_a_closed_box_nothing_goes_out_and_energy_only_fades(void** state)
 
 // Hostile input -----------------------------------------------------------------------------------
 
-static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
+static void air_stays_finite_and_bounded_and_recovers(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, 16, 1, &f);
@@ -332,7 +332,7 @@ static void whatever_happens_air_is_finite_bounded_and_recovers(void** state)
     hair_test_fluid_end(&f);
 }
 
-static void the_same_inputs_give_the_same_bits(void** state)
+static void equal_inputs_give_equal_bits(void** state)
 {
     double* velocity[2];
     size_t faces = 0;
@@ -351,7 +351,7 @@ static void the_same_inputs_give_the_same_bits(void** state)
     free(velocity[0]), free(velocity[1]);
 }
 
-static void a_host_or_a_driver_without_memory_is_an_error_that_leaves_nothing(void** state)
+static void refused_memory_is_an_error_that_leaks_nothing(void** state)
 {
     struct hair_test* test = *state;
     struct hair_fluid fluid;
@@ -373,15 +373,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(nothing_is_left_to_be_driven_out_of_cells),
-        HAIR_TEST(air_goes_round_a_ball_alike_on_all_sides_and_is_still_behind_it),
-        HAIR_TEST(without_colliders_the_wind_stays_as_it_is_wherever_the_head_goes),
-        HAIR_TEST(gusts_come_in_with_the_wind_and_travel_through_the_box),
-        HAIR_TEST(a_ball_that_moves_through_still_air_pushes_it_along),
-        HAIR_TEST(in_a_closed_box_nothing_goes_out_and_energy_only_fades),
-        HAIR_TEST(whatever_happens_air_is_finite_bounded_and_recovers),
-        HAIR_TEST(the_same_inputs_give_the_same_bits),
-        HAIR_TEST(a_host_or_a_driver_without_memory_is_an_error_that_leaves_nothing),
+        HAIR_TEST(projection_leaves_no_divergence),
+        HAIR_TEST(flow_around_a_ball_is_symmetric_with_a_calm_wake),
+        HAIR_TEST(uniform_wind_stays_uniform_around_a_moving_head),
+        HAIR_TEST(gusts_enter_the_grid_and_travel_with_the_wind),
+        HAIR_TEST(moving_ball_drags_still_air_along),
+        HAIR_TEST(closed_grid_keeps_its_air_and_loses_energy),
+        HAIR_TEST(air_stays_finite_and_bounded_and_recovers),
+        HAIR_TEST(equal_inputs_give_equal_bits),
+        HAIR_TEST(refused_memory_is_an_error_that_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -27,7 +27,7 @@ static void check(const char* what, const double* got, const double* expected, s
     for (size_t i = 0; i < count; ++i) hair_test_near(what, i, got[i], expected[i], tolerance);
 }
 
-// Check that faces are between `least` and `most`. Slots without a face hold nothing.
+// Check that faces are between `min` and `max`. Slots without a face hold nothing.
 static void check_faces(const char* what, const double* got, const double* min, const double* max,
                         double tolerance)
 {
@@ -59,7 +59,7 @@ static double from_ball(const double place[3], const void* user)
 }
 
 // Move and rotate the head with the ball, and check faces. The box moves by whole cells.
-static void faces_are_as_open_as_the_ball_leaves_them(void** state)
+static void face_fractions_equal_the_uncovered_area(void** state)
 {
     struct hair_test_fluid f;
     double middle[3], max = 0, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
@@ -88,7 +88,7 @@ static void faces_are_as_open_as_the_ball_leaves_them(void** state)
     hair_test_fluid_end(&f);
 }
 
-static void coarser_faces_are_as_open_as_their_four_parts(void** state)
+static void coarse_face_fractions_are_means_of_four(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, &f);
@@ -101,7 +101,7 @@ static void coarser_faces_are_as_open_as_their_four_parts(void** state)
 }
 
 // Check colliders that rotate and translate. Each face's wall has the speed of the ball there.
-static void walls_move_as_the_collider_does(void** state)
+static void wall_velocity_is_that_of_the_collider(void** state)
 {
     struct hair_test_fluid f;
     const double spin = 0.1 * 60, cell = (double)HAIR_TEST_FLUID_SIDE / CELLS;
@@ -151,7 +151,7 @@ static double* put_air(struct hair_test_fluid* f, double max)
 // direction, air of up to 3 m/s comes from 0.012 cells off.
 #define BLUR 0.03
 
-static void air_is_carried_and_corrected_from_a_box_that_has_moved(void** state)
+static void advection_equals_the_reference_in_a_moved_grid(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, &f);
@@ -219,7 +219,7 @@ static void check_buffer(const char* what, GLuint buffer, size_t first, const do
     free(got);
 }
 
-static void what_flows_into_cells_is_to_be_driven_out(void** state)
+static void divergence_is_the_inflow_of_cells(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
@@ -233,7 +233,7 @@ static void what_flows_into_cells_is_to_be_driven_out(void** state)
     end_pressed(&p);
 }
 
-static void sweeps_fit_the_pressures_of_one_color_or_of_all(void** state)
+static void pressure_sweeps_equal_the_reference(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
@@ -253,7 +253,7 @@ static void sweeps_fit_the_pressures_of_one_color_or_of_all(void** state)
     end_pressed(&p);
 }
 
-static void coarser_cells_take_what_is_left_and_give_their_pressure_back(void** state)
+static void restriction_and_prolongation_equal_the_reference(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
@@ -272,7 +272,7 @@ static void coarser_cells_take_what_is_left_and_give_their_pressure_back(void** 
 }
 
 // Check 16 sweeps of over-relaxation by 1.4, from no pressure.
-static void the_coarsest_level_is_solved_at_once(void** state)
+static void coarsest_level_is_solved_exactly(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
@@ -290,7 +290,7 @@ static void the_coarsest_level_is_solved_at_once(void** state)
     end_pressed(&p);
 }
 
-static void the_slope_of_the_pressure_is_taken_from_velocities_that_are_then_shown(void** state)
+static void velocities_lose_the_pressure_gradient_and_are_exported(void** state)
 {
     struct pressed p;
     begin_pressed(*state, HAIR_FLUID_MULTIGRID, &p);
@@ -312,15 +312,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(faces_are_as_open_as_the_ball_leaves_them),
-        HAIR_TEST(coarser_faces_are_as_open_as_their_four_parts),
-        HAIR_TEST(walls_move_as_the_collider_does),
-        HAIR_TEST(air_is_carried_and_corrected_from_a_box_that_has_moved),
-        HAIR_TEST(what_flows_into_cells_is_to_be_driven_out),
-        HAIR_TEST(sweeps_fit_the_pressures_of_one_color_or_of_all),
-        HAIR_TEST(coarser_cells_take_what_is_left_and_give_their_pressure_back),
-        HAIR_TEST(the_coarsest_level_is_solved_at_once),
-        HAIR_TEST(the_slope_of_the_pressure_is_taken_from_velocities_that_are_then_shown),
+        HAIR_TEST(face_fractions_equal_the_uncovered_area),
+        HAIR_TEST(coarse_face_fractions_are_means_of_four),
+        HAIR_TEST(wall_velocity_is_that_of_the_collider),
+        HAIR_TEST(advection_equals_the_reference_in_a_moved_grid),
+        HAIR_TEST(divergence_is_the_inflow_of_cells),
+        HAIR_TEST(pressure_sweeps_equal_the_reference),
+        HAIR_TEST(restriction_and_prolongation_equal_the_reference),
+        HAIR_TEST(coarsest_level_is_solved_exactly),
+        HAIR_TEST(velocities_lose_the_pressure_gradient_and_are_exported),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -77,7 +77,7 @@ static void check(struct hair_test* test, hair_style style, hair_solver solver, 
     assert_true(fastest < RESTLESS);
 }
 
-static void hair_that_follows_comes_to_rest(void** state)
+static void follow_hair_comes_to_rest(void** state)
 {
     for (int style = HAIR_STYLE_LONG; style < HAIR_STYLE_COUNT; ++style)
         check(*state, (hair_style)style, HAIR_SOLVER_FOLLOW, 1);
@@ -92,7 +92,7 @@ static void redblack_hair_comes_to_rest(void** state)
 
 // Check a clamped strand of 5 cm with and without gravity preload. The strand is stiff enough for
 // its rest strain to bear its weight.
-static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
+static void preloaded_strand_keeps_its_groom_and_another_sags(void** state)
 {
     for (int held = 0; held < 2; ++held) {
         hair_physics physics = hair_physics_default();
@@ -114,7 +114,7 @@ static void a_held_strand_keeps_its_groom_and_another_sags(void** state)
 
 // Check strands that their weight bends a lot. A strand that is rigid beyond each segment would
 // bend at the clamp only.
-static void limp_strands_hang_as_the_reference_does(void** state)
+static void limp_strands_hang_like_the_reference(void** state)
 {
     static const float ways[] = {-0.577f, 0, -2}; // Slope y / x of each strand.
     for (int k = 0; k < 3; ++k)
@@ -144,10 +144,10 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(hair_that_follows_comes_to_rest),
+        HAIR_TEST(follow_hair_comes_to_rest),
         HAIR_TEST(redblack_hair_comes_to_rest),
-        HAIR_TEST(a_held_strand_keeps_its_groom_and_another_sags),
-        HAIR_TEST(limp_strands_hang_as_the_reference_does),
+        HAIR_TEST(preloaded_strand_keeps_its_groom_and_another_sags),
+        HAIR_TEST(limp_strands_hang_like_the_reference),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -165,7 +165,7 @@ static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
     return UINT32_MAX;
 }
 
-static void the_first_vertex_inside_is_found(void** state)
+static void hit_is_the_first_vertex_inside_a_collider(void** state)
 {
     static const uint32_t segments[] = {1, 2, 31, 64, 256};
     struct fixture f = start(state, 0);
@@ -197,7 +197,7 @@ static void the_first_vertex_inside_is_found(void** state)
 
 // Check the program for a work group. On a GPU, the threads of a work group divide the vertices of
 // a follower.
-static void a_work_group_finds_the_same(void** state)
+static void hit_by_work_group_equals_hit_by_thread(void** state)
 {
     static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
     static float hits[400], others[400];
@@ -231,7 +231,7 @@ static void a_work_group_finds_the_same(void** state)
 
 // Compare the prepass with compute. Both evaluate the same function in different shader stages, so
 // rounding decides where a vertex is on the surface.
-static void a_prepass_finds_the_same(void** state)
+static void hit_by_prepass_equals_hit_by_compute(void** state)
 {
     static const uint32_t segments[] = {1, 31, 64, 100};
     static float hits[400], others[400];
@@ -277,7 +277,7 @@ static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
                        TOLERANCE);
 }
 
-static void below_its_hit_a_follower_keeps_to_its_own_guide(void** state)
+static void follower_beyond_its_hit_follows_a_single_guide(void** state)
 {
     struct fixture f = start(state, 0);
     float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
@@ -308,7 +308,7 @@ static double from_half(uint16_t half)
     return sign * (exponent ? ldexp(1024 + mantissa, exponent - 25) : ldexp(mantissa, -24));
 }
 
-static void what_leads_followers_round_colliders_is_a_spline(void** state)
+static void push_out_curve_is_a_spline(void** state)
 {
     static const uint32_t segments[] = {7, 32, 100};
     static float hits[400];
@@ -356,7 +356,7 @@ static struct strand measure(const struct fixture* f, const float* vertices, uin
 
 // Check followers that are pushed out of colliders. Strands whose roots are inside, or nearly
 // inside, have no direct way out, and are left out.
-static void followers_pushed_out_of_colliders_are_outside_and_as_long_as_before(void** state)
+static void pushed_out_followers_are_outside_and_keep_their_length(void** state)
 {
     struct fixture f = start(state, 1);
     float* before = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
@@ -388,7 +388,7 @@ static void followers_pushed_out_of_colliders_are_outside_and_as_long_as_before(
 // Check that followers move continuously with a collider. Strands that the collider covers beyond
 // its middle are left out, because they leave on the other side. Simulated guides do not occur
 // there.
-static void a_collider_that_moves_a_little_moves_followers_a_little(void** state)
+static void small_collider_motion_moves_followers_little(void** state)
 {
     struct fixture f = start(state, 1);
     float* before = NULL;
@@ -415,7 +415,7 @@ static void a_collider_that_moves_a_little_moves_followers_a_little(void** state
     finish(&f);
 }
 
-static void where_no_collider_is_in_reach_there_is_no_pass_and_no_memory(void** state)
+static void follower_collision_costs_nothing_out_of_reach(void** state)
 {
     struct fixture f = start(state, 0);
     uint32_t hits = hair_test_runs_of(&f.test->context->gl, "strands/hit"),
@@ -441,7 +441,7 @@ static void where_no_collider_is_in_reach_there_is_no_pass_and_no_memory(void** 
 }
 
 // Check that hits are found once for all views and reads of a step.
-static void nothing_is_looked_for_twice(void** state)
+static void follower_collision_runs_once_per_pose(void** state)
 {
     struct fixture f = start(state, 0);
     free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
@@ -461,15 +461,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(the_first_vertex_inside_is_found),
-        HAIR_TEST(a_work_group_finds_the_same),
-        HAIR_TEST(a_prepass_finds_the_same),
-        HAIR_TEST(below_its_hit_a_follower_keeps_to_its_own_guide),
-        HAIR_TEST(what_leads_followers_round_colliders_is_a_spline),
-        HAIR_TEST(followers_pushed_out_of_colliders_are_outside_and_as_long_as_before),
-        HAIR_TEST(a_collider_that_moves_a_little_moves_followers_a_little),
-        HAIR_TEST(where_no_collider_is_in_reach_there_is_no_pass_and_no_memory),
-        HAIR_TEST(nothing_is_looked_for_twice),
+        HAIR_TEST(hit_is_the_first_vertex_inside_a_collider),
+        HAIR_TEST(hit_by_work_group_equals_hit_by_thread),
+        HAIR_TEST(hit_by_prepass_equals_hit_by_compute),
+        HAIR_TEST(follower_beyond_its_hit_follows_a_single_guide),
+        HAIR_TEST(push_out_curve_is_a_spline),
+        HAIR_TEST(pushed_out_followers_are_outside_and_keep_their_length),
+        HAIR_TEST(small_collider_motion_moves_followers_little),
+        HAIR_TEST(follower_collision_costs_nothing_out_of_reach),
+        HAIR_TEST(follower_collision_runs_once_per_pose),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -133,7 +133,7 @@ static struct change run(struct hair_test* test, hair_solver solver, enum scene 
     return c;
 }
 
-static void momentum_and_angular_momentum_are_kept(void** state)
+static void hair_grid_conserves_both_momenta(void** state)
 {
     static const float how[][2] = {{5, 0}, {20, 0}, {0, 0.1f}, {0, 1}, {10, 0.3f}};
     for (int solver = 0; solver < HAIR_SOLVER_FOLLOW; ++solver)
@@ -150,7 +150,7 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(momentum_and_angular_momentum_are_kept),
+        HAIR_TEST(hair_grid_conserves_both_momenta),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

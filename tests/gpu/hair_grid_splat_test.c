@@ -144,7 +144,7 @@ static void let_go(struct grids* g)
     free(g->grid), free(g->fraction), free(g->limit), free(g->push), free(g->twin);
 }
 
-static void the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair(void** state)
+static void hair_grid_holds_mass_and_momentum_exactly(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_test_only_hair_grid(5, 0.1f);
@@ -213,7 +213,7 @@ static void rigid(const double* sum, const double from[3], double out[3])
     }
 }
 
-static void accelerations_are_those_of_the_twin_in_double_precision(void** state)
+static void hair_grid_accelerations_equal_the_reference(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_test_only_hair_grid(5, 0.02f);
@@ -291,7 +291,7 @@ static struct one_sided one_sided(struct hair_test* test, float cohesion, float 
                               hypot(hypot(sum[3], sum[4]), sum[5]) / lengths[1]};
 }
 
-static void forces_between_hair_have_neither_sum_nor_torque(void** state)
+static void hair_grid_forces_have_no_sum_and_no_torque(void** state)
 {
     for (int volume = 0; volume < 2; ++volume) {
         struct one_sided all = one_sided(*state, volume ? 0 : 10, volume ? 0.02f : 0);
@@ -306,9 +306,9 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(the_grid_holds_exactly_the_mass_and_the_momentum_of_the_hair),
-        HAIR_TEST(forces_between_hair_have_neither_sum_nor_torque),
-        HAIR_TEST(accelerations_are_those_of_the_twin_in_double_precision),
+        HAIR_TEST(hair_grid_holds_mass_and_momentum_exactly),
+        HAIR_TEST(hair_grid_forces_have_no_sum_and_no_torque),
+        HAIR_TEST(hair_grid_accelerations_equal_the_reference),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -41,7 +41,7 @@ static double slowing(struct hair_test* test, hair_solver solver, double time, f
     return relative;
 }
 
-static void relative_motion_decays_at_the_rate_of_cohesion_and_none_is_made(void** state)
+static void relative_motion_decays_at_the_rate_of_cohesion(void** state)
 {
     for (int solver = 0; solver < HAIR_SOLVER_FOLLOW; ++solver)
         for (int fast = 0; fast < 2; ++fast) {
@@ -89,7 +89,7 @@ static double spread(struct hair_test* test, float volume)
     return sqrt(sum);
 }
 
-static void hair_that_is_pressed_together_keeps_more_of_its_volume(void** state)
+static void pressure_stiffness_keeps_volume_of_pressed_hair(void** state)
 {
     double without = spread(*state, 0), with = spread(*state, 0.3f);
     print_message("    between two walls: spread along them %.2f mm without, %.2f mm with\n", 1000 * without,
@@ -97,7 +97,7 @@ static void hair_that_is_pressed_together_keeps_more_of_its_volume(void** state)
     assert_true(with > 1.1 * without);
 }
 
-static void a_groom_at_rest_does_not_press(void** state)
+static void groom_at_rest_has_no_pressure(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
@@ -134,7 +134,7 @@ static double apart(const struct hair_test_living* a, const struct hair_test_liv
 }
 
 // Check a single strand that swings through the grid, oblique to its axes.
-static void a_strand_by_itself_feels_nothing(void** state)
+static void lone_strand_feels_no_hair_force(void** state)
 {
     struct hair_test_living living[2];
     double max = 0;
@@ -164,7 +164,7 @@ static void a_strand_by_itself_feels_nothing(void** state)
 
 // Check a strand that is not finite. Only this strand is put back, and accelerations of the others
 // stay within bounds.
-static void a_strand_that_is_not_finite_leaves_the_others_alone(void** state)
+static void nonfinite_strand_does_not_affect_others(void** state)
 {
     static const float bad[] = {NAN, INFINITY, -3e38f};
     struct hair_test_living sound, hurt;
@@ -214,7 +214,7 @@ static void run(struct hair_test* test, const struct hair_test_subject* subject,
     hair_destroy(hair);
 }
 
-static void the_same_inputs_give_the_same_bits(void** state)
+static void equal_inputs_give_equal_bits(void** state)
 {
     static struct hair_test_seen a, b;
     for (int solver = 0; solver <= HAIR_SOLVER_FOLLOW; ++solver)
@@ -229,7 +229,7 @@ static void the_same_inputs_give_the_same_bits(void** state)
         }
 }
 
-static void the_greatest_values_leave_hair_finite(void** state)
+static void greatest_settings_keep_hair_finite(void** state)
 {
     static struct hair_test_seen seen;
     for (int solver = 0; solver <= HAIR_SOLVER_FOLLOW; ++solver) {
@@ -263,7 +263,7 @@ static void motion_depends_neither_on_the_frame_rate_nor_on_the_mapping(void** s
     hair_test_die(&once);
 }
 
-static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state)
+static void state_saved_between_grid_updates_continues_bit_for_bit(void** state)
 {
     struct hair_test_living straight, loaded;
     swing(&straight, *state, HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
@@ -291,7 +291,7 @@ static void a_state_saved_within_a_block_goes_on_with_the_same_bits(void** state
     free(blob.bytes);
 }
 
-static void what_is_off_has_no_buffer_and_changes_no_bit(void** state)
+static void disabled_hair_grid_has_no_buffer_and_no_effect(void** state)
 {
     static struct hair_test_seen never, off;
     struct hair_test_subject subject = moving(HAIR_SOLVER_DIRECT, 0, 0);
@@ -322,16 +322,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(relative_motion_decays_at_the_rate_of_cohesion_and_none_is_made),
-        HAIR_TEST(hair_that_is_pressed_together_keeps_more_of_its_volume),
-        HAIR_TEST(a_groom_at_rest_does_not_press),
-        HAIR_TEST(a_strand_by_itself_feels_nothing),
-        HAIR_TEST(a_strand_that_is_not_finite_leaves_the_others_alone),
-        HAIR_TEST(the_same_inputs_give_the_same_bits),
-        HAIR_TEST(the_greatest_values_leave_hair_finite),
+        HAIR_TEST(relative_motion_decays_at_the_rate_of_cohesion),
+        HAIR_TEST(pressure_stiffness_keeps_volume_of_pressed_hair),
+        HAIR_TEST(groom_at_rest_has_no_pressure),
+        HAIR_TEST(lone_strand_feels_no_hair_force),
+        HAIR_TEST(nonfinite_strand_does_not_affect_others),
+        HAIR_TEST(equal_inputs_give_equal_bits),
+        HAIR_TEST(greatest_settings_keep_hair_finite),
         HAIR_TEST(motion_depends_neither_on_the_frame_rate_nor_on_the_mapping),
-        HAIR_TEST(a_state_saved_within_a_block_goes_on_with_the_same_bits),
-        HAIR_TEST(what_is_off_has_no_buffer_and_changes_no_bit),
+        HAIR_TEST(state_saved_between_grid_updates_continues_bit_for_bit),
+        HAIR_TEST(disabled_hair_grid_has_no_buffer_and_no_effect),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

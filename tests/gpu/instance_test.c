@@ -82,7 +82,7 @@ static void a_new_instance_is_in_its_rest_pose(void** state)
     hair_groom_destroy(groom);
 }
 
-static void a_reset_is_as_good_as_new(void** state)
+static void reset_instance_equals_a_new_instance(void** state)
 {
     static struct strands used, fresh;
     static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH};
@@ -131,7 +131,7 @@ static void compare_in_heads(const struct strands* a, const float at_a[16], cons
     }
 }
 
-static void a_teleport_takes_shape_and_motion_along(void** state)
+static void teleport_keeps_shape_and_motion(void** state)
 {
     static struct strands before, after;
     static const hair_read_source whats[] = {HAIR_READ_GUIDES, HAIR_READ_SMOOTH, HAIR_READ_FOLLOWERS};
@@ -171,7 +171,7 @@ static void a_teleport_takes_shape_and_motion_along(void** state)
     hair_groom_destroy(groom);
 }
 
-static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** state)
+static void set_transform_far_away_is_no_teleport(void** state)
 {
     static struct strands strands;
     struct hair_test* test = *state;
@@ -190,7 +190,7 @@ static void a_head_that_is_set_far_away_and_stepped_is_not_teleported(void** sta
     hair_groom_destroy(groom);
 }
 
-static void strands_rest_on_a_collider_that_moves_into_them(void** state)
+static void strands_rest_on_a_collider_moved_into_them(void** state)
 {
     static struct strands strands;
     struct hair_test* test = *state;
@@ -245,7 +245,7 @@ static double greatest_stretch(hair_instance* hair, const hair_groom* groom)
     return worst;
 }
 
-static void far_from_the_origin_nothing_stretches_more(void** state)
+static void stretch_far_from_the_origin_is_not_greater(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom = make_groom(test);
@@ -267,7 +267,7 @@ static void far_from_the_origin_nothing_stretches_more(void** state)
 
 // Check that a head at rest far away gives the same bits as at the origin, because positions are
 // relative to the head.
-static void far_from_the_origin_a_still_head_gives_the_same_bits(void** state)
+static void still_head_far_from_the_origin_gives_equal_bits(void** state)
 {
     static struct hair_state near[MAX], far[MAX];
     struct hair_test* test = *state;
@@ -305,7 +305,7 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
 
 #define SIDE 64
 
-static void instances_beside_each_other_are_as_if_alone(void** state)
+static void instances_do_not_affect_each_other(void** state)
 {
     static struct strands alone[2], beside[2];
     static float seen_alone[2][4 * SIDE * SIDE], seen_beside[2][4 * SIDE * SIDE];
@@ -364,7 +364,7 @@ static void the_groom_may_be_destroyed_while_instances_use_it(void** state)
 }
 
 // Check that every vertex is finite after any call of the application.
-static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
+static void strands_stay_finite_under_any_calls(void** state)
 {
     static struct strands strands;
     struct hair_test* test = *state;
@@ -398,7 +398,7 @@ static void no_abuse_makes_a_strand_that_is_not_finite(void** state)
 
 // Check that hair follows the head over any distance in one step, wherever in a substep the step
 // ends.
-static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** state)
+static void head_that_jumps_1000_km_keeps_its_hair(void** state)
 {
     static struct strands strands;
     struct hair_test* test = *state;
@@ -422,7 +422,7 @@ static void a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along(void** 
 
 // Check a step that is a small part of a substep and ends the substep. Colliders must be at their
 // last positions, and not beyond.
-static void a_step_shorter_than_rounding_moves_no_collider_too_far(void** state)
+static void tiny_step_moves_no_collider_too_far(void** state)
 {
     static struct strands before, after;
     struct hair_test* test = *state;
@@ -453,17 +453,17 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(a_new_instance_is_in_its_rest_pose),
-        HAIR_TEST(a_reset_is_as_good_as_new),
-        HAIR_TEST(a_teleport_takes_shape_and_motion_along),
-        HAIR_TEST(a_head_that_is_set_far_away_and_stepped_is_not_teleported),
-        HAIR_TEST(strands_rest_on_a_collider_that_moves_into_them),
-        HAIR_TEST(far_from_the_origin_nothing_stretches_more),
-        HAIR_TEST(far_from_the_origin_a_still_head_gives_the_same_bits),
-        HAIR_TEST(instances_beside_each_other_are_as_if_alone),
+        HAIR_TEST(reset_instance_equals_a_new_instance),
+        HAIR_TEST(teleport_keeps_shape_and_motion),
+        HAIR_TEST(set_transform_far_away_is_no_teleport),
+        HAIR_TEST(strands_rest_on_a_collider_moved_into_them),
+        HAIR_TEST(stretch_far_from_the_origin_is_not_greater),
+        HAIR_TEST(still_head_far_from_the_origin_gives_equal_bits),
+        HAIR_TEST(instances_do_not_affect_each_other),
         HAIR_TEST(the_groom_may_be_destroyed_while_instances_use_it),
-        HAIR_TEST(a_head_that_jumps_a_thousand_kilometres_takes_its_hair_along),
-        HAIR_TEST(a_step_shorter_than_rounding_moves_no_collider_too_far),
-        HAIR_TEST(no_abuse_makes_a_strand_that_is_not_finite),
+        HAIR_TEST(head_that_jumps_1000_km_keeps_its_hair),
+        HAIR_TEST(tiny_step_moves_no_collider_too_far),
+        HAIR_TEST(strands_stay_finite_under_any_calls),
     };
     int failed = 0;
     for (way = 0; way < HAIR_TEST_WAYS; ++way)

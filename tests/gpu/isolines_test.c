@@ -293,7 +293,7 @@ static void check(struct hair_test* test, uint32_t followers, uint32_t isolines,
     check_meeting(test, followers, isolines, segments, HAIR_FOLLOWER_COLLISION_NONE);
 }
 
-static void followers_that_meet_a_collider_are_drawn_where_they_are_read(void** state)
+static void pushed_out_followers_are_drawn_where_they_are_read(void** state)
 {
     static const uint32_t counts[] = {1, 2, 33, 65, 256};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) {
@@ -302,7 +302,7 @@ static void followers_that_meet_a_collider_are_drawn_where_they_are_read(void** 
     }
 }
 
-static void every_count_of_isolines_and_of_segments_is_drawn_whole(void** state)
+static void every_count_of_isolines_and_segments_is_drawn(void** state)
 {
     static const uint32_t counts[] = {1, 2, 16, 31, 32, 33, 63, 64, 65, 200};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i)
@@ -311,14 +311,14 @@ static void every_count_of_isolines_and_of_segments_is_drawn_whole(void** state)
                   counts[k]); // The last patch is not full.
 }
 
-static void the_most_segments_are_drawn_whole(void** state)
+static void maximum_number_of_segments_is_drawn(void** state)
 {
     static const uint32_t counts[] = {127, 128, 129, 255, 256};
     for (size_t i = 0; i < sizeof counts / sizeof *counts; ++i) check(*state, 150, 64, counts[i]);
 }
 
 // Check sizes that, as one draw, would have just under, just over and twice 65,536 vertices.
-static void the_65536th_vertex_is_no_boundary(void** state)
+static void strands_beyond_65536_vertices_are_drawn(void** state)
 {
     check(*state, 1985, 64, 32); // 65,505 vertices.
     check(*state, 1986, 64, 32); // 65,538 vertices.
@@ -332,7 +332,7 @@ static void the_65536th_vertex_is_no_boundary(void** state)
 
 // Check that the self-test of context creation detects the fault. If its result is ignored, strands
 // are missing.
-static void a_driver_that_loses_strands_is_found_out(void** state)
+static void driver_that_loses_isolines_is_detected(void** state)
 {
     struct hair_test* test = *state;
     const char* renderer = (const char*)glGetString(GL_RENDERER);
@@ -363,7 +363,7 @@ static size_t count_drawn(struct hair_test* test, hair_render_path path, float d
     return drawn.segments / segments;
 }
 
-static void a_density_of_0_draws_nothing(void** state)
+static void density_map_of_0_draws_nothing(void** state)
 {
     for (hair_render_path path = 0; path < PATHS; ++path)
         assert_int_equal(count_drawn(*state, path, 0, 8), 0);
@@ -371,7 +371,7 @@ static void a_density_of_0_draws_nothing(void** state)
 
 // Check the density. The last isoline of each of the 16 patches is drawn if any part of it is
 // included.
-static void density_is_the_share_of_followers_drawn(void** state)
+static void density_map_is_the_drawn_fraction_of_followers(void** state)
 {
     for (hair_render_path path = 0; path < PATHS; ++path) {
         for (int i = 1; i <= 16; ++i) {
@@ -383,7 +383,7 @@ static void density_is_the_share_of_followers_drawn(void** state)
     }
 }
 
-static void a_patch_of_no_density_draws_nothing(void** state)
+static void patch_without_density_draws_nothing(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -404,7 +404,7 @@ static void a_patch_of_no_density_draws_nothing(void** state)
 
 // Check two sets of maps. The first patch grows hair with the first set. The second patch grows
 // hair with the second set, twice as thick.
-static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
+static void map_sets_blend_density_and_thickness(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -442,7 +442,7 @@ static void sets_of_maps_are_blended_in_density_and_thickness(void** state)
 
 // Check numbers of segments that are not whole. Without a tessellator, some of the segments have no
 // length.
-static void a_share_of_segments_is_drawn_alike_by_every_path(void** state)
+static void segment_fraction_is_drawn_equally_by_every_path(void** state)
 {
     static const float fractions[] = {1, 0.9f, 0.5f, 0.33f, 0.1f};
     struct hair_test* test = *state;
@@ -491,16 +491,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_count_of_isolines_and_of_segments_is_drawn_whole),
-        HAIR_TEST(the_most_segments_are_drawn_whole),
-        HAIR_TEST(followers_that_meet_a_collider_are_drawn_where_they_are_read),
-        HAIR_TEST(the_65536th_vertex_is_no_boundary),
-        HAIR_TEST(a_driver_that_loses_strands_is_found_out),
-        HAIR_TEST(a_density_of_0_draws_nothing),
-        HAIR_TEST(density_is_the_share_of_followers_drawn),
-        HAIR_TEST(a_patch_of_no_density_draws_nothing),
-        HAIR_TEST(a_share_of_segments_is_drawn_alike_by_every_path),
-        HAIR_TEST(sets_of_maps_are_blended_in_density_and_thickness),
+        HAIR_TEST(every_count_of_isolines_and_segments_is_drawn),
+        HAIR_TEST(maximum_number_of_segments_is_drawn),
+        HAIR_TEST(pushed_out_followers_are_drawn_where_they_are_read),
+        HAIR_TEST(strands_beyond_65536_vertices_are_drawn),
+        HAIR_TEST(driver_that_loses_isolines_is_detected),
+        HAIR_TEST(density_map_of_0_draws_nothing),
+        HAIR_TEST(density_map_is_the_drawn_fraction_of_followers),
+        HAIR_TEST(patch_without_density_draws_nothing),
+        HAIR_TEST(segment_fraction_is_drawn_equally_by_every_path),
+        HAIR_TEST(map_sets_blend_density_and_thickness),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -9,391 +9,6 @@
 #include "glsl/shared.h"
 #include "lib/api/api.h"
 
-struct member {
-    const char* owner;
-    // Name in GLSL's interface query. An array of structs is represented by a member of its
-    // element.
-    const char* name;
-    size_t offset, size;
-    GLenum type;
-};
-
-// clang-format off
-#define ROW(S, name, type) {#S, #name, offsetof(struct S, name), sizeof(((struct S*)0)->name), type}
-#define VEC4(S, name) ROW(S, name, GL_FLOAT_VEC4)
-#define MAT4(S, name) ROW(S, name, GL_FLOAT_MAT4)
-#define FLOAT(S, name) ROW(S, name, GL_FLOAT)
-#define UINT(S, name) ROW(S, name, GL_UNSIGNED_INT)
-// clang-format on
-
-// Members in order. Each begins where the previous one ends, so that none is missing.
-static const struct member members[] = {
-    VEC4(hair_guide, root_frame),
-    UINT(hair_guide, first),
-    UINT(hair_guide, count),
-    FLOAT(hair_guide, arc_length),
-    UINT(hair_guide, unused),
-    VEC4(hair_rest, position),
-    VEC4(hair_rest, direction),
-    VEC4(hair_rest, frame),
-    VEC4(hair_rod, strain),
-    VEC4(hair_rod, segment),
-    VEC4(hair_rod, factor),
-    VEC4(hair_rod, factor_euler),
-    VEC4(hair_state, position),
-    VEC4(hair_state, displacement),
-    VEC4(hair_history, rate),
-    VEC4(hair_history, rate_before),
-    VEC4(hair_capsule, start[0]),
-    VEC4(hair_capsule, start[1]),
-    VEC4(hair_capsule, end[0]),
-    VEC4(hair_capsule, end[1]),
-    VEC4(hair_capsule, spin),
-    VEC4(hair_body, position[0]),
-    VEC4(hair_body, position[1]),
-    VEC4(hair_body, rotation[0]),
-    VEC4(hair_body, rotation[1]),
-    VEC4(hair_body, size),
-    VEC4(hair_contact, around.start[0]),
-    VEC4(hair_contact, around.start[1]),
-    VEC4(hair_contact, around.end[0]),
-    VEC4(hair_contact, around.end[1]),
-    VEC4(hair_contact, around.spin),
-    VEC4(hair_contact, body.position[0]),
-    VEC4(hair_contact, body.position[1]),
-    VEC4(hair_contact, body.rotation[0]),
-    VEC4(hair_contact, body.rotation[1]),
-    VEC4(hair_contact, body.size),
-    VEC4(hair_contact, grid),
-    UINT(hair_contact, nodes_x),
-    UINT(hair_contact, nodes_y),
-    UINT(hair_contact, nodes_z),
-    UINT(hair_contact, first),
-    VEC4(hair_contact, ball),
-    VEC4(hair_substep, rotation),
-    VEC4(hair_substep, displacement),
-    VEC4(hair_step_params, gravity),
-    FLOAT(hair_step_params, keep),
-    FLOAT(hair_step_params, shape_frequency_root),
-    FLOAT(hair_step_params, shape_frequency_tip),
-    FLOAT(hair_step_params, angular),
-    FLOAT(hair_step_params, bend),
-    FLOAT(hair_step_params, collision_margin),
-    UINT(hair_step_params, iterations),
-    UINT(hair_step_params, substeps),
-    UINT(hair_step_params, guides),
-    UINT(hair_step_params, colliders),
-    UINT(hair_step_params, smooth_vertices),
-    FLOAT(hair_step_params, alpha),
-    VEC4(hair_step_params, rotation_before),
-    VEC4(hair_step_params, rotation_after),
-    VEC4(hair_step_params, rotation_now),
-    VEC4(hair_step_params, last_displacement),
-    VEC4(hair_step_params, rotation_start),
-    VEC4(hair_step_params, ratio),
-    FLOAT(hair_step_params, kick),
-    FLOAT(hair_step_params, damping),
-    FLOAT(hair_step_params, friction),
-    FLOAT(hair_step_params, fraction_start),
-    FLOAT(hair_step_params, rescale),
-    UINT(hair_step_params, vertices),
-    UINT(hair_step_params, bodies),
-    UINT(hair_step_params, rounds),
-    UINT(hair_step_params, list),
-    UINT(hair_step_params, substep_first),
-    UINT(hair_step_params, part_rounds),
-    UINT(hair_step_params, unused0),
-    VEC4(hair_step_params, cells_lower),
-    UINT(hair_step_params, cells_x),
-    UINT(hair_step_params, cells_y),
-    UINT(hair_step_params, cells_z),
-    FLOAT(hair_step_params, cells_slack),
-    VEC4(hair_step_params, substep[0].rotation),
-    VEC4(hair_step_params, substep[0].displacement),
-    VEC4(hair_step_params, substep[1].rotation),
-    VEC4(hair_step_params, substep[63].displacement),
-    VEC4(hair_step_params, collider[0].start[0]),
-    VEC4(hair_step_params, collider[0].end[1]),
-    VEC4(hair_step_params, collider[63].end[1]),
-    VEC4(hair_step_params, collider[63].spin),
-    VEC4(hair_step_params, body[0].position[0]),
-    VEC4(hair_step_params, body[63].size),
-    UINT(hair_grid_splat, mass),
-    UINT(hair_grid_splat, volume),
-    UINT(hair_grid_splat, first),
-    UINT(hair_grid_splat, end),
-    VEC4(hair_grid_params, rotation),
-    VEC4(hair_grid_params, moved),
-    VEC4(hair_grid_params, lower),
-    UINT(hair_grid_params, nodes_x),
-    UINT(hair_grid_params, nodes_y),
-    UINT(hair_grid_params, nodes_z),
-    UINT(hair_grid_params, vertices),
-    FLOAT(hair_grid_params, cohesion),
-    FLOAT(hair_grid_params, pressure_stiffness),
-    FLOAT(hair_grid_params, ahead),
-    FLOAT(hair_grid_params, per_strand),
-    MAT4(hair_occlusion_params, to_texture),
-    UINT(hair_occlusion_params, width),
-    UINT(hair_occlusion_params, height),
-    UINT(hair_occlusion_params, first_x),
-    UINT(hair_occlusion_params, first_y),
-    UINT(hair_occlusion_params, columns),
-    UINT(hair_occlusion_params, rows),
-    UINT(hair_occlusion_params, levels),
-    UINT(hair_occlusion_params, level),
-    FLOAT(hair_occlusion_params, sign),
-    FLOAT(hair_occlusion_params, max_size),
-    FLOAT(hair_occlusion_params, slack),
-    FLOAT(hair_occlusion_params, thick),
-    FLOAT(hair_occlusion_params, beside_x),
-    FLOAT(hair_occlusion_params, beside_y),
-    UINT(hair_occlusion_params, clips),
-    UINT(hair_occlusion_params, guides),
-    MAT4(hair_raster_params, to_window),
-    VEC4(hair_raster_params, part),
-    UINT(hair_raster_params, columns),
-    UINT(hair_raster_params, rows),
-    UINT(hair_raster_params, samples),
-    UINT(hair_raster_params, flips),
-    UINT(hair_raster_params, first_x),
-    UINT(hair_raster_params, first_y),
-    UINT(hair_raster_params, claims),
-    UINT(hair_raster_params, clamps),
-    FLOAT(hair_raster_params, depth_from),
-    FLOAT(hair_raster_params, depth_by),
-    UINT(hair_raster_params, across),
-    UINT(hair_raster_params, tiles),
-    VEC4(hair_raster_params, at[0]),
-    VEC4(hair_raster_params, at[7]),
-    UINT(hair_activity_params, vertices),
-    UINT(hair_activity_params, parity),
-    UINT(hair_activity_params, anchors),
-    FLOAT(hair_activity_params, rate),
-    VEC4(hair_motion_params, turn),
-    VEC4(hair_motion_params, moved),
-    UINT(hair_motion_params, guides),
-    FLOAT(hair_motion_params, calm),
-    FLOAT(hair_motion_params, wait),
-    FLOAT(hair_motion_params, creep),
-    UINT(hair_energy_params, begins),
-    UINT(hair_energy_params, ends),
-    FLOAT(hair_energy_params, time),
-    FLOAT(hair_energy_params, rate),
-    VEC4(hair_energy, now),
-    VEC4(hair_energy, window),
-    UINT(hair_follower, guide0),
-    UINT(hair_follower, guide1),
-    UINT(hair_follower, guide2),
-    UINT(hair_follower, seed),
-    FLOAT(hair_follower, weight1),
-    FLOAT(hair_follower, weight2),
-    FLOAT(hair_follower, length_ratio),
-    FLOAT(hair_follower, multi),
-    VEC4(hair_follower, offset[0]),
-    VEC4(hair_follower, offset[1]),
-    VEC4(hair_follower, offset[2]),
-    VEC4(hair_follower, offset[3]),
-    UINT(hair_root_binding, corner0),
-    UINT(hair_root_binding, corner1),
-    UINT(hair_root_binding, corner2),
-    FLOAT(hair_root_binding, weight1),
-    FLOAT(hair_root_binding, weight2),
-    FLOAT(hair_root_binding, away_x),
-    FLOAT(hair_root_binding, away_y),
-    FLOAT(hair_root_binding, away_z),
-    VEC4(hair_root_transform, shift[0]),
-    VEC4(hair_root_transform, shift[1]),
-    VEC4(hair_root_transform, shift[2]),
-    VEC4(hair_root_transform, shift[3]),
-    VEC4(hair_root_transform, shift[4]),
-    VEC4(hair_root_transform, turn[0]),
-    VEC4(hair_root_transform, turn[1]),
-    VEC4(hair_root_transform, turn[2]),
-    VEC4(hair_root_transform, turn[3]),
-    VEC4(hair_root_transform, turn[4]),
-    VEC4(hair_scalp_params, rotation),
-    VEC4(hair_scalp_params, offset),
-    UINT(hair_scalp_params, vertices),
-    UINT(hair_scalp_params, guides),
-    UINT(hair_scalp_params, followers),
-    UINT(hair_scalp_params, first),
-    UINT(hair_scalp_params, stride),
-    UINT(hair_scalp_params, flags),
-    UINT(hair_scalp_params, substeps),
-    FLOAT(hair_scalp_params, fraction_before),
-    FLOAT(hair_scalp_params, fraction_after),
-    UINT(hair_scalp_params, smooth_vertices),
-    UINT(hair_scalp_params, unused0),
-    UINT(hair_scalp_params, unused1),
-    UINT(hair_patch, first),
-    UINT(hair_patch, count),
-    FLOAT(hair_patch, density),
-    UINT(hair_patch, guide),
-    VEC4(hair_patch, map_density),
-    VEC4(hair_patch, map_thickness),
-    FLOAT(hair_patch, reach),
-    FLOAT(hair_patch, length),
-    FLOAT(hair_patch, importance),
-    UINT(hair_patch, occluded),
-    VEC4(hair_field_params, rotation),
-    VEC4(hair_field_params, lower),
-    VEC4(hair_field_params, inverse),
-    VEC4(hair_wind_params, velocity),
-    VEC4(hair_wind_params, box),
-    VEC4(hair_wind_params, gust_turn),
-    VEC4(hair_wind_params, gust_from),
-    FLOAT(hair_wind_params, per_speed),
-    FLOAT(hair_wind_params, viscous),
-    FLOAT(hair_wind_params, shelter),
-    UINT(hair_wind_params, balls),
-    UINT(hair_wind_params, sources),
-    UINT(hair_wind_params, volume),
-    UINT(hair_wind_params, unused0),
-    UINT(hair_wind_params, unused1),
-    MAT4(hair_wind_params, to_volume),
-    VEC4(hair_wind_params, ball[0]),
-    VEC4(hair_wind_params, ball[3]),
-    VEC4(hair_wind_params, source[0]),
-    VEC4(hair_wind_params, source[3]),
-    VEC4(hair_wind_params, jet[0]),
-    VEC4(hair_wind_params, jet[3]),
-    VEC4(hair_wind_params, at[0]),
-    VEC4(hair_wind_params, at[63]),
-    VEC4(hair_fluid_params, lower),
-    VEC4(hair_fluid_params, shift),
-    VEC4(hair_fluid_params, wind),
-    VEC4(hair_fluid_params, gain),
-    VEC4(hair_fluid_params, rotation),
-    VEC4(hair_fluid_params, gust_turn),
-    VEC4(hair_fluid_params, gust_from),
-    UINT(hair_fluid_params, cells),
-    UINT(hair_fluid_params, colliders),
-    UINT(hair_fluid_params, open),
-    UINT(hair_fluid_params, nodes),
-    FLOAT(hair_fluid_params, thick),
-    FLOAT(hair_fluid_params, per_speed),
-    FLOAT(hair_fluid_params, viscous),
-    UINT(hair_fluid_params, unused),
-    UINT(hair_fluid_level, cells),
-    UINT(hair_fluid_level, slot),
-    UINT(hair_fluid_level, cell),
-    UINT(hair_fluid_level, coarse_slot),
-    UINT(hair_fluid_level, coarse_cell),
-    UINT(hair_fluid_level, color),
-    FLOAT(hair_fluid_level, relax),
-    UINT(hair_fluid_level, unused),
-    VEC4(hair_fluid_motion, velocity),
-    VEC4(hair_fluid_motion, spin),
-    VEC4(hair_field_collider, position),
-    VEC4(hair_field_collider, rotation),
-    VEC4(hair_field_collider, size),
-    VEC4(hair_field_collider, grid),
-    UINT(hair_field_collider, nodes_x),
-    UINT(hair_field_collider, nodes_y),
-    UINT(hair_field_collider, nodes_z),
-    UINT(hair_field_collider, first),
-    UINT(hair_field_collider, shape),
-    UINT(hair_field_collider, number),
-    UINT(hair_field_collider, unused0),
-    UINT(hair_field_collider, unused1),
-    UINT(hair_field_brick, at),
-    UINT(hair_field_brick, first),
-    UINT(hair_field_brick, count),
-    UINT(hair_field_brick, unused),
-    VEC4(hair_strand_look, curve[0]),
-    VEC4(hair_strand_look, curve[48]),
-    VEC4(hair_strand_look, loop[0]),
-    VEC4(hair_strand_look, loop[31]),
-    FLOAT(hair_strand_look, tip_stray_fraction),
-    FLOAT(hair_strand_look, stray_fraction),
-    FLOAT(hair_strand_look, kinks),
-    FLOAT(hair_strand_look, drawn),
-    FLOAT(hair_strand_look, length_variation),
-    FLOAT(hair_strand_look, curl_radius),
-    FLOAT(hair_strand_look, curl_waves),
-    FLOAT(hair_strand_look, curl_turns),
-    FLOAT(hair_strand_look, curl_guide_phase),
-    FLOAT(hair_strand_look, curl_strand_phase),
-    FLOAT(hair_strand_look, curl_spread),
-    FLOAT(hair_strand_look, curl_left_fraction),
-    FLOAT(hair_strand_look, max_stray),
-    FLOAT(hair_strand_look, max_offset),
-    FLOAT(hair_strand_look, max_width),
-    UINT(hair_strand_look, unused),
-    UINT(hair_strand, follower),
-    FLOAT(hair_strand, width),
-    FLOAT(hair_strand, widened),
-    FLOAT(hair_strand, whole),
-    UINT(hair_draw_command, count),
-    UINT(hair_draw_command, instances),
-    UINT(hair_draw_command, first),
-    UINT(hair_draw_command, base_vertex),
-    UINT(hair_draw_command, base_instance),
-    UINT(hair_draw_command, strands),
-    UINT(hair_draw_command, each),
-    UINT(hair_draw_command, unused0),
-    MAT4(hair_draw_params, view),
-    MAT4(hair_draw_params, view_to_clip),
-    VEC4(hair_draw_params, eye),
-    VEC4(hair_draw_params, specular),
-    VEC4(hair_draw_params, fibre),
-    FLOAT(hair_draw_params, radius),
-    FLOAT(hair_draw_params, density),
-    UINT(hair_draw_params, segments),
-    UINT(hair_draw_params, smooth_vertices),
-    UINT(hair_draw_params, colored),
-    UINT(hair_draw_params, followers),
-    UINT(hair_draw_params, follower_collision),
-    UINT(hair_draw_params, parity),
-    FLOAT(hair_draw_params, collision_margin),
-    UINT(hair_draw_params, lights),
-    UINT(hair_draw_params, textured),
-    UINT(hair_draw_params, light_values),
-    UINT(hair_draw_params, culls),
-    UINT(hair_draw_params, drawn_only),
-    UINT(hair_draw_params, chunks),
-    FLOAT(hair_draw_params, push_out_weight),
-    VEC4(hair_draw_params, map_weights),
-    MAT4(hair_draw_params, sides),
-    VEC4(hair_draw_params, head_sphere),
-    FLOAT(hair_draw_params, strand_fraction),
-    FLOAT(hair_draw_params, segment_fraction),
-    FLOAT(hair_draw_params, width_power),
-    FLOAT(hair_draw_params, pixels_per_unit),
-    FLOAT(hair_draw_params, strand_pixels),
-    FLOAT(hair_draw_params, segment_pixels),
-    FLOAT(hair_draw_params, min_strand_fraction),
-    FLOAT(hair_draw_params, occluded_importance),
-    MAT4(hair_draw_params, now_to_clip),
-    MAT4(hair_draw_params, before_to_clip),
-    VEC4(hair_draw_params, origin),
-    VEC4(hair_draw_params, head),
-    VEC4(hair_draw_params, viewport),
-    VEC4(hair_draw_params, sort),
-    VEC4(hair_draw_params, tint.ramp[0]),
-    VEC4(hair_draw_params, tint.streak),
-    FLOAT(hair_draw_params, tint.brightness),
-    FLOAT(hair_draw_params, tint.hue),
-    FLOAT(hair_draw_params, tint.roughness),
-    FLOAT(hair_draw_params, tint.tilt),
-    FLOAT(hair_draw_params, tint.root_darkening),
-    FLOAT(hair_draw_params, tint.root_recovery),
-    FLOAT(hair_draw_params, tint.streak_clumping),
-    FLOAT(hair_draw_params, tint.sparkle),
-    VEC4(hair_draw_params, strand.curve[0]),
-    UINT(hair_draw_params, strand.unused),
-    VEC4(hair_draw_params, light[0]),
-    VEC4(hair_draw_params, light[79]),
-    MAT4(hair_draw_params, shadow[0]),
-    MAT4(hair_draw_params, shadow[1]),
-    MAT4(hair_draw_params, shadow[2]),
-    MAT4(hair_draw_params, shadow[3]),
-    MAT4(hair_draw_params, sky[0]),
-    MAT4(hair_draw_params, sky[1]),
-    MAT4(hair_draw_params, sky[2]),
-};
-
 static const struct {
     const char* name;
     size_t size;
@@ -436,9 +51,12 @@ static const struct {
     STRUCT(hair_motion_params),
     STRUCT(hair_energy_params),
     STRUCT(hair_energy),
+    STRUCT(hair_tint),
+    STRUCT(hair_debug_params),
+    STRUCT(hair_debug_collider),
+    STRUCT(hair_held),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
-#define MEMBERS (sizeof members / sizeof *members)
 
 // Link a program with two elements of the struct in a storage buffer and two in a uniform buffer.
 static GLuint link_program(const hair_host* host, const char* name)
@@ -472,51 +90,86 @@ static GLint ask(GLuint program, GLenum interface, GLuint index, GLenum property
     return value;
 }
 
-static void compare(GLuint program, GLenum interface, const char* array, size_t size,
-                    const struct member* member)
+// A member in GLSL, within its struct.
+struct member {
+    size_t offset, size;
+    char name[96];
+};
+
+static int by_offset(const void* a, const void* b)
 {
-    for (size_t i = 0; i < 2; ++i) {
-        char name[128];
-        if (interface == GL_BUFFER_VARIABLE && i)
-            continue; // Only the first element of the outermost array is listed.
-        snprintf(name, sizeof name, "%s[%zu].%s", array, i, member->name);
-        GLuint index = glGetProgramResourceIndex(program, interface, name);
-        // An array of vectors is one resource, named by its first element. The others follow at its
-        // stride.
-        char* bracket = strrchr(name, '[');
-        size_t element = 0;
-        if (index == GL_INVALID_INDEX && bracket && name[strlen(name) - 1] == ']') {
-            element = (size_t)atoi(bracket + 1);
-            strcpy(bracket, "[0]");
-            index = glGetProgramResourceIndex(program, interface, name);
-        }
-        if (index == GL_INVALID_INDEX) fail_msg("GLSL has no %s.%s (%s)", member->owner, member->name, name);
-        GLint offset = ask(program, interface, index, GL_OFFSET);
-        if (element) offset += (GLint)element * ask(program, interface, index, GL_ARRAY_STRIDE);
-        if ((size_t)offset != i * size + member->offset)
-            fail_msg("%s.%s is at %zu in C and at %d in GLSL (%s)", member->owner, member->name,
-                     i * size + member->offset, offset, name);
-        assert_int_equal(ask(program, interface, index, GL_TYPE), member->type);
+    const struct member *x = a, *y = b;
+    return (x->offset > y->offset) - (x->offset < y->offset);
+}
+
+// Return the size of a scalar, vector or matrix of shared.h.
+static size_t size_of(GLint type, const char* name)
+{
+    switch (type) {
+    case GL_FLOAT:
+    case GL_INT:
+    case GL_UNSIGNED_INT: return 4;
+    case GL_FLOAT_VEC4: return 16;
+    case GL_FLOAT_MAT4: return 64;
+    default: fail_msg("%s is neither a 4-byte scalar nor hair_vec4 nor hair_mat4", name); return 0;
     }
 }
 
-static void every_member_is_where_c_puts_it(void** state)
+// Read the members of the first element of an array of structs, in their order. Return their
+// number.
+static size_t read_members(GLuint program, GLenum interface, const char* array, struct member* members,
+                           size_t capacity)
+{
+    GLint resources;
+    size_t count = 0;
+    glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &resources);
+    for (GLint i = 0; i < resources; ++i) {
+        struct member member;
+        glGetProgramResourceName(program, interface, (GLuint)i, sizeof member.name, NULL, member.name);
+        if (strncmp(member.name, array, strlen(array))) continue;
+        size_t size = size_of(ask(program, interface, (GLuint)i, GL_TYPE), member.name);
+        GLint length = ask(program, interface, (GLuint)i, GL_ARRAY_SIZE);
+        member.offset = (size_t)ask(program, interface, (GLuint)i, GL_OFFSET);
+        member.size = size;
+        if (length > 1)
+            member.size = (size_t)length * (size_t)ask(program, interface, (GLuint)i, GL_ARRAY_STRIDE);
+        assert_true(count < capacity);
+        members[count++] = member;
+    }
+    qsort(members, count, sizeof *members, by_offset);
+    return count;
+}
+
+// Check that members follow each other without padding in GLSL, up to the size of the struct in C.
+// C has no padding either, because all members are aligned to 4 bytes there. So offsets are equal.
+static void check_members(GLuint program, GLenum interface, const char* array, size_t index)
+{
+    static struct member members[4096];
+    size_t count = read_members(program, interface, array, members, 4096), end = 0;
+    for (size_t m = 0; m < count; ++m) {
+        if (members[m].offset != end)
+            fail_msg("%s: %s begins at %zu, and the member before it ends at %zu", structs[index].name,
+                     members[m].name, members[m].offset, end);
+        end = members[m].offset + members[m].size;
+    }
+    if (end != structs[index].size)
+        fail_msg("%s has %zu bytes in GLSL and %zu in C", structs[index].name, end, structs[index].size);
+}
+
+static void struct_members_have_equal_offsets_in_glsl_and_c(void** state)
 {
     struct hair_test* test = *state;
     for (size_t s = 0; s < STRUCTS; ++s) {
         GLuint program = link_program(&test->host.host, structs[s].name);
-        for (size_t m = 0; m < MEMBERS; ++m) {
-            if (strcmp(members[m].owner, structs[s].name)) continue;
-            compare(program, GL_BUFFER_VARIABLE, "storage", structs[s].size, &members[m]);
-            compare(program, GL_UNIFORM, "uniforms", structs[s].size, &members[m]);
-        }
+        check_members(program, GL_BUFFER_VARIABLE, "storage[0].", s);
+        check_members(program, GL_UNIFORM, "uniforms[0].", s);
         GLuint block = glGetProgramResourceIndex(program, GL_UNIFORM_BLOCK, "uniform_block");
         assert_int_equal(ask(program, GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE), 2 * structs[s].size);
         glDeleteProgram(program);
     }
 }
 
-static void the_stride_of_every_struct_is_its_size_in_c(void** state)
+static void struct_strides_in_glsl_are_sizes_in_c(void** state)
 {
     struct hair_test* test = *state;
     for (size_t s = 0; s < STRUCTS; ++s) {
@@ -531,25 +184,19 @@ static void the_stride_of_every_struct_is_its_size_in_c(void** state)
     }
 }
 
-// Check that the table above has every member: none begins after the end of the previous one. For
-// an array of structs the table has only some members, and for an array only some elements. They
-// count for the whole array.
-static void no_member_is_forgotten(void** state)
+static void every_struct_of_shared_h_is_tested(void** state)
 {
-    (void)state;
-    for (size_t s = 0; s < STRUCTS; ++s) {
-        size_t end = 0;
-        for (size_t m = 0; m < MEMBERS; ++m) {
-            if (strcmp(members[m].owner, structs[s].name)) continue;
-            const char* bracket = strchr(members[m].name, '[');
-            int further = strchr(members[m].name, '.') || (bracket && atoi(bracket + 1) > 0);
-            if (!further && members[m].offset != end)
-                fail_msg("%s.%s begins at %zu, %zu are named before it", members[m].owner, members[m].name,
-                         members[m].offset, end);
-            end = members[m].offset + members[m].size;
-        }
-        assert_int_equal(end, structs[s].size);
+    struct hair_test* test = *state;
+    struct hair_gl_source shared;
+    assert_int_equal(hair_gl_read_source(&test->host.host, NULL, "shared.h", "", &shared), HAIR_OK);
+    for (const char* at = strstr(shared.text, "\nstruct "); at; at = strstr(at + 1, "\nstruct ")) {
+        char name[64];
+        int is_tested = 0;
+        assert_int_equal(sscanf(at, "\nstruct %63s {", name), 1);
+        for (size_t s = 0; s < STRUCTS; ++s) is_tested |= !strcmp(structs[s].name, name);
+        if (!is_tested) fail_msg("%s is not in the table of this test", name);
     }
+    hair_free(&test->host.host, shared.text);
 }
 
 #define COLLIDERS HAIR_GL_WITH(COLLIDERS)
@@ -557,7 +204,7 @@ static void no_member_is_forgotten(void** state)
 
 // Check the binding and size of every buffer. The size of a storage buffer is the size of one
 // element.
-static void the_passes_have_the_buffers_of_shared_h(void** state)
+static void pass_buffers_are_those_of_shared_h(void** state)
 {
     struct hair_test* test = *state;
     static const struct {
@@ -665,7 +312,7 @@ static GLint threads_of(struct hair_test* test, hair_gl_pass pass)
 
 // Check that a work group has a thread for each vertex of a guide, and is the smallest of the four
 // sizes that does.
-static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
+static void work_group_has_a_thread_per_vertex(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_REDBLACK,
                                           HAIR_GL_SMOOTH,
@@ -682,7 +329,7 @@ static void a_guide_has_a_thread_for_each_of_its_vertices(void** state)
 }
 
 // Check the number of guides per work group that sim.c assumes, for any length of guides.
-static void where_a_thread_has_a_whole_guide_eight_share_a_work_group(void** state)
+static void thread_per_guide_puts_eight_guides_in_a_work_group(void** state)
 {
     static const hair_gl_pass groups[] = {HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE | THREAD,
                                           HAIR_GL_FOLLOW | THREAD | COLLIDERS,
@@ -699,12 +346,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(every_member_is_where_c_puts_it),
-        HAIR_TEST(the_stride_of_every_struct_is_its_size_in_c),
-        HAIR_TEST(no_member_is_forgotten),
-        HAIR_TEST(the_passes_have_the_buffers_of_shared_h),
-        HAIR_TEST(a_guide_has_a_thread_for_each_of_its_vertices),
-        HAIR_TEST(where_a_thread_has_a_whole_guide_eight_share_a_work_group),
+        HAIR_TEST(struct_members_have_equal_offsets_in_glsl_and_c),
+        HAIR_TEST(struct_strides_in_glsl_are_sizes_in_c),
+        HAIR_TEST(every_struct_of_shared_h_is_tested),
+        HAIR_TEST(pass_buffers_are_those_of_shared_h),
+        HAIR_TEST(work_group_has_a_thread_per_vertex),
+        HAIR_TEST(thread_per_guide_puts_eight_guides_in_a_work_group),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -88,7 +88,7 @@ static uint32_t read(struct fixture* f, hair_read_source what, float** out)
 
 // Check the number of samples. The cost of a guide follows the longest guide: one sample at every
 // vertex and between two vertices.
-static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
+static void sample_count_is_that_of_the_longest_guide(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
@@ -105,7 +105,7 @@ static void there_are_no_more_samples_than_the_longest_guide_needs(void** state)
 // Compare followers at rest with the fitted strands. Offsets are fitted to guides smoothed on the
 // CPU, and drawn from guides smoothed on the GPU. Both round positions of up to 0.3 m to 2e-8 m.
 // Both round frames to 2e-8 m over the shortest segment, 1 mm. Offsets are up to 2 cm.
-static void followers_at_rest_are_where_they_were_fitted(void** state)
+static void followers_at_rest_equal_their_strands(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
@@ -161,7 +161,7 @@ static void check_sizes(void** state, hair_context* context, int way)
     }
 }
 
-static void on_hardware_work_groups_have_the_longest_guides(void** state)
+static void guides_over_128_vertices_use_work_groups_on_hardware(void** state)
 {
     struct hair_test* test = *state;
     struct hair_gl* gl = &test->context->gl;
@@ -176,7 +176,7 @@ static void on_hardware_work_groups_have_the_longest_guides(void** state)
     gl->software = software;
 }
 
-static void one_size_of_work_group_runs(void** state)
+static void only_one_work_group_size_runs(void** state)
 {
     struct hair_test* test = *state;
     for (size_t n = 0; n < WAYS; ++n) {
@@ -243,7 +243,7 @@ static void check_motion(struct fixture* f, uint32_t vertices)
     free(after);
 }
 
-static void guides_move_and_stay_whole(void** state)
+static void guides_of_any_length_move_without_stretching(void** state)
 {
     for (size_t n = 0; n < WAYS; ++n) {
         print_message("    %s\n", hair_test_way_name(ways[n]));
@@ -263,7 +263,7 @@ static uint32_t count_lit(const float* pixels)
     return lit;
 }
 
-static void strands_and_guides_of_every_length_are_drawn(void** state)
+static void strands_of_every_length_are_drawn(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct hair_test_frame frame;
@@ -291,12 +291,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(there_are_no_more_samples_than_the_longest_guide_needs),
-        HAIR_TEST(followers_at_rest_are_where_they_were_fitted),
-        HAIR_TEST(on_hardware_work_groups_have_the_longest_guides),
-        HAIR_TEST(one_size_of_work_group_runs),
-        HAIR_TEST(guides_move_and_stay_whole),
-        HAIR_TEST(strands_and_guides_of_every_length_are_drawn),
+        HAIR_TEST(sample_count_is_that_of_the_longest_guide),
+        HAIR_TEST(followers_at_rest_equal_their_strands),
+        HAIR_TEST(guides_over_128_vertices_use_work_groups_on_hardware),
+        HAIR_TEST(only_one_work_group_size_runs),
+        HAIR_TEST(guides_of_any_length_move_without_stretching),
+        HAIR_TEST(strands_of_every_length_are_drawn),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -65,7 +65,7 @@ static double sum_of(const float pixels[VALUES])
     return sum;
 }
 
-static void without_light_hair_is_black_and_there(void** state)
+static void hair_without_light_is_black_but_drawn(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float pixels[VALUES];
@@ -78,7 +78,7 @@ static void without_light_hair_is_black_and_there(void** state)
     finish(&f);
 }
 
-static void lights_add_up(void** state)
+static void light_of_several_lights_is_their_sum(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float alone[3][VALUES], together[VALUES];
@@ -104,7 +104,7 @@ static void lights_add_up(void** state)
     finish(&f);
 }
 
-static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
+static void point_light_falls_with_the_square_of_distance(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float sun[VALUES], lamp[VALUES];
@@ -125,7 +125,7 @@ static void a_lamp_gets_weaker_with_the_square_of_its_distance(void** state)
     finish(&f);
 }
 
-static void a_spot_shines_into_its_cone_and_no_farther(void** state)
+static void spot_light_shines_only_into_its_cone(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_LINES);
     static float point[VALUES], spot[VALUES];
@@ -157,7 +157,7 @@ static void a_spot_shines_into_its_cone_and_no_farther(void** state)
 
 // Check spherical harmonics. A uniform sky equals harmonics of order 0. A sky that is brighter
 // above lights surfaces that face up more.
-static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
+static void sky_equals_its_spherical_harmonics(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     float sky[27] = {0};
@@ -180,7 +180,7 @@ static void a_sky_of_harmonics_is_what_it_stands_for(void** state)
 
 // Check the brightest lights, on vertices of strands and infinitely far, in nearly undefined
 // directions.
-static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** state)
+static void colors_are_finite_half_floats_under_any_light(void** state)
 {
     for (int shading = 0; shading < 2; ++shading) {
         struct fixture f = start(state, (hair_shading)shading);
@@ -209,12 +209,12 @@ static void no_light_makes_what_is_not_a_number_or_beyond_half_floats(void** sta
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(without_light_hair_is_black_and_there),
-        HAIR_TEST(lights_add_up),
-        HAIR_TEST(a_lamp_gets_weaker_with_the_square_of_its_distance),
-        HAIR_TEST(a_spot_shines_into_its_cone_and_no_farther),
-        HAIR_TEST(a_sky_of_harmonics_is_what_it_stands_for),
-        HAIR_TEST(no_light_makes_what_is_not_a_number_or_beyond_half_floats),
+        HAIR_TEST(hair_without_light_is_black_but_drawn),
+        HAIR_TEST(light_of_several_lights_is_their_sum),
+        HAIR_TEST(point_light_falls_with_the_square_of_distance),
+        HAIR_TEST(spot_light_shines_only_into_its_cone),
+        HAIR_TEST(sky_equals_its_spherical_harmonics),
+        HAIR_TEST(colors_are_finite_half_floats_under_any_light),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

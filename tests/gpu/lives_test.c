@@ -47,7 +47,7 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_destroy(hair);
 }
 
-static void two_hundred_lives_leave_nothing(void** state)
+static void two_hundred_instances_leave_no_memory(void** state)
 {
     struct hair_test* test = *state;
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
@@ -77,7 +77,7 @@ static hair_context* make_context(struct hair_test* test)
     return context;
 }
 
-static void a_context_leaves_nothing_either(void** state)
+static void destroyed_context_leaves_no_memory(void** state)
 {
     struct hair_test* test = *state;
     uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
@@ -97,7 +97,7 @@ static void a_context_leaves_nothing_either(void** state)
     assert_int_equal(hair_test_blocks(test), blocks);
 }
 
-static void timings_count_the_runs_of_every_pass(void** state)
+static void timings_count_runs_of_every_pass(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
@@ -152,7 +152,7 @@ static void move(struct hair_test* test, hair_instance* hair, int how)
 
 // Check smoothing on demand. One instance is read after every step. The other is drawn once and
 // read after the draw.
-static void guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then(void** state)
+static void guides_are_smoothed_on_first_use_after_a_step(void** state)
 {
     static float often[3 * MAX], once[3 * MAX];
     struct hair_test* test = *state;
@@ -254,7 +254,7 @@ static void check_compiled(struct hair_test* test, int way)
     hair_context_destroy(context);
 }
 
-static void the_one_solver_that_hair_needs_is_compiled(void** state)
+static void only_the_used_solver_is_compiled(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) check_compiled(*state, way);
 }
@@ -263,11 +263,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(two_hundred_lives_leave_nothing),
-        HAIR_TEST(a_context_leaves_nothing_either),
-        HAIR_TEST(timings_count_the_runs_of_every_pass),
-        HAIR_TEST(guides_are_smoothed_when_they_are_looked_at_and_as_they_are_then),
-        HAIR_TEST(the_one_solver_that_hair_needs_is_compiled),
+        HAIR_TEST(two_hundred_instances_leave_no_memory),
+        HAIR_TEST(destroyed_context_leaves_no_memory),
+        HAIR_TEST(timings_count_runs_of_every_pass),
+        HAIR_TEST(guides_are_smoothed_on_first_use_after_a_step),
+        HAIR_TEST(only_the_used_solver_is_compiled),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

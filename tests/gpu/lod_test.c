@@ -95,7 +95,7 @@ static double coverage_of(struct fixture* f, float distance, const hair_lod* lod
     return sum / (TURNS * PIXELS);
 }
 
-static void fewer_strands_cover_as_much(void** state)
+static void fewer_strands_cover_as_much_as_all(void** state)
 {
     for (hair_style style = HAIR_STYLE_LONG; style < HAIR_STYLE_COUNT; ++style) {
         struct fixture f = start(state, style, 18000, 1.5e-4f);
@@ -150,7 +150,7 @@ static double flip_between(const struct picture* a, const struct picture* b)
 }
 
 // Check pairs of consecutive frames. Every tenth of 300 frames from 0.9 m to 27 m starts a pair.
-static void walking_away_shows_no_step(void** state)
+static void level_of_detail_changes_smoothly_with_distance(void** state)
 {
     enum { FRAMES = 300, EVERY = 10 };
     static struct picture full[2], low[2];
@@ -179,7 +179,7 @@ static void walking_away_shows_no_step(void** state)
 }
 
 // Check both sides of a change in the number of segments or strands. The pictures differ by little.
-static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
+static void strands_and_segments_are_reduced_without_popping(void** state)
 {
     static struct picture picture[2];
     struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
@@ -208,7 +208,7 @@ static void nothing_pops_where_segments_or_strands_become_fewer(void** state)
 // Check pushing followers out at a distance. A displacement of one pixel starts the effect, and a
 // displacement of two pixels shows all of it. On either side of both limits the pictures differ by
 // little. Below the first limit no follower is tested.
-static void nothing_pops_where_followers_need_not_be_led_round_colliders(void** state)
+static void push_out_fades_without_popping(void** state)
 {
     static struct picture picture[4];
     // Sizes of 5 mm in the picture.
@@ -263,7 +263,7 @@ static hair_lod only_culling(void)
 
 // Move the view over a shaking head, so that hair is away from its rest pose. Test with and without
 // levels of detail. With free roots, nothing may be left out.
-static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** state)
+static void only_patches_out_of_view_are_missing(void** state)
 {
     static struct picture full, plain, culled;
     hair_physics held = hair_physics_default(), lets_go = held;
@@ -308,7 +308,7 @@ static void what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing(void** 
 }
 
 // Draw the head in front as a collider. The picture then must not miss the strands behind.
-static void what_the_head_hides_is_not_drawn(void** state)
+static void hair_behind_the_head_is_not_drawn(void** state)
 {
     static struct picture full, culled;
     struct fixture f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
@@ -345,12 +345,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(fewer_strands_cover_as_much),
-        HAIR_TEST(walking_away_shows_no_step),
-        HAIR_TEST(nothing_pops_where_segments_or_strands_become_fewer),
-        HAIR_TEST(nothing_pops_where_followers_need_not_be_led_round_colliders),
-        HAIR_TEST(what_is_out_of_view_is_not_drawn_and_nothing_else_is_missing),
-        HAIR_TEST(what_the_head_hides_is_not_drawn),
+        HAIR_TEST(fewer_strands_cover_as_much_as_all),
+        HAIR_TEST(level_of_detail_changes_smoothly_with_distance),
+        HAIR_TEST(strands_and_segments_are_reduced_without_popping),
+        HAIR_TEST(push_out_fades_without_popping),
+        HAIR_TEST(only_patches_out_of_view_are_missing),
+        HAIR_TEST(hair_behind_the_head_is_not_drawn),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

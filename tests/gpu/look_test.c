@@ -76,7 +76,7 @@ static double fraction_moved(const float* a, const float* b, size_t first, size_
     return (double)moved / FOLLOWERS;
 }
 
-static void as_many_strands_stray_as_are_asked_to(void** state)
+static void stray_fraction_is_the_fraction_of_strays(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -103,7 +103,7 @@ static void as_many_strands_stray_as_are_asked_to(void** state)
 }
 
 // Check the radius of curls all along the strand. Therefore the tip gets no nearer to the root.
-static void curls_are_as_far_from_the_way_as_their_radius(void** state)
+static void curls_are_their_radius_away_from_the_strand(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -122,7 +122,7 @@ static void curls_are_as_far_from_the_way_as_their_radius(void** state)
     finish(&f);
 }
 
-static void strands_are_cut_where_the_look_says(void** state)
+static void strands_have_the_length_of_the_look(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -155,7 +155,7 @@ static void strands_are_cut_where_the_look_says(void** state)
     finish(&f);
 }
 
-static void single_strands_without_offsets_are_their_guide(void** state)
+static void follower_without_offset_is_its_guide(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -181,7 +181,7 @@ static void single_strands_without_offsets_are_their_guide(void** state)
     finish(&f);
 }
 
-static void modes_are_the_ends_of_the_mixture(void** state)
+static void interpolation_modes_are_the_ends_of_the_blend(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -197,7 +197,7 @@ static void modes_are_the_ends_of_the_mixture(void** state)
     finish(&f);
 }
 
-static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** state)
+static void disabled_look_has_no_effect_and_no_program(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look(), off = look;
@@ -229,7 +229,7 @@ static void what_is_off_changes_no_bit_and_runs_no_program_of_its_own(void** sta
     finish(&f);
 }
 
-static void wrong_looks_are_refused_by_name(void** state)
+static void invalid_looks_are_refused_by_name(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
@@ -250,13 +250,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(as_many_strands_stray_as_are_asked_to),
-        HAIR_TEST(curls_are_as_far_from_the_way_as_their_radius),
-        HAIR_TEST(strands_are_cut_where_the_look_says),
-        HAIR_TEST(single_strands_without_offsets_are_their_guide),
-        HAIR_TEST(modes_are_the_ends_of_the_mixture),
-        HAIR_TEST(what_is_off_changes_no_bit_and_runs_no_program_of_its_own),
-        HAIR_TEST(wrong_looks_are_refused_by_name),
+        HAIR_TEST(stray_fraction_is_the_fraction_of_strays),
+        HAIR_TEST(curls_are_their_radius_away_from_the_strand),
+        HAIR_TEST(strands_have_the_length_of_the_look),
+        HAIR_TEST(follower_without_offset_is_its_guide),
+        HAIR_TEST(interpolation_modes_are_the_ends_of_the_blend),
+        HAIR_TEST(disabled_look_has_no_effect_and_no_program),
+        HAIR_TEST(invalid_looks_are_refused_by_name),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -182,7 +182,7 @@ static void step(struct fixture* f, float x)
     read_now(f);
 }
 
-static void velocities_are_those_of_strands_and_of_the_camera(void** state)
+static void motion_vectors_include_strands_and_camera(void** state)
 {
     static struct picture picture;
     struct fixture f = start(state);
@@ -217,7 +217,7 @@ static void velocities_are_those_of_strands_and_of_the_camera(void** state)
     finish(&f);
 }
 
-static void views_of_one_frame_share_the_frame_before(void** state)
+static void views_of_one_frame_share_the_previous_frame(void** state)
 {
     static struct picture picture;
     struct fixture f = start(state);
@@ -235,7 +235,7 @@ static void views_of_one_frame_share_the_frame_before(void** state)
     finish(&f);
 }
 
-static void velocities_are_right_at_any_level_of_detail(void** state)
+static void motion_vectors_are_right_at_any_level_of_detail(void** state)
 {
     static struct picture picture;
     struct fixture f = start(state);
@@ -270,7 +270,7 @@ static void velocities_are_right_at_any_level_of_detail(void** state)
     finish(&f);
 }
 
-static void teleports_take_along_and_resets_forget(void** state)
+static void motion_vectors_ignore_teleports_and_restart_at_resets(void** state)
 {
     static struct picture picture;
     struct fixture f = start(state);
@@ -310,7 +310,7 @@ static void teleports_take_along_and_resets_forget(void** state)
     finish(&f);
 }
 
-static void jitter_moves_the_picture_and_no_velocity(void** state)
+static void jitter_moves_the_picture_but_no_motion_vector(void** state)
 {
     static float pixels[2][4 * SIDE * SIDE];
     static struct picture picture;
@@ -348,7 +348,7 @@ static void jitter_moves_the_picture_and_no_velocity(void** state)
     finish(&f);
 }
 
-static void hair_of_which_no_velocity_is_asked_keeps_none(void** state)
+static void history_is_not_kept_without_motion_vectors(void** state)
 {
     struct fixture f = start(state);
     struct hair_test_frame frame;
@@ -370,12 +370,12 @@ static void hair_of_which_no_velocity_is_asked_keeps_none(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(velocities_are_those_of_strands_and_of_the_camera),
-        HAIR_TEST(views_of_one_frame_share_the_frame_before),
-        HAIR_TEST(velocities_are_right_at_any_level_of_detail),
-        HAIR_TEST(teleports_take_along_and_resets_forget),
-        HAIR_TEST(jitter_moves_the_picture_and_no_velocity),
-        HAIR_TEST(hair_of_which_no_velocity_is_asked_keeps_none),
+        HAIR_TEST(motion_vectors_include_strands_and_camera),
+        HAIR_TEST(views_of_one_frame_share_the_previous_frame),
+        HAIR_TEST(motion_vectors_are_right_at_any_level_of_detail),
+        HAIR_TEST(motion_vectors_ignore_teleports_and_restart_at_resets),
+        HAIR_TEST(jitter_moves_the_picture_but_no_motion_vector),
+        HAIR_TEST(history_is_not_kept_without_motion_vectors),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -90,7 +90,7 @@ static void refuse(struct fixture* f, GLuint texture)
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-static void what_is_no_texture_of_depth_is_refused(void** state)
+static void occluder_that_is_no_depth_texture_is_refused(void** state)
 {
     static const struct {
         GLenum target, format;
@@ -126,7 +126,7 @@ static void what_is_no_texture_of_depth_is_refused(void** state)
     finish(&f);
 }
 
-static void every_format_of_depth_is_read(void** state)
+static void occluder_depth_may_have_any_depth_format(void** state)
 {
     static const GLenum formats[] = {GL_DEPTH_COMPONENT16,  GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT32,
                                      GL_DEPTH_COMPONENT32F, GL_DEPTH24_STENCIL8,  GL_DEPTH32F_STENCIL8};
@@ -155,7 +155,7 @@ static void every_format_of_depth_is_read(void** state)
 
 // Check that any matrix gives a picture. The first two have everything far outside the picture or
 // behind the eye. The others map everything to one point, to a line, or to a plane.
-static void by_any_matrix_there_is_a_picture(void** state)
+static void occluder_matrix_may_have_any_finite_values(void** state)
 {
     static const float odd[][16] = {
         {FLT_MAX, 0, 0, 0, 0, FLT_MAX, 0, 0, 0, 0, FLT_MAX, 0, 0, 0, 0, 1},
@@ -175,7 +175,7 @@ static void by_any_matrix_there_is_a_picture(void** state)
     finish(&f);
 }
 
-static void a_matrix_that_is_not_finite_is_refused(void** state)
+static void occluder_matrix_that_is_not_finite_is_refused(void** state)
 {
     struct fixture f = start(state);
     for (int i = 0; i < 16; ++i) {
@@ -189,7 +189,7 @@ static void a_matrix_that_is_not_finite_is_refused(void** state)
     finish(&f);
 }
 
-static void textures_of_lights_and_colours_may_be_no_buffers_either(void** state)
+static void buffer_textures_are_refused_for_lights_and_colors(void** state)
 {
     struct fixture f = start(state);
     hair_light light = hair_light_default();
@@ -212,11 +212,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_is_no_texture_of_depth_is_refused),
-        HAIR_TEST(every_format_of_depth_is_read),
-        HAIR_TEST(by_any_matrix_there_is_a_picture),
-        HAIR_TEST(a_matrix_that_is_not_finite_is_refused),
-        HAIR_TEST(textures_of_lights_and_colours_may_be_no_buffers_either),
+        HAIR_TEST(occluder_that_is_no_depth_texture_is_refused),
+        HAIR_TEST(occluder_depth_may_have_any_depth_format),
+        HAIR_TEST(occluder_matrix_may_have_any_finite_values),
+        HAIR_TEST(occluder_matrix_that_is_not_finite_is_refused),
+        HAIR_TEST(buffer_textures_are_refused_for_lights_and_colors),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -181,7 +181,7 @@ static float sum(const float* pixels)
 
 // Check three walls: a far wall culls nothing, a near wall culls everything, and a near wall over
 // half of the picture culls a part.
-static void what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same(void** state)
+static void occluded_patches_are_culled_without_changing_the_picture(void** state)
 {
     static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
     static const int places[3][4] = {{0, 0, SIZE, SIZE}, {0, 0, SIZE, SIZE}, {0, 0, SIZE / 2, SIZE}};
@@ -222,7 +222,7 @@ static void move(struct fixture* f, float turn, int collider)
 
 // Check that culling removes no visible strand, with all settings that affect the position and
 // width of strands.
-static void no_strand_that_is_seen_is_left_out(void** state)
+static void visible_strands_are_not_occlusion_culled(void** state)
 {
     static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
     struct fixture f = start(state);
@@ -263,7 +263,7 @@ static void no_strand_that_is_seen_is_left_out(void** state)
 }
 
 // Check depth textures of other sizes. A texel then holds the depth of its whole area.
-static void depth_may_be_of_any_size(void** state)
+static void occluder_depth_may_have_any_size(void** state)
 {
     static const GLsizei sizes[][2] = {{1, 1}, {7, 3}, {8, 8}, {33, 300}, {1000, 700}};
     struct fixture f = start(state);
@@ -289,7 +289,7 @@ static void depth_may_be_of_any_size(void** state)
 }
 
 // Check the depth of another view. It culls the same patches as in its own view, from any eye.
-static void depth_may_be_that_of_another_view(void** state)
+static void occluder_depth_may_be_of_another_view(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     static uint32_t before[1024], now[1024];
@@ -327,7 +327,7 @@ static hair_report_row report(const struct fixture* f)
 }
 
 // Check also that the memory is freed when the depth texture is gone.
-static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
+static void occlusion_culling_costs_nothing_without_depth(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     const int all[4] = {0, 0, SIZE, SIZE};
@@ -358,7 +358,7 @@ static void without_depth_nothing_is_run_or_bound_or_kept_for_it(void** state)
 }
 
 // Check a depth texture whose picture does not show the hair. It culls nothing.
-static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** state)
+static void depth_that_cannot_hide_hair_runs_no_culling_pass(void** state)
 {
     static float pixels[4 * SIZE * SIZE];
     const int all[4] = {0, 0, SIZE, SIZE};
@@ -380,7 +380,7 @@ static void hair_that_its_picture_does_not_show_is_drawn_without_a_pass(void** s
 }
 
 // Check that strand lists made behind a wall are not used for a view past the wall.
-static void what_was_hidden_is_listed_again_when_it_is_not(void** state)
+static void occluded_patches_reappear_when_uncovered(void** state)
 {
     static float kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];
     const int all[4] = {0, 0, SIZE, SIZE};
@@ -401,13 +401,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_is_behind_a_wall_is_not_drawn_and_the_picture_is_the_same),
-        HAIR_TEST(no_strand_that_is_seen_is_left_out),
-        HAIR_TEST(depth_may_be_of_any_size),
-        HAIR_TEST(depth_may_be_that_of_another_view),
-        HAIR_TEST(without_depth_nothing_is_run_or_bound_or_kept_for_it),
-        HAIR_TEST(hair_that_its_picture_does_not_show_is_drawn_without_a_pass),
-        HAIR_TEST(what_was_hidden_is_listed_again_when_it_is_not),
+        HAIR_TEST(occluded_patches_are_culled_without_changing_the_picture),
+        HAIR_TEST(visible_strands_are_not_occlusion_culled),
+        HAIR_TEST(occluder_depth_may_have_any_size),
+        HAIR_TEST(occluder_depth_may_be_of_another_view),
+        HAIR_TEST(occlusion_culling_costs_nothing_without_depth),
+        HAIR_TEST(depth_that_cannot_hide_hair_runs_no_culling_pass),
+        HAIR_TEST(occluded_patches_reappear_when_uncovered),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

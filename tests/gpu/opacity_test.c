@@ -142,7 +142,7 @@ static struct found compare(const struct fixture* f)
 // Compare opacity with rays, for hair that blocks nearly all light at some places. Strands in a
 // texel are taken as independent of each other, and clumps are not. Texels of 12.5 mm are as wide
 // as a whole lock.
-static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
+static void opacity_equals_counted_rays_at_any_texel_size(void** state)
 {
     static const float radii[] = {4e-5f, 2e-4f, 1e-3f};
     static const GLsizei texels[] = {32, 128, 512, 1024};
@@ -164,7 +164,7 @@ static void it_is_what_rays_count_at_any_size_of_texels_and_width(void** state)
     }
 }
 
-static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** state)
+static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
 {
     struct fixture* f = start(state, 1500, 2e-4f);
     hair_lod part = hair_lod_default();
@@ -199,7 +199,7 @@ static void it_is_the_same_by_every_path_and_kept_by_levels_of_detail(void** sta
 
 // Check hair in front of the head's origin. Then put opaque geometry there, in the left half of the
 // map only.
-static void only_hair_before_the_first_body_counts(void** state)
+static void opacity_counts_only_hair_before_opaque_geometry(void** state)
 {
     struct fixture* f = start(state, 1500, 1e-4f);
     count_rays(f, 0);
@@ -223,7 +223,7 @@ static void only_hair_before_the_first_body_counts(void** state)
     finish(f);
 }
 
-static void blending_and_depth_are_as_they_were(void** state)
+static void opacity_pass_keeps_blending_and_depth(void** state)
 {
     static const float near = 0.7f;
     static float depths[64 * 64];
@@ -254,7 +254,7 @@ static const hair_report_row* find_row(struct fixture* f, const char* work)
     return rows;
 }
 
-static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void** state)
+static void opacity_is_reported_and_costs_nothing_unused(void** state)
 {
     struct fixture* f = start(state, 64, 1e-3f);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
@@ -281,11 +281,11 @@ static void it_is_reported_and_nothing_of_it_is_there_where_none_is_asked(void**
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(it_is_what_rays_count_at_any_size_of_texels_and_width),
-        HAIR_TEST(it_is_the_same_by_every_path_and_kept_by_levels_of_detail),
-        HAIR_TEST(only_hair_before_the_first_body_counts),
-        HAIR_TEST(blending_and_depth_are_as_they_were),
-        HAIR_TEST(it_is_reported_and_nothing_of_it_is_there_where_none_is_asked),
+        HAIR_TEST(opacity_equals_counted_rays_at_any_texel_size),
+        HAIR_TEST(opacity_is_equal_by_every_path_and_level_of_detail),
+        HAIR_TEST(opacity_counts_only_hair_before_opaque_geometry),
+        HAIR_TEST(opacity_pass_keeps_blending_and_depth),
+        HAIR_TEST(opacity_is_reported_and_costs_nothing_unused),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

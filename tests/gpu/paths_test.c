@@ -136,7 +136,7 @@ static uint32_t count_hits(struct fixture* f)
     return count;
 }
 
-static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** state)
+static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
     struct fixture f = start(state, 1);
@@ -161,7 +161,7 @@ static void pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths(void** sta
 
 // Compare paths with levels of detail. Their vertices are written for each view, into the buffers
 // that draws without levels use.
-static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
+static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
     struct fixture f = start(state, 1);
@@ -190,7 +190,7 @@ static void pictures_of_levels_of_detail_are_alike_by_all_paths(void** state)
 
 // Compare colours of the groom, red on one side of the head and green on the other, by all paths. A
 // look without groom colours draws as if there were none.
-static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
+static void groom_colors_are_drawn_by_all_paths(void** state)
 {
     static struct picture picture[PATHS + 2];
     struct fixture f = start(state, 0);
@@ -228,7 +228,7 @@ static void colours_of_the_groom_are_drawn_by_all_paths(void** state)
     finish(&f);
 }
 
-static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
+static void auto_uses_the_path_of_the_table_and_reports_it(void** state)
 {
     static struct picture own, same;
     struct fixture f = start(state, 0);
@@ -247,7 +247,7 @@ static void auto_draws_what_the_path_of_the_table_does_and_says_so(void** state)
 }
 
 // Check that a fast path is not selected if it needs too much memory.
-static void auto_does_not_expand_more_than_fits(void** state)
+static void auto_does_not_cache_more_than_fits(void** state)
 {
     struct fixture f = start(state, 0);
     hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
@@ -265,11 +265,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(pictures_of_curls_that_meet_a_ball_are_alike_by_all_paths),
-        HAIR_TEST(pictures_of_levels_of_detail_are_alike_by_all_paths),
-        HAIR_TEST(colours_of_the_groom_are_drawn_by_all_paths),
-        HAIR_TEST(auto_draws_what_the_path_of_the_table_does_and_says_so),
-        HAIR_TEST(auto_does_not_expand_more_than_fits),
+        HAIR_TEST(curls_on_a_ball_are_drawn_equally_by_all_paths),
+        HAIR_TEST(levels_of_detail_are_drawn_equally_by_all_paths),
+        HAIR_TEST(groom_colors_are_drawn_by_all_paths),
+        HAIR_TEST(auto_uses_the_path_of_the_table_and_reports_it),
+        HAIR_TEST(auto_does_not_cache_more_than_fits),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

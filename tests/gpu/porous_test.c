@@ -64,7 +64,7 @@ static void advance(struct hair_test_fluid* f, int steps)
 }
 
 // Check faces in hair that moves at random, among colliders, and in a box that has moved.
-static void faces_are_as_open_as_hair_leaves_them(void** state)
+static void hair_reduces_face_fractions_like_the_reference(void** state)
 {
     struct hair_test_fluid f;
     uint32_t random = 3;
@@ -143,7 +143,7 @@ static double rate(double speed)
     return NU * (hair_reference_drag_across(reynolds) * reynolds + hair_reference_drag_along(reynolds)) / 3;
 }
 
-static void air_in_a_slab_along_the_wind_decays_as_drag_says(void** state)
+static void wind_in_a_slab_of_hair_decays_by_drag(void** state)
 {
     enum { STEPS = 12 };
     struct hair_test_fluid f;
@@ -179,7 +179,7 @@ static double ball(const double place[3])
 
 // Check a porous ball in a flow that begins at once. With a transmitted fraction b, the flow inside
 // is 3 b / (2 + b) of the wind, as in a dielectric ball.
-static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(void** state)
+static void flow_through_a_porous_ball_equals_potential_flow(void** state)
 {
     static const double densities[] = {2e5, 1e6, 1e7};
     for (int i = 0; i < 3; ++i) {
@@ -207,7 +207,7 @@ static void air_goes_through_and_around_a_porous_ball_as_potential_flow_does(voi
 
 // Check hair of extreme density, which acts like a moving collider. Air near it is no faster than
 // the wind, and moves with the hair.
-static void air_is_sound_in_hair_of_any_density(void** state)
+static void air_stays_finite_in_hair_of_any_density(void** state)
 {
     struct hair_test_fluid f;
     begin(*state, 16, 1, 1e30, &f);
@@ -238,7 +238,7 @@ static void air_is_sound_in_hair_of_any_density(void** state)
 }
 
 // Check a head of few guides, which stand for many strands.
-static void hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off(void** state)
+static void hair_drag_shelters_hair_behind_and_costs_nothing_off(void** state)
 {
     struct hair_test_living living;
     struct hair_test_strands strands = hair_test_strands_make(65, 8);
@@ -282,11 +282,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(faces_are_as_open_as_hair_leaves_them),
-        HAIR_TEST(air_in_a_slab_along_the_wind_decays_as_drag_says),
-        HAIR_TEST(air_goes_through_and_around_a_porous_ball_as_potential_flow_does),
-        HAIR_TEST(air_is_sound_in_hair_of_any_density),
-        HAIR_TEST(hair_shelters_what_is_behind_it_and_nothing_is_kept_where_it_is_off),
+        HAIR_TEST(hair_reduces_face_fractions_like_the_reference),
+        HAIR_TEST(wind_in_a_slab_of_hair_decays_by_drag),
+        HAIR_TEST(flow_through_a_porous_ball_equals_potential_flow),
+        HAIR_TEST(air_stays_finite_in_hair_of_any_density),
+        HAIR_TEST(hair_drag_shelters_hair_behind_and_costs_nothing_off),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -182,7 +182,7 @@ static const struct {
     {"colliders", HAIR_RENDER_PATH_TESSELLATION, show_colliders},
 };
 
-static void frames_compile_nothing_once_they_are_prepared(void** state)
+static void frames_compile_nothing_after_precompile(void** state)
 {
     for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
         struct fixture f = start(*state);
@@ -198,7 +198,7 @@ static void frames_compile_nothing_once_they_are_prepared(void** state)
     }
 }
 
-static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(void** state)
+static void precompile_without_threads_compiles_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
     hair_view view = view_of(HAIR_RENDER_PATH_INSTANCED);
@@ -217,7 +217,7 @@ static void a_driver_that_compiles_nothing_beside_is_given_one_program_a_call(vo
 
 // Check a frame before all programs are ready. A program under compilation is waited for if it is
 // run, and freed if it is not.
-static void a_frame_may_come_before_all_is_ready(void** state)
+static void frame_before_precompile_is_ready_draws(void** state)
 {
     for (int lives = 0; lives < 2; ++lives) {
         struct fixture f = start(*state);
@@ -231,7 +231,7 @@ static void a_frame_may_come_before_all_is_ready(void** state)
     }
 }
 
-static void nulls_and_wrong_views_are_refused(void** state)
+static void precompile_refuses_null_and_invalid_views(void** state)
 {
     struct fixture f = start(*state);
     hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
@@ -250,10 +250,10 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(frames_compile_nothing_once_they_are_prepared),
-        HAIR_TEST(a_driver_that_compiles_nothing_beside_is_given_one_program_a_call),
-        HAIR_TEST(a_frame_may_come_before_all_is_ready),
-        HAIR_TEST(nulls_and_wrong_views_are_refused),
+        HAIR_TEST(frames_compile_nothing_after_precompile),
+        HAIR_TEST(precompile_without_threads_compiles_one_program_a_call),
+        HAIR_TEST(frame_before_precompile_is_ready_draws),
+        HAIR_TEST(precompile_refuses_null_and_invalid_views),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -173,7 +173,7 @@ static struct difference compare(const struct picture* a, const struct picture* 
 
 // Compare compute with drawing. Drawing rounds vertices to fractions of a pixel, so that edges may
 // be on either side of a pixel's middle.
-static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set(void** state)
+static void compute_pixels_equal_drawn_pixels_under_any_state(void** state)
 {
     static const struct {
         const char* name;
@@ -199,7 +199,7 @@ static void pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_ha
     }
 }
 
-static void depth_made_by_compute_is_that_which_is_drawn(void** state)
+static void compute_depth_equals_drawn_depth(void** state)
 {
     static struct picture drawn, made;
     struct fixture f = start(state, 400, 3e-4f);
@@ -216,7 +216,7 @@ static void depth_made_by_compute_is_that_which_is_drawn(void** state)
     finish(&f);
 }
 
-static void levels_of_detail_are_those_that_are_drawn(void** state)
+static void compute_levels_of_detail_equal_drawn_ones(void** state)
 {
     static struct picture drawn, made;
     struct fixture f = start(state, 600, 3e-4f);
@@ -243,7 +243,7 @@ static void levels_of_detail_are_those_that_are_drawn(void** state)
 }
 
 // Check that the order of threads does not matter.
-static void the_same_hair_is_made_the_same_bits(void** state)
+static void compute_pixels_of_equal_hair_are_equal_bits(void** state)
 {
     static struct picture first, second;
     struct fixture f = start(state, 1500, 3e-4f);
@@ -257,7 +257,7 @@ static void the_same_hair_is_made_the_same_bits(void** state)
 
 // Check multisampling. Each sample sees what a pixel in its place would, also in front of geometry
 // that the application has drawn into some samples.
-static void samples_cover_as_much_as_those_that_are_drawn(void** state)
+static void compute_coverage_equals_drawn_coverage(void** state)
 {
     static float pixels[2][4 * PIXELS];
     struct fixture f = start(state, 400, 3e-4f);
@@ -287,7 +287,7 @@ static void samples_cover_as_much_as_those_that_are_drawn(void** state)
     finish(&f);
 }
 
-static void what_compute_does_not_make_is_drawn(void** state)
+static void passes_without_compute_rasterization_are_drawn(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
     hair_lod lod = hair_lod_default();
@@ -315,7 +315,7 @@ static void what_compute_does_not_make_is_drawn(void** state)
 }
 
 // Check shading by the application. Its shader runs where the pixels are drawn.
-static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
+static void compute_path_draws_pixels_of_user_shaders(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
     hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
@@ -340,7 +340,7 @@ static void pixels_of_the_hosts_own_shading_are_drawn(void** state)
     finish(&f);
 }
 
-static void memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made(void** state)
+static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
 {
     struct fixture f = start(state, 50, 3e-4f);
     struct hair_raster* own = &f.hair->renderer.raster;
@@ -371,14 +371,14 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(pixels_made_by_compute_are_those_that_are_drawn_whatever_the_host_has_set),
-        HAIR_TEST(depth_made_by_compute_is_that_which_is_drawn),
-        HAIR_TEST(levels_of_detail_are_those_that_are_drawn),
-        HAIR_TEST(the_same_hair_is_made_the_same_bits),
-        HAIR_TEST(samples_cover_as_much_as_those_that_are_drawn),
-        HAIR_TEST(what_compute_does_not_make_is_drawn),
-        HAIR_TEST(pixels_of_the_hosts_own_shading_are_drawn),
-        HAIR_TEST(memory_is_there_for_pixels_that_hair_can_be_in_while_they_are_made),
+        HAIR_TEST(compute_pixels_equal_drawn_pixels_under_any_state),
+        HAIR_TEST(compute_depth_equals_drawn_depth),
+        HAIR_TEST(compute_levels_of_detail_equal_drawn_ones),
+        HAIR_TEST(compute_pixels_of_equal_hair_are_equal_bits),
+        HAIR_TEST(compute_coverage_equals_drawn_coverage),
+        HAIR_TEST(passes_without_compute_rasterization_are_drawn),
+        HAIR_TEST(compute_path_draws_pixels_of_user_shaders),
+        HAIR_TEST(compute_memory_fits_the_pixels_and_is_freed_unused),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

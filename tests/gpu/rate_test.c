@@ -202,7 +202,7 @@ static void compare(const char* name, const struct run* full, const struct run* 
     assert_true(step <= bounds.step);
 }
 
-static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
+static void lower_substep_rate_moves_hair_alike_with_fewer_runs(void** state)
 {
     static struct run full, low;
     struct fixture f = start(state);
@@ -219,7 +219,7 @@ static void at_lower_rates_hair_moves_the_same_way_for_less(void** state)
 
 // Check changes of the rate. Time runs at most twice as fast while substeps become shorter, and at
 // half speed while they become longer.
-static void nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again(void** state)
+static void hair_does_not_jump_when_the_substep_rate_changes(void** state)
 {
     static struct run full, low;
     struct fixture f = start(state);
@@ -236,8 +236,8 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(at_lower_rates_hair_moves_the_same_way_for_less),
-        HAIR_TEST(nothing_jumps_where_the_rate_changes_nor_where_hair_is_seen_again),
+        HAIR_TEST(lower_substep_rate_moves_hair_alike_with_fewer_runs),
+        HAIR_TEST(hair_does_not_jump_when_the_substep_rate_changes),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -58,7 +58,7 @@ static struct fixture start_with(void** state, struct hair_test_handmade wanted)
     return f;
 }
 
-// Start with one guide of each number of vertices up to `most`.
+// Start with one guide of each number of vertices up to `max`.
 static struct fixture start_up_to(void** state, uint32_t max)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -200,7 +200,7 @@ static void compare(struct fixture* f, const char* what)
     print_message("    %s: moved up to %.2g m, off by up to %.2g m of %.2g m\n", what, moved, worst, limit);
 }
 
-static void integration_is_as_the_reference_has_it(void** state)
+static void integration_equals_the_reference(void** state)
 {
     struct fixture f = start(state);
     f.params.gravity = (hair_vec4){0.5f, -9.81f, -0.25f, 1.0f / 120};
@@ -212,7 +212,7 @@ static void integration_is_as_the_reference_has_it(void** state)
     finish(&f);
 }
 
-static void angular_forces_are_as_the_reference_has_them(void** state)
+static void angular_forces_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     f.params.angular = 5000;
@@ -221,7 +221,7 @@ static void angular_forces_are_as_the_reference_has_them(void** state)
     finish(&f);
 }
 
-static void distance_constraints_are_as_the_reference_has_them(void** state)
+static void distance_constraints_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     f.params.iterations = 1;
@@ -235,7 +235,7 @@ static void distance_constraints_are_as_the_reference_has_them(void** state)
 
 // Compare angular constraints. In the rest pose the distance constraints have nothing to do. The
 // rest lengths over two segments are then increased.
-static void angular_constraints_are_as_the_reference_has_them(void** state)
+static void angular_constraints_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) f.groom->rest[i].direction.w *= 1.1f;
@@ -248,7 +248,7 @@ static void angular_constraints_are_as_the_reference_has_them(void** state)
     finish(&f);
 }
 
-static void collisions_are_as_the_reference_has_them(void** state)
+static void collisions_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
     f.params.iterations = 1;
@@ -258,7 +258,7 @@ static void collisions_are_as_the_reference_has_them(void** state)
     finish(&f);
 }
 
-static void no_vertex_is_left_inside_a_collider(void** state)
+static void vertices_end_outside_of_colliders(void** state)
 {
     struct fixture f = start(state);
     switch_all_on(&f);
@@ -273,7 +273,7 @@ static void no_vertex_is_left_inside_a_collider(void** state)
     finish(&f);
 }
 
-static void one_to_five_substeps_are_as_the_reference_has_them(void** state)
+static void one_to_five_substeps_equal_the_reference(void** state)
 {
     for (uint32_t substeps = 1; substeps <= 5; ++substeps) {
         struct fixture f = start(state);
@@ -298,7 +298,7 @@ static void switch_off(struct fixture* f, int off)
 }
 
 // Check with every part off alone, and on alone.
-static void each_stage_does_its_part_among_the_others(void** state)
+static void stages_switched_off_or_alone_equal_the_reference(void** state)
 {
     for (int i = 0; i < 10; ++i) {
         struct fixture f = start(state);
@@ -316,7 +316,7 @@ static void each_stage_does_its_part_among_the_others(void** state)
 
 // Check hair_step from its input to the positions of guides. The head turns and moves, and a
 // collider moves, in a step of four substeps.
-static void a_step_is_what_the_application_asked_for(void** state)
+static void hair_step_with_all_inputs_equals_the_reference(void** state)
 {
     struct fixture f = start(state);
     hair_physics physics = hair_physics_default();
@@ -396,7 +396,7 @@ static void a_step_is_what_the_application_asked_for(void** state)
     finish(&f);
 }
 
-static void guides_move_the_same_in_a_larger_work_group(void** state)
+static void guides_move_equally_in_a_larger_work_group(void** state)
 {
     static struct hair_state smallest[STATES];
     struct fixture f = start_up_to(state, 32);
@@ -415,7 +415,7 @@ static void guides_move_the_same_in_a_larger_work_group(void** state)
 // Compare one to ten guides with these numbers of vertices, each time with a longer guide among
 // them. They cover every size of the work group, with guides that fill it and guides that leave
 // most of it idle. None is longer than 1 m, as tolerance() requires.
-static void guides_of_2_to_256_vertices_are_as_the_reference_has_them(void** state)
+static void guides_of_2_to_256_vertices_equal_the_reference(void** state)
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
@@ -457,7 +457,7 @@ static void a_guide_of_two_vertices_is_rigid(void** state)
 
 // Check a strand that is not finite. All its vertices return to the rest pose in one substep, and
 // the other strands are unaffected.
-static void what_is_not_finite_goes_back_to_rest_alone(void** state)
+static void only_nonfinite_strands_are_reset(void** state)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 3e38f, 1e6f};
     static struct hair_state sound[STATES];
@@ -498,19 +498,19 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(integration_is_as_the_reference_has_it),
-        HAIR_TEST(angular_forces_are_as_the_reference_has_them),
-        HAIR_TEST(distance_constraints_are_as_the_reference_has_them),
-        HAIR_TEST(angular_constraints_are_as_the_reference_has_them),
-        HAIR_TEST(collisions_are_as_the_reference_has_them),
-        HAIR_TEST(no_vertex_is_left_inside_a_collider),
-        HAIR_TEST(one_to_five_substeps_are_as_the_reference_has_them),
-        HAIR_TEST(each_stage_does_its_part_among_the_others),
-        HAIR_TEST(a_step_is_what_the_application_asked_for),
-        HAIR_TEST(guides_move_the_same_in_a_larger_work_group),
-        HAIR_TEST(guides_of_2_to_256_vertices_are_as_the_reference_has_them),
+        HAIR_TEST(integration_equals_the_reference),
+        HAIR_TEST(angular_forces_equal_the_reference),
+        HAIR_TEST(distance_constraints_equal_the_reference),
+        HAIR_TEST(angular_constraints_equal_the_reference),
+        HAIR_TEST(collisions_equal_the_reference),
+        HAIR_TEST(vertices_end_outside_of_colliders),
+        HAIR_TEST(one_to_five_substeps_equal_the_reference),
+        HAIR_TEST(stages_switched_off_or_alone_equal_the_reference),
+        HAIR_TEST(hair_step_with_all_inputs_equals_the_reference),
+        HAIR_TEST(guides_move_equally_in_a_larger_work_group),
+        HAIR_TEST(guides_of_2_to_256_vertices_equal_the_reference),
         HAIR_TEST(a_guide_of_two_vertices_is_rigid),
-        HAIR_TEST(what_is_not_finite_goes_back_to_rest_alone),
+        HAIR_TEST(only_nonfinite_strands_are_reset),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -216,7 +216,7 @@ static struct user start(void** state, int way)
     return user;
 }
 
-static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** state)
+static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         struct user user = start(state, way);
@@ -237,7 +237,7 @@ static void refused_memory_or_objects_leak_nothing_and_a_retry_works(void** stat
     }
 }
 
-static void a_context_without_memory_or_objects_leaks_nothing_and_a_retry_works(void** state)
+static void refused_context_leaks_nothing_and_a_retry_works(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 6) {
         struct user user = start(state, way);
@@ -251,8 +251,8 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(refused_memory_or_objects_leak_nothing_and_a_retry_works),
-        HAIR_TEST(a_context_without_memory_or_objects_leaks_nothing_and_a_retry_works),
+        HAIR_TEST(refused_memory_leaks_nothing_and_a_retry_works),
+        HAIR_TEST(refused_context_leaks_nothing_and_a_retry_works),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -87,7 +87,7 @@ static void check(const struct fixture* f, const char* work, hair_skip_reason wh
 
 // Check a scene without wind, colliders, hair-hair grid, skinned scalp, strand list or vertex
 // cache. None of them has a pass or memory.
-static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
+static void unused_features_run_no_stage_and_keep_no_memory(void** state)
 {
     static const char* const none[] = {"unpack_scalp", "root_transforms", "wind",
                                        "hair_grid",    "bind_followers",  "expand",
@@ -115,7 +115,7 @@ static void what_a_scene_has_not_is_neither_run_nor_kept(void** state)
 }
 
 // Check that memory of removed features is freed.
-static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
+static void removed_features_free_their_memory(void** state)
 {
     struct fixture f = start(state, NULL);
     hair_collider collider = hair_collider_default();
@@ -144,7 +144,7 @@ static void what_a_scene_has_no_more_gives_its_memory_back(void** state)
     finish(&f);
 }
 
-static void an_idle_head_and_one_out_of_view_say_so(void** state)
+static void report_names_sleep_and_culling_as_reasons(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0.01f;
@@ -171,7 +171,7 @@ static void an_idle_head_and_one_out_of_view_say_so(void** state)
 
 // Check reports in every frame, of two instances in turn. Nothing waits, frames are in order, and
 // each report belongs to its instance.
-static void reports_come_without_waiting_and_are_of_one_instance(void** state)
+static void report_does_not_wait_and_is_of_one_instance(void** state)
 {
     struct fixture f = start(state, NULL), other = {0};
     uint32_t last = 0;
@@ -203,7 +203,7 @@ static void reports_come_without_waiting_and_are_of_one_instance(void** state)
     finish(&f);
 }
 
-static void wrong_arguments_are_refused(void** state)
+static void report_refuses_invalid_arguments(void** state)
 {
     struct fixture f = start(state, NULL);
     hair_report_info info = hair_report_info_default();
@@ -229,11 +229,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_a_scene_has_not_is_neither_run_nor_kept),
-        HAIR_TEST(what_a_scene_has_no_more_gives_its_memory_back),
-        HAIR_TEST(an_idle_head_and_one_out_of_view_say_so),
-        HAIR_TEST(reports_come_without_waiting_and_are_of_one_instance),
-        HAIR_TEST(wrong_arguments_are_refused),
+        HAIR_TEST(unused_features_run_no_stage_and_keep_no_memory),
+        HAIR_TEST(removed_features_free_their_memory),
+        HAIR_TEST(report_names_sleep_and_culling_as_reasons),
+        HAIR_TEST(report_does_not_wait_and_is_of_one_instance),
+        HAIR_TEST(report_refuses_invalid_arguments),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -22,7 +22,7 @@ static struct bench_rest hang(struct hair_test* test, const hair_physics* physic
     return rest;
 }
 
-static void falling_hair_is_measured_at_its_speed(void** state)
+static void measured_speed_of_falling_hair_is_right(void** state)
 {
     hair_physics physics = hair_test_loose(0);
     physics.root = HAIR_ROOT_FREE;
@@ -43,7 +43,7 @@ static void hanging_hair_sleeps_and_is_still(void** state)
     assert_true(rest.seconds_asleep < 2);
 }
 
-static void hair_that_may_not_sleep_is_measured(void** state)
+static void hair_that_may_not_sleep_has_a_measured_speed(void** state)
 {
     hair_physics physics = hair_test_loose(0);
     physics.sleep_threshold = 0;
@@ -54,9 +54,9 @@ static void hair_that_may_not_sleep_is_measured(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(falling_hair_is_measured_at_its_speed),
+        HAIR_TEST(measured_speed_of_falling_hair_is_right),
         HAIR_TEST(hanging_hair_sleeps_and_is_still),
-        HAIR_TEST(hair_that_may_not_sleep_is_measured),
+        HAIR_TEST(hair_that_may_not_sleep_has_a_measured_speed),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -81,7 +81,7 @@ static void live_row(struct hair_test* test, int solver, const hair_physics* phy
 // Rest --------------------------------------------------------------------------------------------
 
 // Check a strand that starts level and comes to hang over an edge, or over a ball.
-static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
+static void strand_on_a_mesh_stays_outside_and_comes_to_rest(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
     physics.damping = 10;
@@ -122,7 +122,7 @@ static void what_lies_on_a_form_stays_out_of_it_and_comes_to_rest(void** state)
 
 // Check a slope of 0.4 rad. Coulomb friction holds strands if the coefficient exceeds its tangent,
 // 0.42.
-static void a_form_has_friction(void** state)
+static void mesh_has_friction(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
     hair_physics physics = hair_test_loose(0.3f);
@@ -149,7 +149,7 @@ static void a_form_has_friction(void** state)
     hair_collision_mesh_destroy((hair_collision_mesh*)(uintptr_t)slope.mesh);
 }
 
-static void forms_that_move_and_spin_carry_hair_along(void** state)
+static void moving_and_spinning_meshes_carry_hair_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.8f);
     physics.root = HAIR_ROOT_FREE;
@@ -210,7 +210,7 @@ static void check_after(struct hair_test_living* living, const hair_collider* co
     assert_true(highest < -0.25);
 }
 
-static void what_happens_fast_leaves_nothing_inside_and_nothing_stuck(void** state)
+static void fast_colliders_leave_no_strand_inside_or_stuck(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int n = 0; n < 8; ++n)
@@ -273,7 +273,7 @@ static void place_many(hair_collider* colliders, const hair_collision_mesh* coll
     }
 }
 
-static void among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded(void** state)
+static void hair_stays_out_of_1000_colliders_and_loads_bit_for_bit(void** state)
 {
     static hair_collider colliders[MANY];
     hair_physics physics = hair_test_loose(0.3f);
@@ -332,7 +332,7 @@ static void live_in_post(struct hair_test* test, hair_thread_mapping mapping, co
 
 // Compare a row of balls with the post that they form. Each ball alone would also push strands up
 // and down.
-static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void** state)
+static void strand_leaves_a_row_of_balls_like_a_capsule(void** state)
 {
     static const char* const names[] = {"post", "balls", "balls, a work group per guide"};
     static hair_collider balls[POST_BALLS];
@@ -373,12 +373,12 @@ static void many_balls_along_a_line_are_left_as_the_post_that_they_make_is(void*
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_lies_on_a_form_stays_out_of_it_and_comes_to_rest),
-        HAIR_TEST(a_form_has_friction),
-        HAIR_TEST(forms_that_move_and_spin_carry_hair_along),
-        HAIR_TEST(what_happens_fast_leaves_nothing_inside_and_nothing_stuck),
-        HAIR_TEST(among_a_thousand_colliders_hair_stays_out_of_all_and_goes_on_to_the_bit_when_loaded),
-        HAIR_TEST(many_balls_along_a_line_are_left_as_the_post_that_they_make_is),
+        HAIR_TEST(strand_on_a_mesh_stays_outside_and_comes_to_rest),
+        HAIR_TEST(mesh_has_friction),
+        HAIR_TEST(moving_and_spinning_meshes_carry_hair_along),
+        HAIR_TEST(fast_colliders_leave_no_strand_inside_or_stuck),
+        HAIR_TEST(hair_stays_out_of_1000_colliders_and_loads_bit_for_bit),
+        HAIR_TEST(strand_leaves_a_row_of_balls_like_a_capsule),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -25,7 +25,7 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
 
 // Check a strand that starts level and comes to hang over an edge, a curved surface, a flank, or
 // the ground.
-static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
+static void strand_on_any_shape_stays_outside_and_comes_to_rest(void** state)
 {
     hair_collider bodies[] = {
         hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0), hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
@@ -71,7 +71,7 @@ static void what_lies_on_a_body_stays_out_of_it_and_comes_to_rest(void** state)
 }
 
 // Check a plate of 30 mm, three segments of the strand, that moves 80 mm in a frame.
-static void a_plate_swept_through_hair_takes_it_along(void** state)
+static void plate_swept_through_hair_takes_it_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
@@ -102,7 +102,7 @@ static void a_plate_swept_through_hair_takes_it_along(void** state)
     }
 }
 
-static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
+static void spinning_box_leaves_no_strand_inside(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
@@ -130,7 +130,7 @@ static void a_box_that_spins_in_hair_leaves_nothing_inside(void** state)
 
 // Check a slope of 0.4 rad. Coulomb friction holds strands if the coefficient exceeds its tangent,
 // 0.42.
-static void a_collider_has_friction_of_its_own(void** state)
+static void each_collider_has_its_own_friction(void** state)
 {
     static const float factors[] = {0, 0.5f, 2};
     hair_physics physics = hair_test_loose(0.3f);
@@ -160,10 +160,10 @@ static void a_collider_has_friction_of_its_own(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(what_lies_on_a_body_stays_out_of_it_and_comes_to_rest),
-        HAIR_TEST(a_plate_swept_through_hair_takes_it_along),
-        HAIR_TEST(a_box_that_spins_in_hair_leaves_nothing_inside),
-        HAIR_TEST(a_collider_has_friction_of_its_own),
+        HAIR_TEST(strand_on_any_shape_stays_outside_and_comes_to_rest),
+        HAIR_TEST(plate_swept_through_hair_takes_it_along),
+        HAIR_TEST(spinning_box_leaves_no_strand_inside),
+        HAIR_TEST(each_collider_has_its_own_friction),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

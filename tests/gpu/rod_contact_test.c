@@ -66,7 +66,7 @@ static void lay(struct hair_test* test, hair_solver solver, const hair_physics* 
     hair_test_strands_free(&strands);
 }
 
-static void a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep(void** state)
+static void strand_over_a_collider_stays_outside_without_creep(void** state)
 {
     hair_physics physics = hair_test_loose(0.5f);
     physics.damping = 10;
@@ -87,7 +87,7 @@ static void a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep(voi
         }
 }
 
-static void without_friction_it_slides_off(void** state)
+static void strand_without_friction_slides_off_a_collider(void** state)
 {
     hair_physics physics = hair_test_loose(0);
     for (int solver = 0; solver < 2; ++solver) {
@@ -102,7 +102,7 @@ static void without_friction_it_slides_off(void** state)
 // Check a free strand along a capsule of 5 m, at a slope of half a radian. It either sticks, or
 // slides as a bead on a circle: R a'' = g (sin a - mu cos a) + mu R a'^2. R is the radius, a the
 // angle from the top, mu the coefficient of friction, and g gravity.
-static void a_strand_on_a_slope_obeys_coulomb(void** state)
+static void strand_on_a_slope_obeys_coulombs_law(void** state)
 {
     static const double mu[] = {0, 0.3, 0.5, 0.6}; // tan 0.5 = 0.546
     for (int kind = 0; kind < 4 * SOLVERS; ++kind) {
@@ -140,7 +140,7 @@ static void a_strand_on_a_slope_obeys_coulomb(void** state)
     }
 }
 
-static void colliders_that_move_and_spin_carry_hair_along(void** state)
+static void moving_and_spinning_colliders_carry_hair_along(void** state)
 {
     hair_physics physics = hair_test_loose(0.8f);
     physics.root = HAIR_ROOT_FREE;
@@ -186,7 +186,7 @@ static double winding(const struct hair_test_living* living, double x, double y)
 
 // Sweep a collider from left to right through a hanging strand. The strand must be pushed along and
 // never be left behind.
-static void what_is_swept_through_hair_takes_it_along(void** state)
+static void collider_swept_through_hair_takes_it_along(void** state)
 {
     static const struct {
         double radius, speed;
@@ -219,7 +219,7 @@ static void what_is_swept_through_hair_takes_it_along(void** state)
         }
 }
 
-static void hair_in_a_collider_that_appears_comes_out_slowly(void** state)
+static void hair_leaves_a_collider_that_appears_slowly(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     for (int solver = 0; solver < SOLVERS; ++solver) {
@@ -248,7 +248,7 @@ static void hair_in_a_collider_that_appears_comes_out_slowly(void** state)
     }
 }
 
-static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
+static void free_strand_comes_to_rest_on_a_collider(void** state)
 {
     hair_physics physics = hair_test_loose(0.3f);
     physics.root = HAIR_ROOT_FREE;
@@ -269,7 +269,7 @@ static void a_free_strand_comes_to_lie_on_what_it_falls_on(void** state)
     }
 }
 
-static void among_64_colliders_hair_stays_out_of_all_with_the_same_bits_every_time(void** state)
+static void hair_stays_out_of_64_colliders_with_equal_bits(void** state)
 {
     hair_collider colliders[HAIR_STEP_COLLIDERS];
     hair_physics physics = hair_test_loose(0.3f);
@@ -327,7 +327,7 @@ static void fall_over_bar(struct hair_test* test, int substeps, float* track, st
     }
 }
 
-static void what_strikes_a_collider_at_few_substeps_goes_on_as_at_many(void** state)
+static void impact_is_equal_with_few_and_many_substeps(void** state)
 {
     enum { FLOATS = 3 * 32 * STRIKING * STRIKING_FRAMES };
     static float track[2][FLOATS];
@@ -345,7 +345,7 @@ static void what_strikes_a_collider_at_few_substeps_goes_on_as_at_many(void** st
 
 // Check strands of 25 mm, at 20 degrees to a head. Their roots are in the head's margin, or inside
 // the head.
-static void hair_whose_roots_are_in_the_margin_rests_without_a_fallback(void** state)
+static void roots_in_the_collision_margin_rest_without_fallback(void** state)
 {
     hair_collider head = sphere(0, 0, 0, 0.1);
     hair_physics physics = hair_physics_default();
@@ -380,16 +380,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_strand_laid_over_a_collider_stays_out_of_it_and_does_not_creep),
-        HAIR_TEST(without_friction_it_slides_off),
-        HAIR_TEST(a_strand_on_a_slope_obeys_coulomb),
-        HAIR_TEST(colliders_that_move_and_spin_carry_hair_along),
-        HAIR_TEST(what_is_swept_through_hair_takes_it_along),
-        HAIR_TEST(hair_whose_roots_are_in_the_margin_rests_without_a_fallback),
-        HAIR_TEST(hair_in_a_collider_that_appears_comes_out_slowly),
-        HAIR_TEST(a_free_strand_comes_to_lie_on_what_it_falls_on),
-        HAIR_TEST(what_strikes_a_collider_at_few_substeps_goes_on_as_at_many),
-        HAIR_TEST(among_64_colliders_hair_stays_out_of_all_with_the_same_bits_every_time),
+        HAIR_TEST(strand_over_a_collider_stays_outside_without_creep),
+        HAIR_TEST(strand_without_friction_slides_off_a_collider),
+        HAIR_TEST(strand_on_a_slope_obeys_coulombs_law),
+        HAIR_TEST(moving_and_spinning_colliders_carry_hair_along),
+        HAIR_TEST(collider_swept_through_hair_takes_it_along),
+        HAIR_TEST(roots_in_the_collision_margin_rest_without_fallback),
+        HAIR_TEST(hair_leaves_a_collider_that_appears_slowly),
+        HAIR_TEST(free_strand_comes_to_rest_on_a_collider),
+        HAIR_TEST(impact_is_equal_with_few_and_many_substeps),
+        HAIR_TEST(hair_stays_out_of_64_colliders_with_equal_bits),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -72,7 +72,7 @@ static double fall_on_heap(struct hair_test* test, hair_thread_mapping mapping, 
 // Compare balls with capsules of no length. Most balls near a place are not tested, because deeper
 // balls cover them. Balls that are known to be left are not tested again. Capsules are always
 // tested. On GPUs both keep hair out alike, but not to the bit.
-static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are(void** state)
+static void strand_leaves_spheres_and_zero_capsules_equally(void** state)
 {
     static float track[2][3 * HEAP_VERTICES * HEAP_FRAMES];
     for (int n = 0; n < 4; ++n) {
@@ -89,7 +89,7 @@ static void balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_
 
 // Check hair that starts inside. A thread then has more to test than its limit. It gives up the
 // iterations for contacts, and not lengths, and comes out.
-static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_group_does(void** state)
+static void thread_and_work_group_leave_a_heap_alike(void** state)
 {
     static float track[3 * HEAP_VERTICES * HEAP_FRAMES];
     double deepest[2];
@@ -101,7 +101,7 @@ static void a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_gr
 }
 
 // Check many guides, whose work groups cache no colliders.
-static void many_guides_go_as_few_do(void** state)
+static void many_guides_move_like_few(void** state)
 {
     enum { MANY = 2056, FRAMES = 8 };
     static float track[2][3 * HEAP_VERTICES * FRAMES];
@@ -116,9 +116,9 @@ static void many_guides_go_as_few_do(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(balls_that_overlap_and_move_apart_are_left_as_capsules_of_no_length_are),
-        HAIR_TEST(a_thread_that_may_look_no_more_gets_hair_out_of_a_heap_about_as_a_group_does),
-        HAIR_TEST(many_guides_go_as_few_do),
+        HAIR_TEST(strand_leaves_spheres_and_zero_capsules_equally),
+        HAIR_TEST(thread_and_work_group_leave_a_heap_alike),
+        HAIR_TEST(many_guides_move_like_few),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

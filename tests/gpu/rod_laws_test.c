@@ -53,7 +53,7 @@ static double apart(const struct hair_test_living* a, uint32_t guide, const stru
 
 // Check guides together and alone. They differ by rounding only, because root frames are chosen by
 // the mean direction of all guides.
-static void guides_of_one_instance_do_not_notice_each_other(void** state)
+static void guides_of_one_instance_are_independent(void** state)
 {
     hair_physics physics = hair_test_bare();
     for (int kind = 0; kind < 4; ++kind) {
@@ -75,7 +75,7 @@ static void guides_of_one_instance_do_not_notice_each_other(void** state)
     }
 }
 
-static void a_thread_per_guide_does_what_a_work_group_does(void** state)
+static void thread_and_work_group_per_guide_agree(void** state)
 {
     hair_physics physics = hair_test_bare();
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver) {
@@ -97,7 +97,7 @@ static void a_thread_per_guide_does_what_a_work_group_does(void** state)
 }
 
 // Check a head that moves evenly or stands, in steps of a frame and of a quarter of a frame.
-static void motion_does_not_depend_on_how_time_is_cut(void** state)
+static void motion_does_not_depend_on_the_step_length(void** state)
 {
     hair_physics physics = hair_test_bare();
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
@@ -126,7 +126,7 @@ static void motion_does_not_depend_on_how_time_is_cut(void** state)
         }
 }
 
-static void the_same_steps_give_the_same_bits(void** state)
+static void equal_steps_give_equal_bits(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.flatness = 0.5f;
@@ -148,7 +148,7 @@ static void the_same_steps_give_the_same_bits(void** state)
 // is the velocity, u the wind, g gravity, and c the damping. The solver accurate is exact except
 // for rounding. The solver direct takes its first step by implicit Euler, which is too far by 3/4 g
 // h^2.
-static void a_free_strand_falls_and_drifts_by_the_formula(void** state)
+static void free_strand_falls_and_drifts_by_the_formula(void** state)
 {
     hair_physics physics = hair_test_bare();
     hair_wind wind = hair_wind_default();
@@ -202,7 +202,7 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
 
 // Check a very stiff strand. The effect of a force on the whole strand must not be lost in rounding
 // beside its bending.
-static void so_it_does_where_it_is_as_stiff_as_a_needle(void** state)
+static void free_stiff_strand_falls_and_drifts_by_the_formula(void** state)
 {
     static const hair_thread_mapping mappings[] = {HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE,
                                                    HAIR_THREAD_MAPPING_THREAD_PER_GUIDE};
@@ -272,7 +272,7 @@ static double change(const double a[3], const double b[3])
 
 // Check a strand set in motion by a shaken head and then freed, without gravity and air. Elastic
 // forces and length constraints must not change its momentum.
-static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** state)
+static void free_strand_keeps_both_momenta(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         hair_physics physics = hair_test_bare();
@@ -303,7 +303,7 @@ static void a_free_strand_keeps_its_momentum_and_its_angular_momentum(void** sta
 
 // Check the energy, in units of m g L / 2, over ten seconds of a chaotic chain. A solver with
 // damping loses all of it.
-static void accurate_keeps_the_energy_of_what_swings(void** state)
+static void accurate_solver_keeps_the_energy_of_a_swing(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.damping = 0;
@@ -324,7 +324,7 @@ static void accurate_keeps_the_energy_of_what_swings(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void what_hangs_straight_down_stays_where_it_is(void** state)
+static void strand_hanging_straight_down_stays_still(void** state)
 {
     static const uint32_t vertices[] = {2, 3, 8, 32, 100};
     hair_physics physics = hair_test_bare();
@@ -352,15 +352,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(guides_of_one_instance_do_not_notice_each_other),
-        HAIR_TEST(a_thread_per_guide_does_what_a_work_group_does),
-        HAIR_TEST(motion_does_not_depend_on_how_time_is_cut),
-        HAIR_TEST(the_same_steps_give_the_same_bits),
-        HAIR_TEST(a_free_strand_falls_and_drifts_by_the_formula),
-        HAIR_TEST(so_it_does_where_it_is_as_stiff_as_a_needle),
-        HAIR_TEST(a_free_strand_keeps_its_momentum_and_its_angular_momentum),
-        HAIR_TEST(accurate_keeps_the_energy_of_what_swings),
-        HAIR_TEST(what_hangs_straight_down_stays_where_it_is),
+        HAIR_TEST(guides_of_one_instance_are_independent),
+        HAIR_TEST(thread_and_work_group_per_guide_agree),
+        HAIR_TEST(motion_does_not_depend_on_the_step_length),
+        HAIR_TEST(equal_steps_give_equal_bits),
+        HAIR_TEST(free_strand_falls_and_drifts_by_the_formula),
+        HAIR_TEST(free_stiff_strand_falls_and_drifts_by_the_formula),
+        HAIR_TEST(free_strand_keeps_both_momenta),
+        HAIR_TEST(accurate_solver_keeps_the_energy_of_a_swing),
+        HAIR_TEST(strand_hanging_straight_down_stays_still),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

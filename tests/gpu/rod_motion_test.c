@@ -81,7 +81,7 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 
 // Check the order of the error with soft hair, whose bending does not limit the order. The error is
 // then proportional to h^2 at all of these substeps h.
-static void the_error_is_of_second_order_in_the_substep(void** state)
+static void error_is_of_second_order_in_the_substep(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.youngs_modulus = 3e7f;
@@ -100,7 +100,7 @@ static void the_error_is_of_second_order_in_the_substep(void** state)
 
 // Check the swing by which solvers are compared: a chain released from the horizontal, under
 // gravity only. It whips at 0.3 s.
-static void a_chain_released_from_the_horizontal_is_as_near_as_stated(void** state)
+static void chain_released_level_is_within_the_stated_error(void** state)
 {
     static const double limit[] = {3.5e-3, 6e-4}; // Metres.
     hair_physics physics = hair_test_bare();
@@ -134,14 +134,14 @@ static void shake_both(struct hair_test* test, uint32_t vertices, const hair_phy
     }
 }
 
-static void a_hinged_root_turns_as_the_reference_has_it(void** state)
+static void hinged_root_turns_like_the_reference(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.root = HAIR_ROOT_HINGED;
     shake_both(*state, 16, &physics, 2e-3, 5e-5);
 }
 
-static void a_heavy_tip_swings_as_the_reference_has_it(void** state)
+static void heavy_tip_swings_like_the_reference(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.tip_mass = 1;
@@ -150,7 +150,7 @@ static void a_heavy_tip_swings_as_the_reference_has_it(void** state)
     shake_both(*state, 16, &physics, 5e-3, 2e-4);
 }
 
-static void pull_is_a_spring_to_the_rest_pose_under_the_head(void** state)
+static void shape_pull_is_a_spring_to_the_rest_pose(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.shape_frequency_root = 8, physics.shape_frequency_tip = 2;
@@ -159,7 +159,7 @@ static void pull_is_a_spring_to_the_rest_pose_under_the_head(void** state)
     shake_both(*state, 70, &physics, 2e-3, 3e-4);
 }
 
-static void wind_carries_hair_as_the_reference_has_it(void** state)
+static void wind_carries_hair_like_the_reference(void** state)
 {
     hair_physics physics = hair_test_bare();
     hair_wind wind = hair_wind_default();
@@ -182,7 +182,7 @@ static void wind_carries_hair_as_the_reference_has_it(void** state)
     }
 }
 
-static void stiffness_goes_from_root_to_tip(void** state)
+static void stiffness_scale_goes_from_root_to_tip(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.stiffness_root = 8, physics.stiffness_tip = 0.5f;
@@ -196,13 +196,13 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(strands_of_2_to_256_vertices_follow_a_shaken_head),
-        HAIR_TEST(the_error_is_of_second_order_in_the_substep),
-        HAIR_TEST(a_chain_released_from_the_horizontal_is_as_near_as_stated),
-        HAIR_TEST(a_hinged_root_turns_as_the_reference_has_it),
-        HAIR_TEST(a_heavy_tip_swings_as_the_reference_has_it),
-        HAIR_TEST(pull_is_a_spring_to_the_rest_pose_under_the_head),
-        HAIR_TEST(wind_carries_hair_as_the_reference_has_it),
-        HAIR_TEST(stiffness_goes_from_root_to_tip),
+        HAIR_TEST(error_is_of_second_order_in_the_substep),
+        HAIR_TEST(chain_released_level_is_within_the_stated_error),
+        HAIR_TEST(hinged_root_turns_like_the_reference),
+        HAIR_TEST(heavy_tip_swings_like_the_reference),
+        HAIR_TEST(shape_pull_is_a_spring_to_the_rest_pose),
+        HAIR_TEST(wind_carries_hair_like_the_reference),
+        HAIR_TEST(stiffness_scale_goes_from_root_to_tip),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

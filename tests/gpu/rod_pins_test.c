@@ -94,7 +94,7 @@ static void hold_tip(struct hair_test_living* living)
     assert_true(of_head < 1e-6 && of_world < 1e-6 && stretch < 0.01);
 }
 
-static void a_pinned_tip_is_where_its_pin_has_it(void** state)
+static void pinned_tip_is_at_its_pin(void** state)
 {
     for (int way = 0; way < WAYS; ++way) {
         struct hair_test_living living;
@@ -108,7 +108,7 @@ static void a_pinned_tip_is_where_its_pin_has_it(void** state)
 }
 
 // Check flat hair with pull, hair-hair grid and a collider, which uses other programs.
-static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_colliders(void** state)
+static void pinned_tip_stays_with_all_other_forces_enabled(void** state)
 {
     for (int way = 0; way < 2; ++way) {
         struct hair_test_living living;
@@ -127,7 +127,7 @@ static void so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_a
 }
 
 // Check an inextensible chain. Each row has its span and sag, relative to the length.
-static void a_chain_hangs_between_two_ends_in_a_catenary(void** state)
+static void chain_between_two_pins_hangs_in_a_catenary(void** state)
 {
     static const double rows[][2] = {{0.5, 0.3981941779}, {0.8, 0.2654375091}};
     hair_physics physics = hair_test_bare();
@@ -177,7 +177,7 @@ static void a_guide_can_be_pinned_at_several_vertices(void** state)
     }
 }
 
-static void pins_that_are_too_far_apart_pull_a_guide_straight(void** state)
+static void pins_too_far_apart_pull_a_guide_straight(void** state)
 {
     for (int solver = 0; solver < SOLVERS; ++solver) {
         struct hair_test_living living;
@@ -211,7 +211,7 @@ static void pins_that_are_too_far_apart_pull_a_guide_straight(void** state)
     }
 }
 
-static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_pinned(void** state)
+static void unpinned_guide_rests_like_one_never_pinned(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
@@ -239,7 +239,7 @@ static void a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_pinne
     }
 }
 
-static void a_teleport_takes_pins_along(void** state)
+static void teleport_takes_pins_along(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_test_bare();
@@ -259,7 +259,7 @@ static void a_teleport_takes_pins_along(void** state)
     hair_test_die(&living);
 }
 
-static void a_state_with_pins_goes_on_as_if_it_had_not_been_saved(void** state)
+static void saved_state_with_pins_continues_bit_for_bit(void** state)
 {
     static struct hair_test_seen seen[2];
     hair_physics physics = hair_physics_default();
@@ -288,7 +288,7 @@ static void a_state_with_pins_goes_on_as_if_it_had_not_been_saved(void** state)
     free(blob.bytes), free(again.bytes);
 }
 
-static void pins_that_cannot_be_are_refused_and_leave_those_there_are(void** state)
+static void invalid_pins_are_refused_and_change_nothing(void** state)
 {
     const float inf = INFINITY;
     struct hair_test* test = *state;
@@ -345,15 +345,15 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_pinned_tip_is_where_its_pin_has_it),
-        HAIR_TEST(so_is_that_of_flat_hair_that_is_pulled_to_its_rest_pose_in_a_crowd_among_colliders),
-        HAIR_TEST(a_chain_hangs_between_two_ends_in_a_catenary),
+        HAIR_TEST(pinned_tip_is_at_its_pin),
+        HAIR_TEST(pinned_tip_stays_with_all_other_forces_enabled),
+        HAIR_TEST(chain_between_two_pins_hangs_in_a_catenary),
         HAIR_TEST(a_guide_can_be_pinned_at_several_vertices),
-        HAIR_TEST(pins_that_are_too_far_apart_pull_a_guide_straight),
-        HAIR_TEST(a_guide_that_is_let_go_falls_and_rests_as_if_it_had_never_been_pinned),
-        HAIR_TEST(a_teleport_takes_pins_along),
-        HAIR_TEST(a_state_with_pins_goes_on_as_if_it_had_not_been_saved),
-        HAIR_TEST(pins_that_cannot_be_are_refused_and_leave_those_there_are),
+        HAIR_TEST(pins_too_far_apart_pull_a_guide_straight),
+        HAIR_TEST(unpinned_guide_rests_like_one_never_pinned),
+        HAIR_TEST(teleport_takes_pins_along),
+        HAIR_TEST(saved_state_with_pins_continues_bit_for_bit),
+        HAIR_TEST(invalid_pins_are_refused_and_change_nothing),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -36,7 +36,7 @@ static void live(struct hair_test* test, struct hair_test_strands strands, hair_
     hair_test_strands_free(&strands);
 }
 
-static void without_loads_a_groom_is_at_rest(void** state)
+static void groom_without_loads_is_at_rest(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.gravity[1] = 0;
@@ -56,7 +56,7 @@ static void without_loads_a_groom_is_at_rest(void** state)
 
 // Check a strand that is stiff enough to stand out by itself, and one that gravity preload must
 // stiffen.
-static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** state)
+static void gravity_preload_keeps_a_straight_strand_groomed(void** state)
 {
     static const float lengths[] = {0.05f, 0.14f};
     hair_physics physics = hair_physics_default();
@@ -82,7 +82,7 @@ static void with_hold_a_straight_strand_stands_out_as_it_was_groomed(void** stat
 }
 
 // Check a strand that even three times its stiffness does not hold.
-static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void** state)
+static void too_soft_strand_sags_by_the_reported_distance(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0;
@@ -104,7 +104,7 @@ static void a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said(void
     }
 }
 
-static void with_hold_waves_and_curls_stay_as_they_were_groomed(void** state)
+static void gravity_preload_keeps_waves_and_curls_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.shape_frequency_root = physics.shape_frequency_tip = 0;
@@ -137,7 +137,7 @@ static hair_vec3 kinked(float t, uint32_t strand, const void* user)
     return hair_v3(x, y, z);
 }
 
-static void short_stiff_strands_with_kinks_stay_as_they_were_groomed(void** state)
+static void short_stiff_strands_with_kinks_stay_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0;
@@ -176,7 +176,7 @@ static double shake(struct hair_test_living* living, uint32_t frames)
     return max;
 }
 
-static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
+static void curved_strands_bend_and_twist_like_the_reference(void** state)
 {
     static const struct {
         double gravity, flatness, direct, accurate;
@@ -199,7 +199,7 @@ static void curved_strands_bend_and_twist_as_the_reference_does(void** state)
 // Rotate the head by 1.2 rad within a second, about an oblique axis or along the first segment.
 // About the first segment only twist transmits the rotation. Three seconds later every strand must
 // be in its rest shape under the head.
-static void a_head_that_turns_takes_shapes_with_it(void** state)
+static void turning_head_takes_shapes_along(void** state)
 {
     const hair_vec3 axes[] = {{0.3f, 0.5f, -0.8f}, {0, 0, 0}};
     hair_physics physics = hair_test_bare();
@@ -275,7 +275,7 @@ static void compare_at_rest(struct hair_test* test, const char* what, const hair
 }
 
 // Check horizontal hairs of 5, 10 and 30 cm under their own weight. Gamma is 1, 8 and 216.
-static void a_cantilever_hangs_as_the_reference_does(void** state)
+static void cantilever_hangs_like_the_reference(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0; // With sleep, motion would stop before hair reaches equilibrium.
@@ -297,7 +297,7 @@ static void a_cantilever_hangs_as_the_reference_does(void** state)
 // Check a coarse curl. By the strain alone, its hinges would be 4.5 times as soft. The limit allows
 // for twist at the clamp. The reference multiplies its stiffness by 2, and solvers multiply it by
 // the factor of bending.
-static void a_coarse_curl_hangs_as_the_reference_does(void** state)
+static void coarse_curl_hangs_like_the_reference(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0;
@@ -313,7 +313,7 @@ static void a_coarse_curl_hangs_as_the_reference_does(void** state)
 // Check a flat section. The root frame of a strand along x has its x axis along -y and its z axis
 // along z. Gravity along z bends the strand about the section's long axis, which is the easy
 // direction.
-static void a_flat_section_bends_about_its_long_axis(void** state)
+static void flat_section_bends_about_its_long_axis(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.shape_frequency_root = physics.shape_frequency_tip = 0;
@@ -340,16 +340,16 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(without_loads_a_groom_is_at_rest),
-        HAIR_TEST(with_hold_a_straight_strand_stands_out_as_it_was_groomed),
-        HAIR_TEST(a_strand_too_soft_for_its_groom_rests_as_far_from_it_as_is_said),
-        HAIR_TEST(with_hold_waves_and_curls_stay_as_they_were_groomed),
-        HAIR_TEST(short_stiff_strands_with_kinks_stay_as_they_were_groomed),
-        HAIR_TEST(curved_strands_bend_and_twist_as_the_reference_does),
-        HAIR_TEST(a_head_that_turns_takes_shapes_with_it),
-        HAIR_TEST(a_cantilever_hangs_as_the_reference_does),
-        HAIR_TEST(a_coarse_curl_hangs_as_the_reference_does),
-        HAIR_TEST(a_flat_section_bends_about_its_long_axis),
+        HAIR_TEST(groom_without_loads_is_at_rest),
+        HAIR_TEST(gravity_preload_keeps_a_straight_strand_groomed),
+        HAIR_TEST(too_soft_strand_sags_by_the_reported_distance),
+        HAIR_TEST(gravity_preload_keeps_waves_and_curls_groomed),
+        HAIR_TEST(short_stiff_strands_with_kinks_stay_groomed),
+        HAIR_TEST(curved_strands_bend_and_twist_like_the_reference),
+        HAIR_TEST(turning_head_takes_shapes_along),
+        HAIR_TEST(cantilever_hangs_like_the_reference),
+        HAIR_TEST(coarse_curl_hangs_like_the_reference),
+        HAIR_TEST(flat_section_bends_about_its_long_axis),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

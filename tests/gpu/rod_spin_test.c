@@ -50,7 +50,7 @@ static void spin(struct hair_test* test, double rate)
     hair_test_strands_free(&strands);
 }
 
-static void a_spinning_strand_trails_as_the_reference(void** state)
+static void spinning_strand_trails_like_the_reference(void** state)
 {
     spin(*state, 2);
     spin(*state, 6);
@@ -60,7 +60,7 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_spinning_strand_trails_as_the_reference),
+        HAIR_TEST(spinning_strand_trails_like_the_reference),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

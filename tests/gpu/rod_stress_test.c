@@ -196,12 +196,12 @@ static void try_all(struct hair_test* test, hair_thread_mapping mapping, int sol
         }
 }
 
-static void hair_bears_what_nobody_should_do_to_it(void** state)
+static void hair_survives_extreme_inputs(void** state)
 {
     try_all(*state, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, HAIR_SOLVER_REDBLACK);
 }
 
-static void so_it_does_with_a_thread_per_guide(void** state)
+static void hair_survives_extreme_inputs_with_thread_per_guide(void** state)
 {
     try_all(*state, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1);
 }
@@ -240,7 +240,7 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
 
 // Check guides with the maximum number of vertices. Software rasterisers end long loops, and a
 // substep that uses all iterations must still finish its work.
-static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
+static void guides_of_256_vertices_survive_extreme_inputs(void** state)
 {
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (float tip_mass = 0; tip_mass <= 10; tip_mass += 10) {
@@ -252,7 +252,7 @@ static void as_many_vertices_as_a_guide_may_have_bear_it_too(void** state)
 
 // Check a head far from the world's origin, where floats resolve centimetres. Positions are
 // relative to the head. Both heads are teleported home to be compared.
-static void a_head_100_km_out_is_a_head_like_any_other(void** state)
+static void head_100_km_out_moves_hair_equally(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         static const float home[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -286,7 +286,7 @@ static void a_head_100_km_out_is_a_head_like_any_other(void** state)
     }
 }
 
-static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
+static void hair_at_rest_stays_for_20000_substeps(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living =
@@ -304,7 +304,7 @@ static void twenty_thousand_substeps_at_rest_change_nothing(void** state)
     }
 }
 
-static void solver_stats_says_what_happened(void** state)
+static void solver_stats_count_fallbacks(void** state)
 {
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living =
@@ -326,12 +326,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(hair_bears_what_nobody_should_do_to_it),
-        HAIR_TEST(so_it_does_with_a_thread_per_guide),
-        HAIR_TEST(as_many_vertices_as_a_guide_may_have_bear_it_too),
-        HAIR_TEST(a_head_100_km_out_is_a_head_like_any_other),
-        HAIR_TEST(twenty_thousand_substeps_at_rest_change_nothing),
-        HAIR_TEST(solver_stats_says_what_happened),
+        HAIR_TEST(hair_survives_extreme_inputs),
+        HAIR_TEST(hair_survives_extreme_inputs_with_thread_per_guide),
+        HAIR_TEST(guides_of_256_vertices_survive_extreme_inputs),
+        HAIR_TEST(head_100_km_out_moves_hair_equally),
+        HAIR_TEST(hair_at_rest_stays_for_20000_substeps),
+        HAIR_TEST(solver_stats_count_fallbacks),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

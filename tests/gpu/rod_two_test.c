@@ -52,7 +52,7 @@ static void run(struct hair_test* test, int units, float* track, hair_solver_sta
     gl->units = was;
 }
 
-static void in_two_programs_guides_go_as_in_one(void** state)
+static void guides_move_equally_in_two_programs_and_one(void** state)
 {
     static float track[2][3 * GUIDES * VERTICES * FRAMES];
     hair_solver_stats solver_stats[2];
@@ -70,7 +70,7 @@ static void in_two_programs_guides_go_as_in_one(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(in_two_programs_guides_go_as_in_one),
+        HAIR_TEST(guides_move_equally_in_two_programs_and_one),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

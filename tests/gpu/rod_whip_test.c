@@ -94,7 +94,7 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
     hair_test_die(&living);
 }
 
-static void a_whip_keeps_its_energy(void** state)
+static void cracking_whip_keeps_its_energy(void** state)
 {
     static const struct whip whips[] = {
         {16, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, 0},
@@ -129,7 +129,7 @@ static struct hair_state* whip_in_steps(struct hair_test* test, hair_thread_mapp
 
 // Check longer steps. The second program starts anew with all substeps of a dispatch, and may take
 // them in several dispatches.
-static void a_whip_is_the_same_in_longer_steps(void** state)
+static void cracking_whip_is_equal_in_longer_steps(void** state)
 {
     // The two programs round differently on GPUs.
     if (!((struct hair_test*)*state)->context->gl.software) return;
@@ -148,8 +148,8 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_whip_keeps_its_energy),
-        HAIR_TEST(a_whip_is_the_same_in_longer_steps),
+        HAIR_TEST(cracking_whip_keeps_its_energy),
+        HAIR_TEST(cracking_whip_is_equal_in_longer_steps),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -128,7 +128,7 @@ static hair_result load_with_65(hair_instance* hair, struct hair_test_blob blob,
     return load_sealed(hair, blob);
 }
 
-static void a_refused_load_leaves_the_instance_as_it_was(void** state)
+static void refused_load_changes_nothing(void** state)
 {
     static struct hair_test_seen before, after;
     struct hair_test* test = *state;
@@ -157,27 +157,38 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
         {load_flipped, tip, HAIR_ERROR_FILE, "is damaged"},
         {load_flipped, good.size - 1, HAIR_ERROR_FILE, "is damaged"},
         {load_sealed_short, 1, HAIR_ERROR_FILE, "within the whether air is a fluid at byte "},
-        {load_sealed_short, SLEEP + 1, HAIR_ERROR_FILE, "within the number of substeps since the last update of the hair grid at byte "},
-        {load_sealed_short, SLEEP + 5 + forces, HAIR_ERROR_FILE, "within the rates of guide vertices at byte "},
-        {load_sealed_short, 32 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE, "within the frames of segments at byte "},
-        {load_sealed_short, 48 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE, "within the guide vertices at byte "},
-        {load_sealed_short, good.size - 28, HAIR_ERROR_FILE, "end at byte 20, within the mark of a skinned scalp at byte 20"},
+        {load_sealed_short, SLEEP + 1, HAIR_ERROR_FILE,
+         "within the number of substeps since the last update of the hair grid at byte "},
+        {load_sealed_short, SLEEP + 5 + forces, HAIR_ERROR_FILE,
+         "within the rates of guide vertices at byte "},
+        {load_sealed_short, 32 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE,
+         "within the frames of segments at byte "},
+        {load_sealed_short, 48 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE,
+         "within the guide vertices at byte "},
+        {load_sealed_short, good.size - 28, HAIR_ERROR_FILE,
+         "end at byte 20, within the mark of a skinned scalp at byte 20"},
         {load_sealed_long, 4, HAIR_ERROR_FILE, "the fields of the saved state end at byte "},
         {load_with_minus_1, SUBSTEP, HAIR_ERROR_ARGUMENT, "its substep is -1, the instance's 0.004166"},
         {load_with_nan, SUBSTEP, HAIR_ERROR_ARGUMENT, "the saved state is another's"},
-        {load_with_minus_1, LEFT, HAIR_ERROR_FILE, "since the last substep at byte 64 of the saved state is -1"},
+        {load_with_minus_1, LEFT, HAIR_ERROR_FILE,
+         "since the last substep at byte 64 of the saved state is -1"},
         {load_with_nan, LEFT, HAIR_ERROR_FILE, "the time since the last substep"},
-        {load_with_nan, LAST, HAIR_ERROR_FILE, "the length of the last substep at byte 72 of the saved state is "},
+        {load_with_nan, LAST, HAIR_ERROR_FILE,
+         "the length of the last substep at byte 72 of the saved state is "},
         {load_with_zero, LAST, HAIR_ERROR_FILE, "is 0, not in [1e-06, 0.11]"},
-        {load_with_65, STRUCK, HAIR_ERROR_FILE, "whether there have been colliders at byte 80 of the saved state is 65, not in [0, 1]"},
+        {load_with_65, STRUCK, HAIR_ERROR_FILE,
+         "whether there have been colliders at byte 80 of the saved state is 65, not in [0, 1]"},
         {load_with_nan, POSES, HAIR_ERROR_FILE, "the head at the start of the last substep at byte 84"},
-        {load_with_2e9, HEAD, HAIR_ERROR_FILE, "the head at byte 204 of the saved state is 2e+09, not in [-1e+09"},
+        {load_with_2e9, HEAD, HAIR_ERROR_FILE,
+         "the head at byte 204 of the saved state is 2e+09, not in [-1e+09"},
         {load_with_nan, HEAD + 24, HAIR_ERROR_FILE, "the head at byte "},
         {load_with_minus_1, HEAD + 24, HAIR_ERROR_FILE, "the rotation of the head"},
-        {load_with_65, COLLIDERS, HAIR_ERROR_FILE, "the number of colliders before byte 272 of the saved state is 65, more than it holds"},
+        {load_with_65, COLLIDERS, HAIR_ERROR_FILE,
+         "the number of colliders before byte 272 of the saved state is 65, more than it holds"},
         {load_with_65, COLLIDERS + 4, HAIR_ERROR_ARGUMENT, "colliders[0].shape is 65"},
         {load_with_nan_float, COLLIDERS + 4 + 32, HAIR_ERROR_ARGUMENT, "colliders[0].size[0] is "},
-        {load_with_nan_float, COLLIDERS + 4 + 2 * COLLIDER_BYTES + 8, HAIR_ERROR_ARGUMENT, "colliders[0].position[0] is "},
+        {load_with_nan_float, COLLIDERS + 4 + 2 * COLLIDER_BYTES + 8, HAIR_ERROR_ARGUMENT,
+         "colliders[0].position[0] is "},
         {load_with_nan_float, tip, HAIR_ERROR_FILE, "the guide vertices at byte "},
         {load_with_2e9_float, tip + 28, HAIR_ERROR_FILE, "is 2e+09, not in [-1e+09, 1e+09]"},
         {load_with_nan_float, frames, HAIR_ERROR_FILE, "the frames of segments at byte "},
@@ -204,7 +215,7 @@ static void a_refused_load_leaves_the_instance_as_it_was(void** state)
     free(good.bytes), free(wrong.bytes);
 }
 
-static void the_state_of_another_haircut_or_substep_is_refused(void** state)
+static void state_of_another_haircut_or_substep_is_refused(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -231,7 +242,7 @@ static void the_state_of_another_haircut_or_substep_is_refused(void** state)
     hair_destroy(six);
 }
 
-static void a_state_cut_off_at_any_byte_is_refused(void** state)
+static void truncated_state_is_refused(void** state)
 {
     struct hair_test* test = *state;
     hair_instance* hair = make_small(test, 0);
@@ -298,7 +309,7 @@ static void flip_every_bit(struct hair_test* test, int way)
     free(good.bytes), free(wrong.bytes);
 }
 
-static void any_flipped_bit_is_refused_or_harmless(void** state)
+static void state_with_a_flipped_bit_is_refused_or_harmless(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 3) flip_every_bit(*state, way);
 }
@@ -325,7 +336,7 @@ static void load_the_farthest(struct hair_test* test, int way)
     free(blob.bytes);
 }
 
-static void the_farthest_state_is_drawn_and_stepped_in_finite_numbers(void** state)
+static void state_of_extreme_values_is_stepped_and_drawn_finitely(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) load_the_farthest(*state, way);
 }
@@ -334,11 +345,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_refused_load_leaves_the_instance_as_it_was),
-        HAIR_TEST(the_state_of_another_haircut_or_substep_is_refused),
-        HAIR_TEST(a_state_cut_off_at_any_byte_is_refused),
-        HAIR_TEST(any_flipped_bit_is_refused_or_harmless),
-        HAIR_TEST(the_farthest_state_is_drawn_and_stepped_in_finite_numbers),
+        HAIR_TEST(refused_load_changes_nothing),
+        HAIR_TEST(state_of_another_haircut_or_substep_is_refused),
+        HAIR_TEST(truncated_state_is_refused),
+        HAIR_TEST(state_with_a_flipped_bit_is_refused_or_harmless),
+        HAIR_TEST(state_of_extreme_values_is_stepped_and_drawn_finitely),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

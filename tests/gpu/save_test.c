@@ -48,7 +48,7 @@ static int check_run(struct hair_test* test, const struct hair_test_subject* sub
     return between;
 }
 
-static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void** state)
+static void saved_and_loaded_run_gives_equal_bits(void** state)
 {
     static const uint32_t saved[] = {0, 7, 12, 17, 28}; // 12 ends in a teleport, 28 in a reset.
     int between = 0, all = 0;
@@ -65,7 +65,7 @@ static void a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run(void*
 }
 
 // Check that a loaded state saves as the bytes it was loaded from.
-static void a_loaded_state_saves_as_the_same_bytes(void** state)
+static void loaded_state_saves_as_equal_bytes(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -100,7 +100,7 @@ static void loading_leaves_physics_and_look_as_they_are(void** state)
     free(blob.bytes);
 }
 
-static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** state)
+static void interleaved_instances_give_the_bits_of_each_alone(void** state)
 {
     static struct hair_test_seen alone[3][2], beside;
     struct hair_test* test = *state;
@@ -134,7 +134,7 @@ static void instances_that_are_interleaved_give_the_bits_of_each_alone(void** st
 
 // Check a transform that was set without a step. It must not rotate the hair where the last step
 // left it.
-static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void** state)
+static void teleport_by_nothing_after_set_transform_keeps_hair(void** state)
 {
     static struct hair_test_seen once, twice;
     struct hair_test* test = *state;
@@ -154,7 +154,7 @@ static void a_teleport_takes_a_head_that_has_not_been_stepped_along_whole(void**
     hair_destroy(hair);
 }
 
-static void a_capacity_that_is_too_small_is_an_error_that_names_both_sizes(void** state)
+static void save_into_too_few_bytes_names_both_sizes(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_subject subject = hair_test_subject_of(0);
@@ -182,12 +182,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_run_saved_and_loaded_midway_gives_the_bits_of_a_straight_run),
-        HAIR_TEST(a_loaded_state_saves_as_the_same_bytes),
+        HAIR_TEST(saved_and_loaded_run_gives_equal_bits),
+        HAIR_TEST(loaded_state_saves_as_equal_bytes),
         HAIR_TEST(loading_leaves_physics_and_look_as_they_are),
-        HAIR_TEST(instances_that_are_interleaved_give_the_bits_of_each_alone),
-        HAIR_TEST(a_teleport_takes_a_head_that_has_not_been_stepped_along_whole),
-        HAIR_TEST(a_capacity_that_is_too_small_is_an_error_that_names_both_sizes),
+        HAIR_TEST(interleaved_instances_give_the_bits_of_each_alone),
+        HAIR_TEST(teleport_by_nothing_after_set_transform_keeps_hair),
+        HAIR_TEST(save_into_too_few_bytes_names_both_sizes),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -130,7 +130,7 @@ static void carry(const float m[16], const float* from, float* out)
 // times the distance.
 #define CHORD 1e-3
 
-static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
+static void rigidly_moved_scalp_equals_a_moved_head(void** state)
 {
     static const hair_solver solvers[] = {HAIR_SOLVER_DIRECT, HAIR_SOLVER_ACCURATE, HAIR_SOLVER_FOLLOW,
                                           HAIR_SOLVER_REDBLACK};
@@ -177,7 +177,7 @@ static void a_scalp_moved_as_one_is_a_head_that_moves(void** state)
 
 // Check substeps that become longer and shorter, either between two substeps or at once. Some of
 // them end before a step begins.
-static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void** state)
+static void rigid_scalp_equals_a_head_when_substeps_change(void** state)
 {
     static const float rates[] = {1, 0.25f, 0.5f, 1, 1, 0.0625f};
     struct hair_test* test = *state;
@@ -216,7 +216,7 @@ static void where_substeps_change_their_length_a_scalp_is_still_as_a_head(void**
 // Check a scalp at rest, passed in the head's space. It changes nothing, with any collider.
 // Followers are an exception, because the first segments of guides are slightly bent, and followers
 // would leave the scalp by this distance.
-static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
+static void scalp_at_rest_in_a_moving_head_changes_nothing(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b, c, d;
@@ -254,7 +254,7 @@ static void a_scalp_at_rest_in_a_head_that_moves_changes_nothing(void** state)
 
 // Check more colliders than a step's parameters hold. They are searched where the hair may be,
 // which the head does not determine.
-static void a_scalp_taken_far_from_the_head_meets_colliders_there(void** state)
+static void scalp_far_from_the_head_meets_colliders_there(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b, free;
@@ -297,7 +297,7 @@ static void stretch(const struct skinned* s, float by, float* out)
 }
 
 // Check that roots move with the scalp, and that hair keeps its shape and direction.
-static void a_scalp_stretched_by_a_tenth_takes_every_root_along(void** state)
+static void stretched_scalp_takes_every_root_along(void** state)
 {
     struct hair_test* test = *state;
     static struct seen rest[3], now[3];
@@ -354,7 +354,7 @@ static struct given put_in_buffer(const struct skinned* s, size_t offset, size_t
     return given;
 }
 
-static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
+static void scalp_from_a_buffer_equals_scalp_from_memory(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b;
@@ -381,7 +381,7 @@ static void from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory(void** state)
 }
 
 // Check a scalp that is passed in a moving space, far away or near. The head sees no difference.
-static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void** state)
+static void scalp_far_from_the_origin_moves_hair_equally(void** state)
 {
     struct hair_test* test = *state;
     static struct seen a, b;
@@ -420,7 +420,7 @@ static void where_it_is_given_a_head_far_out_and_a_teleport_change_nothing(void*
 
 // Check scalps that are not finite or degenerate. Hair on them stays where it is relative to the
 // head, and the rest continues.
-static void whatever_a_buffer_holds_hair_stays_finite(void** state)
+static void scalp_buffer_of_any_bytes_keeps_hair_finite(void** state)
 {
     struct hair_test* test = *state;
     static struct seen seen, before;
@@ -453,7 +453,7 @@ static void whatever_a_buffer_holds_hair_stays_finite(void** state)
     }
 }
 
-static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
+static void invalid_scalp_is_refused_by_name_value_and_range(void** state)
 {
     struct hair_test* test = *state;
     struct skinned s = make(test, HAIR_SOLVER_DIRECT);
@@ -498,7 +498,7 @@ static void what_is_no_scalp_is_refused_by_name_value_and_range(void** state)
     drop(&s);
 }
 
-static void a_groom_without_a_scalp_has_none_to_skin(void** state)
+static void groom_without_a_scalp_refuses_skinning(void** state)
 {
     struct hair_test* test = *state;
     struct hair_test_strands strands = hair_test_fur(20);
@@ -527,7 +527,7 @@ static void run(struct hair_test* test, struct skinned* s, int from, int to)
 
 // Save between a scalp and its step. Load into the same instance, another one, and one that has
 // never had a scalp.
-static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
+static void saved_run_with_a_scalp_continues_bit_for_bit(void** state)
 {
     struct hair_test* test = *state;
     static struct seen straight[2], again[2];
@@ -565,7 +565,7 @@ static void a_run_saved_and_loaded_goes_on_with_the_same_bits(void** state)
     free(bytes), free(plain);
 }
 
-static void no_state_of_the_host_is_changed(void** state)
+static void skinned_scalp_changes_no_opengl_state(void** state)
 {
     struct hair_test* test = *state;
     struct skinned s = make(test, HAIR_SOLVER_DIRECT);
@@ -588,18 +588,18 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_scalp_moved_as_one_is_a_head_that_moves),
-        HAIR_TEST(where_substeps_change_their_length_a_scalp_is_still_as_a_head),
-        HAIR_TEST(a_scalp_at_rest_in_a_head_that_moves_changes_nothing),
-        HAIR_TEST(a_scalp_taken_far_from_the_head_meets_colliders_there),
-        HAIR_TEST(a_scalp_stretched_by_a_tenth_takes_every_root_along),
-        HAIR_TEST(from_a_buffer_it_is_the_same_bit_by_bit_as_from_memory),
-        HAIR_TEST(where_it_is_given_a_head_far_out_and_a_teleport_change_nothing),
-        HAIR_TEST(whatever_a_buffer_holds_hair_stays_finite),
-        HAIR_TEST(what_is_no_scalp_is_refused_by_name_value_and_range),
-        HAIR_TEST(a_groom_without_a_scalp_has_none_to_skin),
-        HAIR_TEST(a_run_saved_and_loaded_goes_on_with_the_same_bits),
-        HAIR_TEST(no_state_of_the_host_is_changed),
+        HAIR_TEST(rigidly_moved_scalp_equals_a_moved_head),
+        HAIR_TEST(rigid_scalp_equals_a_head_when_substeps_change),
+        HAIR_TEST(scalp_at_rest_in_a_moving_head_changes_nothing),
+        HAIR_TEST(scalp_far_from_the_head_meets_colliders_there),
+        HAIR_TEST(stretched_scalp_takes_every_root_along),
+        HAIR_TEST(scalp_from_a_buffer_equals_scalp_from_memory),
+        HAIR_TEST(scalp_far_from_the_origin_moves_hair_equally),
+        HAIR_TEST(scalp_buffer_of_any_bytes_keeps_hair_finite),
+        HAIR_TEST(invalid_scalp_is_refused_by_name_value_and_range),
+        HAIR_TEST(groom_without_a_scalp_refuses_skinning),
+        HAIR_TEST(saved_run_with_a_scalp_continues_bit_for_bit),
+        HAIR_TEST(skinned_scalp_changes_no_opengl_state),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -140,7 +140,7 @@ static size_t node_count(const struct fixture* f)
     return (size_t)f->grid.nodes[0] * f->grid.nodes[1] * f->grid.nodes[2];
 }
 
-static void the_grid_holds_the_area_of_all_strands(void** state)
+static void density_grid_holds_the_area_of_all_strands(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
     draw(&f);
@@ -168,7 +168,7 @@ static void the_grid_holds_the_area_of_all_strands(void** state)
     finish(&f);
 }
 
-static void light_is_that_of_the_twin_in_double_precision(void** state)
+static void transmittance_equals_the_reference(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
     draw(&f);
@@ -251,7 +251,7 @@ static double open_on_average(struct fixture* f, uint32_t vertices)
     return sum / vertices;
 }
 
-static void a_map_hides_what_lies_behind_it(void** state)
+static void opaque_shadow_map_darkens_hair_behind_it(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
     light_with_map(&f, 1);
@@ -263,7 +263,7 @@ static void a_map_hides_what_lies_behind_it(void** state)
     finish(&f);
 }
 
-static void a_strand_does_not_shade_itself(void** state)
+static void strand_does_not_shade_itself(void** state)
 {
     struct fixture f = start(state, 1);
     GLuint frame;
@@ -299,7 +299,7 @@ static hair_report_row row_of(struct fixture* f, const char* work)
     return rows[0];
 }
 
-static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
+static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
     hair_look look = f.hair->geometry.look;
@@ -324,7 +324,7 @@ static void views_of_a_frame_share_it_and_without_it_there_is_none(void** state)
 
 // Check a quarter of the strands. Only these are lit, and the grid holds the same area of hair,
 // because strands are wider.
-static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(void** state)
+static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
 {
     static const uint32_t none = 0xffffffffu;
     struct fixture f = start(state, FOLLOWERS);
@@ -365,12 +365,12 @@ static void what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere(voi
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(the_grid_holds_the_area_of_all_strands),
-        HAIR_TEST(light_is_that_of_the_twin_in_double_precision),
-        HAIR_TEST(a_map_hides_what_lies_behind_it),
-        HAIR_TEST(a_strand_does_not_shade_itself),
-        HAIR_TEST(what_a_level_of_detail_leaves_out_is_not_lit_and_missing_nowhere),
-        HAIR_TEST(views_of_a_frame_share_it_and_without_it_there_is_none),
+        HAIR_TEST(density_grid_holds_the_area_of_all_strands),
+        HAIR_TEST(transmittance_equals_the_reference),
+        HAIR_TEST(opaque_shadow_map_darkens_hair_behind_it),
+        HAIR_TEST(strand_does_not_shade_itself),
+        HAIR_TEST(self_shadow_lights_only_strands_of_the_level_of_detail),
+        HAIR_TEST(self_shadow_is_shared_by_views_and_absent_when_off),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

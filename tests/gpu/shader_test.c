@@ -91,7 +91,7 @@ static void draw_ids(struct fixture* f, uint32_t* ids)
     glDeleteRenderbuffers(2, target);
 }
 
-static void a_shader_that_calls_ours_changes_nothing(void** state)
+static void user_shader_that_calls_the_built_in_changes_nothing(void** state)
 {
     static float plain[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
     struct fixture f = start(state);
@@ -112,7 +112,7 @@ static void a_shader_that_calls_ours_changes_nothing(void** state)
 }
 
 // Compare with the pass of indices, which gives the strand of each pixel.
-static void shaders_of_pixels_know_strand_place_and_side(void** state)
+static void pixel_shader_knows_strand_position_and_side(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     static uint32_t ids[4 * SIDE * SIDE];
@@ -150,7 +150,7 @@ static void shaders_of_pixels_know_strand_place_and_side(void** state)
     finish(&f);
 }
 
-static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
+static void user_shader_has_lights_and_further_outputs(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = start(state);
@@ -203,7 +203,7 @@ static void shaders_have_the_lights_and_outputs_of_their_own(void** state)
     finish(&f);
 }
 
-static void what_is_no_colour_is_drawn_as_black(void** state)
+static void nonfinite_user_colors_are_drawn_black(void** state)
 {
     static const char* const texts[] = {
         "vec4 hair_shade(hair_fragment f) { return vec4(-1.0, sqrt(f.t - 2.0), log(-1.0 - f.t), 1.0); }",
@@ -224,7 +224,7 @@ static void what_is_no_colour_is_drawn_as_black(void** state)
     finish(&f);
 }
 
-static void errors_have_the_hosts_own_lines(void** state)
+static void shader_errors_have_lines_of_the_users_text(void** state)
 {
     struct fixture f = start(state);
     hair_shader* shader = NULL;
@@ -245,7 +245,7 @@ static void errors_have_the_hosts_own_lines(void** state)
     finish(&f);
 }
 
-static void no_text_breaks_anything(void** state)
+static void any_shader_text_is_refused_or_harmless(void** state)
 {
     static const char* const texts[] = {
         "",
@@ -281,7 +281,7 @@ static void no_text_breaks_anything(void** state)
 
 // Check a square scalp of 0.4 m whose texture coordinates are x and z. Roots have the coordinates
 // of their positions.
-static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
+static void roots_have_the_uvs_and_texture_of_the_scalp(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     struct fixture f = {.test = *state};
@@ -369,13 +369,13 @@ static void roots_have_the_uvs_and_the_texture_of_their_place(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_shader_that_calls_ours_changes_nothing),
-        HAIR_TEST(shaders_of_pixels_know_strand_place_and_side),
-        HAIR_TEST(shaders_have_the_lights_and_outputs_of_their_own),
-        HAIR_TEST(roots_have_the_uvs_and_the_texture_of_their_place),
-        HAIR_TEST(what_is_no_colour_is_drawn_as_black),
-        HAIR_TEST(errors_have_the_hosts_own_lines),
-        HAIR_TEST(no_text_breaks_anything),
+        HAIR_TEST(user_shader_that_calls_the_built_in_changes_nothing),
+        HAIR_TEST(pixel_shader_knows_strand_position_and_side),
+        HAIR_TEST(user_shader_has_lights_and_further_outputs),
+        HAIR_TEST(roots_have_the_uvs_and_texture_of_the_scalp),
+        HAIR_TEST(nonfinite_user_colors_are_drawn_black),
+        HAIR_TEST(shader_errors_have_lines_of_the_users_text),
+        HAIR_TEST(any_shader_text_is_refused_or_harmless),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -55,7 +55,7 @@ static void step(struct hair_test* test, hair_instance* hair)
     hair_test_ok(test, hair_step(hair, 1.0f / FPS));
 }
 
-// Step like an application that shows its frames, so that the GPU is fewer than `most` frames
+// Step like an application that shows its frames, so that the GPU is fewer than `max` frames
 // behind. A GPU that falls behind without limit would report rest much too late.
 static void show(struct hair_test* test, hair_instance* hair, uint32_t frame, uint32_t max)
 {
@@ -122,7 +122,7 @@ static int compare(const void* a, const void* b)
 
 // Check the cost of a step of sleeping hair. The head and colliders are set in every frame, as
 // applications do.
-static void a_head_at_rest_is_stepped_without_opengl_within_two_microseconds(void** state)
+static void sleeping_head_steps_without_opengl_in_2_us(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
@@ -185,7 +185,7 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
     for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
 }
 
-static void hair_that_wakes_is_within_the_bound_of_hair_that_never_slept(void** state)
+static void woken_hair_is_near_hair_that_never_slept(void** state)
 {
     hair_context* context = make_context(*state);
     check_waking(*state, context, HAIR_SOLVER_DIRECT, 1e-4f, 0);
@@ -265,7 +265,7 @@ static void check_settings(struct dozing* d)
     check_activity(d, "a teleport", 1);
 }
 
-static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
+static void only_inputs_that_move_hair_wake_it(void** state)
 {
     struct dozing d = {.test = *state};
     hair_context* context = make_context(d.test);
@@ -287,7 +287,7 @@ static void what_moves_hair_wakes_it_and_nothing_else_does(void** state)
     free(d.blob.bytes);
 }
 
-static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** state)
+static void sleep_begins_at_the_same_step_on_any_gpu_timing(void** state)
 {
     static struct hair_test_seen seen[2];
     struct hair_test* test = *state;
@@ -307,7 +307,7 @@ static void hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done(void** s
 
 // Check a GPU that is behind. A late answer prolongs a round of measurements. The next round must
 // not be compared with the prolonged one, because decaying motion is fastest at its beginning.
-static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** state)
+static void slow_gpu_delays_sleep_without_a_wait(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
@@ -336,7 +336,7 @@ static void a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later(void** 
     hair_context_destroy(context);
 }
 
-static void what_is_saved_falls_asleep_as_it_would_have(void** state)
+static void loaded_hair_falls_asleep_at_the_same_step(void** state)
 {
     static struct hair_test_seen straight, loaded;
     struct hair_test* test = *state;
@@ -374,7 +374,7 @@ static void what_is_saved_falls_asleep_as_it_would_have(void** state)
 }
 
 // Check undamped hair, which swings by more than the bound for ever.
-static void hair_that_swings_and_hair_that_may_not_never_sleep(void** state)
+static void hair_that_swings_or_may_not_sleep_stays_awake(void** state)
 {
     struct hair_test* test = *state;
     hair_context* context = make_context(test);
@@ -395,13 +395,13 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_head_at_rest_is_stepped_without_opengl_within_two_microseconds),
-        HAIR_TEST(hair_that_wakes_is_within_the_bound_of_hair_that_never_slept),
-        HAIR_TEST(what_moves_hair_wakes_it_and_nothing_else_does),
-        HAIR_TEST(hair_falls_asleep_at_the_same_step_whenever_the_gpu_is_done),
-        HAIR_TEST(a_gpu_that_is_behind_is_not_waited_for_and_hair_sleeps_later),
-        HAIR_TEST(what_is_saved_falls_asleep_as_it_would_have),
-        HAIR_TEST(hair_that_swings_and_hair_that_may_not_never_sleep),
+        HAIR_TEST(sleeping_head_steps_without_opengl_in_2_us),
+        HAIR_TEST(woken_hair_is_near_hair_that_never_slept),
+        HAIR_TEST(only_inputs_that_move_hair_wake_it),
+        HAIR_TEST(sleep_begins_at_the_same_step_on_any_gpu_timing),
+        HAIR_TEST(slow_gpu_delays_sleep_without_a_wait),
+        HAIR_TEST(loaded_hair_falls_asleep_at_the_same_step),
+        HAIR_TEST(hair_that_swings_or_may_not_sleep_stays_awake),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -126,7 +126,7 @@ static void compare(struct fixture* f)
     }
 }
 
-static void guides_of_every_length_are_smoothed_as_in_the_reference(void** state)
+static void smoothed_guides_of_every_length_equal_the_reference(void** state)
 {
     struct fixture* f = start(state, 2, 64);
     run(f);
@@ -134,7 +134,7 @@ static void guides_of_every_length_are_smoothed_as_in_the_reference(void** state
     finish(f);
 }
 
-static void guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference(void** state)
+static void smoothed_guides_of_2_to_256_vertices_equal_the_reference(void** state)
 {
     static const uint32_t vertices[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
     for (uint32_t guides = 1; guides <= sizeof vertices / sizeof *vertices; ++guides) {
@@ -149,7 +149,7 @@ static void guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference(void** 
     }
 }
 
-static void at_both_ends_of_a_substep_too(void** state)
+static void smoothing_at_both_ends_of_a_substep_equals_the_reference(void** state)
 {
     struct fixture* f = start(state, 2, 9);
     for (int end = 0; end < 2; ++end) {
@@ -163,7 +163,7 @@ static void at_both_ends_of_a_substep_too(void** state)
 // Check that a sample has the stretch of its segment. Near a vertex, rounding may choose either
 // segment. Every segment has two samples, so the adjacent samples have the stretch of both
 // segments.
-static void the_stretch_of_each_segment_is_told(void** state)
+static void smoothing_outputs_the_stretch_of_each_segment(void** state)
 {
     struct fixture* f = start(state, 2, 64);
     run(f);
@@ -178,7 +178,7 @@ static void the_stretch_of_each_segment_is_told(void** state)
 
 // Check what drawing requires: unit tangents, frames with tangents as their y axis, and roots under
 // the scalp.
-static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
+static void frames_follow_the_strand_and_roots_stay_on_the_scalp(void** state)
 {
     struct fixture* f = start(state, 2, 64);
     hair_test_scatter(f->groom, 0, 0, &f->random, f->state);
@@ -203,7 +203,7 @@ static void frames_lie_along_the_strand_and_roots_on_the_scalp(void** state)
 }
 
 // Check that coincident vertices and strands of no length give finite numbers.
-static void a_strand_without_length_stays_finite(void** state)
+static void smoothed_strand_without_length_is_finite(void** state)
 {
     struct fixture* f = start(state, 4, 16);
     for (uint32_t i = 0; i < f->groom->info.guide_vertex_count; ++i) {
@@ -222,12 +222,12 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(guides_of_every_length_are_smoothed_as_in_the_reference),
-        HAIR_TEST(guides_of_2_to_256_vertices_are_smoothed_as_in_the_reference),
-        HAIR_TEST(at_both_ends_of_a_substep_too),
-        HAIR_TEST(the_stretch_of_each_segment_is_told),
-        HAIR_TEST(frames_lie_along_the_strand_and_roots_on_the_scalp),
-        HAIR_TEST(a_strand_without_length_stays_finite),
+        HAIR_TEST(smoothed_guides_of_every_length_equal_the_reference),
+        HAIR_TEST(smoothed_guides_of_2_to_256_vertices_equal_the_reference),
+        HAIR_TEST(smoothing_at_both_ends_of_a_substep_equals_the_reference),
+        HAIR_TEST(smoothing_outputs_the_stretch_of_each_segment),
+        HAIR_TEST(frames_follow_the_strand_and_roots_stay_on_the_scalp),
+        HAIR_TEST(smoothed_strand_without_length_is_finite),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -112,7 +112,7 @@ static void set_reference(struct hair_reference_rod* rod, float at[3][3 * 64], u
     hair_reference_rod_set_state(rod, place, speed);
 }
 
-static void the_energy_is_that_of_the_reference(void** state)
+static void energy_equals_the_reference(void** state)
 {
     // The first uses the scheme of straight rods, and the second the mixed scheme.
     static const uint32_t vertices[] = {16, 40};
@@ -152,7 +152,7 @@ static void the_energy_is_that_of_the_reference(void** state)
 
 // Check that the mixed scheme softens guides that are too stiff for single precision, and no
 // realistic hair.
-static void too_stiff_a_guide_is_softened(void** state)
+static void too_stiff_guide_is_softened_and_counted(void** state)
 {
     for (int stiff = 0; stiff < 2; ++stiff) {
         struct hair_test_strands strands =
@@ -211,7 +211,7 @@ static hair_solver_stats live_with(struct hair_test* test, const char* change, u
 }
 
 // Check an unchanged solver, and one whose damping adds energy.
-static void a_solver_that_feeds_motion_is_found_out(void** state)
+static void solver_that_gains_energy_is_counted(void** state)
 {
     static const struct {
         uint32_t vertices;
@@ -234,12 +234,9 @@ int main(void)
     if (hair_test_shell_start("/bin/sh")) return 1;
 
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(haircuts_after_a_head_shake_gain_no_energy),
-        HAIR_TEST(accurate_haircuts_gain_no_energy),
-        HAIR_TEST(haircuts_on_a_box_gain_no_energy),
-        HAIR_TEST(the_energy_is_that_of_the_reference),
-        HAIR_TEST(too_stiff_a_guide_is_softened),
-        HAIR_TEST(a_solver_that_feeds_motion_is_found_out),
+        HAIR_TEST(haircuts_after_a_head_shake_gain_no_energy), HAIR_TEST(accurate_haircuts_gain_no_energy),
+        HAIR_TEST(haircuts_on_a_box_gain_no_energy),           HAIR_TEST(energy_equals_the_reference),
+        HAIR_TEST(too_stiff_guide_is_softened_and_counted),    HAIR_TEST(solver_that_gains_energy_is_counted),
     };
     int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
     return hair_test_shell_finish(NULL) ? 1 : failed;

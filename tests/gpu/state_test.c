@@ -326,18 +326,18 @@ static void check_all_calls(struct fixture* f, hair_gl_state promise)
     for (f->way = 0; f->way < HAIR_TEST_WAYS; f->way += 3) check_calls(f, &before);
 }
 
-static void every_call_leaves_all_state_and_the_error_flag_as_they_were(void** state)
+static void calls_restore_all_opengl_state_and_the_error_flag(void** state)
 {
     check_all_calls(*state, HAIR_GL_STATE_RESTORE);
 }
 
-static void a_clobbering_context_changes_only_what_is_listed(void** state)
+static void clobbering_context_changes_only_the_listed_state(void** state)
 {
     check_all_calls(*state, HAIR_GL_STATE_CLOBBER);
 }
 
 // Check the state also if nothing is bound.
-static void in_an_untouched_context_nothing_is_left_bound(void** state)
+static void calls_leave_nothing_bound_in_a_fresh_context(void** state)
 {
     struct fixture* f = *state;
     // A fresh debug context beside the disturbed one.
@@ -373,10 +373,9 @@ int main(void)
     setenv("GALLIVM_PERF", "nopt", 0);
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(every_call_leaves_all_state_and_the_error_flag_as_they_were, start,
-                                        finish),
-        cmocka_unit_test_setup_teardown(a_clobbering_context_changes_only_what_is_listed, start, finish),
-        cmocka_unit_test_setup_teardown(in_an_untouched_context_nothing_is_left_bound, start, finish),
+        cmocka_unit_test_setup_teardown(calls_restore_all_opengl_state_and_the_error_flag, start, finish),
+        cmocka_unit_test_setup_teardown(clobbering_context_changes_only_the_listed_state, start, finish),
+        cmocka_unit_test_setup_teardown(calls_leave_nothing_bound_in_a_fresh_context, start, finish),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

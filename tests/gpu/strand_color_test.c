@@ -82,7 +82,7 @@ static hair_look even_look(void)
     return look;
 }
 
-static void colours_go_from_root_to_tip_times_the_ramp(void** state)
+static void colors_blend_from_root_to_tip_times_the_tint(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
@@ -116,7 +116,7 @@ static void colours_go_from_root_to_tip_times_the_ramp(void** state)
     finish(&f);
 }
 
-static void as_many_strands_are_streaks_as_are_asked_for(void** state)
+static void streak_fraction_is_the_fraction_of_streaks(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
@@ -146,7 +146,7 @@ static void as_many_strands_are_streaks_as_are_asked_for(void** state)
     finish(&f);
 }
 
-static void spreads_are_as_wide_as_they_say(void** state)
+static void spread_of_strand_colors_has_the_set_width(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
@@ -183,7 +183,7 @@ static void spreads_are_as_wide_as_they_say(void** state)
     finish(&f);
 }
 
-static void wet_hair_is_darker_smoother_and_more_together_and_dry_hair_as_it_was(void** state)
+static void wet_hair_is_darker_smoother_and_clumped(void** state)
 {
     (void)state;
     hair_look dry = hair_look_default(), same = dry, wet = dry;
@@ -205,10 +205,10 @@ static void wet_hair_is_darker_smoother_and_more_together_and_dry_hair_as_it_was
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(colours_go_from_root_to_tip_times_the_ramp),
-        HAIR_TEST(as_many_strands_are_streaks_as_are_asked_for),
-        HAIR_TEST(spreads_are_as_wide_as_they_say),
-        HAIR_TEST(wet_hair_is_darker_smoother_and_more_together_and_dry_hair_as_it_was),
+        HAIR_TEST(colors_blend_from_root_to_tip_times_the_tint),
+        HAIR_TEST(streak_fraction_is_the_fraction_of_streaks),
+        HAIR_TEST(spread_of_strand_colors_has_the_set_width),
+        HAIR_TEST(wet_hair_is_darker_smoother_and_clumped),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

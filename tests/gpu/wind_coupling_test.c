@@ -69,7 +69,7 @@ static void wind_coupling(struct hair_test* test, hair_wind_model model, double 
     hair_test_die(&living);
 }
 
-static void hair_behind_a_ball_is_sheltered_and_hair_beside_it_is_not(void** state)
+static void ball_shelters_hair_behind_but_not_beside_it(void** state)
 {
     double ambient[2], fluid[2];
     wind_coupling(*state, HAIR_WIND_AMBIENT, ambient);
@@ -82,7 +82,7 @@ static void hair_behind_a_ball_is_sheltered_and_hair_beside_it_is_not(void** sta
     hair_test_near("beside", 0, fluid[BESIDE] / ambient[BESIDE], 1, 0.25);
 }
 
-static void motion_does_not_depend_on_the_frame_rate(void** state)
+static void motion_in_fluid_wind_is_equal_at_any_frame_rate(void** state)
 {
     static const int rates[] = {30, 60, 120};
     float seen[3][3 * 5 * VERTICES];
@@ -101,7 +101,7 @@ static void motion_does_not_depend_on_the_frame_rate(void** state)
         for (int k = 0; k < 2; ++k) hair_test_near("place", i, (double)seen[k][i], (double)seen[2][i], 1e-6);
 }
 
-static void where_it_is_off_nothing_is_run_or_kept(void** state)
+static void fluid_wind_costs_nothing_when_off(void** state)
 {
     struct hair_test_living living;
     begin(*state, HAIR_SOLVER_DIRECT, &living);
@@ -135,7 +135,7 @@ static void where_it_is_off_nothing_is_run_or_kept(void** state)
     hair_test_die(&living);
 }
 
-static void any_wind_in_any_step_leaves_hair_sound(void** state)
+static void hair_stays_finite_in_any_wind(void** state)
 {
     struct hair_test_living living;
     begin(*state, HAIR_SOLVER_DIRECT, &living);
@@ -164,7 +164,7 @@ static void any_wind_in_any_step_leaves_hair_sound(void** state)
     hair_test_die(&living);
 }
 
-static void what_is_saved_goes_on_with_the_same_bits(void** state)
+static void saved_fluid_wind_continues_bit_for_bit(void** state)
 {
     struct hair_test_living living, other;
     float straight[3 * 5 * VERTICES];
@@ -207,11 +207,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(hair_behind_a_ball_is_sheltered_and_hair_beside_it_is_not),
-        HAIR_TEST(motion_does_not_depend_on_the_frame_rate),
-        HAIR_TEST(where_it_is_off_nothing_is_run_or_kept),
-        HAIR_TEST(any_wind_in_any_step_leaves_hair_sound),
-        HAIR_TEST(what_is_saved_goes_on_with_the_same_bits),
+        HAIR_TEST(ball_shelters_hair_behind_but_not_beside_it),
+        HAIR_TEST(motion_in_fluid_wind_is_equal_at_any_frame_rate),
+        HAIR_TEST(fluid_wind_costs_nothing_when_off),
+        HAIR_TEST(hair_stays_finite_in_any_wind),
+        HAIR_TEST(saved_fluid_wind_continues_bit_for_bit),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -28,7 +28,7 @@ static struct hair_test_living straight(struct hair_test* test, uint32_t vertice
 
 // Check a free strand, across the wind and at an angle, which starts at rest. The test takes a
 // quarter of a second.
-static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
+static void wind_carries_a_free_strand_like_the_reference(void** state)
 {
     static const float speeds[] = {0.05f, 1, 12}; // Reynolds numbers from 0.26 to 64.
     static const hair_vec3 ways[] = {{1, 0, 0}, {1, 0, 1}};
@@ -59,7 +59,7 @@ static void a_free_strand_is_carried_as_the_reference_has_it(void** state)
 
 // Check the equilibrium of a hanging strand in a uniform wind. The error is relative to the
 // deflection of its tip.
-static void a_strand_is_deflected_as_the_reference_has_it(void** state)
+static void wind_deflects_a_strand_like_the_reference(void** state)
 {
     static const struct {
         float drag, speed;
@@ -108,7 +108,7 @@ static double terminal_speed(const hair_physics* physics, const hair_wind* wind)
     return low;
 }
 
-static void a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_law(void** state)
+static void still_air_slows_a_falling_strand_by_the_drag_law(void** state)
 {
     static const struct {
         uint32_t still_air;
@@ -152,7 +152,7 @@ static double suffer(struct hair_test_living* living, const hair_wind* wind, uin
     return max;
 }
 
-static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
+static void hair_survives_any_wind_and_returns(void** state)
 {
     static const struct {
         float speed, drag;
@@ -183,7 +183,7 @@ static void hair_bears_any_wind_and_is_back_where_it_was(void** state)
         }
 }
 
-static void what_no_wind_takes_is_nothing(void** state)
+static void disabled_wind_costs_nothing(void** state)
 {
     hair_physics physics = hair_physics_default();
     hair_wind wind = blowing(1, 0, 0);
@@ -203,11 +203,11 @@ int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(a_free_strand_is_carried_as_the_reference_has_it),
-        HAIR_TEST(a_strand_is_deflected_as_the_reference_has_it),
-        HAIR_TEST(a_level_hair_falls_in_still_air_by_the_greater_of_damping_and_the_law),
-        HAIR_TEST(hair_bears_any_wind_and_is_back_where_it_was),
-        HAIR_TEST(what_no_wind_takes_is_nothing),
+        HAIR_TEST(wind_carries_a_free_strand_like_the_reference),
+        HAIR_TEST(wind_deflects_a_strand_like_the_reference),
+        HAIR_TEST(still_air_slows_a_falling_strand_by_the_drag_law),
+        HAIR_TEST(hair_survives_any_wind_and_returns),
+        HAIR_TEST(disabled_wind_costs_nothing),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

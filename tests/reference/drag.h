@@ -23,8 +23,8 @@ struct hair_reference_air {
 };
 
 /// Compute the force in N/m on a cylinder along the unit vector `along`. The diameter is in m.
-/// `velocity` is the velocity of the air relative to the cylinder, in m/s. The forces across and along
-/// are each smaller by `damping`, in kg/(m s), times the velocity, but not below 0.
+/// `velocity` is the velocity of the air relative to the cylinder, in m/s. The forces across and
+/// along are each smaller by `damping`, in kg/(m s), times the velocity, but not below 0.
 void hair_reference_drag(const struct hair_reference_air* air, double diameter, double damping,
                          const double velocity[3], const double along[3], double force[3]);
 

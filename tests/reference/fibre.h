@@ -1,4 +1,5 @@
-/// fibre.h - Scattering of one hair fibre in double precision, as scatter_once in glsl/light/fibre.glsl.
+/// fibre.h - Scattering of one hair fibre in double precision, as scatter_once in
+/// glsl/light/fibre.glsl.
 #ifndef HAIR_TESTS_REFERENCE_FIBRE_H
 #define HAIR_TESTS_REFERENCE_FIBRE_H
 

@@ -47,7 +47,7 @@ bezier evaluate(const hair_vec4 control[4], double t)
     return {p[0] + t * (p[1] - p[0]), 3 * (p[1] - p[0])};
 }
 
-// Shorten a curve to the fraction `share`. The new control points are intermediate points of de
+// Shorten a curve to `fraction` of its length. The new control points are intermediate points of de
 // Casteljau's algorithm.
 void cut(hair_follower& f, double fraction)
 {

@@ -32,8 +32,10 @@ struct hair_reference_glow {
     uint64_t met; ///< Number of rays that hit hair.
     /// Mean radiance per light and colour. The first light includes the sky.
     double often[HAIR_REFERENCE_MAX_LIGHTS][HAIR_REFERENCE_MAX_COLORS];
-    double once[HAIR_REFERENCE_MAX_LIGHTS][HAIR_REFERENCE_MAX_COLORS]; ///< Part scattered by one strand only.
-    double error[HAIR_REFERENCE_MAX_LIGHTS][HAIR_REFERENCE_MAX_COLORS]; ///< Standard error of `often`.
+    /// Part scattered by one strand only.
+    double once[HAIR_REFERENCE_MAX_LIGHTS][HAIR_REFERENCE_MAX_COLORS];
+    /// Standard error of `often`.
+    double error[HAIR_REFERENCE_MAX_LIGHTS][HAIR_REFERENCE_MAX_COLORS];
 };
 
 /// Trace rays from `from` along the unit vectors `way`, 3 numbers each. `seed` is the seed of the

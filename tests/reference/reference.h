@@ -101,8 +101,8 @@ struct hair_reference_repair {
 /// Compute the correction of Tariq 2010. `hit` is the position of the first vertex inside a
 /// collider, as a fraction of the length.
 void hair_reference_switch(double t, double hit, struct hair_reference_repair* out);
-/// Evaluate the uniform cubic B-splines of these control points, as glsl/strands/repair.glsl does. The
-/// first three components are `away`, the last one is `freed`.
+/// Evaluate the uniform cubic B-splines of these control points, as glsl/strands/repair.glsl does.
+/// The first three components are `away`, the last one is `freed`.
 void hair_reference_spline(const double controls[HAIR_REPAIR_CONTROLS][4], double t,
                            struct hair_reference_repair* out);
 

@@ -74,8 +74,8 @@ struct hair_reference_rod_desc {
     double gravity[3]; ///< m/s^2.
     double damping; ///< c of dv/dt = -c (v - wind), 1/s.
     double wind[3]; ///< m/s.
-    /// Drag of the segments, as a multiple of hair_reference_drag. The greater of drag and damping acts.
-    /// 0 disables drag.
+    /// Drag of the segments, as a multiple of hair_reference_drag. The greater of drag and damping
+    /// acts. 0 disables drag.
     double drag;
     double diameter; ///< Diameter for the drag, m.
     struct hair_reference_air air; ///< Air for the drag.
@@ -152,7 +152,7 @@ struct hair_reference_rod_report {
 };
 
 /// Simulate `frames` frames of `dt`, repeatedly with doubled numbers of substeps, until `change` <
-/// `tolerance` m. The numbers are at least `substeps` and at most `most`. The head is at heads[k]
+/// `tolerance` m. The numbers are at least `substeps` and at most `max`. The head is at heads[k]
 /// at the end of frame k. NULL keeps the head in place. `positions`, which may be NULL, receives
 /// the positions of the last run per frame and vertex. The rod is left at the end of the last run.
 struct hair_reference_rod_report hair_reference_rod_converge(struct hair_reference_rod* rod, uint32_t frames,

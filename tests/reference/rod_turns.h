@@ -44,7 +44,7 @@ struct hair_reference_turns {
 hair_reference_turns hair_reference_rod_turns(const hair_reference_rod& rod);
 // Compute only the energy.
 double hair_reference_rod_potential(const hair_reference_rod& rod);
-// Rotate the segments by the fraction `share` of `turns`, and move the vertices from the root
+// Rotate the segments by `fraction` of `turns`, and move the vertices from the root
 // outwards.
 void hair_reference_rod_turn(hair_reference_rod& rod, const VectorXd& turns, double fraction);
 

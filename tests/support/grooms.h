@@ -14,7 +14,7 @@ struct hair_test_strands {
     uint32_t count, vertex_count;
 };
 
-// Return an empty list with room for `count` strands of at most `most` vertices.
+// Return an empty list with room for `count` strands of at most `max` vertices.
 struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t max);
 void hair_test_strands_free(struct hair_test_strands* strands);
 // Add a strand of `vertices` vertices, at point(t) for t from 0 to 1.
@@ -39,11 +39,11 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
                                      const struct hair_test_strands* strands);
 void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp);
 
-// Return a point of a follower by its guide 0 alone, like glsl/strands/follower.glsl with a look that adds
-// nothing.
+// Return a point of a follower by its guide 0 alone, like glsl/strands/follower.glsl with a look
+// that adds nothing.
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t);
-// Return a point of a follower between its three guides, like glsl/strands/follower.glsl with a look that
-// adds nothing.
+// Return a point of a follower between its three guides, like glsl/strands/follower.glsl with a
+// look that adds nothing.
 hair_vec3 hair_test_multi(const struct hair_groom* groom, const struct hair_follower* follower, float t);
 
 #endif

@@ -60,7 +60,9 @@ static const char* const names[] = {
 #define PASS_10 PASS_9, j
 #define PASS_11 PASS_10, k
 #define FUNCTION(type, name, parameters) CAT(DEFINE_, IS_NONE(FIRST parameters))(type, name, parameters)
-#define DEFINE_0(type, name, parameters) DEFINE(type, name, parameters, CAT(WITH_, COUNT parameters) parameters, CAT(PASS_, COUNT parameters))
+#define DEFINE_0(type, name, parameters)                                                  \
+    DEFINE(type, name, parameters, CAT(WITH_, COUNT parameters) parameters,               \
+           CAT(PASS_, COUNT parameters))
 #define DEFINE_1(type, name, parameters) DEFINE(type, name, parameters, void, )
 #define DEFINE(type, name, parameters, with, passed)          \
     static type APIENTRY call_##name(with)                    \

@@ -206,7 +206,7 @@ static void check_field(const char* owner, const struct hair_field* field)
         fail_msg("%s: the header does not say that its default is %.9g", field->name, field->value);
 }
 
-static void every_range_and_default_of_the_table_is_in_the_headers(void** state)
+static void schema_ranges_and_defaults_are_in_the_headers(void** state)
 {
     (void)state;
     uint32_t count = 0;
@@ -242,7 +242,7 @@ static int has_table(const char* owner)
 }
 
 // Check that headers promise no range outside the table, because the library checks only the table.
-static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
+static void header_ranges_are_in_the_schema(void** state)
 {
     (void)state;
     size_t ranges = 0;
@@ -260,7 +260,7 @@ static void every_range_of_a_number_in_the_headers_is_in_the_table(void** state)
 }
 
 // Check that the default functions return the table's defaults.
-static void the_default_functions_follow_the_table(void** state)
+static void default_functions_return_the_schema_defaults(void** state)
 {
     (void)state;
     hair_physics physics = hair_physics_default();
@@ -276,7 +276,7 @@ static void the_default_functions_follow_the_table(void** state)
 
 // Check that members do not overlap. A member inside an older caller's shorter struct must not
 // cross its end.
-static void no_two_fields_overlap(void** state)
+static void schema_fields_do_not_overlap(void** state)
 {
     (void)state;
     for (size_t t = 0; t < TABLES; ++t) {
@@ -293,10 +293,10 @@ static void no_two_fields_overlap(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_range_and_default_of_the_table_is_in_the_headers),
-        cmocka_unit_test(every_range_of_a_number_in_the_headers_is_in_the_table),
-        cmocka_unit_test(the_default_functions_follow_the_table),
-        cmocka_unit_test(no_two_fields_overlap),
+        cmocka_unit_test(schema_ranges_and_defaults_are_in_the_headers),
+        cmocka_unit_test(header_ranges_are_in_the_schema),
+        cmocka_unit_test(default_functions_return_the_schema_defaults),
+        cmocka_unit_test(schema_fields_do_not_overlap),
     };
     return cmocka_run_group_tests(tests, read_members, NULL);
 }

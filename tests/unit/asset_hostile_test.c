@@ -63,7 +63,7 @@ static bool survives(const void* bytes, size_t size)
     return accepted & 1;
 }
 
-static void binary_files_cut_off_anywhere_are_refused(void** state)
+static void truncated_binary_files_are_refused(void** state)
 {
     (void)state;
     for (uint32_t arrays = 2; arrays < 32; ++arrays) {
@@ -81,7 +81,7 @@ static void binary_files_cut_off_anywhere_are_refused(void** state)
     }
 }
 
-static void text_cut_off_anywhere_is_refused_but_within_its_last_number(void** state)
+static void truncated_text_file_is_refused(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx2();
@@ -104,7 +104,7 @@ static uint32_t flip_every_bit(struct hair_test_file file, size_t size)
     return accepted;
 }
 
-static void every_flipped_bit_is_survived(void** state)
+static void files_with_a_flipped_bit_are_refused_or_read(void** state)
 {
     (void)state;
     // Flips are refused in every bit of the magic, of both counts, of the points bit, and of the
@@ -131,7 +131,7 @@ static bool takes_hair(uint32_t arrays, size_t at, uint32_t value)
     return accepted;
 }
 
-static void hostile_hair_is_refused(void** state)
+static void malformed_hair_file_is_refused(void** state)
 {
     (void)state;
     assert_false(takes_hair(3, 8, 0x55555556)); // 12 times this wraps to 8 in 32 bits.
@@ -168,7 +168,7 @@ static void segments_whose_product_wraps_are_refused(void** state)
     free(file.bytes);
 }
 
-static void any_number_may_stand_in_the_points(void** state)
+static void points_of_any_values_are_read_or_repaired(void** state)
 {
     (void)state;
     const float numbers[] = {NAN,     -NAN,     INFINITY, -INFINITY, 1e38f,   -1e38f, FLT_MAX,
@@ -216,7 +216,7 @@ static bool takes_tfx(struct hair_test_file file, size_t at, uint32_t value)
     return accepted;
 }
 
-static void hostile_tfx_is_refused(void** state)
+static void malformed_tfx_file_is_refused(void** state)
 {
     (void)state;
     const uint32_t counts[] = {0, 1, 63, 64, 65, 0x80000000, 0xffffffff, 0x10000001};
@@ -246,7 +246,7 @@ static void hostile_tfx_is_refused(void** state)
 
 // Check that counts which a short file claims do not make the library allocate memory.
 // hair_test_read checks the limit.
-static void claims_of_short_files_take_no_memory(void** state)
+static void counts_beyond_the_file_take_no_memory(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < 32; ++i)
@@ -265,7 +265,7 @@ static void claims_of_short_files_take_no_memory(void** state)
 
 // Check the maximum memory per byte of a file. The files have many strands of two vertices, in the
 // shortest form of each format.
-static void memory_stays_within_its_bound(void** state)
+static void memory_of_reading_is_bounded(void** state)
 {
     (void)state;
     const uint32_t count = 1500000;
@@ -293,7 +293,7 @@ static void memory_stays_within_its_bound(void** state)
     }
 }
 
-static void more_strands_than_a_groom_can_hold_need_a_share(void** state)
+static void too_many_strands_need_a_keep_fraction(void** state)
 {
     (void)state;
     const uint32_t max = 4194304;
@@ -342,7 +342,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     }
 }
 
-static void random_bytes_are_survived(void** state)
+static void random_bytes_are_refused_or_read(void** state)
 {
     (void)state;
     unsigned char bytes[600];
@@ -357,7 +357,7 @@ static void random_bytes_are_survived(void** state)
     }
 }
 
-static void valid_files_with_many_random_changes_are_survived(void** state)
+static void randomly_changed_files_are_refused_or_read(void** state)
 {
     (void)state;
     uint32_t accepted = 0;
@@ -378,20 +378,20 @@ static void valid_files_with_many_random_changes_are_survived(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(binary_files_cut_off_anywhere_are_refused),
-        TEST(text_cut_off_anywhere_is_refused_but_within_its_last_number),
-        TEST(every_flipped_bit_is_survived),
-        TEST(hostile_hair_is_refused),
+        TEST(truncated_binary_files_are_refused),
+        TEST(truncated_text_file_is_refused),
+        TEST(files_with_a_flipped_bit_are_refused_or_read),
+        TEST(malformed_hair_file_is_refused),
         TEST(segments_whose_product_wraps_are_refused),
-        TEST(any_number_may_stand_in_the_points),
+        TEST(points_of_any_values_are_read_or_repaired),
         TEST(strands_of_65535_segments_are_read),
-        TEST(hostile_tfx_is_refused),
-        TEST(claims_of_short_files_take_no_memory),
-        TEST(memory_stays_within_its_bound),
-        TEST(more_strands_than_a_groom_can_hold_need_a_share),
+        TEST(malformed_tfx_file_is_refused),
+        TEST(counts_beyond_the_file_take_no_memory),
+        TEST(memory_of_reading_is_bounded),
+        TEST(too_many_strands_need_a_keep_fraction),
         TEST(every_refused_allocation_is_an_error_and_leaks_nothing),
-        TEST(random_bytes_are_survived),
-        TEST(valid_files_with_many_random_changes_are_survived),
+        TEST(random_bytes_are_refused_or_read),
+        TEST(randomly_changed_files_are_refused_or_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

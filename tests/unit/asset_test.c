@@ -55,7 +55,7 @@ static void assert_strands(const hair_asset* asset, const uint32_t vertices[3])
     }
 }
 
-static void hair_holds_strands_of_any_number_of_vertices(void** state)
+static void hair_file_holds_strands_of_any_vertex_count(void** state)
 {
     (void)state;
     hair_asset* asset = read_file(hair_test_hair(1 | 2));
@@ -67,7 +67,7 @@ static void hair_holds_strands_of_any_number_of_vertices(void** state)
     hair_asset_free(asset);
 }
 
-static void hair_without_segments_uses_those_of_its_header(void** state)
+static void hair_file_without_segments_uses_its_header(void** state)
 {
     (void)state;
     hair_asset* asset = read_file(hair_test_hair(2));
@@ -75,7 +75,7 @@ static void hair_without_segments_uses_those_of_its_header(void** state)
     hair_asset_free(asset);
 }
 
-static void hair_is_read_whatever_arrays_follow_the_points(void** state)
+static void hair_file_is_read_with_any_optional_arrays(void** state)
 {
     (void)state;
     for (uint32_t arrays = 0; arrays < 32; ++arrays) {
@@ -88,7 +88,7 @@ static void hair_is_read_whatever_arrays_follow_the_points(void** state)
     assert_int_equal(test.warnings, 0);
 }
 
-static void half_the_thickness_at_the_root_is_the_radius(void** state)
+static void radius_is_half_the_thickness_at_the_root(void** state)
 {
     (void)state;
     for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
@@ -103,7 +103,7 @@ static void half_the_thickness_at_the_root_is_the_radius(void** state)
     }
 }
 
-static void a_bad_thickness_leaves_no_radii_and_a_warning(void** state)
+static void invalid_thickness_drops_radii_with_a_warning(void** state)
 {
     (void)state;
     const float bad[] = {NAN, INFINITY, -1, 3e38f};
@@ -142,7 +142,7 @@ static float color_of(uint32_t vertex, uint32_t channel)
     return (float)(3 * vertex + channel) / 32;
 }
 
-static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** state)
+static void colors_of_strands_are_read_and_written(void** state)
 {
     (void)state;
     for (uint32_t tip_first = 0; tip_first < 2; ++tip_first) {
@@ -180,7 +180,7 @@ static void colours_go_along_with_strands_from_root_to_tip_and_come_back(void** 
     hair_asset_free(again);
 }
 
-static void a_bad_colour_leaves_none_and_a_warning(void** state)
+static void invalid_color_drops_colors_with_a_warning(void** state)
 {
     (void)state;
     const float bad[] = {NAN, INFINITY, -0.1f, 1.1f};
@@ -194,7 +194,7 @@ static void a_bad_colour_leaves_none_and_a_warning(void** state)
     }
 }
 
-static void unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of(void** state)
+static void unknown_arrays_and_trailing_bytes_are_warned_of(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_hair(1 | 2);
@@ -211,7 +211,7 @@ static void unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of(void** 
     assert_int_equal(test.warnings, 2);
 }
 
-static void tfx_holds_guides_wherever_its_sections_lie(void** state)
+static void tfx_sections_may_be_at_any_offset(void** state)
 {
     (void)state;
     hair_asset* asset = read_file(hair_test_tfx4());
@@ -228,7 +228,7 @@ static void tfx_holds_guides_wherever_its_sections_lie(void** state)
     hair_asset_free(asset);
 }
 
-static void tfx_needs_nothing_but_positions(void** state)
+static void tfx_with_only_positions_is_read(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx4();
@@ -242,7 +242,7 @@ static void tfx_needs_nothing_but_positions(void** state)
     hair_asset_free(asset);
 }
 
-static void tfx_of_any_number_of_vertices_is_read(void** state)
+static void tfx_of_any_vertex_count_is_read(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx4();
@@ -254,7 +254,7 @@ static void tfx_of_any_number_of_vertices_is_read(void** state)
     hair_asset_free(asset);
 }
 
-static void import_options_are_used(void** state)
+static void import_options_are_applied(void** state)
 {
     (void)state;
     hair_import import = hair_test_import();
@@ -412,18 +412,18 @@ static void degenerate_strands_of_a_real_haircut_are_repaired(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(hair_holds_strands_of_any_number_of_vertices),
-        TEST(hair_without_segments_uses_those_of_its_header),
-        TEST(hair_is_read_whatever_arrays_follow_the_points),
-        TEST(half_the_thickness_at_the_root_is_the_radius),
-        TEST(a_bad_thickness_leaves_no_radii_and_a_warning),
-        TEST(colours_go_along_with_strands_from_root_to_tip_and_come_back),
-        TEST(a_bad_colour_leaves_none_and_a_warning),
-        TEST(unknown_arrays_and_bytes_after_the_end_of_hair_are_warned_of),
-        TEST(tfx_holds_guides_wherever_its_sections_lie),
-        TEST(tfx_needs_nothing_but_positions),
-        TEST(tfx_of_any_number_of_vertices_is_read),
-        TEST(import_options_are_used),
+        TEST(hair_file_holds_strands_of_any_vertex_count),
+        TEST(hair_file_without_segments_uses_its_header),
+        TEST(hair_file_is_read_with_any_optional_arrays),
+        TEST(radius_is_half_the_thickness_at_the_root),
+        TEST(invalid_thickness_drops_radii_with_a_warning),
+        TEST(colors_of_strands_are_read_and_written),
+        TEST(invalid_color_drops_colors_with_a_warning),
+        TEST(unknown_arrays_and_trailing_bytes_are_warned_of),
+        TEST(tfx_sections_may_be_at_any_offset),
+        TEST(tfx_with_only_positions_is_read),
+        TEST(tfx_of_any_vertex_count_is_read),
+        TEST(import_options_are_applied),
         TEST(repairs_are_counted),
         TEST(hair_reads_back_bit_for_bit),
         TEST(tfx_reads_back_bit_for_bit),

@@ -54,7 +54,7 @@ static void assert_vertex(const hair_asset* asset, uint32_t vertex, float x, flo
     assert_float_equal(p[2], z, 1e-6);
 }
 
-static void text_holds_guides(void** state)
+static void tfx_text_holds_guides(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx2();
@@ -87,7 +87,7 @@ static void every_kind_of_line_end_is_read(void** state)
         }
 }
 
-static void optional_lines_may_be_missing_or_other(void** state)
+static void optional_lines_may_be_missing_or_different(void** state)
 {
     (void)state;
     const char* texts[] = {
@@ -110,7 +110,7 @@ static void optional_lines_may_be_missing_or_other(void** state)
     assert_int_equal(test.warnings, 1);
 }
 
-static void the_files_own_placement_is_used(void** state)
+static void placement_of_the_file_is_applied(void** state)
 {
     (void)state;
     hair_asset* asset =
@@ -139,7 +139,7 @@ static void the_files_own_placement_is_used(void** state)
     }
 }
 
-static void vertices_that_are_no_numbers_are_removed(void** state)
+static void nonfinite_vertices_are_removed(void** state)
 {
     (void)state;
     hair_asset* asset =
@@ -151,7 +151,7 @@ static void vertices_that_are_no_numbers_are_removed(void** state)
     hair_asset_free(asset);
 }
 
-static void malformed_text_is_refused_with_the_byte(void** state)
+static void malformed_text_is_refused_with_its_byte_offset(void** state)
 {
     (void)state;
     refuse_text("version 2.0\n", "byte 12 without a strand");
@@ -184,7 +184,7 @@ static bool number_of(const char* text, double* out)
     return hair_token_number(&token, out);
 }
 
-static void numbers_are_as_the_c_library_reads_them(void** state)
+static void numbers_are_parsed_like_the_c_library(void** state)
 {
     (void)state;
     const char* numbers[] = {"0",
@@ -219,7 +219,7 @@ static void numbers_are_as_the_c_library_reads_them(void** state)
     }
 }
 
-static void random_numbers_give_the_float_that_was_printed(void** state)
+static void printed_floats_are_parsed_exactly(void** state)
 {
     (void)state;
     uint32_t wrong = 0;
@@ -238,7 +238,7 @@ static void random_numbers_give_the_float_that_was_printed(void** state)
     assert_int_equal(wrong, 0);
 }
 
-static void other_words_are_no_numbers(void** state)
+static void words_that_are_no_numbers_are_refused(void** state)
 {
     (void)state;
     const char* words[] = {"",     "-",   "+",     ".",    "-.",  "e5",    "1e", "1e+", "1x", "0x10",
@@ -249,7 +249,7 @@ static void other_words_are_no_numbers(void** state)
     }
 }
 
-static void the_locale_does_not_matter(void** state)
+static void numbers_are_parsed_equally_in_any_locale(void** state)
 {
     (void)state;
     // Use a locale with a decimal comma if the machine has one. Otherwise this test repeats the one
@@ -269,16 +269,16 @@ static void the_locale_does_not_matter(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(text_holds_guides),
+        TEST(tfx_text_holds_guides),
         TEST(every_kind_of_line_end_is_read),
-        TEST(optional_lines_may_be_missing_or_other),
-        TEST(the_files_own_placement_is_used),
-        TEST(vertices_that_are_no_numbers_are_removed),
-        TEST(malformed_text_is_refused_with_the_byte),
-        TEST(numbers_are_as_the_c_library_reads_them),
-        TEST(random_numbers_give_the_float_that_was_printed),
-        TEST(other_words_are_no_numbers),
-        TEST(the_locale_does_not_matter),
+        TEST(optional_lines_may_be_missing_or_different),
+        TEST(placement_of_the_file_is_applied),
+        TEST(nonfinite_vertices_are_removed),
+        TEST(malformed_text_is_refused_with_its_byte_offset),
+        TEST(numbers_are_parsed_like_the_c_library),
+        TEST(printed_floats_are_parsed_exactly),
+        TEST(words_that_are_no_numbers_are_refused),
+        TEST(numbers_are_parsed_equally_in_any_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

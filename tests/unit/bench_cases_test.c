@@ -23,7 +23,7 @@ static int make_folder(void** state)
 
 // Check a wave that is curved at rest. The solver of higher cost is nearer to the reference, and
 // one row has its own setting.
-static void curved_hair_is_compared_with_the_reference(void** state)
+static void accuracy_compares_curved_hair_with_the_reference(void** state)
 {
     (void)state;
     expect(0, "$T accuracy --quick --case wave --strands 4 --json $D/w.json --csv /dev/null", "");
@@ -44,7 +44,7 @@ static void curved_hair_is_compared_with_the_reference(void** state)
     expect(0, "rm $D/w.json", "");
 }
 
-static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
+static void rest_cases_distinguish_resting_from_moving_hair(void** state)
 {
     (void)state;
     // The solver accurate solves a coil of 6 mm. An idle haircut sleeps, and then its fastest
@@ -70,7 +70,7 @@ static void rest_cases_tell_hair_that_rests_from_hair_that_moves(void** state)
 }
 
 // Check rows that the solvers pass. A wrong measure would be far off for them.
-static void physics_cases_are_measured_against_what_is_known(void** state)
+static void physics_cases_are_within_their_limits(void** state)
 {
     (void)state;
     static const char* const names[] = {"fine_segments", "helix_spin", "head_spin", "cantilever_arc",
@@ -92,9 +92,9 @@ static void physics_cases_are_measured_against_what_is_known(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(curved_hair_is_compared_with_the_reference),
-        cmocka_unit_test(physics_cases_are_measured_against_what_is_known),
-        cmocka_unit_test(rest_cases_tell_hair_that_rests_from_hair_that_moves),
+        cmocka_unit_test(accuracy_compares_curved_hair_with_the_reference),
+        cmocka_unit_test(physics_cases_are_within_their_limits),
+        cmocka_unit_test(rest_cases_distinguish_resting_from_moving_hair),
     };
     return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);
 }

@@ -18,13 +18,13 @@ static int make_folder(void** state)
     return hair_test_shell_start(TOOL);
 }
 
-static void direct_stretches_nothing_in_random_scenes(void** state)
+static void direct_solver_does_not_stretch_in_random_scenes(void** state)
 {
     (void)state;
     hair_test_shell_expect(0, FUZZ "--method direct --scene 1-2" ROW, "direct,true,2,true");
 }
 
-static void accurate_stretches_nothing_in_random_scenes(void** state)
+static void accurate_solver_does_not_stretch_in_random_scenes(void** state)
 {
     (void)state;
     hair_test_shell_expect(0, FUZZ "--method accurate --scene 4-5" ROW, "accurate,true,2,true");
@@ -33,8 +33,8 @@ static void accurate_stretches_nothing_in_random_scenes(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(direct_stretches_nothing_in_random_scenes),
-        cmocka_unit_test(accurate_stretches_nothing_in_random_scenes),
+        cmocka_unit_test(direct_solver_does_not_stretch_in_random_scenes),
+        cmocka_unit_test(accurate_solver_does_not_stretch_in_random_scenes),
     };
     return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);
 }

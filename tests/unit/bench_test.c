@@ -73,7 +73,7 @@ static void help_and_version_are_printed(void** state)
     hair_test_shell_expect_full("--version");
 }
 
-static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
+static void unwritable_output_exits_with_1_and_leaves_no_file(void** state)
 {
     (void)state;
     expect(1, "$T " SMALL " --json $D/no/a.json", "No such file");
@@ -84,7 +84,7 @@ static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
     expect(0, "ls $D | wc -l", "0");
 }
 
-static void an_interrupted_run_exits_with_1_and_leaves_nothing(void** state)
+static void interrupted_run_exits_with_1_and_leaves_no_file(void** state)
 {
     (void)state;
     expect(1, "timeout --preserve-status -s INT 2 $T accuracy --strands 2000 --json $D/i.json",
@@ -145,7 +145,7 @@ static void json_and_csv_have_the_same_rows_and_keys(void** state)
     expect(0, "rm $D/a.json $D/a.csv", "");
 }
 
-static void the_standard_output_has_the_table_or_the_file_that_is_asked_for(void** state)
+static void standard_output_has_the_table_or_the_requested_file(void** state)
 {
     (void)state;
     // Columns that are equal in all rows are printed once.
@@ -154,7 +154,7 @@ static void the_standard_output_has_the_table_or_the_file_that_is_asked_for(void
     expect(0, "$T " SMALL " --csv - --json /dev/null | head -1; rm $D/e", "case,method,vertices");
 }
 
-static void a_row_says_what_was_measured_and_how(void** state)
+static void rows_name_what_was_measured_and_how(void** state)
 {
     (void)state;
     expect(0,
@@ -175,7 +175,7 @@ static void a_row_says_what_was_measured_and_how(void** state)
     expect(0, "rm $D/r.json", "");
 }
 
-static void the_other_suites_run(void** state)
+static void every_other_suite_runs(void** state)
 {
     (void)state;
     expect(0, "$T physics --quick --case pendulum --method accurate --csv -", "pendulum,accurate,2,");
@@ -208,7 +208,7 @@ static json_t* find_row(json_t* rows, const char* primitive, int segments, int s
     return NULL;
 }
 
-static void a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn(void** state)
+static void finer_drawing_has_less_image_error(void** state)
 {
     (void)state;
     expect(0,
@@ -248,7 +248,7 @@ static void add(struct bench_rows* rows, const char* name, uint64_t vertices, do
     bench_set_text(row, "measured_by", by);
 }
 
-static void the_front_is_what_nothing_beats(void** state)
+static void front_has_only_rows_that_no_other_beats(void** state)
 {
     (void)state;
     struct bench_rows rows;
@@ -275,7 +275,7 @@ static void the_front_is_what_nothing_beats(void** state)
     bench_rows_free(&rows);
 }
 
-static void what_csv_must_quote_is_quoted(void** state)
+static void csv_quotes_commas_and_quotes(void** state)
 {
     (void)state;
     static const char* const two[] = {"a", "b", NULL};
@@ -293,7 +293,7 @@ static void what_csv_must_quote_is_quoted(void** state)
 }
 
 // Find the frequency in a signal that has other frequencies and decays.
-static void the_frequency_of_a_swing_is_found(void** state)
+static void frequency_of_a_swing_is_found(void** state)
 {
     (void)state;
     double samples[360];
@@ -310,16 +310,16 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(help_and_version_are_printed),
-        cmocka_unit_test(what_cannot_be_written_exits_with_1_and_leaves_nothing),
-        cmocka_unit_test(an_interrupted_run_exits_with_1_and_leaves_nothing),
+        cmocka_unit_test(unwritable_output_exits_with_1_and_leaves_no_file),
+        cmocka_unit_test(interrupted_run_exits_with_1_and_leaves_no_file),
         cmocka_unit_test(json_and_csv_have_the_same_rows_and_keys),
-        cmocka_unit_test(the_standard_output_has_the_table_or_the_file_that_is_asked_for),
-        cmocka_unit_test(a_row_says_what_was_measured_and_how),
-        cmocka_unit_test(the_other_suites_run),
-        cmocka_unit_test(a_picture_is_nearer_to_the_reference_the_finer_it_is_drawn),
-        cmocka_unit_test(the_front_is_what_nothing_beats),
-        cmocka_unit_test(what_csv_must_quote_is_quoted),
-        cmocka_unit_test(the_frequency_of_a_swing_is_found),
+        cmocka_unit_test(standard_output_has_the_table_or_the_requested_file),
+        cmocka_unit_test(rows_name_what_was_measured_and_how),
+        cmocka_unit_test(every_other_suite_runs),
+        cmocka_unit_test(finer_drawing_has_less_image_error),
+        cmocka_unit_test(front_has_only_rows_that_no_other_beats),
+        cmocka_unit_test(csv_quotes_commas_and_quotes),
+        cmocka_unit_test(frequency_of_a_swing_is_found),
     };
     return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);
 }

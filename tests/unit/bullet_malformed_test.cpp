@@ -64,7 +64,7 @@ static std::vector<std::unique_ptr<btCollisionShape>> make_all(btScalar size)
     return shapes;
 }
 
-static void no_number_leads_to_colliders_that_are_not_finite(void**)
+static void shapes_of_any_numbers_give_finite_colliders(void**)
 {
     hair_bullet_set_resolution(test.bullet, 8);
     const btScalar numbers[] = {0, -1, none, inf, -inf, huge, tiny, btScalar(1e7), btScalar(0.1)};
@@ -94,7 +94,7 @@ static btTriangleMesh* tetrahedron(btScalar size)
     return mesh;
 }
 
-static void meshes_with_vertices_that_are_no_numbers_are_errors(void**)
+static void meshes_with_nonfinite_vertices_are_errors(void**)
 {
     for (btScalar wrong : {none, inf, -inf, huge}) {
         std::unique_ptr<btTriangleMesh> mesh(tetrahedron(1));
@@ -148,7 +148,7 @@ static void degenerate_triangles_are_left_out(void**)
     test.host.errors = test.host.warnings = 0;
 }
 
-static void height_fields_that_are_no_numbers_are_errors(void**)
+static void nonfinite_height_fields_are_errors(void**)
 {
     for (btScalar wrong : {none, inf, huge}) {
         std::vector<float> heights(16, 0.0f);
@@ -194,14 +194,14 @@ struct many : btConcaveShape {
     }
 };
 
-static void a_mesh_of_no_triangles_is_an_error(void**)
+static void mesh_without_triangles_is_an_error(void**)
 {
     refused(many(0), "has triangles that make no collision mesh");
     test.host.errors = 0;
 }
 
 // Check that triangles are counted once, before any is stored.
-static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
+static void mesh_of_ten_million_triangles_is_an_error_without_memory(void**)
 {
     many mesh(10000000);
     const auto begun = std::chrono::steady_clock::now();
@@ -215,7 +215,7 @@ static void ten_million_triangles_are_an_error_that_takes_no_memory(void**)
 }
 
 // Check that a world reports too many triangles once, and does not count them again in every frame.
-static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
+static void world_skips_a_mesh_of_ten_million_triangles(void**)
 {
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher(&configuration);
@@ -240,15 +240,15 @@ static void a_world_with_ten_million_triangles_goes_on_without_them(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(no_number_leads_to_colliders_that_are_not_finite),
-        TEST(meshes_with_vertices_that_are_no_numbers_are_errors),
+        TEST(shapes_of_any_numbers_give_finite_colliders),
+        TEST(meshes_with_nonfinite_vertices_are_errors),
         TEST(meshes_scaled_to_nothing_are_errors),
         TEST(degenerate_triangles_are_left_out),
-        TEST(height_fields_that_are_no_numbers_are_errors),
+        TEST(nonfinite_height_fields_are_errors),
         TEST(a_hull_of_millions_of_points_is_an_error),
-        TEST(a_mesh_of_no_triangles_is_an_error),
-        TEST(ten_million_triangles_are_an_error_that_takes_no_memory),
-        TEST(a_world_with_ten_million_triangles_goes_on_without_them),
+        TEST(mesh_without_triangles_is_an_error),
+        TEST(mesh_of_ten_million_triangles_is_an_error_without_memory),
+        TEST(world_skips_a_mesh_of_ten_million_triangles),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

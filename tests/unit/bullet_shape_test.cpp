@@ -62,7 +62,7 @@ static error compare(const char* what, const btConvexShape& shape, double limit,
     return error;
 }
 
-static void primitives_are_as_far_as_gjk_says(void**)
+static void distances_to_primitives_equal_gjk(void**)
 {
     btSphereShape sphere(btScalar(0.3));
     btBoxShape box(btVector3(btScalar(0.3), btScalar(0.2), btScalar(0.4)));
@@ -125,7 +125,7 @@ static void compare_mesh(const char* what, const btConvexShape& shape)
     assert_true(rms <= 0.25 * voxel);
 }
 
-static void convex_shapes_are_as_far_as_gjk_says(void**)
+static void distances_to_convex_shapes_equal_gjk(void**)
 {
     randoms random;
     std::vector<btVector3> points;
@@ -150,7 +150,7 @@ static void convex_shapes_are_as_far_as_gjk_says(void**)
     hair_bullet_invalidate(test.bullet, nullptr);
 }
 
-static void spheres_together_are_as_far_as_gjk_says(void**)
+static void distances_to_multi_spheres_equal_gjk(void**)
 {
     const btVector3 at[] = {btVector3(0, 0, 0), btVector3(btScalar(0.3), 0, 0),
                             btVector3(0, btScalar(0.3), btScalar(0.1)), btVector3(0, 0, btScalar(0.4))};
@@ -214,7 +214,8 @@ static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar
         shape.processAllTriangles(&exact, lower, upper);
         const double own = nearest(p);
         if (exact.distance > 3 * voxel || exact.distance < 0) continue;
-        if (own < -static_cast<double>(shape.getMargin())) continue; // Bullet has the opposite sign inside.
+        // Bullet has the opposite sign inside.
+        if (own < -static_cast<double>(shape.getMargin())) continue;
         worst = std::fmax(worst, std::fabs(own - exact.distance));
         ++count;
     }
@@ -222,7 +223,7 @@ static void compare_mesh(const char* what, const btConcaveShape& shape, btScalar
     assert_true(count > 10 && worst <= 0.9 * voxel);
 }
 
-static void triangle_meshes_are_as_far_as_their_triangles(void**)
+static void distances_to_meshes_equal_those_to_triangles(void**)
 {
     btTriangleMesh triangles;
     add_ball(&triangles, btScalar(0.4), 12);
@@ -239,7 +240,7 @@ static void triangle_meshes_are_as_far_as_their_triangles(void**)
     assert_ptr_not_equal(colliders(1)[0].mesh, collision_mesh);
 }
 
-static void a_height_field_is_solid_below(void**)
+static void height_field_is_solid_below(void**)
 {
     float heights[9 * 7];
     for (int i = 0; i < 63; ++i)
@@ -257,7 +258,7 @@ static void a_height_field_is_solid_below(void**)
     }
 }
 
-static void a_plane_is_all_that_is_below(void**)
+static void plane_is_solid_below(void**)
 {
     randoms random;
     for (int i = 0; i < 20; ++i) {
@@ -276,7 +277,7 @@ static void a_plane_is_all_that_is_below(void**)
     assert_true(nearest(btVector3(0, 1, 0)) == -1);
 }
 
-static void compounds_are_their_children_wherever_they_are(void**)
+static void compounds_become_their_children_at_any_pose(void**)
 {
     randoms random;
     btBoxShape box(btVector3(btScalar(0.1), btScalar(0.2), btScalar(0.1)));
@@ -317,7 +318,7 @@ static void compounds_are_their_children_wherever_they_are(void**)
 }
 
 // Check hulls of points in a plane, on a line, and at one position.
-static void flat_hulls_are_plates_capsules_and_spheres(void**)
+static void flat_hulls_become_plates_capsules_or_spheres(void**)
 {
     const btScalar flat[][3] = {
         {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {btScalar(0.5), btScalar(0.5), 0}};
@@ -403,15 +404,15 @@ static void malformed_shapes_are_errors(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(primitives_are_as_far_as_gjk_says),
+        TEST(distances_to_primitives_equal_gjk),
         TEST(boxes_and_cylinders_may_be_scaled_unevenly),
-        TEST(convex_shapes_are_as_far_as_gjk_says),
-        TEST(spheres_together_are_as_far_as_gjk_says),
-        TEST(triangle_meshes_are_as_far_as_their_triangles),
-        TEST(a_height_field_is_solid_below),
-        TEST(a_plane_is_all_that_is_below),
-        TEST(compounds_are_their_children_wherever_they_are),
-        TEST(flat_hulls_are_plates_capsules_and_spheres),
+        TEST(distances_to_convex_shapes_equal_gjk),
+        TEST(distances_to_multi_spheres_equal_gjk),
+        TEST(distances_to_meshes_equal_those_to_triangles),
+        TEST(height_field_is_solid_below),
+        TEST(plane_is_solid_below),
+        TEST(compounds_become_their_children_at_any_pose),
+        TEST(flat_hulls_become_plates_capsules_or_spheres),
         TEST(malformed_shapes_are_errors),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

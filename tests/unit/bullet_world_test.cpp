@@ -38,7 +38,7 @@ static void take(const world& world, int groups)
     assert_int_equal(hair_bullet_add_world(test.bullet, &world.bullet, lower, upper, groups), HAIR_OK);
 }
 
-static void only_what_touches_the_bounds_is_taken(void**)
+static void only_objects_that_touch_the_bounds_are_added(void**)
 {
     world world;
     randoms random;
@@ -57,7 +57,7 @@ static void only_what_touches_the_bounds_is_taken(void**)
 }
 
 // Check order and keys also if objects are added and removed, which reorders the world's own list.
-static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
+static void keys_and_order_stay_when_objects_come_and_go(void**)
 {
     world world;
     randoms random;
@@ -93,7 +93,7 @@ static void the_order_and_the_keys_stay_as_objects_go_and_come(void**)
     world.bullet.addCollisionObject(gone);
 }
 
-static void groups_friction_and_contact_response_are_heeded(void**)
+static void groups_friction_and_contact_response_are_used(void**)
 {
     world world;
     btSphereShape ball(btScalar(0.1));
@@ -114,7 +114,7 @@ static void groups_friction_and_contact_response_are_heeded(void**)
     assert_true(colliders(2)[1].friction == 0);
 }
 
-static void a_collider_moves_with_its_object(void**)
+static void collider_moves_with_its_bullet_object(void**)
 {
     world world;
     randoms random;
@@ -138,7 +138,7 @@ struct soft : btSphereShape {
 };
 
 // Check that a warning is logged once, and that the rest of the world still counts.
-static void what_can_be_no_collider_is_warned_of_once_and_left_out(void**)
+static void unsupported_objects_are_skipped_with_one_warning(void**)
 {
     world world;
     soft body;
@@ -157,7 +157,7 @@ static void what_can_be_no_collider_is_warned_of_once_and_left_out(void**)
     test.host.errors = 0;
 }
 
-static void arguments_are_checked(void**)
+static void invalid_arguments_of_bullet_calls_are_refused(void**)
 {
     world world;
     hair_bullet* other = nullptr;
@@ -190,7 +190,7 @@ static void arguments_are_checked(void**)
 
 static const btScalar corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
 
-static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_unseen(void**)
+static void mesh_of_a_shape_is_cached_until_invalidated(void**)
 {
     btConvexHullShape hull(corners, 5, 3 * sizeof(btScalar));
     assert_int_equal(hair_bullet_set_resolution(test.bullet, 8), HAIR_OK);
@@ -216,7 +216,7 @@ static void a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_un
     assert_true(test.host.blocks < blocks);
 }
 
-static void every_refused_allocation_is_borne(void**)
+static void refused_allocations_of_bullet_calls_are_errors(void**)
 {
     world world;
     btConvexHullShape hull(corners, 5, 3 * sizeof(btScalar));
@@ -264,7 +264,7 @@ static double cost(const world& world)
     return min_value;
 }
 
-static void ten_thousand_objects_cost_as_much_as_the_dozen_that_touch(void**)
+static void cost_is_that_of_the_touching_objects_only(void**)
 {
     world few, many;
     randoms random;
@@ -290,15 +290,15 @@ static void ten_thousand_objects_cost_as_much_as_the_dozen_that_touch(void**)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(only_what_touches_the_bounds_is_taken),
-        TEST(the_order_and_the_keys_stay_as_objects_go_and_come),
-        TEST(groups_friction_and_contact_response_are_heeded),
-        TEST(a_collider_moves_with_its_object),
-        TEST(what_can_be_no_collider_is_warned_of_once_and_left_out),
-        TEST(arguments_are_checked),
-        TEST(a_shape_becomes_a_form_once_until_it_is_forgotten_changed_or_long_unseen),
-        TEST(every_refused_allocation_is_borne),
-        TEST(ten_thousand_objects_cost_as_much_as_the_dozen_that_touch),
+        TEST(only_objects_that_touch_the_bounds_are_added),
+        TEST(keys_and_order_stay_when_objects_come_and_go),
+        TEST(groups_friction_and_contact_response_are_used),
+        TEST(collider_moves_with_its_bullet_object),
+        TEST(unsupported_objects_are_skipped_with_one_warning),
+        TEST(invalid_arguments_of_bullet_calls_are_refused),
+        TEST(mesh_of_a_shape_is_cached_until_invalidated),
+        TEST(refused_allocations_of_bullet_calls_are_errors),
+        TEST(cost_is_that_of_the_touching_objects_only),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -48,7 +48,7 @@ static int is_without_bullet(void)
 }
 
 // Compare Bullet's sphere, capsule and plane with the library's, bit for bit.
-static void objects_are_where_colliders_would_be(void** state)
+static void bullet_objects_move_like_colliders(void** state)
 {
     (void)state;
     static const char* const pairs[][2] = {
@@ -82,7 +82,7 @@ static void objects_are_where_colliders_would_be(void** state)
     expect(0, "cmp $D/none.png $D/far.png", "");
 }
 
-static void every_shape_can_be_there(void** state)
+static void every_bullet_shape_can_be_in_a_scene(void** state)
 {
     (void)state;
     static const char* const shapes[] = {
@@ -110,7 +110,7 @@ static void every_shape_can_be_there(void** state)
     expect(0, "sort -u $D/sums | wc -l", "11\n"); // All pictures differ.
 }
 
-static void what_is_wrong_is_named_with_its_range(void** state)
+static void invalid_bullet_values_are_named_with_their_range(void** state)
 {
     (void)state;
     static const char* const wrong[][2] = {
@@ -171,7 +171,7 @@ static void what_is_wrong_is_named_with_its_range(void** state)
     expect(1, "test -e $D/b.png", "");
 }
 
-static void the_scene_that_comes_along_can_be_shown(void** state)
+static void example_bullet_scene_can_be_captured(void** state)
 {
     (void)state;
     if (is_without_bullet()) return;
@@ -184,10 +184,10 @@ static void the_scene_that_comes_along_can_be_shown(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(objects_are_where_colliders_would_be),
-        cmocka_unit_test(every_shape_can_be_there),
-        cmocka_unit_test(what_is_wrong_is_named_with_its_range),
-        cmocka_unit_test(the_scene_that_comes_along_can_be_shown),
+        cmocka_unit_test(bullet_objects_move_like_colliders),
+        cmocka_unit_test(every_bullet_shape_can_be_in_a_scene),
+        cmocka_unit_test(invalid_bullet_values_are_named_with_their_range),
+        cmocka_unit_test(example_bullet_scene_can_be_captured),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

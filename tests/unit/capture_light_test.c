@@ -67,7 +67,7 @@ static double brightness(const char* name)
     return sum / (WIDTH * HEIGHT);
 }
 
-static void skin_is_darker_behind_hair_by_each_light_that_has_a_shadow(void** state)
+static void hair_shades_skin_for_each_light_with_a_shadow(void** state)
 {
     (void)state;
     static const char* const names[] = {"first", "second", "spot"};
@@ -102,7 +102,7 @@ static int start(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(skin_is_darker_behind_hair_by_each_light_that_has_a_shadow),
+        cmocka_unit_test(hair_shades_skin_for_each_light_with_a_shadow),
         cmocka_unit_test(more_than_four_lights_with_a_shadow_are_refused),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

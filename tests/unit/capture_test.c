@@ -111,7 +111,7 @@ static void help_and_version_are_printed_on_the_standard_output(void** state)
     hair_test_shell_expect_full("--version");
 }
 
-static void hair_behind_the_head_may_be_left_out_and_the_picture_is_the_same(void** state)
+static void culling_behind_the_head_keeps_the_picture(void** state)
 {
     (void)state;
     expect(0, "$T --scene demo " WITH_HEAD " --frames 0:1 --hash > $D/all.txt", "");
@@ -152,7 +152,7 @@ static void every_number_of_the_physics_can_be_set(void** state)
     assert_true(count >= 24);
 }
 
-static void unusable_input_exits_with_4_and_says_where(void** state)
+static void unusable_input_exits_with_4_and_its_position(void** state)
 {
     (void)state;
     static const char* const wrong[][2] = {
@@ -202,7 +202,7 @@ static void unusable_input_exits_with_4_and_says_where(void** state)
     expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null: the file ends at byte 0");
 }
 
-static void a_driver_that_is_too_old_exits_with_3(void** state)
+static void driver_older_than_4_5_exits_with_3(void** state)
 {
     (void)state;
     expect(3, "LIBGL_ALWAYS_SOFTWARE=1 GALLIUM_DRIVER=softpipe $T " SMALL " --frames 0:1 -o $D/a.png",
@@ -210,7 +210,7 @@ static void a_driver_that_is_too_old_exits_with_3(void** state)
     expect(1, "test -e $D/a.png", "");
 }
 
-static void hashes_are_the_same_twice_and_with_any_number_of_threads(void** state)
+static void hashes_are_equal_twice_and_with_any_thread_count(void** state)
 {
     (void)state;
     expect(0,
@@ -223,7 +223,7 @@ static void hashes_are_the_same_twice_and_with_any_number_of_threads(void** stat
 }
 
 // Check that captures differ in both lines: the hash of strands and the hash of pixels.
-static void hashes_tell_one_capture_from_another(void** state)
+static void hashes_of_different_captures_differ(void** state)
 {
     (void)state;
     static const char* const others[] = {"--frames 3:5",
@@ -247,7 +247,7 @@ static void hashes_tell_one_capture_from_another(void** state)
            "3\n");
 }
 
-static void a_frame_is_the_same_alone_as_among_others(void** state)
+static void frame_alone_equals_the_frame_in_a_sequence(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --frames 0:4 -o $D/f_%03d.png && $T " SMALL " --frames 3:4 -o $D/f.png", "");
@@ -256,7 +256,7 @@ static void a_frame_is_the_same_alone_as_among_others(void** state)
     expect(0, "$T " SMALL " --frames 3:4 -o $D/f_%d.png && cmp $D/f.png $D/f_3.png", "");
 }
 
-static void what_is_shown_is_what_was_asked_for(void** state)
+static void shown_layers_are_those_of_the_show_option(void** state)
 {
     (void)state;
     static const char* const what[] = {"hair",        "colliders",      "head",
@@ -281,7 +281,7 @@ static void what_is_shown_is_what_was_asked_for(void** state)
 
 // Check wind by the hash of pixels. It must change hair, also after a step, and the picture of the
 // wind itself, with a velocity or a source.
-static void wind_of_a_scene_blows_and_is_shown(void** state)
+static void wind_of_a_scene_moves_hair_and_can_be_shown(void** state)
 {
     (void)state;
     static const char* const winds[] = {"\"velocity\": [4, 0, 0]",
@@ -302,7 +302,7 @@ static void wind_of_a_scene_blows_and_is_shown(void** state)
 
 // Check that every kind of motion leads to the same place. The picture equals that of a collider at
 // rest there.
-static void colliders_are_where_their_motion_says(void** state)
+static void colliders_follow_their_keyframes(void** state)
 {
     (void)state;
     static const char* const ways[] = {
@@ -325,7 +325,7 @@ static void colliders_are_where_their_motion_says(void** state)
            "");
 }
 
-static void pictures_and_videos_are_in_their_formats(void** state)
+static void pictures_and_videos_have_the_format_of_their_name(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --frames 0:1 -o $D/p.png && head -c 8 $D/p.png | od -An -tx1",
@@ -341,7 +341,7 @@ static void pictures_and_videos_are_in_their_formats(void** state)
     expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o $D/1.png && test -s $D/1.png" CLEAN, "");
 }
 
-static void an_mp4_can_be_played_before_all_of_it_is_there(void** state)
+static void mp4_can_be_played_before_it_is_complete(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --frames 0:3 -o $D/v.mp4 && head -c 8 $D/v.mp4 | tail -c 4", "ftyp");
@@ -364,7 +364,7 @@ static void an_encoder_that_fails_leaves_no_video(void** state)
     expect(0, "! test -e $D/w.mp4" CLEAN, "");
 }
 
-static void a_full_disk_exits_with_1_and_leaves_the_device(void** state)
+static void full_disk_exits_with_1_and_keeps_the_device_file(void** state)
 {
     (void)state;
     expect(1, "$T " SMALL " --frames 0:2 -o /dev/full", "No space left");
@@ -378,7 +378,7 @@ static void a_full_disk_exits_with_1_and_leaves_the_device(void** state)
     expect(0, "test -c /dev/full && test -L $D/full.png && test -L $D/full.mp4", "");
 }
 
-static void what_is_no_regular_file_is_written_in_place(void** state)
+static void output_that_is_no_regular_file_is_written_in_place(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --frames 0:1 -o /dev/null && test -c /dev/null", "");
@@ -389,7 +389,7 @@ static void what_is_no_regular_file_is_written_in_place(void** state)
     expect(0, "$T " SMALL " --frames 0:1 -o /dev/stdout | head -n 1", "YUV4MPEG2");
 }
 
-static void a_reader_that_goes_away_exits_with_1(void** state)
+static void closed_pipe_exits_with_1(void** state)
 {
     (void)state;
     expect(1,
@@ -398,7 +398,7 @@ static void a_reader_that_goes_away_exits_with_1(void** state)
            "Broken pipe");
 }
 
-static void an_interrupted_capture_exits_with_1_and_keeps_the_old_file(void** state)
+static void interrupted_capture_exits_with_1_and_keeps_the_old_file(void** state)
 {
     (void)state;
     static const char* const names[] = {"i.y4m", "i.mp4"};
@@ -415,7 +415,7 @@ static void an_interrupted_capture_exits_with_1_and_keeps_the_old_file(void** st
     }
 }
 
-static void a_folder_that_does_not_exist_exits_with_1(void** state)
+static void missing_output_folder_exits_with_1(void** state)
 {
     (void)state;
     expect(1, "$T " SMALL " --frames 0:1 -o $D/none/a.png", "none/a.png");
@@ -423,7 +423,7 @@ static void a_folder_that_does_not_exist_exits_with_1(void** state)
     expect(1, "$T " SMALL " --frames 0:1 --stats $D/none/s.json", "none/s.json");
 }
 
-static void stats_tell_what_was_drawn(void** state)
+static void stats_contain_what_was_drawn(void** state)
 {
     (void)state;
     expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
@@ -439,7 +439,7 @@ static void stats_tell_what_was_drawn(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
 }
 
-static void each_solver_can_be_asked_for(void** state)
+static void each_solver_can_be_selected(void** state)
 {
     (void)state;
     static const char* const solvers[] = {"direct", "accurate", "follow", "redblack"};
@@ -456,7 +456,7 @@ static void each_solver_can_be_asked_for(void** state)
            "\"method\": \"sim/mixed_thread_per_guide_32");
 }
 
-static void scene_files_say_what_options_say(void** state)
+static void scene_files_and_options_are_equivalent(void** state)
 {
     (void)state;
     expect(
@@ -477,7 +477,7 @@ static void scene_files_say_what_options_say(void** state)
         "");
 }
 
-static void haircuts_from_files_are_framed_and_found_beside_their_scene(void** state)
+static void haircut_files_are_found_beside_their_scene_and_framed(void** state)
 {
     (void)state;
     expect(0, "TOOL=$(dirname $T)/hair-groom; $TOOL generate bob $D/bob.tfx --vertices 16 --guides 64", "");
@@ -525,28 +525,28 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(help_and_version_are_printed_on_the_standard_output),
-        cmocka_unit_test(hair_behind_the_head_may_be_left_out_and_the_picture_is_the_same),
+        cmocka_unit_test(culling_behind_the_head_keeps_the_picture),
         cmocka_unit_test(every_number_of_the_physics_can_be_set),
-        cmocka_unit_test(unusable_input_exits_with_4_and_says_where),
-        cmocka_unit_test(a_driver_that_is_too_old_exits_with_3),
-        cmocka_unit_test(hashes_are_the_same_twice_and_with_any_number_of_threads),
-        cmocka_unit_test(hashes_tell_one_capture_from_another),
-        cmocka_unit_test(a_frame_is_the_same_alone_as_among_others),
-        cmocka_unit_test(what_is_shown_is_what_was_asked_for),
-        cmocka_unit_test(wind_of_a_scene_blows_and_is_shown),
-        cmocka_unit_test(colliders_are_where_their_motion_says),
-        cmocka_unit_test(pictures_and_videos_are_in_their_formats),
-        cmocka_unit_test(an_mp4_can_be_played_before_all_of_it_is_there),
+        cmocka_unit_test(unusable_input_exits_with_4_and_its_position),
+        cmocka_unit_test(driver_older_than_4_5_exits_with_3),
+        cmocka_unit_test(hashes_are_equal_twice_and_with_any_thread_count),
+        cmocka_unit_test(hashes_of_different_captures_differ),
+        cmocka_unit_test(frame_alone_equals_the_frame_in_a_sequence),
+        cmocka_unit_test(shown_layers_are_those_of_the_show_option),
+        cmocka_unit_test(wind_of_a_scene_moves_hair_and_can_be_shown),
+        cmocka_unit_test(colliders_follow_their_keyframes),
+        cmocka_unit_test(pictures_and_videos_have_the_format_of_their_name),
+        cmocka_unit_test(mp4_can_be_played_before_it_is_complete),
         cmocka_unit_test(an_encoder_that_fails_leaves_no_video),
-        cmocka_unit_test(a_full_disk_exits_with_1_and_leaves_the_device),
-        cmocka_unit_test(what_is_no_regular_file_is_written_in_place),
-        cmocka_unit_test(a_reader_that_goes_away_exits_with_1),
-        cmocka_unit_test(an_interrupted_capture_exits_with_1_and_keeps_the_old_file),
-        cmocka_unit_test(a_folder_that_does_not_exist_exits_with_1),
-        cmocka_unit_test(stats_tell_what_was_drawn),
-        cmocka_unit_test(each_solver_can_be_asked_for),
-        cmocka_unit_test(scene_files_say_what_options_say),
-        cmocka_unit_test(haircuts_from_files_are_framed_and_found_beside_their_scene),
+        cmocka_unit_test(full_disk_exits_with_1_and_keeps_the_device_file),
+        cmocka_unit_test(output_that_is_no_regular_file_is_written_in_place),
+        cmocka_unit_test(closed_pipe_exits_with_1),
+        cmocka_unit_test(interrupted_capture_exits_with_1_and_keeps_the_old_file),
+        cmocka_unit_test(missing_output_folder_exits_with_1),
+        cmocka_unit_test(stats_contain_what_was_drawn),
+        cmocka_unit_test(each_solver_can_be_selected),
+        cmocka_unit_test(scene_files_and_options_are_equivalent),
+        cmocka_unit_test(haircut_files_are_found_beside_their_scene_and_framed),
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),
     };

@@ -109,8 +109,8 @@ static hair_vec4 mix(hair_vec4 a, hair_vec4 b, float t)
                        a.w + t * (b.w - a.w)};
 }
 
-// Return the distance of a contact from a position relative to the head's origin, when the fraction
-// `share` of the step is done.
+// Return the distance of a contact from a position relative to the head's origin, when
+// `fraction` of the step is done.
 static double distance_of(const struct hair_contact* contact, const hair_collider* collider, float fraction,
                           hair_vec3 place)
 {
@@ -145,7 +145,7 @@ static void check(const struct hair_collider_grid_desc* desc, uint32_t places)
     assert_true(met > 100);
 }
 
-static void nothing_that_can_be_met_is_missing_in_a_list(void** state)
+static void grid_lists_contain_every_reachable_collider(void** state)
 {
     (void)state;
     for (int n = 0; n < 3; ++n) {
@@ -160,7 +160,7 @@ static void nothing_that_can_be_met_is_missing_in_a_list(void** state)
     check(&anywhere, 3000);
 }
 
-static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
+static void overlong_grid_list_keeps_the_nearest_in_order(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < 500; ++i) {
@@ -191,7 +191,7 @@ static void a_list_that_is_too_long_keeps_the_nearest_in_order(void** state)
     assert_int_equal(grid.longest, 20);
 }
 
-static void lists_are_made_again_only_when_something_has_moved(void** state)
+static void grid_lists_are_rebuilt_only_after_motion(void** state)
 {
     (void)state;
     scatter(100, 0.02f);
@@ -216,7 +216,7 @@ static void lists_are_made_again_only_when_something_has_moved(void** state)
     assert_int_equal(changed, 1);
 }
 
-static void as_many_and_as_large_as_may_be_take_bounded_room(void** state)
+static void grid_of_maximum_colliders_has_bounded_size(void** state)
 {
     (void)state;
     for (uint32_t i = 0; i < MAX; ++i) {
@@ -234,10 +234,10 @@ static void as_many_and_as_large_as_may_be_take_bounded_room(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(nothing_that_can_be_met_is_missing_in_a_list, start, stop),
-        cmocka_unit_test_setup_teardown(a_list_that_is_too_long_keeps_the_nearest_in_order, start, stop),
-        cmocka_unit_test_setup_teardown(lists_are_made_again_only_when_something_has_moved, start, stop),
-        cmocka_unit_test_setup_teardown(as_many_and_as_large_as_may_be_take_bounded_room, start, stop),
+        cmocka_unit_test_setup_teardown(grid_lists_contain_every_reachable_collider, start, stop),
+        cmocka_unit_test_setup_teardown(overlong_grid_list_keeps_the_nearest_in_order, start, stop),
+        cmocka_unit_test_setup_teardown(grid_lists_are_rebuilt_only_after_motion, start, stop),
+        cmocka_unit_test_setup_teardown(grid_of_maximum_colliders_has_bounded_size, start, stop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,7 +36,7 @@ static void set(const hair_collider* from, uint32_t count)
     assert_int_equal(hair_colliders_set(&test.host, &colliders, from, count, sizeof *from), HAIR_OK);
 }
 
-static void a_sphere_is_a_capsule_whose_ends_are_alike(void** state)
+static void sphere_is_a_capsule_with_equal_ends(void** state)
 {
     (void)state;
     hair_collider one = sphere(3);
@@ -60,7 +60,7 @@ static void a_capsule_lies_along_its_local_y(void** state)
     hair_test_near("y", 0, capsules[0].end[1].y, 2, 1e-6);
 }
 
-static void capsules_are_from_the_head(void** state)
+static void capsules_are_relative_to_the_head(void** state)
 {
     (void)state;
     struct hair_pose before = {{1e6, 0, 0}, {0, 0, 0, 1}}, now = {{1e6 - 0.25, 0, 0}, {0, 0, 0, 1}};
@@ -71,7 +71,7 @@ static void capsules_are_from_the_head(void** state)
     assert_true(capsules[0].start[0].x == 1 && capsules[0].end[0].x == 1.25f);
 }
 
-static void a_collider_moves_from_where_it_was_at_the_last_step(void** state)
+static void collider_moves_from_its_pose_at_the_last_step(void** state)
 {
     (void)state;
     hair_collider two[2] = {sphere(1), sphere(5)};
@@ -87,7 +87,7 @@ static void a_collider_moves_from_where_it_was_at_the_last_step(void** state)
     assert_true(capsules[0].start[0].x == 2);
 }
 
-static void another_shape_is_another_collider(void** state)
+static void collider_of_another_shape_is_not_matched(void** state)
 {
     (void)state;
     hair_collider one = sphere(1);
@@ -100,7 +100,7 @@ static void another_shape_is_another_collider(void** state)
     assert_true(capsules[0].start[0].x == 2);
 }
 
-static void a_larger_stride_skips_what_is_newer(void** state)
+static void larger_stride_skips_members_of_newer_callers(void** state)
 {
     (void)state;
     struct {
@@ -111,7 +111,7 @@ static void a_larger_stride_skips_what_is_newer(void** state)
     assert_true(colliders.current.collider[1].position[0] == 2);
 }
 
-static void none_is_a_count_too(void** state)
+static void zero_colliders_are_accepted(void** state)
 {
     (void)state;
     hair_collider many[HAIR_STEP_COLLIDERS];
@@ -122,7 +122,7 @@ static void none_is_a_count_too(void** state)
     assert_int_equal(hair_colliders_capsules(&colliders, &origin, &origin, capsules), 0);
 }
 
-static void a_wrong_collider_is_named_and_none_is_taken(void** state)
+static void invalid_collider_is_named_and_none_is_set(void** state)
 {
     (void)state;
     hair_collider two[2] = {sphere(1), sphere(2)};
@@ -141,7 +141,7 @@ static void a_wrong_collider_is_named_and_none_is_taken(void** state)
 
 // Check that the selection does not depend on the order of colliders, and that the selected
 // capsules keep their order.
-static void of_many_capsules_the_nearest_to_the_head_are_given(void** state)
+static void nearest_capsules_to_the_head_are_kept(void** state)
 {
     (void)state;
     enum { MANY = 1000 };
@@ -168,7 +168,7 @@ static hair_collider keyed(float x, uint64_t key)
     return collider;
 }
 
-static void a_collider_is_known_by_its_key_wherever_it_stands(void** state)
+static void collider_is_matched_by_key_at_any_index(void** state)
 {
     (void)state;
     hair_collider before[] = {keyed(1, 7), keyed(2, 0), keyed(3, 9), keyed(4, 0), keyed(5, 8)};
@@ -190,7 +190,7 @@ static void a_collider_is_known_by_its_key_wherever_it_stands(void** state)
 }
 
 // Check that sizes which a shape does not use may have any value.
-static void every_shape_wants_its_own_sizes(void** state)
+static void each_shape_checks_its_own_sizes(void** state)
 {
     (void)state;
     static const int sizes[] = {1, 2, 3, 2, 2, 0};
@@ -211,7 +211,7 @@ static void every_shape_wants_its_own_sizes(void** state)
     }
 }
 
-static void numbers_of_a_collider_have_ranges(void** state)
+static void collider_numbers_outside_their_range_are_refused(void** state)
 {
     (void)state;
     hair_collider wrong[] = {sphere(1), sphere(1), sphere(1), sphere(1), sphere(1), sphere(1)};
@@ -239,18 +239,18 @@ static void numbers_of_a_collider_have_ranges(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_sphere_is_a_capsule_whose_ends_are_alike),
+        TEST(sphere_is_a_capsule_with_equal_ends),
         TEST(a_capsule_lies_along_its_local_y),
-        TEST(capsules_are_from_the_head),
-        TEST(a_collider_moves_from_where_it_was_at_the_last_step),
-        TEST(another_shape_is_another_collider),
-        TEST(a_larger_stride_skips_what_is_newer),
-        TEST(none_is_a_count_too),
-        TEST(a_wrong_collider_is_named_and_none_is_taken),
-        TEST(of_many_capsules_the_nearest_to_the_head_are_given),
-        TEST(a_collider_is_known_by_its_key_wherever_it_stands),
-        TEST(every_shape_wants_its_own_sizes),
-        TEST(numbers_of_a_collider_have_ranges),
+        TEST(capsules_are_relative_to_the_head),
+        TEST(collider_moves_from_its_pose_at_the_last_step),
+        TEST(collider_of_another_shape_is_not_matched),
+        TEST(larger_stride_skips_members_of_newer_callers),
+        TEST(zero_colliders_are_accepted),
+        TEST(invalid_collider_is_named_and_none_is_set),
+        TEST(nearest_capsules_to_the_head_are_kept),
+        TEST(collider_is_matched_by_key_at_any_index),
+        TEST(each_shape_checks_its_own_sizes),
+        TEST(collider_numbers_outside_their_range_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,7 +78,7 @@ static void compare(const char* what, const hair_collision_mesh* collision_mesh,
     assert_true(worst_far <= 0.1);
 }
 
-static void a_box_of_triangles_is_as_far_as_a_box(void** state)
+static void distance_to_a_box_mesh_equals_a_box(void** state)
 {
     (void)state;
     const float size[3] = {0.3f, 0.2f, 0.11f};
@@ -91,7 +91,7 @@ static void a_box_of_triangles_is_as_far_as_a_box(void** state)
 }
 
 // Check a ball of many triangles. Its faces lie below the sphere by up to r (1 - cos(half a step)).
-static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
+static void distance_to_a_ball_mesh_equals_a_sphere(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0, 0};
@@ -104,7 +104,7 @@ static void a_ball_of_triangles_is_as_far_as_a_sphere(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
+static void mesh_inside_does_not_depend_on_winding(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
@@ -120,7 +120,7 @@ static void clockwise_or_not_a_mesh_has_the_same_inside(void** state)
 }
 
 // Check a mesh whose triangles share no vertices. Vertices with equal positions are taken as equal.
-static void a_soup_of_triangles_is_closed_by_its_positions(void** state)
+static void triangle_soup_is_closed_by_equal_positions(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0.15f, 0.1f};
@@ -164,7 +164,7 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
 }
 
 // Check a ball in a ball, whose inner one is inverted and makes a cavity.
-static void what_lies_in_a_hollow_is_outside(void** state)
+static void hollow_of_a_mesh_is_outside(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32),
@@ -181,7 +181,7 @@ static void what_lies_in_a_hollow_is_outside(void** state)
     hair_test_mesh_free(&inner);
 }
 
-static void two_balls_through_each_other_have_one_inside(void** state)
+static void intersecting_balls_have_one_inside(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 16, 32), other = hair_test_ball_mesh(0.1f, 16, 32);
@@ -196,7 +196,7 @@ static void two_balls_through_each_other_have_one_inside(void** state)
     hair_test_mesh_free(&other);
 }
 
-static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
+static void distance_beyond_the_grid_is_to_the_surface(void** state)
 {
     (void)state;
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 32, 64);
@@ -218,7 +218,7 @@ static void beyond_its_grid_a_form_is_as_far_as_its_surface(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-static void a_form_lives_as_long_as_who_holds_it(void** state)
+static void mesh_lives_as_long_as_its_last_user(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
@@ -246,7 +246,7 @@ static void refused(const hair_collision_mesh_desc* desc, const char* words)
     test.errors = 0;
 }
 
-static void what_is_no_mesh_is_refused(void** state)
+static void invalid_mesh_is_refused(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
@@ -284,7 +284,7 @@ static void what_is_no_mesh_is_refused(void** state)
 }
 
 // Check a triangle without area, which acts like a line.
-static void degenerate_triangles_are_borne(void** state)
+static void degenerate_triangles_are_accepted(void** state)
 {
     (void)state;
     float positions[] = {0, 0, 0, 1, 0, 0, 2, 0, 0, 2, 0, 0};
@@ -308,7 +308,7 @@ static void degenerate_triangles_are_borne(void** state)
 }
 
 // Check random meshes. Each gives a finite field or an error.
-static void random_meshes_make_finite_forms(void** state)
+static void random_meshes_have_finite_distances(void** state)
 {
     (void)state;
     uint32_t seed = 1, made = 0;
@@ -339,7 +339,7 @@ static void random_meshes_make_finite_forms(void** state)
     assert_true(made > 30);
 }
 
-static void every_refused_allocation_is_borne(void** state)
+static void refused_allocations_are_errors_that_leak_nothing(void** state)
 {
     (void)state;
     const float size[3] = {0.1f, 0.1f, 0.1f};
@@ -365,19 +365,19 @@ static void every_refused_allocation_is_borne(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(a_box_of_triangles_is_as_far_as_a_box),
-        TEST(a_ball_of_triangles_is_as_far_as_a_sphere),
-        TEST(clockwise_or_not_a_mesh_has_the_same_inside),
-        TEST(a_soup_of_triangles_is_closed_by_its_positions),
+        TEST(distance_to_a_box_mesh_equals_a_box),
+        TEST(distance_to_a_ball_mesh_equals_a_sphere),
+        TEST(mesh_inside_does_not_depend_on_winding),
+        TEST(triangle_soup_is_closed_by_equal_positions),
         TEST(an_open_mesh_is_a_shell_and_the_log_warns),
-        TEST(what_lies_in_a_hollow_is_outside),
-        TEST(two_balls_through_each_other_have_one_inside),
-        TEST(beyond_its_grid_a_form_is_as_far_as_its_surface),
-        TEST(a_form_lives_as_long_as_who_holds_it),
-        TEST(what_is_no_mesh_is_refused),
-        TEST(degenerate_triangles_are_borne),
-        TEST(random_meshes_make_finite_forms),
-        TEST(every_refused_allocation_is_borne),
+        TEST(hollow_of_a_mesh_is_outside),
+        TEST(intersecting_balls_have_one_inside),
+        TEST(distance_beyond_the_grid_is_to_the_surface),
+        TEST(mesh_lives_as_long_as_its_last_user),
+        TEST(invalid_mesh_is_refused),
+        TEST(degenerate_triangles_are_accepted),
+        TEST(random_meshes_have_finite_distances),
+        TEST(refused_allocations_are_errors_that_leak_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

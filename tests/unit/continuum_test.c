@@ -7,7 +7,7 @@
 
 #define PI 3.141592653589793
 
-static void the_elastica_agrees_with_its_table(void** state)
+static void elastica_equals_its_table(void** state)
 {
     (void)state;
     static const double table[][4] = {
@@ -27,7 +27,7 @@ static void the_elastica_agrees_with_its_table(void** state)
     }
 }
 
-static void a_load_at_the_tip_bends_the_elastica_as_its_table_says(void** state)
+static void elastica_with_a_tip_load_equals_its_table(void** state)
 {
     (void)state;
     static const double table[][3] = {{1, 0.30172077, 0.94356676},
@@ -42,7 +42,7 @@ static void a_load_at_the_tip_bends_the_elastica_as_its_table_says(void** state)
 }
 
 // Check the limits: gamma / 8 for a small weight, and sqrt(gamma / 2) for a large one.
-static void the_elastica_has_its_two_limits(void** state)
+static void elastica_approaches_its_two_limits(void** state)
 {
     (void)state;
     struct hair_reference_elastica light = hair_reference_elastica(1e-4, 0, 0);
@@ -75,7 +75,7 @@ static void critical_weights_come_from_zeros_of_bessel_functions(void** state)
     hair_test_near("half", 0, hair_reference_bessel_zero(0.5, 5), 5 * PI, 1e-8); // J_1/2 is a sine.
 }
 
-static void the_hanging_chain_swings_as_bessel_says(void** state)
+static void hanging_chain_swings_at_bessel_frequencies(void** state)
 {
     (void)state;
     static const double zeros[] = {2.4048255577, 5.5200781103, 8.6537279129};
@@ -95,7 +95,7 @@ static void the_hanging_chain_swings_as_bessel_says(void** state)
 
 // Check convergence. With half the last mass, twice the links leave a quarter of the discrete
 // chain's error.
-static void linkages_swing_as_their_table_says(void** state)
+static void linkages_swing_at_the_frequencies_of_the_table(void** state)
 {
     (void)state;
     static const double half[] = {3.76111581, 3.76490768, 3.76578662};
@@ -116,7 +116,7 @@ static void linkages_swing_as_their_table_says(void** state)
     hair_test_near("double pendulum", 2, second * second, 2 + sqrt(2), 1e-12);
 }
 
-static void a_wide_pendulum_swings_slower(void** state)
+static void pendulum_of_large_amplitude_swings_slower(void** state)
 {
     (void)state;
     static const double periods[] = {1.0174087976, 1.0731820071, 1.1803405990, 1.3728805006, 1.7622037295};
@@ -127,7 +127,7 @@ static void a_wide_pendulum_swings_slower(void** state)
                        5.1e-11);
 }
 
-static void a_clamped_beam_has_its_roots(void** state)
+static void clamped_beam_has_its_characteristic_roots(void** state)
 {
     (void)state;
     static const double roots[] = {1.875104068712, 4.694091132974, 7.854757438238};
@@ -135,7 +135,7 @@ static void a_clamped_beam_has_its_roots(void** state)
         hair_test_near("root", n, hair_reference_beam_root(n), roots[n - 1], 5.1e-13);
 }
 
-static void a_chain_between_pins_hangs_as_its_table_says(void** state)
+static void chain_between_pins_equals_the_catenary_table(void** state)
 {
     (void)state;
     struct hair_reference_catenary near = hair_reference_catenary(0.5), far = hair_reference_catenary(0.8);
@@ -154,7 +154,7 @@ static void a_chain_between_pins_hangs_as_its_table_says(void** state)
 
 // Check linkages of equal masses released from the horizontal. The values for 2 and 4 links are
 // from another program.
-static void linkages_fall_as_their_table_says(void** state)
+static void falling_linkages_equal_their_table(void** state)
 {
     (void)state;
     static const double tips[2][3][2] = {
@@ -182,17 +182,17 @@ static void linkages_fall_as_their_table_says(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_elastica_agrees_with_its_table),
-        cmocka_unit_test(a_load_at_the_tip_bends_the_elastica_as_its_table_says),
-        cmocka_unit_test(the_elastica_has_its_two_limits),
+        cmocka_unit_test(elastica_equals_its_table),
+        cmocka_unit_test(elastica_with_a_tip_load_equals_its_table),
+        cmocka_unit_test(elastica_approaches_its_two_limits),
         cmocka_unit_test(a_stiff_elastica_leaves_its_clamp_straight),
         cmocka_unit_test(critical_weights_come_from_zeros_of_bessel_functions),
-        cmocka_unit_test(the_hanging_chain_swings_as_bessel_says),
-        cmocka_unit_test(linkages_swing_as_their_table_says),
-        cmocka_unit_test(a_wide_pendulum_swings_slower),
-        cmocka_unit_test(a_clamped_beam_has_its_roots),
-        cmocka_unit_test(a_chain_between_pins_hangs_as_its_table_says),
-        cmocka_unit_test(linkages_fall_as_their_table_says),
+        cmocka_unit_test(hanging_chain_swings_at_bessel_frequencies),
+        cmocka_unit_test(linkages_swing_at_the_frequencies_of_the_table),
+        cmocka_unit_test(pendulum_of_large_amplitude_swings_slower),
+        cmocka_unit_test(clamped_beam_has_its_characteristic_roots),
+        cmocka_unit_test(chain_between_pins_equals_the_catenary_table),
+        cmocka_unit_test(falling_linkages_equal_their_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

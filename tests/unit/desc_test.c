@@ -43,7 +43,7 @@ static hair_result take(const struct sample* from, struct sample* own)
     return hair_schema_copy_in(&test.host, "sample", from, own, fields);
 }
 
-static void defaults_are_those_of_the_table(void** state)
+static void defaults_equal_the_schema(void** state)
 {
     (void)state;
     struct sample sample = defaults();
@@ -54,7 +54,7 @@ static void defaults_are_those_of_the_table(void** state)
     assert_int_equal(sample.header.version, HAIR_VERSION);
 }
 
-static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** state)
+static void defaults_of_an_older_caller_end_at_its_size(void** state)
 {
     (void)state;
     struct sample sample;
@@ -65,7 +65,7 @@ static void the_defaults_of_an_older_caller_end_where_its_struct_does(void** sta
     assert_memory_equal(&sample.newer, &untouched.newer, sizeof sample.newer);
 }
 
-static void what_an_older_caller_does_not_know_has_its_default(void** state)
+static void members_unknown_to_an_older_caller_have_defaults(void** state)
 {
     (void)state;
     struct sample old = defaults(), own;
@@ -77,7 +77,7 @@ static void what_an_older_caller_does_not_know_has_its_default(void** state)
     assert_true(own.newer == -1);
 }
 
-static void what_only_a_newer_caller_knows_is_not_read(void** state)
+static void members_of_a_newer_caller_are_not_read(void** state)
 {
     (void)state;
     struct {
@@ -94,7 +94,7 @@ static void what_only_a_newer_caller_knows_is_not_read(void** state)
     assert_memory_equal(&own[1], &beyond, sizeof beyond);
 }
 
-static void both_ends_of_a_range_are_inside(void** state)
+static void ends_of_a_range_are_accepted(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
@@ -106,7 +106,7 @@ static void both_ends_of_a_range_are_inside(void** state)
     assert_int_equal(test.errors, 0);
 }
 
-static void a_number_outside_is_named_with_its_range(void** state)
+static void number_outside_its_range_is_named_with_the_range(void** state)
 {
     (void)state;
     struct sample sample = defaults(), own;
@@ -126,7 +126,7 @@ static void a_number_outside_is_named_with_its_range(void** state)
     assert_string_equal(test.sentence, "sample is NULL");
 }
 
-static void what_no_default_function_filled_in_is_refused(void** state)
+static void desc_without_a_header_is_refused(void** state)
 {
     (void)state;
     struct sample zero = {{0, 0}, 0.5f, 5, 0}, own;
@@ -141,7 +141,7 @@ static void what_no_default_function_filled_in_is_refused(void** state)
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
 }
 
-static void another_minor_version_is_taken(void** state)
+static void desc_of_another_minor_version_is_accepted(void** state)
 {
     (void)state;
     struct sample other = defaults(), own;
@@ -154,14 +154,14 @@ static void another_minor_version_is_taken(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(defaults_are_those_of_the_table),
-        TEST(the_defaults_of_an_older_caller_end_where_its_struct_does),
-        TEST(what_an_older_caller_does_not_know_has_its_default),
-        TEST(what_only_a_newer_caller_knows_is_not_read),
-        TEST(both_ends_of_a_range_are_inside),
-        TEST(a_number_outside_is_named_with_its_range),
-        TEST(what_no_default_function_filled_in_is_refused),
-        TEST(another_minor_version_is_taken),
+        TEST(defaults_equal_the_schema),
+        TEST(defaults_of_an_older_caller_end_at_its_size),
+        TEST(members_unknown_to_an_older_caller_have_defaults),
+        TEST(members_of_a_newer_caller_are_not_read),
+        TEST(ends_of_a_range_are_accepted),
+        TEST(number_outside_its_range_is_named_with_the_range),
+        TEST(desc_without_a_header_is_refused),
+        TEST(desc_of_another_minor_version_is_accepted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,7 @@ static double slow_drag(double reynolds)
     return 8 * PI / reynolds * e * (1 - 0.87 * e * e);
 }
 
-static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** state)
+static void drag_across_a_cylinder_is_within_10_percent_of_data(void** state)
 {
     (void)state;
     const struct {
@@ -59,7 +59,7 @@ static void across_a_cylinder_it_is_within_a_tenth_of_published_data(void** stat
 
 // Compare with Bharti, Chhabra and Eswaran 2007 at a Prandtl number of 0.7. Conversion to 1 is by
 // the factor (1/0.7)^(1/3).
-static void along_a_cylinder_it_is_what_heat_does(void** state)
+static void drag_along_a_cylinder_equals_the_heat_analogy(void** state)
 {
     (void)state;
     const double rows[][2] = {{10, 1.8623}, {20, 2.4653}, {40, 3.2825}};
@@ -72,7 +72,7 @@ static void along_a_cylinder_it_is_what_heat_does(void** state)
     assert_true(fabs(hair_reference_drag_along(0) - 0.3 * PI) < 1e-12);
 }
 
-static void a_force_has_a_part_across_and_one_along(void** state)
+static void drag_force_has_a_part_across_and_one_along(void** state)
 {
     (void)state;
     const struct hair_reference_air air = {1.204, 1.82e-5};
@@ -89,9 +89,9 @@ static void a_force_has_a_part_across_and_one_along(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(across_a_cylinder_it_is_within_a_tenth_of_published_data),
-        cmocka_unit_test(along_a_cylinder_it_is_what_heat_does),
-        cmocka_unit_test(a_force_has_a_part_across_and_one_along),
+        cmocka_unit_test(drag_across_a_cylinder_is_within_10_percent_of_data),
+        cmocka_unit_test(drag_along_a_cylinder_equals_the_heat_analogy),
+        cmocka_unit_test(drag_force_has_a_part_across_and_one_along),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -68,7 +68,7 @@ static void a_new_context_is_current_and_is_opengl_4_5_core(void** state)
     hair_egl_destroy(egl);
 }
 
-static void the_log_names_the_device_that_was_taken(void** state)
+static void log_names_the_selected_device(void** state)
 {
     (void)state;
     struct ear ear = {0};
@@ -105,7 +105,7 @@ static void a_destroyed_context_leaves_none_current(void** state)
     hair_egl_destroy(NULL);
 }
 
-static void destroying_one_context_leaves_another_of_the_same_device_working(void** state)
+static void destroying_a_context_keeps_another_of_the_device(void** state)
 {
     (void)state;
     hair_egl* first = made();
@@ -122,7 +122,7 @@ static void destroying_one_context_leaves_another_of_the_same_device_working(voi
     hair_egl_destroy(second);
 }
 
-static void destroying_a_context_that_is_not_current_leaves_the_current_one(void** state)
+static void destroying_another_context_keeps_the_current_one(void** state)
 {
     (void)state;
     hair_egl* first = made();
@@ -178,7 +178,7 @@ static int exit_code_of_an_old_driver(void)
     return strstr(ear.all, "refused: ") ? 0 : 4;
 }
 
-static void a_driver_that_is_too_old_is_an_opengl_error_with_the_reasons(void** state)
+static void old_driver_is_an_opengl_error_with_reasons(void** state)
 {
     const char* program = *state;
     pid_t child = fork();
@@ -199,15 +199,15 @@ int main(int count, char** arguments)
     if (count == 2 && !strcmp(arguments[1], "old-driver")) return exit_code_of_an_old_driver();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_context_is_current_and_is_opengl_4_5_core),
-        cmocka_unit_test(the_log_names_the_device_that_was_taken),
+        cmocka_unit_test(log_names_the_selected_device),
         cmocka_unit_test(a_device_out_of_range_is_an_argument_error),
         cmocka_unit_test(a_destroyed_context_leaves_none_current),
-        cmocka_unit_test(destroying_one_context_leaves_another_of_the_same_device_working),
-        cmocka_unit_test(destroying_a_context_that_is_not_current_leaves_the_current_one),
+        cmocka_unit_test(destroying_a_context_keeps_another_of_the_device),
+        cmocka_unit_test(destroying_another_context_keeps_the_current_one),
         cmocka_unit_test(making_null_current_leaves_none_current),
         cmocka_unit_test(functions_are_found_by_name),
         cmocka_unit_test(refused_memory_is_a_memory_error),
-        cmocka_unit_test_prestate(a_driver_that_is_too_old_is_an_opengl_error_with_the_reasons, arguments[0]),
+        cmocka_unit_test_prestate(old_driver_is_an_opengl_error_with_reasons, arguments[0]),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,7 +39,7 @@ static void a_fibre_that_absorbs_nothing_loses_no_light(void** state)
     }
 }
 
-static void the_more_a_fibre_absorbs_the_less_it_sends_on(void** state)
+static void more_absorption_sends_on_less_light(void** state)
 {
     (void)state;
     static hair_fibre_table table;
@@ -72,8 +72,8 @@ static double fresnel(double in, double out, double index)
 }
 
 // Return the angle by which a ray is deflected on leaving a unit circle after `legs` legs inside.
-// The ray enters at height h along -x, and is refracted by Snell's law. `share` is the fraction of
-// light that leaves then, and `path` the length inside.
+// The ray enters at height h along -x, and is refracted by Snell's law. `fraction` is the part of
+// the light that leaves then, and `path` the length inside.
 static double trace(double h, int legs, double index, double* fraction, double* path)
 {
     struct vec p = {sqrt(1 - h * h), h}, d = {-1, 0};
@@ -106,7 +106,7 @@ static double trace(double h, int legs, double index, double* fraction, double* 
 
 // Compare lobes of light from +x that leaves at angle phi. The table sums over the width with as
 // many rays, so only its geometry is tested.
-static void lobes_lie_where_rays_traced_through_a_circle_leave_it(void** state)
+static void lobes_lie_where_traced_rays_leave_the_fibre(void** state)
 {
     (void)state;
     static hair_fibre_table table;
@@ -141,8 +141,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_fibre_that_absorbs_nothing_loses_no_light),
-        cmocka_unit_test(the_more_a_fibre_absorbs_the_less_it_sends_on),
-        cmocka_unit_test(lobes_lie_where_rays_traced_through_a_circle_leave_it),
+        cmocka_unit_test(more_absorption_sends_on_less_light),
+        cmocka_unit_test(lobes_lie_where_traced_rays_leave_the_fibre),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,7 +57,7 @@ static void a_sheet_has_the_pictures_of_its_rows(void** state)
     expect(0, "rmdir $D/tmp", "");
 }
 
-static void what_cannot_be_written_exits_with_1(void** state)
+static void unwritable_output_exits_with_1(void** state)
 {
     (void)state;
     expect(1, "$T --only 'followers and colliders' --size 1x1 -o $D/none/a.png", "none/a.png");
@@ -78,7 +78,7 @@ int main(void)
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(every_row_has_arguments_that_hair_capture_takes),
         cmocka_unit_test(a_sheet_has_the_pictures_of_its_rows),
-        cmocka_unit_test(what_cannot_be_written_exits_with_1),
+        cmocka_unit_test(unwritable_output_exits_with_1),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

@@ -242,7 +242,7 @@ static void a_follower_is_as_long_as_its_strand(void** state)
 
 // Followers around guides -------------------------------------------------------------------------
 
-static void without_followers_asked_for_each_guide_is_drawn(void** state)
+static void groom_without_followers_draws_each_guide(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
@@ -263,7 +263,7 @@ static void without_followers_asked_for_each_guide_is_drawn(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void followers_surround_their_guides_evenly_within_the_clump_radius(void** state)
+static void followers_surround_their_guides_within_the_clump_radius(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(100);
@@ -372,7 +372,7 @@ static void grown_roots_lie_on_the_scalp_by_either_interpolation(void** state)
     free_grown(&grown);
 }
 
-static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_between_them(void** state)
+static void followers_blend_corner_guides_by_barycentric_weight(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, upright);
@@ -395,7 +395,7 @@ static void guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_bet
     free_grown(&grown);
 }
 
-static void followers_are_between_guides_that_surround_them_where_corners_have_none(void** state)
+static void followers_use_surrounding_guides_when_corners_have_none(void** state)
 {
     (void)state;
     struct grown grown = prepare(9, 4, 4000, sparse);
@@ -442,7 +442,7 @@ static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
     free_grown(&grown);
 }
 
-static void nothing_is_blended_across_a_parting(void** state)
+static void followers_are_not_blended_across_a_parting(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, parted);
@@ -460,7 +460,7 @@ static void nothing_is_blended_across_a_parting(void** state)
     free_grown(&grown);
 }
 
-static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere(void** state)
+static void followers_grow_only_where_density_is_not_zero(void** state)
 {
     (void)state;
     struct grown grown = prepare(4, 4, 4000, upright);
@@ -483,7 +483,7 @@ static void nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewher
     free_grown(&grown);
 }
 
-static void triangles_of_other_densities_share_no_patch(void** state)
+static void triangles_of_different_density_share_no_patch(void** state)
 {
     (void)state;
     struct grown grown = prepare(20, 4, 4000, sparse); // Five followers per triangle.
@@ -506,7 +506,7 @@ static void triangles_of_other_densities_share_no_patch(void** state)
     free_grown(&grown);
 }
 
-static void the_scalp_is_scaled_and_turned_as_the_strands_are(void** state)
+static void scalp_is_scaled_and_rotated_like_strands(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 1000, upright);
@@ -556,16 +556,16 @@ int main(void)
         TEST(guides_follow_themselves_without_an_offset),
         TEST(strands_of_different_vertex_counts_are_followed_in_one_groom),
         TEST(a_follower_is_as_long_as_its_strand),
-        TEST(without_followers_asked_for_each_guide_is_drawn),
-        TEST(followers_surround_their_guides_evenly_within_the_clump_radius),
+        TEST(groom_without_followers_draws_each_guide),
+        TEST(followers_surround_their_guides_within_the_clump_radius),
         TEST(grown_roots_lie_on_the_scalp_by_either_interpolation),
-        TEST(guides_at_the_corners_of_a_triangle_are_blended_as_the_root_lies_between_them),
-        TEST(followers_are_between_guides_that_surround_them_where_corners_have_none),
+        TEST(followers_blend_corner_guides_by_barycentric_weight),
+        TEST(followers_use_surrounding_guides_when_corners_have_none),
         TEST(grown_roots_are_spread_without_clumps_or_gaps),
-        TEST(nothing_is_blended_across_a_parting),
-        TEST(nothing_grows_where_the_density_is_zero_and_patches_tell_it_elsewhere),
-        TEST(triangles_of_other_densities_share_no_patch),
-        TEST(the_scalp_is_scaled_and_turned_as_the_strands_are),
+        TEST(followers_are_not_blended_across_a_parting),
+        TEST(followers_grow_only_where_density_is_not_zero),
+        TEST(triangles_of_different_density_share_no_patch),
+        TEST(scalp_is_scaled_and_rotated_like_strands),
         TEST(one_guide_or_two_are_enough_for_a_scalp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -129,7 +129,7 @@ static void guides_are_smoothed_as_the_reference_smooths_them(void** state)
     }
 }
 
-static void followers_are_where_the_reference_has_them(void** state)
+static void followers_equal_the_reference(void** state)
 {
     (void)state;
     for (size_t i = 0; i < SIZES; ++i) {
@@ -143,7 +143,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(guides_are_smoothed_as_the_reference_smooths_them),
-        cmocka_unit_test(followers_are_where_the_reference_has_them),
+        cmocka_unit_test(followers_equal_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

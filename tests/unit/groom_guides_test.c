@@ -79,7 +79,7 @@ static void strands_given_as_guides_are_the_guides_in_their_order(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void guides_are_as_many_as_asked_for_or_one_in_ten(void** state)
+static void guide_count_is_the_requested_or_one_in_ten(void** state)
 {
     (void)state;
     static const struct {
@@ -157,7 +157,7 @@ static hair_vec3 wide_and_narrow(float t, uint32_t strand, const void* user)
 
 // Check the distribution of guides. With equal numbers of strands, the square of 10 cm has
 // (10^2)^(2/3) = 22 times as many guides as the square of 1 cm.
-static void guides_go_where_strands_differ_more_than_where_they_are_many(void** state)
+static void guides_are_selected_where_strands_differ(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(4000, 4);
@@ -165,14 +165,14 @@ static void guides_go_where_strands_differ_more_than_where_they_are_many(void** 
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.guide_count = 230;
     hair_groom* groom = make(&desc);
-    uint32_t clip_row_to_sphere = 0;
-    for (uint32_t i = 0; i < 230; ++i) clip_row_to_sphere += vertex(groom, i, 0).x < 0.1f;
-    assert_in_range(clip_row_to_sphere, 5, 20);
+    uint32_t narrow = 0;
+    for (uint32_t i = 0; i < 230; ++i) narrow += vertex(groom, i, 0).x < 0.1f;
+    assert_in_range(narrow, 5, 20);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }
 
-static void strands_that_are_all_alike_are_shared_out_too(void** state)
+static void identical_strands_are_divided_among_guides(void** state)
 {
     (void)state;
     float count = 1;
@@ -201,7 +201,7 @@ static void strands_that_are_all_alike_are_shared_out_too(void** state)
 
 // Check the number of vertices. The scalp pins two, so a strand of fewer than four gets more if
 // guide_vertices permits, and can move.
-static void a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_may(void** state)
+static void guide_keeps_its_vertices_between_4_and_guide_vertices(void** state)
 {
     (void)state;
     static const uint32_t given[] = {2, 3, 4, 5, 16, 17, 64, 255}, asked[] = {2, 3, 4, 16, 64, 65, 254, 256};
@@ -243,7 +243,7 @@ static double length_of(const float* p, uint32_t vertices)
 
 // Check lengths. Arcs have 4 pi / 31 of rotation per segment, at a slope. A chord is shorter by
 // (rotation per segment)^2 / 24, times the circular fraction of the motion.
-static void a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples(void** state)
+static void guide_keeps_the_length_of_its_strand(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(3, 200);
@@ -315,7 +315,7 @@ static float same_turn(hair_quat a, hair_vec4 b)
 
 // Check F_i = T_i F_(i-1), the frames along a guide, where T_i is the rotation at vertex i. Lengths
 // and directions alone reproduce the vertices from the root frame.
-static void lengths_and_directions_give_the_guide_back(void** state)
+static void guide_is_rebuilt_from_lengths_and_directions(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(20, 60);
@@ -343,7 +343,7 @@ static void lengths_and_directions_give_the_guide_back(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void rest_distances_are_those_between_vertices_and_none_at_the_tip(void** state)
+static void rest_distances_are_those_between_vertices(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(1, 20);
@@ -370,7 +370,7 @@ static hair_vec3 zigzag(float t, uint32_t strand, const void* user)
 }
 
 // Check zigzag strands. Equidistant samples may all fall on both ends of the zigzag, or on one end.
-static void strands_that_run_to_and_fro_become_sound_guides(void** state)
+static void folded_strands_become_valid_guides(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(3, 256);
@@ -408,7 +408,7 @@ static hair_vec3 bunch(float t, uint32_t strand, const void* user)
     return hair_v3(2, -0.1f * (float)(i / 2) - (i % 2 ? 2e-5f : 0), 0);
 }
 
-static void vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does(void** state)
+static void guide_vertices_are_distinct_and_end_at_the_tip(void** state)
 {
     (void)state;
     const float last = 23;
@@ -433,19 +433,19 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(strands_given_as_guides_are_the_guides_in_their_order),
-        TEST(guides_are_as_many_as_asked_for_or_one_in_ten),
+        TEST(guide_count_is_the_requested_or_one_in_ten),
         TEST(a_few_strands_of_another_shape_get_guides_of_their_own),
         TEST(guides_lie_more_evenly_than_by_chance),
-        TEST(guides_go_where_strands_differ_more_than_where_they_are_many),
-        TEST(strands_that_are_all_alike_are_shared_out_too),
-        TEST(a_guide_keeps_its_vertices_up_to_guide_vertices_and_has_four_if_it_may),
-        TEST(a_guide_keeps_the_length_of_its_strand_but_for_the_arcs_between_samples),
-        TEST(vertices_of_a_guide_are_apart_and_it_ends_where_its_strand_does),
+        TEST(guides_are_selected_where_strands_differ),
+        TEST(identical_strands_are_divided_among_guides),
+        TEST(guide_keeps_its_vertices_between_4_and_guide_vertices),
+        TEST(guide_keeps_the_length_of_its_strand),
+        TEST(guide_vertices_are_distinct_and_end_at_the_tip),
         TEST(every_root_frame_is_a_rotation_of_y_onto_the_first_segment),
         TEST(root_frames_vary_as_smoothly_as_the_roots),
-        TEST(lengths_and_directions_give_the_guide_back),
-        TEST(rest_distances_are_those_between_vertices_and_none_at_the_tip),
-        TEST(strands_that_run_to_and_fro_become_sound_guides),
+        TEST(guide_is_rebuilt_from_lengths_and_directions),
+        TEST(rest_distances_are_those_between_vertices),
+        TEST(folded_strands_become_valid_guides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -121,7 +121,7 @@ static void assert_sound(const hair_groom* groom)
     }
 }
 
-static void any_numbers_are_refused_or_make_a_sound_groom(void** state)
+static void any_numbers_are_refused_or_make_a_valid_groom(void** state)
 {
     (void)state;
     static struct hostile hostile;
@@ -149,6 +149,6 @@ static void any_numbers_are_refused_or_make_a_sound_groom(void** state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_numbers_are_refused_or_make_a_sound_groom)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(any_numbers_are_refused_or_make_a_valid_groom)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -47,7 +47,7 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-static void the_nearest_are_those_that_a_scan_finds(void** state)
+static void nearest_points_equal_a_linear_scan(void** state)
 {
     (void)state;
     static float points[COUNT * 12], squared[COUNT];
@@ -74,7 +74,7 @@ static void the_nearest_are_those_that_a_scan_finds(void** state)
         }
 }
 
-static void a_search_that_knows_a_near_point_finds_a_nearer_one_or_keeps_it(void** state)
+static void search_with_a_known_point_finds_a_nearer_or_keeps_it(void** state)
 {
     (void)state;
     static float points[COUNT * 3];
@@ -92,7 +92,7 @@ static void a_search_that_knows_a_near_point_finds_a_nearer_one_or_keeps_it(void
     hair_kd_tree_free(&test.host, &tree);
 }
 
-static void as_many_are_found_as_there_are(void** state)
+static void search_for_more_points_finds_all_points(void** state)
 {
     (void)state;
     float points[] = {0, 0, 0, 1, 0, 0, 2, 0, 0}, point[] = {1.9f, 0, 0};
@@ -106,7 +106,7 @@ static void as_many_are_found_as_there_are(void** state)
     hair_kd_tree_free(&test.host, &tree);
 }
 
-static void a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weight(void** state)
+static void split_keeps_points_on_their_sides_within_its_weight(void** state)
 {
     (void)state;
     static float points[COUNT * 3];
@@ -138,7 +138,7 @@ static void a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weigh
         }
 }
 
-static void the_widest_axis_is_the_one_along_which_points_reach_farthest(void** state)
+static void widest_axis_is_that_of_the_largest_extent(void** state)
 {
     (void)state;
     float points[] = {0, 0, 0, 1, -3, 2, 0.5f, 1, 1};
@@ -157,11 +157,11 @@ static void the_widest_axis_is_the_one_along_which_points_reach_farthest(void** 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_nearest_are_those_that_a_scan_finds),
-        TEST(a_search_that_knows_a_near_point_finds_a_nearer_one_or_keeps_it),
-        TEST(as_many_are_found_as_there_are),
-        TEST(a_cut_keeps_all_points_on_their_sides_and_the_front_within_its_weight),
-        TEST(the_widest_axis_is_the_one_along_which_points_reach_farthest),
+        TEST(nearest_points_equal_a_linear_scan),
+        TEST(search_with_a_known_point_finds_a_nearer_or_keeps_it),
+        TEST(search_for_more_points_finds_all_points),
+        TEST(split_keeps_points_on_their_sides_within_its_weight),
+        TEST(widest_axis_is_that_of_the_largest_extent),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

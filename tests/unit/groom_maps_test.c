@@ -125,7 +125,7 @@ static void count_columns(const hair_groom* groom, float fraction, double count[
     }
 }
 
-static void nothing_is_drawn_where_an_image_is_black(void** state)
+static void followers_are_absent_where_the_density_image_is_black(void** state)
 {
     (void)state;
     static const float bands[10] = {0.2f, 0.2f, 0, 0, 0, 0.2f, 0.2f, 0, 0, 0.2f}, grey[1] = {0.4f};
@@ -157,7 +157,7 @@ static void nothing_is_drawn_where_an_image_is_black(void** state)
 
 // Check a ramp. If each of n followers in a column were drawn independently, the error would be
 // sqrt(n / 4), which is 14 for 800. Patches divided in four have a smaller error.
-static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(void** state)
+static void density_ramp_is_kept_at_any_patch_prefix(void** state)
 {
     (void)state;
     static const float ramp[2] = {0, 1};
@@ -180,7 +180,7 @@ static void a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut(vo
 }
 
 // Check stripes narrower than patches, of two densities that are similar enough to share a patch.
-static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
+static void followers_in_one_patch_keep_the_density_of_their_root(void** state)
 {
     (void)state;
     float stripes[40];
@@ -210,7 +210,7 @@ static void what_is_in_one_patch_is_as_dense_as_its_own_root_says(void** state)
     free_grown(&grown);
 }
 
-static void a_linear_map_is_the_same_as_image_and_by_vertices(void** state)
+static void linear_map_is_equal_by_image_and_by_vertices(void** state)
 {
     (void)state;
     float values[VERTICES], wide[200];
@@ -247,7 +247,7 @@ static float of_set(const hair_vec4* v, int set)
 }
 
 // Check that each set has its own density and thickness, with one order of followers for all sets.
-static void patches_tell_of_every_set(void** state)
+static void patches_know_every_map_set(void** state)
 {
     (void)state;
     static const float left[2] = {1, 0}, right[2] = {0, 1}, thick[4] = {0.5f, 2, 0.5f, 2};
@@ -287,7 +287,7 @@ static void patches_tell_of_every_set(void** state)
     free_grown(&grown);
 }
 
-static void maps_are_refused_by_set_index_value_and_range(void** state)
+static void invalid_maps_are_refused_by_set_index_and_range(void** state)
 {
     (void)state;
     float values[VERTICES] = {0};
@@ -327,7 +327,7 @@ static void maps_are_refused_by_set_index_value_and_range(void** state)
     free_grown(&grown);
 }
 
-static void no_memory_is_lost_whichever_allocation_is_refused(void** state)
+static void refused_allocations_of_maps_leak_nothing(void** state)
 {
     (void)state;
     static const float noise[9] = {1, 0, 0.3f, 0.7f, 0, 1, 0.2f, 0.9f, 0.5f};
@@ -361,13 +361,13 @@ static void no_memory_is_lost_whichever_allocation_is_refused(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(nothing_is_drawn_where_an_image_is_black),
-        TEST(a_ramp_keeps_its_density_everywhere_however_short_patches_are_cut),
-        TEST(what_is_in_one_patch_is_as_dense_as_its_own_root_says),
-        TEST(a_linear_map_is_the_same_as_image_and_by_vertices),
-        TEST(patches_tell_of_every_set),
-        TEST(maps_are_refused_by_set_index_value_and_range),
-        TEST(no_memory_is_lost_whichever_allocation_is_refused),
+        TEST(followers_are_absent_where_the_density_image_is_black),
+        TEST(density_ramp_is_kept_at_any_patch_prefix),
+        TEST(followers_in_one_patch_keep_the_density_of_their_root),
+        TEST(linear_map_is_equal_by_image_and_by_vertices),
+        TEST(patches_know_every_map_set),
+        TEST(invalid_maps_are_refused_by_set_index_and_range),
+        TEST(refused_allocations_of_maps_leak_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

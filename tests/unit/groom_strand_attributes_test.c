@@ -44,7 +44,7 @@ static hair_groom* make(struct hair_test_strands* strands, hair_groom_desc* desc
     return groom;
 }
 
-static void followers_of_strands_have_what_these_have(void** state)
+static void followers_have_the_attributes_of_their_strand(void** state)
 {
     (void)state;
     static float colors[6 * COUNT], radii[COUNT];
@@ -69,7 +69,7 @@ static void followers_of_strands_have_what_these_have(void** state)
 
 // Check followers between guides. Their red is approximately the x coordinate of their root, as the
 // weights interpolate it.
-static void followers_between_guides_have_what_lies_between(void** state)
+static void followers_between_guides_blend_their_attributes(void** state)
 {
     (void)state;
     static float colors[6 * COUNT], radii[COUNT];
@@ -97,7 +97,7 @@ static void followers_between_guides_have_what_lies_between(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void without_any_nothing_is_kept(void** state)
+static void groom_without_attributes_keeps_none(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(COUNT);
@@ -109,7 +109,7 @@ static void without_any_nothing_is_kept(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void wrong_values_are_named(void** state)
+static void invalid_attributes_are_named(void** state)
 {
     (void)state;
     static const float bad[] = {NAN, INFINITY, -1e-3f, 1e7f};
@@ -141,10 +141,10 @@ static void wrong_values_are_named(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(followers_of_strands_have_what_these_have),
-        TEST(followers_between_guides_have_what_lies_between),
-        TEST(without_any_nothing_is_kept),
-        TEST(wrong_values_are_named),
+        TEST(followers_have_the_attributes_of_their_strand),
+        TEST(followers_between_guides_blend_their_attributes),
+        TEST(groom_without_attributes_keeps_none),
+        TEST(invalid_attributes_are_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -70,7 +70,7 @@ static void free_example(struct example* example)
     hair_test_scalp_free(&example->scalp);
 }
 
-static void strands_of_which_none_can_be_used_are_refused(void** state)
+static void groom_without_a_usable_strand_is_refused(void** state)
 {
     (void)state;
     float positions[] = {0, 0, 0, 1, NAN, 0, 2, 0, 0, 2, 1e-7f, 0};
@@ -85,7 +85,7 @@ static void strands_of_which_none_can_be_used_are_refused(void** state)
                    "vertices were not finite");
 }
 
-static void vertices_beyond_counting_are_refused(void** state)
+static void vertex_count_overflow_is_refused(void** state)
 {
     (void)state;
     float positions[6] = {0};
@@ -108,7 +108,7 @@ static void more_guides_than_262144_are_refused(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void a_scalp_is_refused_by_index_value_and_range(void** state)
+static void invalid_scalp_is_refused_by_index_value_and_range(void** state)
 {
     (void)state;
     struct example example = make_example(10);
@@ -130,7 +130,7 @@ static void a_scalp_is_refused_by_index_value_and_range(void** state)
     free_example(&example);
 }
 
-static void a_scalp_where_nothing_can_grow_is_refused(void** state)
+static void scalp_where_nothing_can_grow_is_refused(void** state)
 {
     (void)state;
     struct example example = make_example(10);
@@ -141,7 +141,7 @@ static void a_scalp_where_nothing_can_grow_is_refused(void** state)
     free_example(&example);
 }
 
-static void patches_cover_every_follower_once_and_none_is_too_large(void** state)
+static void patches_cover_every_follower_once(void** state)
 {
     (void)state;
     struct example example = make_example(700);
@@ -159,7 +159,7 @@ static void patches_cover_every_follower_once_and_none_is_too_large(void** state
     free_example(&example);
 }
 
-static void followers_are_as_many_as_asked_for(void** state)
+static void follower_count_is_the_requested(void** state)
 {
     (void)state;
     struct example example = make_example(700);
@@ -172,7 +172,7 @@ static void followers_are_as_many_as_asked_for(void** state)
     free_example(&example);
 }
 
-static void every_number_of_a_follower_is_finite_and_in_its_range(void** state)
+static void follower_numbers_are_finite_and_in_range(void** state)
 {
     (void)state;
     struct example example = make_example(700);
@@ -204,7 +204,7 @@ static int differ(const hair_groom* a, const hair_groom* b)
     return memcmp(a->followers, b->followers, a->info.follower_count * sizeof *a->followers) != 0;
 }
 
-static void the_same_seed_gives_the_same_bytes_and_another_gives_others(void** state)
+static void equal_seeds_give_equal_grooms_and_others_differ(void** state)
 {
     (void)state;
     struct example example = make_example(700);
@@ -221,7 +221,7 @@ static void the_same_seed_gives_the_same_bytes_and_another_gives_others(void** s
     free_example(&example);
 }
 
-static void memory_may_run_out_anywhere_and_nothing_is_left_behind(void** state)
+static void refused_allocations_of_a_groom_leak_nothing(void** state)
 {
     (void)state;
     struct example example = make_example(200);
@@ -245,7 +245,7 @@ static void memory_may_run_out_anywhere_and_nothing_is_left_behind(void** state)
     free_example(&example);
 }
 
-static void a_groom_describes_its_strands(void** state)
+static void groom_info_describes_the_strands(void** state)
 {
     (void)state;
     float positions[] = {0, 0, 0, 0, 3, 0, 1, 0, 0, 1, 1, 0, 9, 9, 9};
@@ -280,7 +280,7 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-static void fur_of_50000_strands_needs_no_head_and_fills_its_patches(void** state)
+static void fur_of_50000_strands_fills_its_patches(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(50000);
@@ -321,7 +321,7 @@ static void followers_of_a_patch_are_neighbours(void** state)
     hair_test_strands_free(&strands);
 }
 
-static void cutting_the_end_off_a_patch_thins_all_of_it(void** state)
+static void prefix_of_a_patch_thins_it_evenly(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(500);
@@ -347,7 +347,7 @@ static int compare(const void* a, const void* b)
     return (x > y) - (x < y);
 }
 
-static void followers_differ_in_their_seeds_and_with_the_seed_of_the_groom(void** state)
+static void follower_seeds_differ_and_follow_the_groom_seed(void** state)
 {
     (void)state;
     struct hair_test_strands strands = hair_test_fur(2000);
@@ -398,21 +398,21 @@ static void built_in_haircuts_become_grooms(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(strands_of_which_none_can_be_used_are_refused),
-        TEST(vertices_beyond_counting_are_refused),
+        TEST(groom_without_a_usable_strand_is_refused),
+        TEST(vertex_count_overflow_is_refused),
         TEST(more_guides_than_262144_are_refused),
-        TEST(a_scalp_is_refused_by_index_value_and_range),
-        TEST(a_scalp_where_nothing_can_grow_is_refused),
-        TEST(patches_cover_every_follower_once_and_none_is_too_large),
-        TEST(followers_are_as_many_as_asked_for),
-        TEST(every_number_of_a_follower_is_finite_and_in_its_range),
-        TEST(the_same_seed_gives_the_same_bytes_and_another_gives_others),
-        TEST(memory_may_run_out_anywhere_and_nothing_is_left_behind),
-        TEST(a_groom_describes_its_strands),
-        TEST(fur_of_50000_strands_needs_no_head_and_fills_its_patches),
+        TEST(invalid_scalp_is_refused_by_index_value_and_range),
+        TEST(scalp_where_nothing_can_grow_is_refused),
+        TEST(patches_cover_every_follower_once),
+        TEST(follower_count_is_the_requested),
+        TEST(follower_numbers_are_finite_and_in_range),
+        TEST(equal_seeds_give_equal_grooms_and_others_differ),
+        TEST(refused_allocations_of_a_groom_leak_nothing),
+        TEST(groom_info_describes_the_strands),
+        TEST(fur_of_50000_strands_fills_its_patches),
         TEST(followers_of_a_patch_are_neighbours),
-        TEST(cutting_the_end_off_a_patch_thins_all_of_it),
-        TEST(followers_differ_in_their_seeds_and_with_the_seed_of_the_groom),
+        TEST(prefix_of_a_patch_thins_it_evenly),
+        TEST(follower_seeds_differ_and_follow_the_groom_seed),
         TEST(built_in_haircuts_become_grooms),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,7 +38,7 @@ static int make_folder(void** state)
     return 0;
 }
 
-static void info_tells_what_is_in_a_haircut(void** state)
+static void info_prints_the_contents_of_a_haircut(void** state)
 {
     (void)state;
     expect(0, "$T info $D/a.hair", "strands:   3, of 3 in the file");
@@ -50,7 +50,7 @@ static void info_tells_what_is_in_a_haircut(void** state)
     expect(0, "$T info --keep-fraction 0.4 $D/a4.tfx", "strands:   1, of 3 in the file");
 }
 
-static void info_tells_what_was_repaired(void** state)
+static void info_prints_repairs(void** state)
 {
     (void)state;
     struct hair_test_file file = hair_test_tfx3();
@@ -75,7 +75,7 @@ static void haircuts_are_read_from_pipes_and_written_to_them(void** state)
         "");
 }
 
-static void every_format_converts_to_those_that_are_written(void** state)
+static void every_format_converts_to_every_writable_format(void** state)
 {
     (void)state;
     expect(0,
@@ -149,7 +149,7 @@ static void bad_input_exits_with_4(void** state)
     expect(1, "test -e $D/y.hair", "");
 }
 
-static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
+static void unwritable_output_exits_with_1_and_leaves_no_file(void** state)
 {
     (void)state;
     expect(1, "$T convert $D/a.hair /dev/full", "cannot write /dev/full: No space left");
@@ -164,7 +164,7 @@ static void what_cannot_be_written_exits_with_1_and_leaves_nothing(void** state)
     expect(0, "ls $D | grep -c 'hair\\.......' || true", "0"); // There are no temporary files.
 }
 
-static void a_reader_that_went_away_is_a_failed_write(void** state)
+static void closed_pipe_is_a_failed_write(void** state)
 {
     (void)state;
     expect(0,
@@ -187,15 +187,15 @@ static void help_and_version_are_printed(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(info_tells_what_is_in_a_haircut),
-        cmocka_unit_test(info_tells_what_was_repaired),
+        cmocka_unit_test(info_prints_the_contents_of_a_haircut),
+        cmocka_unit_test(info_prints_repairs),
         cmocka_unit_test(haircuts_are_read_from_pipes_and_written_to_them),
-        cmocka_unit_test(every_format_converts_to_those_that_are_written),
+        cmocka_unit_test(every_format_converts_to_every_writable_format),
         cmocka_unit_test(built_in_haircuts_are_written),
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(bad_input_exits_with_4),
-        cmocka_unit_test(what_cannot_be_written_exits_with_1_and_leaves_nothing),
-        cmocka_unit_test(a_reader_that_went_away_is_a_failed_write),
+        cmocka_unit_test(unwritable_output_exits_with_1_and_leaves_no_file),
+        cmocka_unit_test(closed_pipe_is_a_failed_write),
         cmocka_unit_test(help_and_version_are_printed),
     };
     return cmocka_run_group_tests(tests, make_folder, hair_test_shell_finish);

@@ -36,7 +36,7 @@ static double between(const float* gusts, const double place[3], int c)
     return sum;
 }
 
-static void its_standard_deviation_is_1_where_it_is_read(void** state)
+static void gust_texture_has_a_standard_deviation_of_1(void** state)
 {
     struct hair_test_host* host = *state;
     float* gusts = make(host, 1);
@@ -60,7 +60,7 @@ static void its_standard_deviation_is_1_where_it_is_read(void** state)
 }
 
 // Check the divergence. `slope` is the spectral derivative along an axis.
-static void no_air_comes_from_nowhere(void** state)
+static void gust_texture_is_free_of_divergence(void** state)
 {
     struct hair_test_host* host = *state;
     float* gusts = make(host, 1);
@@ -84,7 +84,7 @@ static void no_air_comes_from_nowhere(void** state)
 
 // Check the spectrum along x of the x component: F(k) ~ (1 + (k l)^2)^(-5/6), with wave number k
 // and length scale l. Waves so short that the texture lacks others of similar length are left out.
-static void its_spectrum_is_von_karmans(void** state)
+static void gust_texture_has_von_karmans_spectrum(void** state)
 {
     struct hair_test_host* host = *state;
     double power[7] = {0}, scale = 0;
@@ -112,7 +112,7 @@ static void its_spectrum_is_von_karmans(void** state)
     }
 }
 
-static void it_follows_from_its_seed(void** state)
+static void gust_texture_depends_only_on_its_seed(void** state)
 {
     struct hair_test_host* host = *state;
     float *a = make(host, 3), *b = make(host, 3), *c = make(host, 4);
@@ -140,10 +140,10 @@ static int finish(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(its_standard_deviation_is_1_where_it_is_read, start, finish),
-        cmocka_unit_test_setup_teardown(no_air_comes_from_nowhere, start, finish),
-        cmocka_unit_test_setup_teardown(its_spectrum_is_von_karmans, start, finish),
-        cmocka_unit_test_setup_teardown(it_follows_from_its_seed, start, finish),
+        cmocka_unit_test_setup_teardown(gust_texture_has_a_standard_deviation_of_1, start, finish),
+        cmocka_unit_test_setup_teardown(gust_texture_is_free_of_divergence, start, finish),
+        cmocka_unit_test_setup_teardown(gust_texture_has_von_karmans_spectrum, start, finish),
+        cmocka_unit_test_setup_teardown(gust_texture_depends_only_on_its_seed, start, finish),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

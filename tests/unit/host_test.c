@@ -33,7 +33,7 @@ static void memory_is_zero_and_aligned(void** state)
 }
 
 // Check sizes at deallocation, which the test host counts in bytes.
-static void what_is_freed_is_as_large_as_what_was_allocated(void** state)
+static void freed_size_equals_the_allocated_size(void** state)
 {
     (void)state;
     void* a = hair_alloc(&test.host, 10, 10);
@@ -45,7 +45,7 @@ static void what_is_freed_is_as_large_as_what_was_allocated(void** state)
     assert_int_equal(test.live, 0);
 }
 
-static void nothing_of_something_is_memory_too(void** state)
+static void allocation_of_zero_elements_is_not_null(void** state)
 {
     (void)state;
     void* memory = hair_alloc(&test.host, 0, 100);
@@ -54,7 +54,7 @@ static void nothing_of_something_is_memory_too(void** state)
     hair_free(&test.host, NULL);
 }
 
-static void a_product_that_overflows_is_refused_without_asking(void** state)
+static void overflowing_size_is_refused_without_a_host_call(void** state)
 {
     (void)state;
     assert_null(hair_alloc(&test.host, SIZE_MAX, 2));
@@ -64,14 +64,14 @@ static void a_product_that_overflows_is_refused_without_asking(void** state)
     assert_int_equal(test.allocations, 0);
 }
 
-static void memory_that_the_host_refuses_is_null(void** state)
+static void memory_refused_by_the_host_is_null(void** state)
 {
     (void)state;
     test.refuse = 1;
     assert_null(hair_alloc(&test.host, 1, 1));
 }
 
-static void without_a_host_there_is_the_c_library(void** state)
+static void missing_host_selects_the_c_library(void** state)
 {
     (void)state;
     hair_host own = hair_host_or_default(NULL);
@@ -81,7 +81,7 @@ static void without_a_host_there_is_the_c_library(void** state)
     assert_int_equal(hair_fail(&own, HAIR_ERROR_FILE, "nobody hears this"), HAIR_ERROR_FILE);
 }
 
-static void half_an_allocator_is_none(void** state)
+static void host_with_only_one_of_alloc_and_free_uses_neither(void** state)
 {
     (void)state;
     hair_host half = test.host;
@@ -92,7 +92,7 @@ static void half_an_allocator_is_none(void** state)
     assert_ptr_equal(own.log, test.host.log);
 }
 
-static void a_failure_is_one_sentence_and_its_code(void** state)
+static void failure_logs_one_sentence_and_returns_its_code(void** state)
 {
     (void)state;
     assert_int_equal(hair_fail(&test.host, HAIR_ERROR_ARGUMENT, "%s is %d", "it", 7), HAIR_ERROR_ARGUMENT);
@@ -105,7 +105,7 @@ static void a_failure_is_one_sentence_and_its_code(void** state)
     assert_int_equal(test.errors, 2);
 }
 
-static void a_long_sentence_is_cut(void** state)
+static void long_log_sentence_is_truncated(void** state)
 {
     (void)state;
     char much[2000];
@@ -115,7 +115,7 @@ static void a_long_sentence_is_cut(void** state)
     assert_int_equal(strlen(test.sentence), 511);
 }
 
-static void every_result_has_words(void** state)
+static void every_result_has_a_string(void** state)
 {
     (void)state;
     for (int i = 0; i <= HAIR_ERROR_VERSION; ++i)
@@ -131,15 +131,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(memory_is_zero_and_aligned),
-        TEST(what_is_freed_is_as_large_as_what_was_allocated),
-        TEST(nothing_of_something_is_memory_too),
-        TEST(a_product_that_overflows_is_refused_without_asking),
-        TEST(memory_that_the_host_refuses_is_null),
-        TEST(without_a_host_there_is_the_c_library),
-        TEST(half_an_allocator_is_none),
-        TEST(a_failure_is_one_sentence_and_its_code),
-        TEST(a_long_sentence_is_cut),
-        TEST(every_result_has_words),
+        TEST(freed_size_equals_the_allocated_size),
+        TEST(allocation_of_zero_elements_is_not_null),
+        TEST(overflowing_size_is_refused_without_a_host_call),
+        TEST(memory_refused_by_the_host_is_null),
+        TEST(missing_host_selects_the_c_library),
+        TEST(host_with_only_one_of_alloc_and_free_uses_neither),
+        TEST(failure_logs_one_sentence_and_returns_its_code),
+        TEST(long_log_sentence_is_truncated),
+        TEST(every_result_has_a_string),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

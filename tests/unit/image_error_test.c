@@ -39,7 +39,7 @@ static double mean(const float* map)
     return sum / PIXELS;
 }
 
-static void its_map_is_that_of_the_published_evaluator(void** state)
+static void flip_map_equals_the_published_evaluator(void** state)
 {
     (void)state;
     // Values of flip-evaluator 1.7 in float arithmetic, for these two pictures, LDR, 67.0206 pixels
@@ -64,7 +64,7 @@ static void its_map_is_that_of_the_published_evaluator(void** state)
     assert_true(fabs(mean(map) - 0.431912631) < 1e-5);
 }
 
-static void it_asks_how_far_away_the_display_is_as_the_published_evaluator_does(void** state)
+static void flip_pixels_per_degree_equal_the_published_evaluator(void** state)
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
@@ -74,7 +74,7 @@ static void it_asks_how_far_away_the_display_is_as_the_published_evaluator_does(
     assert_true(fabs(mean(map) - 0.576780021) < 1e-5);
 }
 
-static void colours_are_as_far_apart_as_the_published_evaluator_has_them(void** state)
+static void flip_color_distances_equal_the_published_evaluator(void** state)
 {
     (void)state;
     static const struct {
@@ -94,7 +94,7 @@ static void colours_are_as_far_apart_as_the_published_evaluator_has_them(void** 
     }
 }
 
-static void a_picture_differs_from_itself_by_nothing_and_from_another_as_that_from_it(void** state)
+static void image_error_is_symmetric_and_zero_for_equal_images(void** state)
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS], there[PIXELS], back[PIXELS];
@@ -112,7 +112,7 @@ static void a_picture_differs_from_itself_by_nothing_and_from_another_as_that_fr
     assert_true(max > 0.9);
 }
 
-static void what_is_too_fine_to_be_seen_differs_less(void** state)
+static void invisible_detail_has_less_image_error(void** state)
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
@@ -132,7 +132,7 @@ static void what_is_too_fine_to_be_seen_differs_less(void** state)
     assert_true(before < 0.1);
 }
 
-static void only_what_the_mask_covers_counts(void** state)
+static void image_error_counts_only_masked_pixels(void** state)
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS];
@@ -154,7 +154,7 @@ static void only_what_the_mask_covers_counts(void** state)
     assert_true(fabs(error.psnr - 40) < 1e-3 && error.flip > 0 && error.pixels == PIXELS);
 }
 
-static void what_is_not_covered_changes_nothing_by_being_left_out(void** state)
+static void cropping_unmasked_pixels_keeps_the_image_error(void** state)
 {
     (void)state;
     static float a[3 * PIXELS], b[3 * PIXELS], map[PIXELS];
@@ -174,7 +174,7 @@ static void what_is_not_covered_changes_nothing_by_being_left_out(void** state)
     assert_true(fabs(error.flip - sum / 250) < 1e-6);
 }
 
-static void a_mask_grows_by_a_square_and_not_over_the_border(void** state)
+static void mask_grows_by_a_square_within_the_image(void** state)
 {
     (void)state;
     static unsigned char mask[PIXELS];
@@ -190,14 +190,14 @@ static void a_mask_grows_by_a_square_and_not_over_the_border(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(its_map_is_that_of_the_published_evaluator),
-        cmocka_unit_test(it_asks_how_far_away_the_display_is_as_the_published_evaluator_does),
-        cmocka_unit_test(colours_are_as_far_apart_as_the_published_evaluator_has_them),
-        cmocka_unit_test(a_picture_differs_from_itself_by_nothing_and_from_another_as_that_from_it),
-        cmocka_unit_test(what_is_too_fine_to_be_seen_differs_less),
-        cmocka_unit_test(only_what_the_mask_covers_counts),
-        cmocka_unit_test(what_is_not_covered_changes_nothing_by_being_left_out),
-        cmocka_unit_test(a_mask_grows_by_a_square_and_not_over_the_border),
+        cmocka_unit_test(flip_map_equals_the_published_evaluator),
+        cmocka_unit_test(flip_pixels_per_degree_equal_the_published_evaluator),
+        cmocka_unit_test(flip_color_distances_equal_the_published_evaluator),
+        cmocka_unit_test(image_error_is_symmetric_and_zero_for_equal_images),
+        cmocka_unit_test(invisible_detail_has_less_image_error),
+        cmocka_unit_test(image_error_counts_only_masked_pixels),
+        cmocka_unit_test(cropping_unmasked_pixels_keeps_the_image_error),
+        cmocka_unit_test(mask_grows_by_a_square_within_the_image),
     };
     return cmocka_run_group_tests_name("image error", tests, NULL, NULL);
 }

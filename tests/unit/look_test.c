@@ -9,7 +9,7 @@
 #include "lib/base/math.h"
 #include "tests/reference/reference.h"
 
-static void the_first_kind_and_the_first_color_are_the_defaults(void** state)
+static void first_presets_are_the_defaults(void** state)
 {
     (void)state;
     hair_look look = hair_look_default(), untouched = look;
@@ -18,7 +18,7 @@ static void the_first_kind_and_the_first_color_are_the_defaults(void** state)
     assert_memory_equal(&look, &untouched, sizeof look);
 }
 
-static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
+static void shape_and_color_presets_are_independent(void** state)
 {
     (void)state;
     hair_look kind[HAIR_LOOK_COUNT], color[HAIR_COLOR_COUNT];
@@ -47,7 +47,7 @@ static void kinds_and_colors_differ_and_leave_each_other_alone(void** state)
     }
 }
 
-static void each_has_a_name_of_its_own(void** state)
+static void presets_have_distinct_names(void** state)
 {
     (void)state;
     for (int i = 0; i < HAIR_LOOK_COUNT; ++i)
@@ -72,7 +72,7 @@ static void make_helix(float* positions, uint32_t vertices, double radius, doubl
     }
 }
 
-static void a_turn_of_a_helix_is_recognized(void** state)
+static void fit_curl_recognizes_a_helix(void** state)
 {
     (void)state;
     static float positions[3 * 200];
@@ -92,7 +92,7 @@ static void a_turn_of_a_helix_is_recognized(void** state)
     }
 }
 
-static void examples_that_are_none_are_refused(void** state)
+static void fit_curl_refuses_invalid_examples(void** state)
 {
     (void)state;
     static float positions[3 * 70000];
@@ -177,7 +177,7 @@ static double worst_tangent(hair_look look, double bend, double step)
     return worst;
 }
 
-static void tangents_are_the_slopes_of_positions(void** state)
+static void tangents_are_derivatives_of_positions(void** state)
 {
     (void)state;
     for (int kind = 0; kind < HAIR_LOOK_COUNT; ++kind)
@@ -198,12 +198,12 @@ static void tangents_are_the_slopes_of_positions(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_first_kind_and_the_first_color_are_the_defaults),
-        cmocka_unit_test(kinds_and_colors_differ_and_leave_each_other_alone),
-        cmocka_unit_test(each_has_a_name_of_its_own),
-        cmocka_unit_test(a_turn_of_a_helix_is_recognized),
-        cmocka_unit_test(examples_that_are_none_are_refused),
-        cmocka_unit_test(tangents_are_the_slopes_of_positions),
+        cmocka_unit_test(first_presets_are_the_defaults),
+        cmocka_unit_test(shape_and_color_presets_are_independent),
+        cmocka_unit_test(presets_have_distinct_names),
+        cmocka_unit_test(fit_curl_recognizes_a_helix),
+        cmocka_unit_test(fit_curl_refuses_invalid_examples),
+        cmocka_unit_test(tangents_are_derivatives_of_positions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

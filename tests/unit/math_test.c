@@ -37,7 +37,7 @@ static void near3(hair_vec3 a, hair_vec3 b, double tolerance)
     hair_test_near("z", 0, a.z, b.z, tolerance);
 }
 
-static void a_perpendicular_is_one_for_every_direction(void** state)
+static void perpendicular_exists_for_every_direction(void** state)
 {
     (void)state;
     static const float ends[][3] = {{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, {0, 1e-4f, -1}};
@@ -67,7 +67,7 @@ static void rotations_keep_lengths_and_handedness(void** state)
     }
 }
 
-static void a_product_rotates_by_one_after_the_other(void** state)
+static void quaternion_product_rotates_one_after_the_other(void** state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
@@ -78,7 +78,7 @@ static void a_product_rotates_by_one_after_the_other(void** state)
     }
 }
 
-static void the_rotation_between_two_directions_is_the_least(void** state)
+static void rotation_between_directions_is_the_shortest(void** state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
@@ -92,7 +92,7 @@ static void the_rotation_between_two_directions_is_the_least(void** state)
     }
 }
 
-static void axes_become_a_quaternion_and_back(void** state)
+static void axes_convert_to_a_quaternion_and_back(void** state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
@@ -105,7 +105,7 @@ static void axes_become_a_quaternion_and_back(void** state)
     }
 }
 
-static void slerp_goes_evenly_and_the_shortest_way(void** state)
+static void slerp_is_uniform_and_takes_the_shortest_way(void** state)
 {
     (void)state;
     for (int i = 0; i < CASES; ++i) {
@@ -135,7 +135,7 @@ static void matrices_multiply_column_by_column(void** state)
 
 // Check bins of n uniform numbers. Each of b bins has n/b numbers with a standard deviation of
 // sqrt(n/b). Five standard deviations occur in one of a million cases.
-static void random_numbers_are_even(void** state)
+static void random_numbers_are_uniform(void** state)
 {
     (void)state;
     int bins[16] = {0};
@@ -162,15 +162,15 @@ static void the_hash_is_pcg(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_perpendicular_is_one_for_every_direction),
+        cmocka_unit_test(perpendicular_exists_for_every_direction),
         cmocka_unit_test(a_vector_without_direction_gets_the_fallback),
         cmocka_unit_test(rotations_keep_lengths_and_handedness),
-        cmocka_unit_test(a_product_rotates_by_one_after_the_other),
-        cmocka_unit_test(the_rotation_between_two_directions_is_the_least),
-        cmocka_unit_test(axes_become_a_quaternion_and_back),
-        cmocka_unit_test(slerp_goes_evenly_and_the_shortest_way),
+        cmocka_unit_test(quaternion_product_rotates_one_after_the_other),
+        cmocka_unit_test(rotation_between_directions_is_the_shortest),
+        cmocka_unit_test(axes_convert_to_a_quaternion_and_back),
+        cmocka_unit_test(slerp_is_uniform_and_takes_the_shortest_way),
         cmocka_unit_test(matrices_multiply_column_by_column),
-        cmocka_unit_test(random_numbers_are_even),
+        cmocka_unit_test(random_numbers_are_uniform),
         cmocka_unit_test(the_hash_is_pcg),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

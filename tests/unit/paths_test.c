@@ -40,7 +40,7 @@ static void look_down(double* from, double* way, int rays)
     }
 }
 
-static void white_strands_cannot_be_seen_in_a_white_furnace(void** state)
+static void white_strands_are_invisible_in_a_white_furnace(void** state)
 {
     (void)state;
     static hair_fibre_table table;
@@ -67,7 +67,7 @@ static void white_strands_cannot_be_seen_in_a_white_furnace(void** state)
     }
 }
 
-static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
+static void lone_strand_scatters_like_one_fibre(void** state)
 {
     (void)state;
     static hair_fibre_table table;
@@ -101,7 +101,7 @@ static void a_lone_strand_scatters_once_as_one_fibre_does(void** state)
 // Check the density of sampled directions. Any density gives the right mean if directions are
 // sampled by it. The mean of 1 / density is the area of the unit sphere, and the mean of scattered
 // light agrees with the furnace test.
-static void directions_are_chosen_by_the_density_that_is_said(void** state)
+static void sampled_directions_have_the_stated_density(void** state)
 {
     (void)state;
     static hair_fibre_table table;
@@ -136,9 +136,9 @@ static void directions_are_chosen_by_the_density_that_is_said(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(white_strands_cannot_be_seen_in_a_white_furnace),
-        cmocka_unit_test(a_lone_strand_scatters_once_as_one_fibre_does),
-        cmocka_unit_test(directions_are_chosen_by_the_density_that_is_said),
+        cmocka_unit_test(white_strands_are_invisible_in_a_white_furnace),
+        cmocka_unit_test(lone_strand_scatters_like_one_fibre),
+        cmocka_unit_test(sampled_directions_have_the_stated_density),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -20,7 +20,7 @@ static void a_rigid_matrix_becomes_its_pose(void** state)
     assert_true(pose.position[0] == 1 && pose.position[1] == 2 && pose.position[2] == 3);
 }
 
-static void what_is_not_rigid_is_refused(void** state)
+static void matrix_that_is_not_rigid_is_refused(void** state)
 {
     (void)state;
     struct hair_pose pose = {{7, 7, 7}, {0, 0, 0, 1}};
@@ -43,7 +43,7 @@ static void what_is_not_rigid_is_refused(void** state)
     assert_false(hair_pose_from_matrix(scaled, &pose));
 }
 
-static void rounding_of_a_matrix_is_forgiven(void** state)
+static void rounding_errors_of_a_matrix_are_accepted(void** state)
 {
     (void)state;
     struct hair_pose pose;
@@ -55,7 +55,7 @@ static void rounding_of_a_matrix_is_forgiven(void** state)
     hair_test_near("norm", 0, q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1, 1e-6);
 }
 
-static void between_poses_the_way_is_straight_and_even(void** state)
+static void interpolated_pose_moves_straight_and_uniformly(void** state)
 {
     (void)state;
     struct hair_pose a = {{0, 0, 0}, {0, 0, 0, 1}}, b = {{4, -8, 2}, {0, 0, sinf(0.5f), cosf(0.5f)}};
@@ -68,7 +68,7 @@ static void between_poses_the_way_is_straight_and_even(void** state)
 
 // Check the precision of offsets. Floats at 1e6 m are spaced by 6 cm, and doubles resolve
 // micrometres.
-static void an_offset_far_from_the_origin_keeps_its_digits(void** state)
+static void offset_far_from_the_origin_keeps_its_precision(void** state)
 {
     (void)state;
     struct hair_pose a = {{1e6 + 1e-6, 0, 0}, {0, 0, 0, 1}}, b = {{1e6, 0, 0}, {0, 0, 0, 1}};
@@ -79,10 +79,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_rigid_matrix_becomes_its_pose),
-        cmocka_unit_test(what_is_not_rigid_is_refused),
-        cmocka_unit_test(rounding_of_a_matrix_is_forgiven),
-        cmocka_unit_test(between_poses_the_way_is_straight_and_even),
-        cmocka_unit_test(an_offset_far_from_the_origin_keeps_its_digits),
+        cmocka_unit_test(matrix_that_is_not_rigid_is_refused),
+        cmocka_unit_test(rounding_errors_of_a_matrix_are_accepted),
+        cmocka_unit_test(interpolated_pose_moves_straight_and_uniformly),
+        cmocka_unit_test(offset_far_from_the_origin_keeps_its_precision),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@ static void the_natural_preset_is_the_default(void** state)
     assert_memory_equal(&physics, &untouched, sizeof physics);
 }
 
-static void presets_differ_and_leave_what_is_not_of_a_hair(void** state)
+static void presets_differ_and_keep_other_settings(void** state)
 {
     (void)state;
     hair_physics all[HAIR_PRESET_COUNT];
@@ -27,7 +27,7 @@ static void presets_differ_and_leave_what_is_not_of_a_hair(void** state)
     }
 }
 
-static void every_preset_has_a_name_of_its_own(void** state)
+static void every_preset_has_a_distinct_name(void** state)
 {
     (void)state;
     for (int i = 0; i < HAIR_PRESET_COUNT; ++i) {
@@ -38,7 +38,7 @@ static void every_preset_has_a_name_of_its_own(void** state)
     assert_null(hair_preset_name(HAIR_PRESET_COUNT));
 }
 
-static void wrong_presets_and_physics_are_refused(void** state)
+static void invalid_presets_and_physics_are_refused(void** state)
 {
     (void)state;
     hair_physics physics = hair_physics_default();
@@ -54,9 +54,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_natural_preset_is_the_default),
-        cmocka_unit_test(presets_differ_and_leave_what_is_not_of_a_hair),
-        cmocka_unit_test(every_preset_has_a_name_of_its_own),
-        cmocka_unit_test(wrong_presets_and_physics_are_refused),
+        cmocka_unit_test(presets_differ_and_keep_other_settings),
+        cmocka_unit_test(every_preset_has_a_distinct_name),
+        cmocka_unit_test(invalid_presets_and_physics_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state
 
 // Check free fall. Without damping or constraints, Verlet is exact for constant acceleration. After
 // n substeps from rest, a vertex has fallen g dt^2 n (n + 1) / 2.
-static void an_unhindered_vertex_falls_as_verlet_says(void** state)
+static void free_vertex_falls_by_verlet(void** state)
 {
     (void)state;
     struct fixture f = straight_down(5, 0.01f);
@@ -122,7 +122,7 @@ static void an_unhindered_vertex_falls_as_verlet_says(void** state)
 
 // Check a velocity that decays by the factor k per substep. Its total distance is 1 + k + k^2 + ...
 // = (1 - k^n) / (1 - k) displacements.
-static void damped_motion_goes_as_far_as_the_series_sums_to(void** state)
+static void damped_motion_goes_as_far_as_its_series(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
@@ -152,7 +152,7 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
 
 // Check an implicit spring. It converges to its target, and goes half way if frequency times dt is
 // 1.
-static void the_pull_goes_half_way_when_frequency_times_dt_is_one(void** state)
+static void pull_goes_half_way_when_frequency_times_dt_is_1(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
@@ -178,7 +178,7 @@ static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
     near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
 }
 
-static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
+static void link_with_a_pinned_end_moves_only_the_free_end(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
@@ -191,7 +191,7 @@ static void a_pinned_end_leaves_the_whole_way_to_the_free_one(void** state)
     near3("pinned", p + 3, 0, -0.01, 0, 0);
 }
 
-static void bend_removes_its_share_of_the_error_over_two_segments(void** state)
+static void bend_removes_its_fraction_of_the_error(void** state)
 {
     (void)state;
     struct fixture f = straight_down(8, 0.01f);
@@ -206,7 +206,7 @@ static void bend_removes_its_share_of_the_error_over_two_segments(void** state)
     hair_test_near("tip", 0, p[19], -0.03, 1e-16);
 }
 
-static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
+static void vertex_in_a_capsule_leaves_by_the_shortest_way(void** state)
 {
     (void)state;
     struct fixture f = straight_down(4, 0.01f);
@@ -225,7 +225,7 @@ static void a_vertex_inside_a_capsule_comes_out_the_shortest_way(void** state)
 }
 
 // Check a bent guide in its rest pose, rotated with its head. The force must correct nothing.
-static void the_angular_force_leaves_the_rest_pose_alone(void** state)
+static void angular_force_is_zero_in_the_rest_pose(void** state)
 {
     (void)state;
     struct fixture f = straight_down(9, 0.01f);
@@ -427,15 +427,15 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_frame_carried_around_a_circle_comes_back),
         cmocka_unit_test(a_frame_carried_around_an_octant_turns_by_a_right_angle),
-        cmocka_unit_test(an_unhindered_vertex_falls_as_verlet_says),
-        cmocka_unit_test(damped_motion_goes_as_far_as_the_series_sums_to),
+        cmocka_unit_test(free_vertex_falls_by_verlet),
+        cmocka_unit_test(damped_motion_goes_as_far_as_its_series),
         cmocka_unit_test(a_free_vertex_does_not_follow_the_head),
-        cmocka_unit_test(the_pull_goes_half_way_when_frequency_times_dt_is_one),
+        cmocka_unit_test(pull_goes_half_way_when_frequency_times_dt_is_1),
         cmocka_unit_test(a_free_link_is_restored_exactly_in_one_relaxation),
-        cmocka_unit_test(a_pinned_end_leaves_the_whole_way_to_the_free_one),
-        cmocka_unit_test(bend_removes_its_share_of_the_error_over_two_segments),
-        cmocka_unit_test(a_vertex_inside_a_capsule_comes_out_the_shortest_way),
-        cmocka_unit_test(the_angular_force_leaves_the_rest_pose_alone),
+        cmocka_unit_test(link_with_a_pinned_end_moves_only_the_free_end),
+        cmocka_unit_test(bend_removes_its_fraction_of_the_error),
+        cmocka_unit_test(vertex_in_a_capsule_leaves_by_the_shortest_way),
+        cmocka_unit_test(angular_force_is_zero_in_the_rest_pose),
         cmocka_unit_test(the_angular_force_has_a_potential),
         cmocka_unit_test(hermite_reproduces_parabolas_exactly),
         cmocka_unit_test(a_smoothed_circle_is_round_to_fourth_order),

@@ -29,7 +29,7 @@ static double critical(double (*stability)(double gamma, uint32_t segments, cons
 
 // Compare a rod of n segments with the lowest eigenvalue of a chain of springs, 4 n^2 sin^2(pi /
 // 4n).
-static void an_unloaded_rod_is_as_stable_as_a_chain_of_springs(void** state)
+static void unloaded_rod_is_as_stable_as_a_chain_of_springs(void** state)
 {
     (void)state;
     static const double stiffness[][3] = {{1, 0, 0}, {1, 3, 5}, {5, 3, 1}, {5, 1, 3}}; // B1, C, B2.
@@ -115,7 +115,7 @@ static double hang_curved(double gamma, uint32_t segments, const void* user)
 }
 
 // Check a curl. It hangs in its plane under weak or strong gravity, and is a helix between.
-static void a_curl_leaves_its_plane_between_two_weights(void** state)
+static void curl_buckles_out_of_plane_between_two_weights(void** state)
 {
     (void)state;
     static const double two_pi[] = {2 * PI, 0}, two_pi_down[] = {2 * PI, 60};
@@ -142,7 +142,7 @@ static double held(double gamma, uint32_t segments, const void* user)
 
 // Check a strand that is groomed straight and is at rest by its rest strain. It is stable up to a
 // certain weight.
-static void a_held_strand_falls_over_beyond_its_weight(void** state)
+static void preloaded_strand_buckles_beyond_its_critical_weight(void** state)
 {
     (void)state;
     static const double table[][2] = {{20, 72.92},  {30, 41.06},  {45, 23.794}, {60, 16.568}, {75, 12.825},
@@ -155,11 +155,11 @@ static void a_held_strand_falls_over_beyond_its_weight(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_unloaded_rod_is_as_stable_as_a_chain_of_springs),
+        cmocka_unit_test(unloaded_rod_is_as_stable_as_a_chain_of_springs),
         cmocka_unit_test(an_upright_rod_buckles_at_greenhills_weight),
         cmocka_unit_test(a_deep_cantilever_buckles_sideways),
-        cmocka_unit_test(a_curl_leaves_its_plane_between_two_weights),
-        cmocka_unit_test(a_held_strand_falls_over_beyond_its_weight),
+        cmocka_unit_test(curl_buckles_out_of_plane_between_two_weights),
+        cmocka_unit_test(preloaded_strand_buckles_beyond_its_critical_weight),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,7 +23,7 @@ static double drop_over_reach(uint32_t segments, double gamma, int plain, int st
     return -tip[1] / tip[0];
 }
 
-static void a_rod_hangs_as_the_elastica(void** state)
+static void rod_hangs_like_the_elastica(void** state)
 {
     (void)state;
     static const double angles[] = {-1, 0, 1};
@@ -46,7 +46,7 @@ static void a_rod_hangs_as_the_elastica(void** state)
         }
 }
 
-static void a_load_at_the_tip_bends_a_rod_as_the_elastica(void** state)
+static void rod_with_a_tip_load_bends_like_the_elastica(void** state)
 {
     (void)state;
     struct hair_reference_elastica e = hair_reference_elastica(0, 5, 0);
@@ -141,7 +141,7 @@ static void the_clamp_factor_is_that_of_a_chain_under_tension(void** state)
 
 // Compare both kinds of strain. Straight rods have the energy of the chord between tangents, and
 // others nearly that of the angle. The difference is proportional to the square of the angles.
-static void both_kinds_of_strain_hang_alike_with_short_segments(void** state)
+static void both_strain_measures_agree_for_short_segments(void** state)
 {
     (void)state;
     for (double gamma = 1; gamma < 2000; gamma *= 10) {
@@ -155,7 +155,7 @@ static void both_kinds_of_strain_hang_alike_with_short_segments(void** state)
 }
 
 // Check a flat corkscrew of uneven segments with a heavy tip.
-static void a_held_curl_is_at_rest_in_its_own_shape(void** state)
+static void preloaded_curl_rests_in_its_groomed_shape(void** state)
 {
     (void)state;
     enum { N = 24 };
@@ -221,7 +221,7 @@ static double energy_of_hinge(double rest, double bend)
     return energy;
 }
 
-static void a_bent_hinge_has_the_energy_of_the_angle_from_its_rest(void** state)
+static void hinge_energy_depends_on_the_angle_from_rest(void** state)
 {
     (void)state;
     for (double rest = 0; rest < 2.4; rest += 0.3)
@@ -263,7 +263,7 @@ static void a_coarse_curl_comes_to_rest_in_few_steps(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-static void what_no_strain_can_hold_is_said(void** state)
+static void groom_that_no_strain_holds_is_reported(void** state)
 {
     (void)state;
     struct hair_test_plane p;
@@ -314,16 +314,16 @@ static void a_chain_pinned_at_its_tip_is_a_catenary(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rod_hangs_as_the_elastica),
-        cmocka_unit_test(a_load_at_the_tip_bends_a_rod_as_the_elastica),
+        cmocka_unit_test(rod_hangs_like_the_elastica),
+        cmocka_unit_test(rod_with_a_tip_load_bends_like_the_elastica),
         cmocka_unit_test(the_clamp_factor_holds_coarse_and_soft_strands),
         cmocka_unit_test(the_clamp_adds_little_to_the_error_of_the_polygon),
         cmocka_unit_test(the_clamp_factor_is_that_of_a_chain_under_tension),
-        cmocka_unit_test(both_kinds_of_strain_hang_alike_with_short_segments),
-        cmocka_unit_test(a_held_curl_is_at_rest_in_its_own_shape),
-        cmocka_unit_test(a_bent_hinge_has_the_energy_of_the_angle_from_its_rest),
+        cmocka_unit_test(both_strain_measures_agree_for_short_segments),
+        cmocka_unit_test(preloaded_curl_rests_in_its_groomed_shape),
+        cmocka_unit_test(hinge_energy_depends_on_the_angle_from_rest),
         cmocka_unit_test(a_coarse_curl_comes_to_rest_in_few_steps),
-        cmocka_unit_test(what_no_strain_can_hold_is_said),
+        cmocka_unit_test(groom_that_no_strain_holds_is_reported),
         cmocka_unit_test(a_chain_pinned_at_its_tip_is_a_catenary),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

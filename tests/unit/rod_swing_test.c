@@ -53,7 +53,7 @@ static double quarter_period(double angle, double dt)
     return quarter;
 }
 
-static void a_pendulum_takes_its_time(void** state)
+static void pendulum_has_its_period(void** state)
 {
     (void)state;
     for (int k = 1; k <= 5; ++k) {
@@ -66,7 +66,7 @@ static void a_pendulum_takes_its_time(void** state)
 
 // Compare chains with a linkage integrated in its angles. The error of convergence is less than the
 // tolerance.
-static void chains_released_from_the_horizontal_fall_as_linkages(void** state)
+static void chains_released_level_fall_like_linkages(void** state)
 {
     (void)state;
     for (uint32_t links = 2; links <= 8; links *= 2) {
@@ -141,7 +141,7 @@ static void a_flat_corkscrew_swings_as_its_slowest_mode(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-static void a_clamped_beam_swings_as_mathematics_says(void** state)
+static void clamped_beam_swings_at_its_analytic_frequency(void** state)
 {
     (void)state;
     double found[2][3];
@@ -160,7 +160,7 @@ static void a_clamped_beam_swings_as_mathematics_says(void** state)
     }
 }
 
-static void a_hanging_chain_swings_as_the_linkage_that_it_is(void** state)
+static void hanging_chain_swings_like_a_linkage(void** state)
 {
     (void)state;
     enum { LINKS = 31 };
@@ -183,7 +183,7 @@ static void a_hanging_chain_swings_as_the_linkage_that_it_is(void** state)
 // Check 0.3 m of hair on a head of 0.1 m that yaws by 0.6 sin^2(pi t). The hair leaves the head at
 // 30 degrees below the horizontal. Positions of the tip are from another program (explicit bending,
 // k = 2, converged to 5e-8 of the length).
-static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
+static void shaken_head_leaves_the_tip_at_its_known_position(void** state)
 {
     (void)state;
     enum { N = 32, FRAMES = 1920 };
@@ -225,7 +225,7 @@ static void the_shaken_head_leaves_the_tip_where_it_is_known_to_be(void** state)
 
 // Check that the head rotates evenly: by half of the angle in half of the time. A quaternion and
 // its negative are the same rotation.
-static void the_head_goes_evenly_and_the_shortest_way(void** state)
+static void head_is_interpolated_uniformly_the_shortest_way(void** state)
 {
     (void)state;
     struct hair_test_plane p;
@@ -257,12 +257,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_flat_corkscrew_swings_as_its_slowest_mode),
-        cmocka_unit_test(a_pendulum_takes_its_time),
-        cmocka_unit_test(chains_released_from_the_horizontal_fall_as_linkages),
-        cmocka_unit_test(a_clamped_beam_swings_as_mathematics_says),
-        cmocka_unit_test(a_hanging_chain_swings_as_the_linkage_that_it_is),
-        cmocka_unit_test(the_shaken_head_leaves_the_tip_where_it_is_known_to_be),
-        cmocka_unit_test(the_head_goes_evenly_and_the_shortest_way),
+        cmocka_unit_test(pendulum_has_its_period),
+        cmocka_unit_test(chains_released_level_fall_like_linkages),
+        cmocka_unit_test(clamped_beam_swings_at_its_analytic_frequency),
+        cmocka_unit_test(hanging_chain_swings_like_a_linkage),
+        cmocka_unit_test(shaken_head_leaves_the_tip_at_its_known_position),
+        cmocka_unit_test(head_is_interpolated_uniformly_the_shortest_way),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

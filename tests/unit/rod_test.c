@@ -73,7 +73,7 @@ static void differ(struct hair_reference_rod* rod, const double* at, double* gra
     hair_reference_rod_set_state(rod, at, NULL);
 }
 
-static void forces_are_the_slope_of_the_energy(void** state)
+static void forces_are_the_gradient_of_the_energy(void** state)
 {
     (void)state;
     static const enum hair_reference_rod_root roots[] = {HAIR_REFERENCE_ROD_CLAMPED,
@@ -157,7 +157,7 @@ static void rotate(const double q[4], const double v[3], double out[3])
 }
 
 // Check that the forces depend only on the positions in the head's frame.
-static void turning_head_and_hair_alike_turns_the_forces(void** state)
+static void forces_rotate_with_head_and_hair(void** state)
 {
     (void)state;
     struct curl c;
@@ -215,7 +215,7 @@ static void a_free_rod_keeps_its_momentum_and_angular_momentum(void** state)
 }
 
 // Check free fall. The scheme is exact for constant acceleration, with any substep.
-static void a_free_rod_falls_as_a_stone(void** state)
+static void free_rod_falls_like_a_stone(void** state)
 {
     (void)state;
     struct curl c;
@@ -252,7 +252,7 @@ static void damping_is_exact_and_against_the_wind(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-static void a_pull_makes_the_whole_rod_swing_about_its_target(void** state)
+static void shape_pull_swings_the_rod_about_its_target(void** state)
 {
     (void)state;
     struct curl c;
@@ -337,7 +337,7 @@ static void motion_converges_with_the_second_order(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-static void half_the_longest_substep_is_calm_and_three_times_it_is_not(void** state)
+static void half_the_longest_substep_is_stable_and_triple_is_not(void** state)
 {
     (void)state;
     struct curl c;
@@ -353,7 +353,7 @@ static void half_the_longest_substep_is_calm_and_three_times_it_is_not(void** st
     }
 }
 
-static void motion_that_is_none_is_said(void** state)
+static void motion_that_is_invalid_or_not_finite_is_reported(void** state)
 {
     (void)state;
     struct curl c;
@@ -368,7 +368,7 @@ static void motion_that_is_none_is_said(void** state)
     hair_reference_rod_destroy(rod);
 }
 
-static void what_makes_no_rod_is_refused(void** state)
+static void invalid_rod_is_refused(void** state)
 {
     (void)state;
     struct curl c;
@@ -387,18 +387,18 @@ static void what_makes_no_rod_is_refused(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_are_the_slope_of_the_energy),
+        cmocka_unit_test(forces_are_the_gradient_of_the_energy),
         cmocka_unit_test(a_round_rod_without_twist_has_the_energy_of_its_angles),
-        cmocka_unit_test(turning_head_and_hair_alike_turns_the_forces),
+        cmocka_unit_test(forces_rotate_with_head_and_hair),
         cmocka_unit_test(a_free_rod_keeps_its_momentum_and_angular_momentum),
-        cmocka_unit_test(a_free_rod_falls_as_a_stone),
+        cmocka_unit_test(free_rod_falls_like_a_stone),
         cmocka_unit_test(damping_is_exact_and_against_the_wind),
-        cmocka_unit_test(a_pull_makes_the_whole_rod_swing_about_its_target),
+        cmocka_unit_test(shape_pull_swings_the_rod_about_its_target),
         cmocka_unit_test(energy_stays_within_the_square_of_the_substep),
         cmocka_unit_test(motion_converges_with_the_second_order),
-        cmocka_unit_test(half_the_longest_substep_is_calm_and_three_times_it_is_not),
-        cmocka_unit_test(motion_that_is_none_is_said),
-        cmocka_unit_test(what_makes_no_rod_is_refused),
+        cmocka_unit_test(half_the_longest_substep_is_stable_and_triple_is_not),
+        cmocka_unit_test(motion_that_is_invalid_or_not_finite_is_reported),
+        cmocka_unit_test(invalid_rod_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -101,7 +101,7 @@ static void multiply(double* out, double by)
 }
 
 // Check that the slope of the energy is negligible relative to that of gravity alone.
-static void a_held_groom_is_in_equilibrium(void** state)
+static void preloaded_groom_is_in_equilibrium(void** state)
 {
     (void)state;
     static const double at[4] = {-2, -1, 1, 2}, weight[4] = {1.0 / 12, -2.0 / 3, 2.0 / 3, -1.0 / 12};
@@ -161,7 +161,7 @@ static int is_stable(const struct held* h)
     return 1;
 }
 
-// Return the energy with segments rotated by `share` times the vectors `turns`, in their own
+// Return the energy with segments rotated by `fraction` times the vectors `turns`, in their own
 // frames.
 static double energy_along(const struct held* h, const hair_dvec3* turns, double fraction)
 {
@@ -182,7 +182,7 @@ static double energy_along(const struct held* h, const hair_dvec3* turns, double
 // Check Newton's step in a pose far from the groom, where 2 w differs from its value at rest. For
 // any slope s, Newton's step z satisfies z . H z + shift z . z = -s . z. H is the matrix of second
 // derivatives.
-static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
+static void newton_step_uses_second_derivatives_of_the_energy(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -222,7 +222,7 @@ static void newtons_step_has_the_second_derivatives_of_the_energy(void** state)
     free(f);
 }
 
-// Return stability at 1 + share (s - 1) times the stiffness, with the guide's multiples s.
+// Return stability at 1 + fraction (s - 1) times the stiffness, with the guide's multiples s.
 static int is_stable_with(const struct hair_test_rod* f, double fraction)
 {
     struct held* h = calloc(1, sizeof *h);
@@ -236,7 +236,7 @@ static int is_stable_with(const struct hair_test_rod* f, double fraction)
     return stable;
 }
 
-static void a_guide_is_made_just_so_stiff_that_its_groom_is_stable(void** state)
+static void guide_is_stiffened_until_its_groom_is_stable(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -299,7 +299,7 @@ static double max_strain(const struct hair_test_rod* f)
     return max;
 }
 
-static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
+static void rest_strain_differs_from_the_groom_by_at_most_1(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -338,11 +338,11 @@ static void no_rest_strain_is_further_than_one_from_the_grooms(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_held_groom_is_in_equilibrium),
-        cmocka_unit_test(newtons_step_has_the_second_derivatives_of_the_energy),
-        cmocka_unit_test(a_guide_is_made_just_so_stiff_that_its_groom_is_stable),
+        cmocka_unit_test(preloaded_groom_is_in_equilibrium),
+        cmocka_unit_test(newton_step_uses_second_derivatives_of_the_energy),
+        cmocka_unit_test(guide_is_stiffened_until_its_groom_is_stable),
         cmocka_unit_test(straight_grooms_buckle_at_the_lengths_of_the_continuous_rod),
-        cmocka_unit_test(no_rest_strain_is_further_than_one_from_the_grooms),
+        cmocka_unit_test(rest_strain_differs_from_the_groom_by_at_most_1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

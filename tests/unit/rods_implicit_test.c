@@ -52,7 +52,7 @@ static void compare(const struct hair_test_rod* f, double a[][MAX], int euler)
         }
 }
 
-static void the_factors_are_of_the_implicit_systems(void** state)
+static void factors_are_those_of_the_implicit_systems(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -80,7 +80,8 @@ static void the_factors_are_of_the_implicit_systems(void** state)
             build(f, h, a);
             compare(f, a, 1);
             hair_test_rod_write(f, HAIR_SOLVER_FOLLOW, h);
-            uint32_t tip = lengths[k] - 1; // No segment is before the first, and none is after the tip.
+            // No segment is before the first, and none is after the tip.
+            uint32_t tip = lengths[k] - 1;
             assert_true(f->rod[0].segment.w == 0 && f->rod[tip].segment.w == 0);
             for (uint32_t i = 1; i < tip; ++i) assert_true(f->rod[i].segment.w > 0);
         }
@@ -167,7 +168,7 @@ static void leave_out(hair_root root)
     free(f);
 }
 
-static void what_the_reduction_leaves_out_is_not_heard(void** state)
+static void terms_dropped_by_cyclic_reduction_are_negligible(void** state)
 {
     (void)state;
     leave_out(HAIR_ROOT_CLAMPED);
@@ -285,7 +286,7 @@ static void a_solve_in_single_precision_is_good_at_any_stiffness(void** state)
 
 // Check vertices half a radian from rest. The forces sum to 0 except for rounding, and move the
 // centre of a free strand by a small fraction of a segment.
-static void stiffness_is_limited_to_what_single_precision_bears(void** state)
+static void stiffness_is_limited_to_single_precision(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -329,7 +330,7 @@ static void stiffness_is_limited_to_what_single_precision_bears(void** state)
 // Check the inertia added under a heavy tip. The highest frequency of transverse oscillation under
 // the tip's weight is at most 2.7 / b. Inertia is added only if this needs it, and is small
 // relative to the tip's.
-static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
+static void strand_with_a_heavy_tip_has_added_inertia(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -361,12 +362,12 @@ static void under_a_heavy_tip_a_strand_has_inertia_to_be_followed(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_factors_are_of_the_implicit_systems),
-        cmocka_unit_test(what_the_reduction_leaves_out_is_not_heard),
+        cmocka_unit_test(factors_are_those_of_the_implicit_systems),
+        cmocka_unit_test(terms_dropped_by_cyclic_reduction_are_negligible),
         cmocka_unit_test(the_substep_of_the_accurate_solver_is_stable),
         cmocka_unit_test(a_solve_in_single_precision_is_good_at_any_stiffness),
-        cmocka_unit_test(stiffness_is_limited_to_what_single_precision_bears),
-        cmocka_unit_test(under_a_heavy_tip_a_strand_has_inertia_to_be_followed),
+        cmocka_unit_test(stiffness_is_limited_to_single_precision),
+        cmocka_unit_test(strand_with_a_heavy_tip_has_added_inertia),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,7 +104,7 @@ static void compare(const char* name, const hair_groom* groom, const hair_physic
     free(rod);
 }
 
-static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
+static void built_in_haircuts_rest_as_groomed_or_as_reported(void** state)
 {
     (void)state;
     for (uint32_t vertices = 32; vertices <= 64; vertices += 16)
@@ -123,7 +123,7 @@ static void built_in_haircuts_rest_in_their_groom_or_where_is_said(void** state)
 }
 
 // Check an upright strand, which has no preferred direction.
-static void an_upright_strand_that_is_too_long_leans(void** state)
+static void too_long_upright_strand_leans(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -141,7 +141,7 @@ static void an_upright_strand_that_is_too_long_leans(void** state)
     free(f);
 }
 
-static void what_sags_bears_what_it_bore_when_it_is_pinned(void** state)
+static void sagging_guide_keeps_its_rest_strain_when_pinned(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -160,9 +160,9 @@ static void what_sags_bears_what_it_bore_when_it_is_pinned(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(built_in_haircuts_rest_in_their_groom_or_where_is_said),
-        cmocka_unit_test(an_upright_strand_that_is_too_long_leans),
-        cmocka_unit_test(what_sags_bears_what_it_bore_when_it_is_pinned),
+        cmocka_unit_test(built_in_haircuts_rest_as_groomed_or_as_reported),
+        cmocka_unit_test(too_long_upright_strand_leans),
+        cmocka_unit_test(sagging_guide_keeps_its_rest_strain_when_pinned),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 #include "tests/reference/rod.h"
 #include "tests/support/rods.h"
 
-static void what_bears_no_gravity_rests_in_the_grooms_own_strain(void** state)
+static void guide_without_preload_rests_in_the_groomed_strain(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -31,7 +31,7 @@ static void what_bears_no_gravity_rests_in_the_grooms_own_strain(void** state)
 }
 
 // Check that q and -q give the same strain.
-static void the_sign_of_a_frame_does_not_matter(void** state)
+static void rest_strain_does_not_depend_on_the_frame_sign(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -51,7 +51,7 @@ static void the_sign_of_a_frame_does_not_matter(void** state)
 
 // Compare with the reference, which uses another method. It has a clamp factor for each stiffness.
 // The section here is round, and the twist at the root is left out.
-static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
+static void rest_strain_of_a_preloaded_groom_equals_the_reference(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -84,9 +84,9 @@ static void the_rest_strain_of_a_held_groom_is_the_references(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_bears_no_gravity_rests_in_the_grooms_own_strain),
-        cmocka_unit_test(the_sign_of_a_frame_does_not_matter),
-        cmocka_unit_test(the_rest_strain_of_a_held_groom_is_the_references),
+        cmocka_unit_test(guide_without_preload_rests_in_the_groomed_strain),
+        cmocka_unit_test(rest_strain_does_not_depend_on_the_frame_sign),
+        cmocka_unit_test(rest_strain_of_a_preloaded_groom_equals_the_reference),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -15,7 +15,7 @@
 #define MAX HAIR_MAX_GUIDE_VERTICES
 #define STEP (1.0 / 240) // Seconds.
 
-static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void** state)
+static void vertex_mass_is_half_of_each_segment_plus_tip_mass(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -43,7 +43,7 @@ static void a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it(void*
     free(f);
 }
 
-static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
+static void shape_frequency_is_linear_from_root_to_tip(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -59,7 +59,7 @@ static void the_pull_goes_evenly_in_frequency_from_root_to_tip(void** state)
 // Check an elliptic section with half axes a >= b about its centre. The second moments are pi a b^3
 // / 4 and pi a^3 b / 4. The torsion constant is pi a^3 b^3 / (a^2 + b^2). The shear modulus is E /
 // (2 (1 + nu)).
-static void ratios_are_those_of_an_elliptic_section(void** state)
+static void stiffness_ratios_are_those_of_an_ellipse(void** state)
 {
     (void)state;
     hair_physics p = hair_physics_default();
@@ -77,7 +77,7 @@ static void ratios_are_those_of_an_elliptic_section(void** state)
     hair_test_near("of hair", 0, ratio[1], 0.68966, 1e-5);
 }
 
-static void stiffness_is_over_the_length_it_is_for_and_tapers(void** state)
+static void stiffness_is_per_length_and_tapers(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -112,7 +112,7 @@ static float within(uint32_t* random, double min, double max)
     return (float)(min + (max - min) * pow((t - 0.2) / 0.6, 9));
 }
 
-static void whatever_the_fields_hold_rods_are_finite(void** state)
+static void rods_of_any_settings_are_finite(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -166,7 +166,7 @@ static void whatever_the_fields_hold_rods_are_finite(void** state)
     free(f);
 }
 
-static void guides_are_written_each_in_its_place_and_counted(void** state)
+static void guides_are_written_in_order_and_counted(void** state)
 {
     (void)state;
     struct hair_test_rod* short_one = hair_test_rod_make();
@@ -201,7 +201,7 @@ static void guides_are_written_each_in_its_place_and_counted(void** state)
     free(long_one);
 }
 
-static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void** state)
+static void rods_are_rebuilt_only_when_their_numbers_change(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
@@ -248,13 +248,13 @@ static void rods_are_made_again_when_a_number_in_them_changes_and_only_then(void
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_vertex_has_half_of_each_segment_and_the_tip_what_hangs_on_it),
-        cmocka_unit_test(the_pull_goes_evenly_in_frequency_from_root_to_tip),
-        cmocka_unit_test(ratios_are_those_of_an_elliptic_section),
-        cmocka_unit_test(stiffness_is_over_the_length_it_is_for_and_tapers),
-        cmocka_unit_test(whatever_the_fields_hold_rods_are_finite),
-        cmocka_unit_test(guides_are_written_each_in_its_place_and_counted),
-        cmocka_unit_test(rods_are_made_again_when_a_number_in_them_changes_and_only_then),
+        cmocka_unit_test(vertex_mass_is_half_of_each_segment_plus_tip_mass),
+        cmocka_unit_test(shape_frequency_is_linear_from_root_to_tip),
+        cmocka_unit_test(stiffness_ratios_are_those_of_an_ellipse),
+        cmocka_unit_test(stiffness_is_per_length_and_tapers),
+        cmocka_unit_test(rods_of_any_settings_are_finite),
+        cmocka_unit_test(guides_are_written_in_order_and_counted),
+        cmocka_unit_test(rods_are_rebuilt_only_when_their_numbers_change),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

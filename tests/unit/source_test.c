@@ -74,7 +74,7 @@ static void the_prefix_follows_the_version(void** state)
     expect("a.comp", "// head\n#version 450 core\nPREFIX\n#line 3 0\nvoid main() {}\n");
 }
 
-static void includes_are_put_in_place_once(void** state)
+static void includes_are_inserted_once(void** state)
 {
     (void)state;
     put("a.comp", "a1\n#include \"b.glsl\"\n  #include \"c.glsl\"\na4\n");
@@ -84,7 +84,7 @@ static void includes_are_put_in_place_once(void** state)
            "a1\n#line 1 1\nb1\n#line 1 2\nc1\n#line 3 2\n#line 3 1\nb3\n#line 3 0\n#line 4 0\na4\n");
 }
 
-static void a_file_that_is_not_there_is_named(void** state)
+static void missing_file_is_named(void** state)
 {
     (void)state;
     struct hair_gl_source source = {0};
@@ -207,7 +207,7 @@ static void check_lines_of(const char* name)
     hair_free(&test.host, source.text);
 }
 
-static void every_line_of_every_shader_leads_back_to_its_file(void** state)
+static void every_shader_line_maps_back_to_its_file(void** state)
 {
     (void)state;
     for_every_shader(check_lines_of);
@@ -262,7 +262,7 @@ static void check_includes_of(const char* name)
     walk(name, 0, &all);
 }
 
-static void what_is_included_on_a_condition_is_included_once(void** state)
+static void conditional_includes_are_inserted_once(void** state)
 {
     (void)state;
     for_every_shader(check_includes_of);
@@ -278,7 +278,7 @@ static void compare(const char* name)
     hair_free(&test.host, file.text);
 }
 
-static void the_text_built_in_is_that_of_the_files(void** state)
+static void embedded_text_equals_the_files(void** state)
 {
     (void)state;
     for_every_shader(compare);
@@ -291,14 +291,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_file_without_includes_is_itself),
         TEST(the_prefix_follows_the_version),
-        TEST(includes_are_put_in_place_once),
-        TEST(a_file_that_is_not_there_is_named),
+        TEST(includes_are_inserted_once),
+        TEST(missing_file_is_named),
         TEST(too_many_files_and_too_long_names_are_refused),
         TEST(lines_that_only_look_like_includes_stay),
         TEST(refused_memory_leaks_nothing),
-        TEST(every_line_of_every_shader_leads_back_to_its_file),
-        TEST(what_is_included_on_a_condition_is_included_once),
-        TEST(the_text_built_in_is_that_of_the_files),
+        TEST(every_shader_line_maps_back_to_its_file),
+        TEST(conditional_includes_are_inserted_once),
+        TEST(embedded_text_equals_the_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,7 +33,7 @@ static struct bench_strands make(float radius)
     return strands;
 }
 
-static void rays_meet_the_share_that_a_grating_covers(void** state)
+static void rays_hit_the_covered_fraction_of_a_grating(void** state)
 {
     (void)state;
     static const float radii[] = {5e-5f, 1.5e-4f, 3e-4f};
@@ -51,7 +51,7 @@ static void rays_meet_the_share_that_a_grating_covers(void** state)
 }
 
 // Check layers. They have no positions within a texel, so strands are independent of each other.
-static void layers_meet_as_many_strands_by_chance(void** state)
+static void random_layers_hit_the_expected_strand_count(void** state)
 {
     (void)state;
     static float light[(BARS + 1) * EACH];
@@ -65,8 +65,8 @@ static void layers_meet_as_many_strands_by_chance(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rays_meet_the_share_that_a_grating_covers),
-        cmocka_unit_test(layers_meet_as_many_strands_by_chance),
+        cmocka_unit_test(rays_hit_the_covered_fraction_of_a_grating),
+        cmocka_unit_test(random_layers_hit_the_expected_strand_count),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -104,7 +104,7 @@ static void scale_turns_units_into_metres(void** state)
     drop(&strands);
 }
 
-static void the_up_axis_turns_to_y_without_mirroring(void** state)
+static void up_axis_is_rotated_to_y_without_mirroring(void** state)
 {
     (void)state;
     hair_up ups[2] = {HAIR_UP_Z, HAIR_UP_X};
@@ -128,7 +128,7 @@ static void the_up_axis_turns_to_y_without_mirroring(void** state)
     }
 }
 
-static void tip_first_strands_are_turned_round(void** state)
+static void tip_first_strands_are_reversed(void** state)
 {
     (void)state;
     hair_import import = defaults();
@@ -142,7 +142,7 @@ static void tip_first_strands_are_turned_round(void** state)
     drop(&strands);
 }
 
-static void a_share_keeps_so_many_strands_evenly(void** state)
+static void keep_fraction_keeps_strands_evenly(void** state)
 {
     (void)state;
     const float fractions[] = {1e-6f, 0.001f, 0.1f, 0.25f, 1.0f / 3, 0.5f, 0.77f, 0.999f};
@@ -169,7 +169,7 @@ static void a_share_keeps_so_many_strands_evenly(void** state)
         }
 }
 
-static void the_seed_alone_decides_which_strands_are_kept(void** state)
+static void kept_strands_depend_only_on_the_seed(void** state)
 {
     (void)state;
     hair_import import = defaults();
@@ -282,7 +282,7 @@ static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** s
     drop(&strands);
 }
 
-static void nothing_may_be_left(void** state)
+static void import_that_drops_every_strand_succeeds(void** state)
 {
     (void)state;
     hair_import import = defaults();
@@ -296,7 +296,7 @@ static void nothing_may_be_left(void** state)
     drop(&strands);
 }
 
-static void long_strands_come_down_to_256_vertices(void** state)
+static void long_strands_are_resampled_to_256_vertices(void** state)
 {
     (void)state;
     hair_import import = defaults();
@@ -320,7 +320,7 @@ static void long_strands_come_down_to_256_vertices(void** state)
     drop(&strands);
 }
 
-static void strands_of_256_vertices_stay_and_of_257_do_not(void** state)
+static void only_strands_over_256_vertices_are_resampled(void** state)
 {
     (void)state;
     for (uint32_t more = 0; more < 2; ++more) {
@@ -422,7 +422,7 @@ static float random_float(uint32_t* random)
     return (float)(bits % 1000) * 0.001f;
 }
 
-static void any_bits_whatever_come_out_fit(void** state)
+static void strands_of_any_bits_become_valid(void** state)
 {
     (void)state;
     uint32_t random = 7, kept = 0;
@@ -467,7 +467,7 @@ static void four_million_strands_take_no_longer_than_their_number(void** state)
     drop(&strands);
 }
 
-static void memory_that_is_no_longer_needed_is_given_back(void** state)
+static void unused_memory_of_an_import_is_freed(void** state)
 {
     (void)state;
     hair_import import = defaults();
@@ -507,26 +507,26 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(clean_strands_are_left_as_they_are),
         TEST(scale_turns_units_into_metres),
-        TEST(the_up_axis_turns_to_y_without_mirroring),
-        TEST(tip_first_strands_are_turned_round),
-        TEST(a_share_keeps_so_many_strands_evenly),
-        TEST(the_seed_alone_decides_which_strands_are_kept),
+        TEST(up_axis_is_rotated_to_y_without_mirroring),
+        TEST(tip_first_strands_are_reversed),
+        TEST(keep_fraction_keeps_strands_evenly),
+        TEST(kept_strands_depend_only_on_the_seed),
         TEST(nonfinite_and_far_vertices_are_removed_and_counted),
         TEST(scaling_beyond_the_range_of_floats_removes_vertices),
         TEST(repeated_vertices_are_merged_and_counted),
         TEST(creeping_strands_keep_their_shape),
         TEST(strands_of_one_vertex_are_dropped_and_counted),
         TEST(strands_shorter_than_10_micrometres_are_dropped_and_counted),
-        TEST(nothing_may_be_left),
-        TEST(long_strands_come_down_to_256_vertices),
-        TEST(strands_of_256_vertices_stay_and_of_257_do_not),
+        TEST(import_that_drops_every_strand_succeeds),
+        TEST(long_strands_are_resampled_to_256_vertices),
+        TEST(only_strands_over_256_vertices_are_resampled),
         TEST(resampling_puts_vertices_at_equal_distances),
         TEST(resampling_reaches_every_count),
         TEST(strands_that_fold_back_keep_distinct_vertices),
         TEST(strands_that_cannot_be_resampled_are_dropped),
-        TEST(any_bits_whatever_come_out_fit),
+        TEST(strands_of_any_bits_become_valid),
         TEST(four_million_strands_take_no_longer_than_their_number),
-        TEST(memory_that_is_no_longer_needed_is_given_back),
+        TEST(unused_memory_of_an_import_is_freed),
         TEST(every_refused_allocation_is_an_error_and_leaks_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

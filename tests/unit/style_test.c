@@ -102,7 +102,7 @@ static void guides_are_finite_and_of_equal_segments(void** state)
     }
 }
 
-static void guides_have_the_vertices_asked_for(void** state)
+static void guides_have_the_requested_vertices(void** state)
 {
     (void)state;
     const uint32_t counts[] = {2, 3, 32, 256};
@@ -176,7 +176,7 @@ static void guides_hang_close_to_the_bust(void** state)
 
 // Check neighbours, which are guides of one triangle. They may part only on the shoulders and
 // around the crown, one in ten.
-static void neighbouring_guides_go_similar_ways(void** state)
+static void neighbouring_guides_are_similar(void** state)
 {
     (void)state;
     for (uint32_t style = 0; style < HAIR_STYLE_COUNT; ++style) {
@@ -229,7 +229,7 @@ static int is_same(const struct cut* a, const struct cut* b)
            !memcmp(a->info.positions, b->info.positions, size);
 }
 
-static void the_seed_alone_makes_the_difference(void** state)
+static void styles_differ_only_by_their_seed(void** state)
 {
     (void)state;
     struct cut a = cut_with(HAIR_STYLE_CURLY, 64, 1, 3), b = cut_with(HAIR_STYLE_CURLY, 64, 1, 3);
@@ -295,7 +295,7 @@ static void a_ponytail_is_gathered_at_the_back(void** state)
     hair_asset_destroy(cut.asset);
 }
 
-static void curls_turn_many_times(void** state)
+static void curly_hair_has_several_turns(void** state)
 {
     (void)state;
     const hair_style styles[] = {HAIR_STYLE_CURLY, HAIR_STYLE_AFRO};
@@ -459,7 +459,7 @@ static void no_triangle_lies_across_the_parting(void** state)
 
 // Limits ------------------------------------------------------------------------------------------
 
-static void the_most_guides_take_seconds_at_most(void** state)
+static void maximum_number_of_guides_takes_seconds(void** state)
 {
     (void)state;
     struct timespec from, to;
@@ -472,7 +472,7 @@ static void the_most_guides_take_seconds_at_most(void** state)
     hair_asset_destroy(cut.asset);
 }
 
-static void every_allocation_may_fail(void** state)
+static void refused_allocations_of_a_style_are_errors(void** state)
 {
     (void)state;
     hair_style_desc desc = hair_style_desc_default();
@@ -503,27 +503,27 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(guides_are_finite_and_of_equal_segments),
-        TEST(guides_have_the_vertices_asked_for),
+        TEST(guides_have_the_requested_vertices),
         TEST(guides_grow_from_the_vertices_of_the_scalp),
         TEST(guides_stay_out_of_the_bust),
         TEST(guides_leave_the_face_free),
         TEST(guides_hang_close_to_the_bust),
-        TEST(neighbouring_guides_go_similar_ways),
+        TEST(neighbouring_guides_are_similar),
         TEST(length_scales_the_guides),
         TEST(extreme_lengths_are_finite),
-        TEST(the_seed_alone_makes_the_difference),
+        TEST(styles_differ_only_by_their_seed),
         TEST(long_hair_reaches_below_the_shoulders),
         TEST(a_bob_ends_at_the_chin),
         TEST(short_hair_lies_close_to_the_skull),
         TEST(a_ponytail_is_gathered_at_the_back),
-        TEST(curls_turn_many_times),
+        TEST(curly_hair_has_several_turns),
         TEST(an_afro_is_round),
         TEST(the_scalp_is_one_sheet_of_fat_triangles),
         TEST(roots_lie_on_the_promised_skull),
         TEST(roots_are_spread_evenly),
         TEST(no_triangle_lies_across_the_parting),
-        TEST(the_most_guides_take_seconds_at_most),
-        TEST(every_allocation_may_fail),
+        TEST(maximum_number_of_guides_takes_seconds),
+        TEST(refused_allocations_of_a_style_are_errors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -158,7 +158,8 @@ static bool ask_for_frame(struct bench_bust* bust, bool again)
     hair_view view = hair_view_default();
     view.pass = HAIR_PASS_DEPTH;
     view.primitive = HAIR_PRIMITIVE_LINES;
-    for (int k = 0; k < 3; ++k) view.projection[5 * k] = 0.01f; // Hits are not searched for hair out of view.
+    // Hits are not searched for hair out of view.
+    for (int k = 0; k < 3; ++k) view.projection[5 * k] = 0.01f;
     // Hits are not searched for unchanged hair, therefore alternate the density.
     bust->turn = again ? bust->turn : !bust->turn;
     look.density = bust->turn ? 1e-6f : 2e-6f;

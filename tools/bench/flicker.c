@@ -43,7 +43,7 @@ static const struct way {
 // The current and the previous frame, and sums over all pairs of frames.
 struct record {
     struct bench_picture picture[2];
-    // `most` is the maximum ratio to the truth's difference, `off` the difference from the truth.
+    // `max` is the maximum ratio to the truth's difference, `off` the difference from the truth.
     double flip, max, off, ms;
 };
 

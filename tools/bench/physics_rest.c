@@ -6,7 +6,7 @@
 #include <math.h>
 
 #define ARRAY_SIZE(a) (sizeof(a) / sizeof *(a))
-// Segments of the chain that an arc is compared with, limited by BENCH_MOST_VERTICES.
+// Segments of the chain that an arc is compared with, limited by BENCH_MAX_VERTICES.
 #define FINE_SEGMENTS 254u
 
 static const double nowhere[3] = {0, 0, 0};

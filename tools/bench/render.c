@@ -64,7 +64,7 @@ static const struct primitive {
                   {"lines", HAIR_PRIMITIVE_LINES, HAIR_COVERAGE_MSAA},
                   {"shares", HAIR_PRIMITIVE_RIBBONS, HAIR_COVERAGE_ALPHA}};
 
-// Level of detail with fewer and wider strands. A share of 0 selects dynamic level of detail.
+// Level of detail with fewer and wider strands. A fraction of 0 selects dynamic level of detail.
 static const struct lod {
     const char* name;
     float fraction;

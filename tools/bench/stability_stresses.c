@@ -167,7 +167,8 @@ static void hang_thousand(struct bench_scene* scene)
 }
 static void make_stiff(struct bench_scene* scene)
 {
-    scene->physics.youngs_modulus = 1e12f; // Use the maximum, and a section that makes up for the rest.
+    // Use the maximum, and a section that makes up for the rest.
+    scene->physics.youngs_modulus = 1e12f;
     scene->physics.fiber_radius *= sqrtf(3);
 }
 static void make_limp(struct bench_scene* scene)

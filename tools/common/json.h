@@ -67,7 +67,7 @@ struct hair_json_entry {
 bool hair_json_object(const struct hair_json* json, const char* name, const json_t* object,
                       const struct hair_json_entry* entries, void* out);
 
-// Read an array of at most `most` objects into elements of `size` bytes. The caller has set the
+// Read an array of at most `max` objects into elements of `size` bytes. The caller has set the
 // elements to their defaults.
 bool hair_json_array(const struct hair_json* json, const char* name, const json_t* array,
                      const struct hair_json_entry* entries, void* out, size_t size, uint32_t max,
