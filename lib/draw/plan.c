@@ -25,7 +25,7 @@ static const struct {
     [COMPV] = {HAIR_RENDER_PATH_COMPUTE, HAIR_VERTICES_PER_VIEW, true},
 };
 
-// Kinds of views. PLAIN has colour or depth without a shader. A shader counts in both.
+// Kinds of views. The first three have colour or depth, and differ in the application's shader.
 enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KINDS };
 
 // The method of each kind of view by render path, without and with a level of detail.
