@@ -358,7 +358,7 @@ static hair_result draw_tile(struct hair_render* render, struct frame* frame, co
                   {HAIR_SHOW_HAIR, HAIR_PASS_COLOR},
                   {HAIR_SHOW_GUIDES, HAIR_PASS_GUIDES}};
     hair_result result = HAIR_OK;
-    for (int i = 0; i < 4 && !result; ++i)
+    for (size_t i = 0; i < sizeof passes / sizeof *passes && !result; ++i)
         if (frame->scene->show & passes[i].show)
             result = draw_hair(render, frame, &tile->camera, passes[i].pass);
     if (result) return result;
