@@ -5,16 +5,22 @@
 
 #include "lib/base/host.h"
 
-typedef enum hair_schema_type { HAIR_SCHEMA_FLOAT = 0, HAIR_SCHEMA_UINT } hair_schema_type;
+typedef enum hair_schema_type { HAIR_SCHEMA_FLOAT = 0, HAIR_SCHEMA_UINT, HAIR_SCHEMA_BOOL } hair_schema_type;
 
-// One number of a desc. Enums are unsigned here. The table has no pointers, so it is read-only
-// without relocation.
+// One number of a desc. Enums are unsigned here. A truth value is one byte, 0 or 1. The table has no
+// pointers, so it is read-only without relocation.
 struct hair_field {
     char name[48]; // "hair_physics.damping"
     uint32_t offset;
     hair_schema_type type;
     double value, min, max; // `value` is the default.
 };
+
+// Return the number of bytes of a field.
+static inline uint32_t hair_schema_size(hair_schema_type type)
+{
+    return type == HAIR_SCHEMA_BOOL ? 1 : 4;
+}
 
 struct hair_schema {
     const struct hair_field* field;

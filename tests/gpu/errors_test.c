@@ -208,6 +208,16 @@ static int is_filled_in(const char* name)
     return strcmp(name, "hair_groom_desc.strand_count") == 0;
 }
 
+static void write_value(unsigned char* desc, const struct hair_field* field, double value)
+{
+    float real = (float)value;
+    uint32_t whole = field->type == HAIR_SCHEMA_FLOAT ? 0 : (uint32_t)value;
+    if (field->type == HAIR_SCHEMA_BOOL)
+        desc[field->offset] = (unsigned char)whole;
+    else
+        memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
+}
+
 static void check_field(struct user* user, const struct subject* subject, const struct hair_field* field)
 {
     _Alignas(16) unsigned char desc[1024];
@@ -219,6 +229,9 @@ static void check_field(struct user* user, const struct subject* subject, const 
         wrong[count++] = -INFINITY;
         if (field->max < 1e30) wrong[count++] = (double)nextafterf((float)field->max, INFINITY);
         if (field->min > -1e30) wrong[count++] = (double)nextafterf((float)field->min, -INFINITY);
+    } else if (field->type == HAIR_SCHEMA_BOOL) {
+        wrong[count++] = 2;
+        wrong[count++] = 255;
     } else {
         if (field->max < UINT32_MAX) wrong[count++] = field->max + 1;
         if (field->max < UINT32_MAX) wrong[count++] = UINT32_MAX;
@@ -226,13 +239,7 @@ static void check_field(struct user* user, const struct subject* subject, const 
     }
     for (int i = 0; i < count; ++i) {
         subject->init(desc);
-        if (field->type == HAIR_SCHEMA_FLOAT) {
-            float value = (float)wrong[i];
-            memcpy(desc + field->offset, &value, sizeof value);
-        } else {
-            uint32_t value = (uint32_t)wrong[i];
-            memcpy(desc + field->offset, &value, sizeof value);
-        }
+        write_value(desc, field, wrong[i]);
         char words[96];
         snprintf(words, sizeof words, "%s is ", field->name);
         refused(user->test, subject->use(user, desc), HAIR_ERROR_ARGUMENT, words);
@@ -278,11 +285,9 @@ static void check_ends(struct user* user, const struct subject* subject)
         for (int end = 0; end < 2; ++end) {
             subject->init(desc);
             double value = end ? field->max : field->min;
-            float real = (float)value;
-            uint32_t whole = (uint32_t)value;
-            memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
+            write_value(desc, field, value);
             if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
-                whole == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
+                value == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
                 ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
             hair_test_ok(user->test, subject->use(user, desc));
         }

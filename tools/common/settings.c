@@ -14,7 +14,7 @@
 #define MAX_EXAMPLE ((size_t)16 << 20) // bytes
 #define CURVE_PLACES (int)(sizeof(hair_curve) / sizeof(float))
 
-enum kind { FLOAT, COUNT, CURVE, PRESET, LOOK, COLOR, LIKE };
+enum kind { FLOAT, COUNT, SWITCH, CURVE, PRESET, LOOK, COLOR, LIKE };
 
 // Key of a setting and its destinations. There are several if several descriptors have the same
 // field.
@@ -163,8 +163,8 @@ static const struct row rows[] = {
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"msaa", "alpha"}},
     {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},
-    {"hide", "leave out hair behind the head", COUNT, {AT(hides)}, {"off", "on"}},
-    {"lod", "level of detail", COUNT, {AT(has_lod)}, {"off", "on"}},
+    {"hide", "leave out hair behind the head", SWITCH, {AT(hides)}, {"off", "on"}},
+    {"lod", "level of detail", SWITCH, {AT(has_lod)}, {"off", "on"}},
     {"lod.strand_fraction", "fraction of the strands drawn, at most", FLOAT, {AT(lod.strand_fraction)}, {0}},
     {"lod.segment_fraction", "fraction of their segments, at most", FLOAT, {AT(lod.segment_fraction)}, {0}},
     {"lod.width_exponent",
@@ -333,7 +333,16 @@ static const struct row* find(const char* key)
 static void store(struct hair_settings* settings, const struct row* row, const void* value)
 {
     for (int i = 0; i < MAX_TARGETS && (i == 0 || row->target[i]); ++i)
-        memcpy((char*)settings + row->target[i], value, 4);
+        memcpy((char*)settings + row->target[i], value, row->kind == SWITCH ? sizeof(bool) : 4);
+}
+
+// Set a switch from "off" or "on", or from 0 or 1.
+static bool set_switch(struct hair_settings* settings, const struct row* row, const char* value)
+{
+    bool is_on = !strcmp(value, "1") || !strcmp(value, row->choice[1]);
+    if (!is_on && strcmp(value, "0") && strcmp(value, row->choice[0])) return false;
+    store(settings, row, &is_on);
+    return true;
 }
 
 static bool set_choice(struct hair_settings* settings, const struct row* row, const char* value)
@@ -428,6 +437,7 @@ static bool set_value(struct hair_settings* settings, const struct row* row, con
     if (row->kind == PRESET || row->kind == LOOK || row->kind == COLOR)
         return set_preset(settings, row->kind, value);
     if (row->kind == LIKE) return set_curl_like(settings, value);
+    if (row->kind == SWITCH) return set_switch(settings, row, value);
     return row->choice[0] ? set_choice(settings, row, value) : set_number(settings, row, value);
 }
 
@@ -495,9 +505,11 @@ void hair_settings_print(FILE* file)
         float number;
         memcpy(&count, value, sizeof count);
         memcpy(&number, value, sizeof number);
+        if (row->kind == SWITCH) count = *(const bool*)value;
         char text[64], names[128];
         if (choice_of(row, 0))
-            snprintf(text, sizeof text, "%s", choice_of(row, row->kind == COUNT ? (int)count : 0));
+            snprintf(text, sizeof text, "%s",
+                     choice_of(row, row->kind == COUNT || row->kind == SWITCH ? (int)count : 0));
         else if (row->kind == LIKE)
             snprintf(text, sizeof text, "none");
         else if (row->kind == CURVE)
