@@ -135,10 +135,11 @@ static int count_enumerators(const char* type)
     return count;
 }
 
-// Read a value such as "3", "1/120" or "HAIR_UP_Y".
+// Read a value such as "3", "1/120", "true" or "HAIR_UP_Y".
 static double read_value(const char* at)
 {
     char* end;
+    if (strncmp(at, "true", 4) == 0) return 1;
     if (strncmp(at, "HAIR_", 5) == 0)
         return find_enumerator(at, strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
     double value = strtod(at, &end);
@@ -146,10 +147,13 @@ static double read_value(const char* at)
     return value;
 }
 
-// Read the range "[a, b]" of a comment. Return 0 if there is none.
-static int read_range(const char* comment, double* min, double* max)
+// Read the range "[a, b]" of a member's comment. Return 0 if there is none. A truth value has the
+// range [0, 1].
+static int read_range(const struct member* member, double* min, double* max)
 {
-    for (const char* at = strchr(comment, '['); at; at = strchr(at + 1, '['))
+    *min = 0, *max = 1;
+    if (strcmp(member->type, "bool") == 0) return 1;
+    for (const char* at = strchr(member->comment, '['); at; at = strchr(at + 1, '['))
         if (sscanf(at, "[%lf, %lf]", min, max) == 2) return 1;
     return 0;
 }
@@ -206,7 +210,7 @@ static void check_field(const char* owner, const struct hair_field* field)
     double min, max, value;
     int enumerators = count_enumerators(member->type);
     int everything = field->max > 1e30 || (field->min == 0 && field->max == UINT32_MAX);
-    if (read_range(member->comment, &min, &max)) {
+    if (read_range(member, &min, &max)) {
         check(field->name, "least", min, field->min);
         check(field->name, "most", max, field->max);
     } else if (enumerators) {
@@ -267,7 +271,7 @@ static void header_ranges_are_in_the_schema(void** state)
         double min, max;
         if (!has_table(member->owner) || strcmp(member->type, "const") == 0)
             continue; // Other tests check arrays.
-        int range = read_range(member->comment, &min, &max);
+        int range = read_range(member, &min, &max);
         if (!range && count_enumerators(member->type) == 0) continue;
         ++ranges;
         if (!has_field(member)) fail_msg("%s.%s is in no table", member->owner, member->name);
