@@ -2,6 +2,7 @@
 #ifndef HAIR_HAIR_BASE_H
 #define HAIR_HAIR_BASE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 

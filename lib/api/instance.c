@@ -142,7 +142,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     hair_physics own;
     hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    if (own.collision_margin != hair->sim.physics.collision_margin) hair_geometry_invalidate(&hair->geometry);
+    if (own.collision.margin != hair->sim.physics.collision.margin) hair_geometry_invalidate(&hair->geometry);
     hair->sim.physics = own;
     return HAIR_OK;
 }

@@ -331,12 +331,12 @@ static void shorter_desc_of_an_older_caller_is_accepted(void** state)
     hair_groom* groom;
     hair_instance* hair = make(test, &groom);
     hair_physics physics = hair_physics_default();
-    physics.header.size = offsetof(hair_physics, collision_margin);
+    physics.header.size = offsetof(hair_physics, collision.margin);
     physics.damping = 7;
-    physics.collision_margin = NAN; // Beyond the end, so it must not be read.
+    physics.collision.margin = NAN; // Beyond the end, so it must not be read.
     hair_test_ok(test, hair_set_physics(hair, &physics));
     assert_true(hair->sim.physics.damping == 7);
-    assert_true(hair->sim.physics.collision_margin == hair_physics_default().collision_margin);
+    assert_true(hair->sim.physics.collision.margin == hair_physics_default().collision.margin);
     drop(hair, groom);
 }
 
@@ -485,7 +485,7 @@ static void a_failed_call_leaves_the_instance_as_it_was(void** state)
     hair_instance before = *hair;
     hair_physics physics = hair_physics_default();
     hair_look look = hair_look_default();
-    physics.damping = -1, look.segments = 0;
+    physics.damping = -1, look.strand.segments = 0;
     hair_set_physics(hair, &physics);
     hair_set_look(hair, &look);
     hair_set_transform(hair, (float[16]){0});
