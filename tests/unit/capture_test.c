@@ -285,7 +285,7 @@ static void wind_of_a_scene_moves_hair_and_can_be_shown(void** state)
 {
     (void)state;
     static const char* const winds[] = {"\"velocity\": [4, 0, 0]",
-                                        "\"velocity\": [4, 0, 0], \"turbulence_intensity\": 0.5",
+                                        "\"velocity\": [4, 0, 0], \"turbulence.intensity\": 0.5",
                                         "\"sources\": [{\"position\": [0.3, 1.6, 0], \"speed\": 9}]"};
     for (int i = 0; i < 3; ++i) {
         char command[512];
