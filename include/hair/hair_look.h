@@ -238,6 +238,11 @@ HAIR_DESC(hair_look)
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
 
+/// Write the look of an instance to `out`, which comes from hair_look_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_look(const hair_instance* hair, hair_look* out);
+
 // Presets of shape --------------------------------------------------------------------------------
 
 /// Preset of the shape of strands, for hair_look_apply_preset().

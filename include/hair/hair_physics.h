@@ -129,6 +129,11 @@ HAIR_DESC(hair_physics)
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics);
 
+/// Write the physics of an instance to `out`, which comes from hair_physics_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_physics(const hair_instance* hair, hair_physics* out);
+
 /// Kinds of hair.
 typedef enum hair_preset {
     HAIR_PRESET_NATURAL = 0, ///< The defaults.
@@ -163,6 +168,14 @@ HAIR_API const char* hair_preset_name(hair_preset preset);
 /// Errors: HAIR_ERROR_ARGUMENT.
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_transform(hair_instance* hair, const float transform[16]);
+
+/// Write the pose of the head that was set last, by any call. Rounding may change the rotation,
+/// because the library keeps it as a quaternion.
+///
+/// @param transform Receives the transform from groom to world, column-major.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_transform(const hair_instance* hair, float transform[16]);
 
 /// Move the head together with the hair. The hair keeps its shape and its motion relative to the
 /// head, and does not swing. Pins of HAIR_PIN_WORLD move along.
@@ -313,6 +326,12 @@ HAIR_DESC(hair_wind)
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION. HAIR_ERROR_OPENGL with a texture only.
 /// OpenGL: required only with hair_wind.texture. Does not wait for the GPU.
 HAIR_API hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind);
+
+/// Write the wind of an instance to `out`, which comes from hair_wind_default(). `sources` points
+/// to memory of the instance, and is valid until the next hair_set_wind() or hair_destroy().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_wind(const hair_instance* hair, hair_wind* out);
 
 // Collision meshes --------------------------------------------------------------------------------
 

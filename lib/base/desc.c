@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define OLDEST_VERSION 200u // The structs of earlier versions have another layout.
+
 static double read_field(const void* desc, const struct hair_field* field)
 {
     const unsigned char* at = (const unsigned char*)desc + field->offset;
@@ -69,6 +71,9 @@ hair_result hair_check_header(const hair_host* host, const char* name, hair_stru
         return hair_fail(host, HAIR_ERROR_VERSION,
                          "%s.header.version is %u, of another major version than %u", name, header.version,
                          HAIR_VERSION);
+    if (header.version < OLDEST_VERSION)
+        return hair_fail(host, HAIR_ERROR_VERSION, "%s.header.version is %u, older than %u", name,
+                         header.version, OLDEST_VERSION);
     return HAIR_OK;
 }
 

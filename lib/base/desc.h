@@ -32,7 +32,8 @@ struct hair_schema {
 // older caller may know a shorter struct.
 void hair_schema_init(void* desc, hair_struct_header header, struct hair_schema fields);
 
-// Return HAIR_ERROR_VERSION unless a default function of this major version has filled in `header`.
+// Return HAIR_ERROR_VERSION unless a default function of this major version, from 0.2 on, has filled
+// in `header`.
 hair_result hair_check_header(const hair_host* host, const char* name, hair_struct_header header);
 
 // Copy a caller's desc into `own`. Fields that the caller's desc is too short for get their

@@ -39,6 +39,10 @@ static void null_objects_are_argument_errors(void** state)
     assert_int_equal(hair_set_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_wind(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_colliders(NULL, NULL, 0, 0), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_step(NULL, 0.1f), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_reset(NULL), HAIR_ERROR_ARGUMENT);
@@ -81,6 +85,10 @@ static void null_arguments_are_refused_by_name(void** state)
     refused(test, hair_set_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
     refused(test, hair_set_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
     refused(test, hair_teleport(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
+    refused(test, hair_get_physics(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_physics is NULL");
+    refused(test, hair_get_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
+    refused(test, hair_get_wind(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_wind is NULL");
+    refused(test, hair_get_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
     refused(test, hair_set_colliders(hair, NULL, 1, sizeof(hair_collider)), HAIR_ERROR_ARGUMENT,
             "colliders is NULL");
     refused(test, hair_save(hair, positions, sizeof positions, NULL), HAIR_ERROR_ARGUMENT, "size is NULL");
@@ -303,8 +311,8 @@ static void ends_of_every_range_are_accepted(void** state)
 static void check_made(struct user* user, const struct subject* subject)
 {
     static const hair_struct_header wrong[] = {
-        {0, 0},  {0, HAIR_VERSION},         {7, HAIR_VERSION}, {4097, HAIR_VERSION},
-        {64, 0}, {64, HAIR_VERSION + 10000}};
+        {0, 0},  {0, HAIR_VERSION},          {7, HAIR_VERSION}, {4097, HAIR_VERSION},
+        {64, 0}, {64, HAIR_VERSION + 10000}, {64, 199}};
     _Alignas(16) unsigned char desc[1024];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         subject->init(desc);

@@ -76,6 +76,8 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set damping=", "damping is empty"},
         {"-o $D/a.png --set damping=nan", "not a finite number"},
         {"-o $D/a.png --set damping=1e999", "not a finite number"},
+        {"-o $D/a.png --set wind.still_air=2", "wind.still_air is 2, not one of: off, on"},
+        {"-o $D/a.png --set lod.per_patch=", "lod.per_patch is empty, not one of: off, on"},
         {"-o $D/a.png --set redblack.iterations=1.5", "not a whole number"},
         {"-o $D/a.png --set redblack.iterations=-1", "not a whole number"},
         {"-o $D/a.png --set damping=-1", "hair_physics.damping is -1"},

@@ -162,6 +162,9 @@ static void desc_without_a_header_is_refused(void** state)
     other.header.version = HAIR_VERSION + 10000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
     assert_non_null(strstr(test.sentence, "of another major version"));
+    other.header.version = 199; // Structs of 0.1 have another layout.
+    assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
+    assert_string_equal(test.sentence, "sample.header.version is 199, older than 200");
     other = defaults();
     other.header.size = 5000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);

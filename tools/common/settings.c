@@ -564,7 +564,7 @@ void hair_settings_print(FILE* file)
             snprintf(text, sizeof text, "guessed");
         else
             snprintf(text, sizeof text, "%g", (double)number);
-        fprintf(file, "  %-28s %-12s %s", row->key, text, row->about);
+        fprintf(file, "  %-32s %-12s %s", row->key, text, row->about);
         if (choice_of(row, 0)) fprintf(file, ": %s", choices_of(row, names));
         fprintf(file, "\n");
     }
