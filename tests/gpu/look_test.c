@@ -204,7 +204,8 @@ static void disabled_look_has_no_effect_and_no_program(void** state)
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
     float* plain = read_with(&f, &look);
-    off.strays.tip_distance = off.strays.distance = hair_curve_line(0.1f, 0.2f); // No strand strays.
+    // No strand strays.
+    off.strays.tip_distance = off.strays.distance = hair_curve_line(0.1f, 0.2f);
     off.strays.frizz_wavelength = 0.1f;
     off.curl.profile = hair_curve_line(2, 1); // The radius is 0.
     off.curl.wavelength = 0.01f;
