@@ -106,7 +106,7 @@ static void wrong_use_exits_with_2(void** state)
 static void help_and_version_are_printed_on_the_standard_output(void** state)
 {
     (void)state;
-    expect(0, "$T --help 2>/dev/null", "gravity.y                    -9.81");
+    expect(0, "$T --help 2>/dev/null", "gravity.y                        -9.81");
     assert_non_null(strstr(hair_test_said, "Scenes: demo"));
     expect(0, "$T --version 2>/dev/null", "hair-capture 0.");
     hair_test_shell_expect_full("--help");
