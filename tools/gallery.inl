@@ -12,9 +12,12 @@ PICTURE("The guides, and a slice of the field: blue outside, red inside",
 
 ROW("Maps on the scalp: where hair grows, and how thick it is, in sets that are blended")
 PICTURE("The first set: all of it", "tools/scenes/maps.json")
-PICTURE("On the way to the second (followers.map_set=0.6)", "tools/scenes/maps.json --set followers.map_set=0.6")
-PICTURE("The second: a middle, a few on the sides, none between", "tools/scenes/maps.json --set followers.map_set=1")
-PICTURE("The third: strands of a third and of twice the thickness", "tools/scenes/maps.json --set followers.map_set=2")
+PICTURE("On the way to the second (followers.map_set=0.6)",
+        "tools/scenes/maps.json --set followers.map_set=0.6")
+PICTURE("The second: a middle, a few on the sides, none between",
+        "tools/scenes/maps.json --set followers.map_set=1")
+PICTURE("The third: strands of a third and of twice the thickness",
+        "tools/scenes/maps.json --set followers.map_set=2")
 
 ROW("Colliders from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
@@ -31,7 +34,8 @@ PICTURE("What a lock feels of it: drag=0.1", "--scene wind --set drag=0.1 --fram
 ROW("Three ways to make followers of the same guides")
 PICTURE("Single strand: offsets from one guide (clump.interpolation=single)",
         "--scene demo --set clump.interpolation=single")
-PICTURE("Multi strand: between three guides (clump.interpolation=multi)", "--scene demo --set clump.interpolation=multi")
+PICTURE("Multi strand: between three guides (clump.interpolation=multi)",
+        "--scene demo --set clump.interpolation=multi")
 PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
 
 ROW("Random variation")
@@ -71,7 +75,8 @@ PICTURE("color=blue", "--scene demo --set color=blue")
 
 ROW("Variety: what chance, water, dye and light make of one colour")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
-PICTURE("Streaks in locks, dark at the roots", "--scene demo --set color.streaks=0.25 --set color.root_darkening=0.6")
+PICTURE("Streaks in locks, dark at the roots",
+        "--scene demo --set color.streaks=0.25 --set color.root_darkening=0.6")
 PICTURE("A fraction of grey hairs (streaks by strand)",
         "--scene demo --set color=dark_brown --set color.streaks=0.3 --set color.streak_clumping=0 --set "
         "color.streak_color.r=0.6 --set "
@@ -108,7 +113,8 @@ PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it a
         "tools/scenes/near.json --set lod=on")
 
 ROW("Light that hair leaves to itself, with a lamp behind it")
-PICTURE("By depth behind a shadow map (self_shadow.method=depth)", "--scene demo --set self_shadow.method=depth")
+PICTURE("By depth behind a shadow map (self_shadow.method=depth)",
+        "--scene demo --set self_shadow.method=depth")
 PICTURE("By its strands: along them, and through a grid of how much hair there is (self_shadow.method=strands)",
         "--scene demo")
 PICTURE("The same on blond hair", "--scene demo --set color=blond")

@@ -81,7 +81,7 @@ static void the_look_is_the_one_that_was_set(void** state)
     struct fixture f = begin(*state, &desc);
     hair_test_ok(f.test, hair_get_look(f.hair, &got));
     check_same(&first, &got, hair_schema_of_hair_look());
-    assert_true(f.hair->draw.look.strays.fraction < got.strays.fraction);
+    assert_true(f.hair->geometry.look.strays.fraction < got.strays.fraction);
     vary(&second, hair_schema_of_hair_look());
     hair_test_ok(f.test, hair_set_look(f.hair, &second));
     hair_test_ok(f.test, hair_get_look(f.hair, &got));
