@@ -1,20 +1,23 @@
 // gallery.inl - Contents of `make gallery`, as rows of pictures. hair-capture makes each picture
 // with the arguments beside its caption. Paths are relative to the folder that make runs in.
 ROW("Followers and colliders: a ball comes into hair that follows three guides at once")
-PICTURE("Guides collide; no follower does (follower_collision=none)",
-        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=none")
-PICTURE("Single strand below the first vertex inside (follower_collision=single_guide)",
-        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=single_guide")
-PICTURE("Pushed out, smoothly (follower_collision=push_out, the default)",
-        "tools/scenes/ball.json --show hair,head,colliders --set follower_collision=push_out")
+PICTURE("Guides collide; no follower does (followers.collision=none)",
+        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=none")
+PICTURE("Single strand below the first vertex inside (followers.collision=single_guide)",
+        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=single_guide")
+PICTURE("Pushed out, smoothly (followers.collision=push_out, the default)",
+        "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=push_out")
 PICTURE("The guides, and a slice of the field: blue outside, red inside",
         "tools/scenes/ball.json --show guides,colliders --set slice=x --set slice_at=0.72")
 
 ROW("Maps on the scalp: where hair grows, and how thick it is, in sets that are blended")
 PICTURE("The first set: all of it", "tools/scenes/maps.json")
-PICTURE("On the way to the second (map_set=0.6)", "tools/scenes/maps.json --set map_set=0.6")
-PICTURE("The second: a middle, a few on the sides, none between", "tools/scenes/maps.json --set map_set=1")
-PICTURE("The third: strands of a third and of twice the thickness", "tools/scenes/maps.json --set map_set=2")
+PICTURE("On the way to the second (followers.map_set=0.6)",
+        "tools/scenes/maps.json --set followers.map_set=0.6")
+PICTURE("The second: a middle, a few on the sides, none between",
+        "tools/scenes/maps.json --set followers.map_set=1")
+PICTURE("The third: strands of a third and of twice the thickness",
+        "tools/scenes/maps.json --set followers.map_set=2")
 
 ROW("Colliders from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
@@ -29,13 +32,14 @@ PICTURE("A fifth of a second later", "--scene wind --show head,wind --frames 30:
 PICTURE("What a lock feels of it: drag=0.1", "--scene wind --set drag=0.1 --frames 24:25")
 
 ROW("Three ways to make followers of the same guides")
-PICTURE("Single strand: offsets from one guide (interpolation=single)",
-        "--scene demo --set interpolation=single")
-PICTURE("Multi strand: between three guides (interpolation=multi)", "--scene demo --set interpolation=multi")
+PICTURE("Single strand: offsets from one guide (clump.interpolation=single)",
+        "--scene demo --set clump.interpolation=single")
+PICTURE("Multi strand: between three guides (clump.interpolation=multi)",
+        "--scene demo --set clump.interpolation=multi")
 PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
 
 ROW("Random variation")
-PICTURE("None", "--scene demo --set tip_stray_fraction=0 --set stray_fraction=0")
+PICTURE("None", "--scene demo --set strays.tip_fraction=0 --set strays.fraction=0")
 PICTURE("30 % stray near their tips, 10 % all along (the default)", "--scene demo")
 PICTURE("Every strand kinks as well (look=frizzy)", "--scene demo --set look=frizzy")
 
@@ -71,17 +75,18 @@ PICTURE("color=blue", "--scene demo --set color=blue")
 
 ROW("Variety: what chance, water, dye and light make of one colour")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
-PICTURE("Streaks in locks, dark at the roots", "--scene demo --set streaks=0.25 --set root_darkening=0.6")
+PICTURE("Streaks in locks, dark at the roots",
+        "--scene demo --set color.streaks=0.25 --set color.root_darkening=0.6")
 PICTURE("A fraction of grey hairs (streaks by strand)",
-        "--scene demo --set color=dark_brown --set streaks=0.3 --set streak_clumping=0 --set "
-        "streak_color.r=0.6 --set "
-        "streak_color.g=0.6 --set streak_color.b=0.6")
+        "--scene demo --set color=dark_brown --set color.streaks=0.3 --set color.streak_clumping=0 --set "
+        "color.streak_color.r=0.6 --set "
+        "color.streak_color.g=0.6 --set color.streak_color.b=0.6")
 PICTURE("Dyed tips: a ramp of eight colours",
-        "--scene demo --set color=blond --set tint_red=1,1,1,1,0.8,0.35,0.1,0.05 --set "
-        "tint_green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
-        "tint_blue=1,1,1,1,1.5,2.2,2.5,2.5")
-PICTURE("Lines with a highlight that glitters (sparkle=1)",
-        "--scene demo --set shading=lines --set sparkle=1")
+        "--scene demo --set color=blond --set color.tint_red=1,1,1,1,0.8,0.35,0.1,0.05 --set "
+        "color.tint_green=1,1,1,1,0.9,0.7,0.5,0.4 --set "
+        "color.tint_blue=1,1,1,1,1.5,2.2,2.5,2.5")
+PICTURE("Lines with a highlight that glitters (shading.sparkle=1)",
+        "--scene demo --set shading.model=lines --set shading.sparkle=1")
 
 ROW("Shading of the host's own, and ours in it")
 PICTURE("Ours, changed towards the tips (--shader frost.glsl)",
@@ -108,8 +113,9 @@ PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it a
         "tools/scenes/near.json --set lod=on")
 
 ROW("Light that hair leaves to itself, with a lamp behind it")
-PICTURE("By depth behind a shadow map (self_shadow=depth)", "--scene demo --set self_shadow=depth")
-PICTURE("By its strands: along them, and through a grid of how much hair there is (self_shadow=strands)",
+PICTURE("By depth behind a shadow map (self_shadow.method=depth)",
+        "--scene demo --set self_shadow.method=depth")
+PICTURE("By its strands: along them, and through a grid of density (self_shadow.method=strands)",
         "--scene demo")
 PICTURE("The same on blond hair", "--scene demo --set color=blond")
 

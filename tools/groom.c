@@ -160,7 +160,7 @@ static bool take_option(const struct row* row, const char* text, struct said* sa
     switch ((enum choice)row->option) {
     case SCALE: return parse_number(row->name, text, &said->import.scale);
     case UP: return parse_up(text, &said->import.up);
-    case TIP_FIRST: said->import.tip_first = 1; return true;
+    case TIP_FIRST: said->import.tip_first = true; return true;
     case FRACTION: return parse_number(row->name, text, &said->import.keep_fraction);
     case VERTICES:
         if (!parse_count(row->name, text, &said->import.strand_vertices)) return false;

@@ -2,6 +2,7 @@
 #ifndef HAIR_HAIR_BASE_H
 #define HAIR_HAIR_BASE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -66,8 +67,8 @@ typedef enum hair_result {
     HAIR_ERROR_OPENGL,
     /// The bytes are unreadable, or not in the format that they claim. The log has the byte offset.
     HAIR_ERROR_FILE,
-    /// The caller was compiled against another major version, or a desc does not come from its
-    /// default function.
+    /// The caller was compiled against another major version or a version before 0.2, or a desc
+    /// does not come from its default function.
     HAIR_ERROR_VERSION
 } hair_result;
 

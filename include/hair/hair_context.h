@@ -46,9 +46,9 @@ typedef struct hair_context_desc {
     /// Pointer passed to get_proc.
     void* get_proc_user; ///< Default NULL.
     hair_gl_state gl_state; ///< Default HAIR_GL_STATE_RESTORE.
-    /// Measurement of the GPU time of passes, for hair_get_timings() and hair_report(). 1 enables
-    /// it.
-    uint32_t timings; ///< [0, 1]. Default 0.
+    /// Measurement of the GPU time of passes, for hair_get_timings() and hair_report(). True
+    /// enables it.
+    bool timings; ///< Default false.
     /// Directory from which the shaders of glsl/ are read, for development. NULL selects the
     /// built-in shaders.
     const char* glsl_dir; ///< Default NULL.

@@ -10,7 +10,7 @@
 typedef enum hair_read_source {
     HAIR_READ_GUIDES = 0, ///< Guides at the end of the last substep.
     HAIR_READ_SMOOTH, ///< Guides as drawn, smoothed and interpolated to the current time.
-    HAIR_READ_FOLLOWERS ///< All followers as drawn, hair_look.segments + 1 vertices each.
+    HAIR_READ_FOLLOWERS ///< All followers as drawn, hair_look.strand.segments + 1 vertices each.
 } hair_read_source;
 
 /// Copy vertex positions from the GPU.
@@ -37,7 +37,7 @@ typedef struct hair_solver_stats {
     /// Number of times that a guide was put back in its rest pose because it was not finite.
     uint32_t reset;
     /// Number of guides that are stiffened to hold their groom against gravity, as
-    /// hair_physics.gravity_preload asks.
+    /// hair_physics.shape.gravity_preload asks.
     uint32_t stiffened;
     /// Maximum multiple of the stiffness at any vertex of these guides. At most 3.
     float max_stiffening;
@@ -144,7 +144,7 @@ typedef struct hair_timing {
 } hair_timing;
 
 /// Write the GPU time of every pass that a call has needed so far, if hair_context_desc.timings is
-/// 1. A pass keeps its index. Return the number of passes, or 0 if `context` is NULL.
+/// true. A pass keeps its index. Return the number of passes, or 0 if `context` is NULL.
 ///
 /// @param out Receives the timings. NULL only counts the passes.
 /// @param capacity Maximum number of timings to write.
@@ -204,15 +204,16 @@ HAIR_DESC(hair_report_info)
 /// Report every stage of the newest frame that the GPU has finished. Without
 /// hair_context_desc.timings, report the newest frame.
 ///
-/// @param wait 1 reports the newest frame and waits until the GPU has finished it. 0 does not wait.
+/// @param wait True reports the newest frame and waits until the GPU has finished it. False does
+///     not wait.
 /// @param info Receives the sums. It comes from hair_report_info_default().
 /// @param rows Receives the rows. May be NULL if `capacity` is 0.
 /// @param stride sizeof(hair_report_row).
 /// @param capacity Maximum number of rows to write.
 /// @param count Receives the number of rows that there are.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
-/// OpenGL: required. Waits for the GPU only if `wait` is 1.
-HAIR_API hair_result hair_report(hair_instance* hair, uint32_t wait, hair_report_info* info,
+/// OpenGL: required. Waits for the GPU only if `wait` is true.
+HAIR_API hair_result hair_report(hair_instance* hair, bool wait, hair_report_info* info,
                                  hair_report_row* rows, size_t stride, uint32_t capacity,
                                  uint32_t* count);
 

@@ -19,8 +19,8 @@ typedef struct hair_import {
     float scale; ///< m. [1e-6, 1e6]. Default 1.
     /// Axis that points up in the positions. The import rotates this axis to +y.
     hair_up up; ///< Default HAIR_UP_Y.
-    /// Order of the vertices of a strand. 0 is root to tip. 1 is tip to root.
-    uint32_t tip_first; ///< [0, 1]. Default 0.
+    /// Order of the vertices of a strand. False is root to tip. True is tip to root.
+    bool tip_first; ///< Default false.
     /// Fraction of the strands that the import keeps, chosen at random from `seed`.
     float keep_fraction; ///< [1e-6, 1]. Default 1.
     /// Number of vertices to which every strand is resampled. 0 keeps the vertices of each strand.
@@ -64,11 +64,11 @@ typedef struct hair_map {
 } hair_map;
 
 /// Scalp maps of follower density and strand thickness. A groom has up to four sets, and
-/// hair_look.map_set blends between two of them.
+/// hair_look.followers.map_set blends between two of them.
 typedef struct hair_map_set {
     hair_struct_header header;
     hair_map density; ///< Fraction of the followers that are drawn. [0, 1].
-    hair_map thickness; ///< Radius of a strand as a multiple of hair_look.radius. [0, 4].
+    hair_map thickness; ///< Radius of a strand as a multiple of hair_look.strand.radius. [0, 4].
 } hair_map_set;
 HAIR_DESC(hair_map_set)
 
@@ -123,12 +123,12 @@ typedef struct hair_groom_desc {
     /// Maps on the scalp. The first NULL ends the list. Maps require a scalp.
     const hair_map_set* map_sets[4]; ///< Default NULL.
     /// Radius of each strand, in the unit of `positions`. Only the ratio to the mean radius
-    /// matters. The ratio, clamped to 4, multiplies hair_look.radius, also for followers generated
-    /// from the strand. NULL selects random variation.
+    /// matters. The ratio, clamped to 4, multiplies hair_look.strand.radius, also for followers
+    /// generated from the strand. NULL selects random variation.
     const float* strand_radii; ///< [0, 1e6]. Default NULL.
     /// Linear rgb colours of the strands, color_count per strand. The groom resamples them to 8
     /// even places from root to tip and interpolates them between guides. See
-    /// hair_look.groom_colors. NULL if there are none.
+    /// hair_look.color.groom_colors. NULL if there are none.
     const float* colors; ///< [0, 1]. Default NULL.
     /// Number of colours per strand, at even places from root to tip. 0 means one colour per
     /// vertex.

@@ -59,9 +59,9 @@ typedef struct hair_desc {
     /// Size of a voxel of the field, see hair_field_info.
     float field_voxel; ///< m. [0.0005, 1]. Default 0.005.
     hair_hit_method hit_method; ///< Default HAIR_HIT_METHOD_AUTO.
-    /// Measurement of the energy of guides, for hair_solver_stats.gaining. 1 enables it. It costs
-    /// one dispatch in each step in which nothing drives the hair.
-    uint32_t diagnose; ///< [0, 1]. Default 0.
+    /// Measurement of the energy of guides, for hair_solver_stats.gaining. True enables it. It
+    /// costs one dispatch in each step in which nothing drives the hair.
+    bool diagnose; ///< Default false.
 } hair_desc;
 HAIR_DESC(hair_desc)
 

@@ -26,7 +26,7 @@ static inline hair_curve hair_curve_line(float root, float tip)
 /// Interpolation of followers between guides. Followers of HAIR_STRAND_SET_FULL always follow one
 /// guide each.
 typedef enum hair_interpolation {
-    /// Blend of the two methods below by hair_look.clump along the strand.
+    /// Blend of the two methods below by hair_look.clump.weight along the strand.
     HAIR_INTERPOLATION_MIXED = 0,
     /// Constant offset from one guide, in the guide's frame (Tariq 2010). Makes locks, and ropes in
     /// the extreme.
@@ -50,7 +50,7 @@ typedef enum hair_follower_collision {
 /// Cross section of curls, perpendicular to their axis.
 typedef enum hair_curl_shape {
     HAIR_CURL_SHAPE_HELIX = 0, ///< A circle per turn.
-    HAIR_CURL_SHAPE_EXAMPLE ///< curl_profile_x and curl_profile_z. See hair_look_fit_curl().
+    HAIR_CURL_SHAPE_EXAMPLE ///< curl.profile_x and curl.profile_z. See hair_look_fit_curl().
 } hair_curl_shape;
 
 /// Model of light scattering by strands.
@@ -65,8 +65,8 @@ typedef enum hair_shading {
 /// Self-shadowing method.
 typedef enum hair_self_shadow {
     /// At every drawn vertex, from its distance behind the depth in the light's
-    /// hair_light.hair_shadow_map, times hair_look.absorption. Needs no memory, but hardly
-    /// separates single strands.
+    /// hair_light.hair_shadow_map, times hair_look.self_shadow.absorption. Needs no memory, but
+    /// hardly separates single strands.
     HAIR_SELF_SHADOW_DEPTH = 0,
     /// Once for the vertices of all strands, whose light values are stored. The light is attenuated
     /// by hair_light.hair_shadow_map along the segments of strands, and by a density grid of the
@@ -77,131 +77,159 @@ typedef enum hair_self_shadow {
 
 // Looks -------------------------------------------------------------------------------------------
 
-/// Appearance of the drawn strands. Strays, frizz and curls are disabled, at no cost, when their
-/// fraction, curve or radius is 0. A displacement curve should be 0 at the root, or strands leave
-/// the scalp.
+/// Appearance of the drawn strands. Members are grouped by topic. Strays, frizz and curls are
+/// disabled, at no cost, when their fraction, curve or radius is 0. A displacement curve should be
+/// 0 at the root, or strands leave the scalp.
 typedef struct hair_look {
     hair_struct_header header;
 
-    /// Reflectance of dense hair at the root, linear rgb.
-    float root_color[3]; ///< [0, 1]. Default (0.13, 0.055, 0.024).
-    /// Reflectance of dense hair at the tip, linear rgb.
-    float tip_color[3]; ///< [0, 1]. Default (0.26, 0.13, 0.06).
-    /// Relative variation of brightness between strands.
-    float color_spread; ///< [0, 1]. Default 0.4.
-    hair_shading shading; ///< Default HAIR_SHADING_FIBRES.
-    /// Roughness along and around the fibre. HAIR_SHADING_FIBRES only.
-    float roughness[2]; ///< [0.05, 1]. Default (0.3, 0.4).
-    /// Tilt of the cuticle scales, which shifts the highlights. HAIR_SHADING_FIBRES only.
-    float cuticle_tilt; ///< Radians. [0, 0.3]. Default 0.05.
-    /// Weight of light that arrives from other fibres by multiple scattering. HAIR_SHADING_FIBRES
-    /// only.
-    float scattering; ///< [0, 1]. Default 1.
-    /// Strength of the white and of the coloured highlight. HAIR_SHADING_LINES only.
-    float specular[2]; ///< [0, 4]. Default (0.05, 0.5).
-    /// Exponent of the white and of the coloured highlight. HAIR_SHADING_LINES only.
-    float gloss[2]; ///< [1, 1000]. Default (60, 15).
-    /// Radius of a drawn strand. A drawn strand may stand for several hairs.
-    float radius; ///< m. [1e-6, 0.01]. Default 1.5e-4.
-    /// Multiple of `radius` along the strand.
-    hair_curve taper; ///< [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
-    /// Drawn fraction of the length of every strand. The rest is cut off at the tip.
-    float length; ///< [0.01, 1]. Default 1.
-    /// Maximum fraction by which strands are shortened at random.
-    float length_variation; ///< [0, 1]. Default 0.
+    /// Colours of strands. See hair_look_color().
+    struct {
+        /// Reflectance of dense hair at the root, linear rgb.
+        float root[3]; ///< [0, 1]. Default (0.13, 0.055, 0.024).
+        /// Reflectance of dense hair at the tip, linear rgb.
+        float tip[3]; ///< [0, 1]. Default (0.26, 0.13, 0.06).
+        /// Relative variation of brightness between strands.
+        float spread; ///< [0, 1]. Default 0.4.
+        /// Relative variation of red against blue between strands.
+        float hue_spread; ///< [0, 1]. Default 0.
+        /// Multiple of the red of color.root to color.tip. The tints are linear between their 8
+        /// values. Tinted colours are clamped to 1.
+        hair_curve tint_red; ///< [0, 4]. Default 1.
+        /// Multiple of the green.
+        hair_curve tint_green; ///< [0, 4]. Default 1.
+        /// Multiple of the blue.
+        hair_curve tint_blue; ///< [0, 4]. Default 1.
+        /// Fraction of the colour that is lost at the root.
+        float root_darkening; ///< [0, 1]. Default 0.
+        /// Fraction of the strand over which the colour recovers from color.root_darkening.
+        float root_darkening_length; ///< [0.001, 1]. Default 0.15.
+        /// Fraction of the strands that have color.streak_color.
+        float streaks; ///< [0, 1]. Default 0.
+        /// Reflectance of these strands from root to tip, linear rgb.
+        float streak_color[3]; ///< [0, 1]. Default (0.6, 0.42, 0.22).
+        /// Fraction of the strands that have a streak exactly when their guide has one.
+        float streak_clumping; ///< [0, 1]. Default 0.8.
+        /// Blend weight of hair_groom_desc.colors, if the groom has them, over the colours from
+        /// color.root to color.tip. Variation, streaks and color.root_darkening apply to the blend.
+        float groom_colors; ///< [0, 1]. Default 1.
+    } color;
 
-    hair_interpolation interpolation; ///< Default HAIR_INTERPOLATION_MIXED.
-    /// Blend weight of HAIR_INTERPOLATION_MIXED along the strand. 0 is MULTI. 1 is SINGLE.
-    hair_curve clump; ///< [0, 1]. Default (0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6).
-    /// Multiple of the offsets from a single guide along the strand.
-    hair_curve clump_width; ///< [0, 4]. Default 1.
+    /// Scattering of light by a strand.
+    struct {
+        hair_shading model; ///< Default HAIR_SHADING_FIBRES.
+        /// Roughness along and around the fibre. HAIR_SHADING_FIBRES only.
+        float roughness[2]; ///< [0.05, 1]. Default (0.3, 0.4).
+        /// Relative variation of shading.roughness between strands.
+        float roughness_spread; ///< [0, 1]. Default 0.
+        /// Tilt of the cuticle scales, which shifts the highlights. HAIR_SHADING_FIBRES only.
+        float cuticle_tilt; ///< Radians. [0, 0.3]. Default 0.05.
+        /// Relative variation of shading.cuticle_tilt between strands.
+        float cuticle_tilt_spread; ///< [0, 1]. Default 0.25.
+        /// Weight of light that arrives from other fibres by multiple scattering.
+        /// HAIR_SHADING_FIBRES only.
+        float scattering; ///< [0, 1]. Default 1.
+        /// Strength of the white and of the coloured highlight. HAIR_SHADING_LINES only.
+        float specular[2]; ///< [0, 4]. Default (0.05, 0.5).
+        /// Exponent of the white and of the coloured highlight. HAIR_SHADING_LINES only.
+        float gloss[2]; ///< [1, 1000]. Default (60, 15).
+        /// Strength of the glitter of the coloured highlight along strands. HAIR_SHADING_LINES
+        /// only.
+        float sparkle; ///< [0, 1]. Default 0.
+    } shading;
 
-    /// Fraction of the strands that stray near their tips.
-    float tip_stray_fraction; ///< [0, 1]. Default 0.3.
-    /// Displacement of these strands along the strand, as a fraction of their length.
-    hair_curve tip_stray_distance; ///< [0, 1]. Default (0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025).
-    /// Fraction of the strands that stray over their whole length.
-    float stray_fraction; ///< [0, 1]. Default 0.1.
-    /// Displacement of these strands along the strand, as a fraction of their length.
-    hair_curve stray_distance; ///< [0, 1]. Default (0, 0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02).
-    /// Amplitude of the frizz of every strand, along the strand.
-    hair_curve frizz; ///< m. [0, 0.1]. Default 0.
-    /// Length of one wave of the frizz.
-    float frizz_wavelength; ///< m. [0.001, 1]. Default 0.015.
+    /// Size of strands.
+    struct {
+        /// Radius of a drawn strand. A drawn strand may stand for several hairs.
+        float radius; ///< m. [1e-6, 0.01]. Default 1.5e-4.
+        /// Multiple of strand.radius along the strand.
+        hair_curve taper; ///< [0, 4]. Default (1, 0.99, 0.96, 0.91, 0.84, 0.74, 0.63, 0.5).
+        /// Drawn fraction of the length of every strand. The rest is cut off at the tip.
+        float length; ///< [0.01, 1]. Default 1.
+        /// Maximum fraction by which strands are shortened at random.
+        float length_variation; ///< [0, 1]. Default 0.
+        /// Number of line segments of a drawn strand.
+        uint32_t segments; ///< [1, 256]. Default 32.
+    } strand;
 
-    /// Radius of curls or waves. Curls wind around the path that the strand has without them, in
-    /// the frame of its guide. They preserve the reach of the strand, and the drawn strand is
-    /// longer. A turn needs about eight `segments`.
-    float curl_radius; ///< m. [0, 0.1]. Default 0.
-    /// Multiple of curl_radius along the strand.
-    hair_curve curl_profile; ///< [0, 2]. Default (0, 0.6, 0.9, 1, 1, 1, 1, 1).
-    /// Length of one turn along the strand.
-    float curl_wavelength; ///< m. [0.001, 10]. Default 0.05.
-    /// Number of turns from root to tip, in addition to the turns of curl_wavelength.
-    float curl_turns; ///< [0, 100]. Default 0.
-    /// Flatness of the curls. 0 is a helix. 1 is a wave in a plane.
-    float curl_flatness; ///< [0, 1]. Default 0.
-    /// Fraction of the guides whose strands turn to the left.
-    float curl_left_fraction; ///< [0, 1]. Default 0.
-    /// Random phase difference of curls between guides.
-    float curl_guide_phase; ///< Turns. [0, 1]. Default 1.
-    /// Random phase difference of curls between the strands of one guide.
-    float curl_strand_phase; ///< Turns. [0, 1]. Default 0.1.
-    /// Relative variation of the radius and the length of turns.
-    float curl_spread; ///< [0, 0.9]. Default 0.1.
-    hair_curl_shape curl_shape; ///< Default HAIR_CURL_SHAPE_HELIX.
-    /// First component of the displacement at i/16 of a turn of HAIR_CURL_SHAPE_EXAMPLE, across the
-    /// strand, as a multiple of curl_radius.
-    float curl_profile_x[16]; ///< [-1, 1]. Default 0.
-    /// Second component of this displacement, perpendicular to the first and to the strand.
-    float curl_profile_z[16]; ///< [-1, 1]. Default 0.
+    /// Locks, by the interpolation of followers between guides.
+    struct {
+        hair_interpolation interpolation; ///< Default HAIR_INTERPOLATION_MIXED.
+        /// Blend weight of HAIR_INTERPOLATION_MIXED along the strand. 0 is MULTI. 1 is SINGLE.
+        hair_curve weight; ///< [0, 1]. Default (0, 0, 0.07, 0.18, 0.32, 0.46, 0.56, 0.6).
+        /// Multiple of the offsets from a single guide along the strand.
+        hair_curve width; ///< [0, 4]. Default 1.
+    } clump;
 
-    /// Extinction coefficient of the hair, the mean number of strands that light meets per metre.
-    /// HAIR_SELF_SHADOW_DEPTH only.
-    float absorption; ///< 1/m. [0, 10000]. Default 200.
-    /// Fraction of the followers that are drawn.
-    float density; ///< [0, 1]. Default 1.
-    /// Number of line segments of a drawn strand.
-    uint32_t segments; ///< [1, 256]. Default 32.
-    hair_follower_collision follower_collision; ///< Default HAIR_FOLLOWER_COLLISION_PUSH_OUT.
-    /// Index into hair_groom_desc.map_sets. A fractional index blends two neighbouring sets.
-    float map_set; ///< [0, 3]. Default 0.
+    /// Strays and frizz.
+    struct {
+        /// Fraction of the strands that stray over their whole length.
+        float fraction; ///< [0, 1]. Default 0.1.
+        /// Displacement of these strands along the strand, as a fraction of their length.
+        hair_curve distance; ///< [0, 1]. Default (0, 0, 0.01, 0.02, 0.02, 0.02, 0.02, 0.02).
+        /// Fraction of the strands that stray near their tips.
+        float tip_fraction; ///< [0, 1]. Default 0.3.
+        /// Displacement of these strands along the strand, as a fraction of their length.
+        hair_curve tip_distance; ///< [0, 1]. Default (0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025).
+        /// Amplitude of the frizz of every strand, along the strand.
+        hair_curve frizz; ///< m. [0, 0.1]. Default 0.
+        /// Length of one wave of the frizz.
+        float frizz_wavelength; ///< m. [0.001, 1]. Default 0.015.
+    } strays;
 
-    /// Multiple of the red of root_color to tip_color. The tints are linear between their 8 values.
-    /// Tinted colours are clamped to 1.
-    hair_curve tint_red; ///< [0, 4]. Default 1.
-    /// Multiple of the green.
-    hair_curve tint_green; ///< [0, 4]. Default 1.
-    /// Multiple of the blue.
-    hair_curve tint_blue; ///< [0, 4]. Default 1.
-    /// Relative variation of red against blue between strands.
-    float hue_spread; ///< [0, 1]. Default 0.
-    /// Relative variation of `roughness` between strands.
-    float roughness_spread; ///< [0, 1]. Default 0.
-    /// Relative variation of cuticle_tilt between strands.
-    float cuticle_tilt_spread; ///< [0, 1]. Default 0.25.
-    /// Fraction of the colour that is lost at the root.
-    float root_darkening; ///< [0, 1]. Default 0.
-    /// Fraction of the strand over which the colour recovers from root_darkening.
-    float root_darkening_length; ///< [0.001, 1]. Default 0.15.
-    /// Fraction of the strands that have streak_color.
-    float streaks; ///< [0, 1]. Default 0.
-    /// Reflectance of these strands from root to tip, linear rgb.
-    float streak_color[3]; ///< [0, 1]. Default (0.6, 0.42, 0.22).
-    /// Fraction of the strands that have a streak exactly when their guide has one.
-    float streak_clumping; ///< [0, 1]. Default 0.8.
-    /// Strength of the glitter of the coloured highlight along strands. HAIR_SHADING_LINES only.
-    float sparkle; ///< [0, 1]. Default 0.
+    /// Curls and waves. See hair_look_fit_curl().
+    struct {
+        /// Radius of curls or waves. Curls wind around the path that the strand has without them,
+        /// in the frame of its guide. They preserve the reach of the strand, and the drawn strand
+        /// is longer. A turn needs about eight strand.segments.
+        float radius; ///< m. [0, 0.1]. Default 0.
+        /// Multiple of curl.radius along the strand.
+        hair_curve profile; ///< [0, 2]. Default (0, 0.6, 0.9, 1, 1, 1, 1, 1).
+        /// Length of one turn along the strand.
+        float wavelength; ///< m. [0.001, 10]. Default 0.05.
+        /// Number of turns from root to tip, in addition to the turns of curl.wavelength.
+        float turns; ///< [0, 100]. Default 0.
+        /// Flatness of the curls. 0 is a helix. 1 is a wave in a plane.
+        float flatness; ///< [0, 1]. Default 0.
+        /// Fraction of the guides whose strands turn to the left.
+        float left_fraction; ///< [0, 1]. Default 0.
+        /// Random phase difference of curls between guides.
+        float guide_phase; ///< Turns. [0, 1]. Default 1.
+        /// Random phase difference of curls between the strands of one guide.
+        float strand_phase; ///< Turns. [0, 1]. Default 0.1.
+        /// Relative variation of the radius and the length of turns.
+        float spread; ///< [0, 0.9]. Default 0.1.
+        hair_curl_shape shape; ///< Default HAIR_CURL_SHAPE_HELIX.
+        /// First component of the displacement at i/16 of a turn of HAIR_CURL_SHAPE_EXAMPLE, across
+        /// the strand, as a multiple of curl.radius.
+        float profile_x[16]; ///< [-1, 1]. Default 0.
+        /// Second component of this displacement, perpendicular to the first and to the strand.
+        float profile_z[16]; ///< [-1, 1]. Default 0.
+    } curl;
+
+    /// Shadow of the hair on itself.
+    struct {
+        hair_self_shadow method; ///< Default HAIR_SELF_SHADOW_DEPTH.
+        /// Extinction coefficient of the hair, the mean number of strands that light meets per
+        /// metre. HAIR_SELF_SHADOW_DEPTH only.
+        float absorption; ///< 1/m. [0, 10000]. Default 200.
+        /// Minimum cell size of the density grid of HAIR_SELF_SHADOW_STRANDS.
+        float cell; ///< m. [0.001, 1]. Default 0.004.
+    } self_shadow;
+
+    /// Number of followers, and their collision.
+    struct {
+        /// Fraction of the followers that are drawn.
+        float density; ///< [0, 1]. Default 1.
+        /// Index into hair_groom_desc.map_sets. A fractional index blends two neighbouring sets.
+        float map_set; ///< [0, 3]. Default 0.
+        hair_follower_collision collision; ///< Default HAIR_FOLLOWER_COLLISION_PUSH_OUT.
+    } followers;
+
     /// Wetness. Water darkens and smooths hair, draws strands together and flattens strays. It
     /// changes the values above, not the way that they are drawn. HAIR_PRESET_WET makes hair also
     /// move like wet hair.
     float wetness; ///< [0, 1]. Default 0.
-    /// Blend weight of hair_groom_desc.colors, if the groom has them, over the colours from
-    /// root_color to tip_color. Variation, streaks and root_darkening apply to the blend.
-    float groom_colors; ///< [0, 1]. Default 1.
-    hair_self_shadow self_shadow; ///< Default HAIR_SELF_SHADOW_DEPTH.
-    /// Minimum cell size of the density grid of HAIR_SELF_SHADOW_STRANDS.
-    float self_shadow_cell; ///< m. [0.001, 1]. Default 0.004.
 } hair_look;
 HAIR_DESC(hair_look)
 
@@ -209,6 +237,11 @@ HAIR_DESC(hair_look)
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
+
+/// Write the look of an instance to `out`, which comes from hair_look_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_look(const hair_instance* hair, hair_look* out);
 
 // Presets of shape --------------------------------------------------------------------------------
 
@@ -224,9 +257,10 @@ typedef enum hair_look_preset {
     HAIR_LOOK_COUNT
 } hair_look_preset;
 
-/// Apply a preset of shape to a look. The call sets every member from `taper` to `curl_profile_z`.
-/// It raises `segments` to the number that the turns of 0.4 m of hair need. Other members keep
-/// their values.
+/// Apply a preset of shape to a look. The call sets strand.taper, strand.length and
+/// strand.length_variation, and all members of `clump`, `strays` and `curl`. It raises
+/// strand.segments to the number that the turns of 0.4 m of hair need. Other members keep their
+/// values.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param preset Preset below HAIR_LOOK_COUNT.
@@ -239,8 +273,8 @@ HAIR_API hair_result hair_look_apply_preset(hair_look* look, hair_look_preset pr
 HAIR_API const char* hair_look_name(hair_look_preset preset);
 
 /// Fit the curls of a look to an example, which is one turn or wave of a strand. The look repeats
-/// the example. Sets curl_shape, curl_profile_x, curl_profile_z, curl_radius, curl_wavelength and
-/// curl_turns.
+/// the example. Sets `shape`, `profile_x`, `profile_z`, `radius`, `wavelength` and `turns` of
+/// hair_look.curl.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param positions Vertices of the example in order, xyz each, in m. The axis of the curl is the
@@ -268,7 +302,7 @@ typedef enum hair_color {
     HAIR_COLOR_COUNT
 } hair_color;
 
-/// Set root_color, tip_color and color_spread of a look. Other members keep their values.
+/// Set color.root, color.tip and color.spread of a look. Other members keep their values.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param color Colour below HAIR_COLOR_COUNT.

@@ -29,8 +29,8 @@ typedef enum hair_root {
 } hair_root;
 
 /// Simulation parameters. Members of `redblack` apply only to HAIR_SOLVER_REDBLACK.
-/// HAIR_SOLVER_REDBLACK ignores the members from youngs_modulus to tip_mass and from drag to
-/// pressure_stiffness.
+/// HAIR_SOLVER_REDBLACK ignores `drag`, `fiber`, `root`, `tip_mass`, `hair_hair` and
+/// collision.friction. Of `shape`, it uses only the frequencies.
 typedef struct hair_physics {
     hair_struct_header header;
     float gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
@@ -40,11 +40,78 @@ typedef struct hair_physics {
     /// rate of g / v = 4.3 1/s. Without wind only this rate acts, because it is much cheaper than
     /// the law.
     float damping; ///< 1/s. [0, 1000]. Default 4.
-    /// Frequency of the restoring force to the rest pose at the root. The frequency is linear from
-    /// root to tip.
-    float shape_frequency_root; ///< Hz. [0, 30]. Default 4.
-    /// Frequency of the restoring force to the rest pose at the tip.
-    float shape_frequency_tip; ///< Hz. [0, 30]. Default 1.
+    /// Multiple of the drag law of hair_wind, which holds for a single hair. A lock of n hairs of
+    /// diameter d that fill the fraction f of a cylinder has the diameter D = d sqrt(n / f). With
+    /// the law's coefficient C, a hair of the lock has D C(Re_D) / (n d C(Re_d)) times the drag of
+    /// a single hair. This is 0.1 at 2 m/s for n = 64 and f = 0.3. Use 1 for a single hair.
+    float drag; ///< [0, 10]. Default 0.1.
+    /// A single hair.
+    struct {
+        /// Young's modulus of the fibre.
+        float youngs_modulus; ///< Pa. [0, 1e12]. Default 4e9.
+        /// Poisson's ratio of the fibre. It relates the twist stiffness to the bending stiffness.
+        float poisson_ratio; ///< [0, 0.5]. Default 0.45.
+        /// Radius of the circle with the area of the fibre's cross section.
+        float radius; ///< m. [1e-6, 1e-3]. Default 4e-5.
+        /// Mass density of the fibre.
+        float density; ///< kg/m^3. [1, 1e5]. Default 1300.
+        /// Ratio of the short axis to the long axis of the cross section.
+        float flatness; ///< [0.03, 1]. Default 1.
+    } fiber;
+    /// Resistance of guides to deformation, and their rest shape.
+    struct {
+        /// Multiple of the bending and twist stiffness at the root. The multiple is linear from
+        /// root to tip.
+        float stiffness_root; ///< [0, 1e4]. Default 1.
+        /// Multiple of the bending and twist stiffness at the tip.
+        float stiffness_tip; ///< [0, 1e4]. Default 1.
+        /// Frequency of the restoring force to the rest pose at the root. The frequency is linear
+        /// from root to tip.
+        float frequency_root; ///< Hz. [0, 30]. Default 4.
+        /// Frequency of the restoring force to the rest pose at the tip.
+        float frequency_tip; ///< Hz. [0, 30]. Default 1.
+        /// Fraction of gravity that the rest shape balances. 1 preserves the groom under gravity.
+        float gravity_preload; ///< [0, 1]. Default 1.
+    } shape;
+    hair_root root; ///< Default HAIR_ROOT_CLAMPED.
+    /// Mass attached to the tip, as a multiple of the mass of the strand.
+    float tip_mass; ///< [0, 1e4]. Default 0.
+    /// Contact with colliders.
+    struct {
+        /// Distance that hair keeps from colliders.
+        float margin; ///< m. [0, 0.1]. Default 0.001.
+        /// Coefficient of Coulomb friction with colliders. hair_collider.friction multiplies it.
+        float friction; ///< [0, 10]. Default 0.3.
+    } collision;
+    /// Interaction of hair with the hair around it.
+    struct {
+        /// Decay rate of the velocity of hair relative to the rigid motion of the hair around it.
+        /// Cohesion and pressure_stiffness preserve the total momentum and angular momentum of the
+        /// hair. They do not affect hair that is detached from the head and farther from it than
+        /// its own length.
+        float cohesion; ///< 1/s. [0, 1000]. Default 0.
+        /// Resistance of hair to compression beyond its density at rest, as of a gas, by the square
+        /// of the speed of sound. Under gravity g, the density grows by a factor e over the height
+        /// pressure_stiffness / g. The speed of sound is limited to one half of a grid cell per
+        /// 1/120 s. A cell is at least 1 cm.
+        float pressure_stiffness; ///< m^2/s^2. [0, 100]. Default 0.
+    } hair_hair;
+    /// Multiple of the number of substeps, for level of detail. It is rounded up to 1, 1/2, 1/4,
+    /// and so on. Substeps become longer by the same factor, up to 1/60 s. Steps that complete no
+    /// substep only advance the interpolation of the drawn hair, which is one substep behind.
+    /// HAIR_SOLVER_REDBLACK ignores the rate, because it stretches more with fewer substeps.
+    float substep_rate; ///< [0.0625, 1]. Default 1.
+    /// Substep rate of hair that has not been visible for 0.25 s, if lower than substep_rate. Hair
+    /// is visible if hair_draw() has shown any of it, or if hair_read_positions() has read it. The
+    /// step after hair becomes visible again returns to substep_rate without a jump.
+    float offscreen_substep_rate; ///< [0.0625, 1]. Default 1.
+    /// Distance from equilibrium below which hair falls asleep. hair_step() then calls no OpenGL
+    /// and costs almost nothing. Hair wakes when the head moves by a quarter of this distance. It
+    /// also wakes when physics, wind, pins, a skinned scalp or colliders within reach change. Wind
+    /// that varies in time keeps hair awake. 0 disables sleeping. Hair falls asleep at the same
+    /// step in every run, unless the GPU is behind by four steps and 0.1 s. The library does not
+    /// wait for such a GPU, and hair then falls asleep later.
+    float sleep_threshold; ///< m. [0, 0.01]. Default 1e-4.
     /// Parameters of HAIR_SOLVER_REDBLACK.
     struct {
         /// Frequency of the angular force to the rest angle with the previous segment.
@@ -54,61 +121,6 @@ typedef struct hair_physics {
         /// Number of iterations of the constraints per substep.
         uint32_t iterations; ///< [1, 256]. Default 20.
     } redblack;
-    /// Distance that hair keeps from colliders.
-    float collision_margin; ///< m. [0, 0.1]. Default 0.001.
-    /// Young's modulus of the fibre.
-    float youngs_modulus; ///< Pa. [0, 1e12]. Default 4e9.
-    /// Poisson's ratio of the fibre. It relates the twist stiffness to the bending stiffness.
-    float poisson_ratio; ///< [0, 0.5]. Default 0.45.
-    /// Radius of the circle with the area of the fibre's cross section.
-    float fiber_radius; ///< m. [1e-6, 1e-3]. Default 4e-5.
-    /// Mass density of the fibre.
-    float fiber_density; ///< kg/m^3. [1, 1e5]. Default 1300.
-    /// Ratio of the short axis to the long axis of the cross section.
-    float flatness; ///< [0.03, 1]. Default 1.
-    /// Multiple of the bending and twist stiffness at the root. The multiple is linear from root to
-    /// tip.
-    float stiffness_root; ///< [0, 1e4]. Default 1.
-    /// Multiple of the bending and twist stiffness at the tip.
-    float stiffness_tip; ///< [0, 1e4]. Default 1.
-    /// Fraction of gravity that the rest shape balances. 1 preserves the groom under gravity.
-    float gravity_preload; ///< [0, 1]. Default 1.
-    hair_root root; ///< Default HAIR_ROOT_CLAMPED.
-    /// Mass attached to the tip, as a multiple of the mass of the strand.
-    float tip_mass; ///< [0, 1e4]. Default 0.
-    /// Multiple of the drag law of hair_wind, which holds for a single hair. A lock of n hairs of
-    /// diameter d that fill the fraction f of a cylinder has the diameter D = d sqrt(n / f). With
-    /// the law's coefficient C, a hair of the lock has D C(Re_D) / (n d C(Re_d)) times the drag of
-    /// a single hair. This is 0.1 at 2 m/s for n = 64 and f = 0.3. Use 1 for a single hair.
-    float drag; ///< [0, 10]. Default 0.1.
-    /// Coefficient of Coulomb friction with colliders. hair_collider.friction multiplies it.
-    float friction; ///< [0, 10]. Default 0.3.
-    /// Decay rate of the velocity of hair relative to the rigid motion of the hair around it.
-    /// Cohesion and pressure_stiffness preserve the total momentum and angular momentum of the
-    /// hair. They do not affect hair that is detached from the head and farther from it than its
-    /// own length.
-    float cohesion; ///< 1/s. [0, 1000]. Default 0.
-    /// Resistance of hair to compression beyond its density at rest, as of a gas, by the square of
-    /// the speed of sound. Under gravity g, the density grows by a factor e over the height
-    /// pressure_stiffness / g. The speed of sound is limited to one half of a grid cell per 1/120
-    /// s. A cell is at least 1 cm.
-    float pressure_stiffness; ///< m^2/s^2. [0, 100]. Default 0.
-    /// Multiple of the number of substeps, for level of detail. It is rounded up to 1, 1/2, 1/4,
-    /// and so on. Substeps become longer by the same factor, up to 1/60 s. Steps that complete no
-    /// substep only advance the interpolation of the drawn hair, which is one substep behind.
-    /// HAIR_SOLVER_REDBLACK ignores the rate, because it stretches more with fewer substeps.
-    float substep_rate; ///< [0.0625, 1]. Default 1.
-    /// Distance from equilibrium below which hair falls asleep. hair_step() then calls no OpenGL
-    /// and costs almost nothing. Hair wakes when the head moves by a quarter of this distance. It
-    /// also wakes when physics, wind, pins, a skinned scalp or colliders within reach change. Wind
-    /// that varies in time keeps hair awake. 0 disables sleeping. Hair falls asleep at the same
-    /// step in every run, unless the GPU is behind by four steps and 0.1 s. The library does not
-    /// wait for such a GPU, and hair then falls asleep later.
-    float sleep_threshold; ///< m. [0, 0.01]. Default 1e-4.
-    /// Substep rate of hair that has not been visible for 0.25 s, if lower than substep_rate. Hair
-    /// is visible if hair_draw() has shown any of it, or if hair_read_positions() has read it. The
-    /// step after hair becomes visible again returns to substep_rate without a jump.
-    float offscreen_substep_rate; ///< [0.0625, 1]. Default 1.
 } hair_physics;
 HAIR_DESC(hair_physics)
 
@@ -116,6 +128,11 @@ HAIR_DESC(hair_physics)
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics);
+
+/// Write the physics of an instance to `out`, which comes from hair_physics_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_physics(const hair_instance* hair, hair_physics* out);
 
 /// Kinds of hair.
 typedef enum hair_preset {
@@ -127,8 +144,9 @@ typedef enum hair_preset {
     HAIR_PRESET_COUNT
 } hair_preset;
 
-/// Set youngs_modulus, fiber_radius, fiber_density, flatness, the stiffness at root and tip,
-/// damping and friction for a kind of hair. Other members keep their values.
+/// Set fiber.youngs_modulus, fiber.radius, fiber.density, fiber.flatness, shape.stiffness_root,
+/// shape.stiffness_tip, damping and collision.friction for a kind of hair. Other members keep their
+/// values.
 ///
 /// @param physics Physics to change, from hair_physics_default().
 /// @param preset Kind of hair below HAIR_PRESET_COUNT.
@@ -150,6 +168,14 @@ HAIR_API const char* hair_preset_name(hair_preset preset);
 /// Errors: HAIR_ERROR_ARGUMENT.
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_set_transform(hair_instance* hair, const float transform[16]);
+
+/// Write the pose of the head that was set last, by any call. Rounding may change the rotation,
+/// because the library keeps it as a quaternion.
+///
+/// @param transform Receives the transform from groom to world, column-major.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_transform(const hair_instance* hair, float transform[16]);
 
 /// Move the head together with the hair. The hair keeps its shape and its motion relative to the
 /// head, and does not swing. Pins of HAIR_PIN_WORLD move along.
@@ -202,7 +228,7 @@ typedef enum hair_wind_model {
     /// A fluid on a grid around the hair, with the wakes of the head and of all colliders in the
     /// field. The fluid advances by 1/60 s, or by a substep if that is longer. hair_reset() and
     /// hair_teleport() restart the fluid with the ambient wind. hair_load() restarts it too, unless
-    /// `resolution` and `grid_size` equal the saved ones.
+    /// hair_wind.fluid.resolution and hair_wind.fluid.grid_size equal the saved ones.
     HAIR_WIND_FLUID
 } hair_wind_model;
 
@@ -236,7 +262,7 @@ static inline hair_wind_source hair_wind_source_default(void)
 
 /// Wind and its drag on guides.
 ///
-/// Guides have the drag of cylinders of hair_physics.fiber_radius. Across a guide, the drag
+/// Guides have the drag of cylinders of hair_physics.fiber.radius. Across a guide, the drag
 /// coefficient is 1 + 9.75 Re^-0.744, the form of White 1991, with the Reynolds number Re. Along a
 /// guide, the drag follows from the analogy of momentum and heat transfer. Guides stand for locks,
 /// whose hairs shelter each other. For this reason hair_physics.drag is below 1 by default.
@@ -246,31 +272,26 @@ typedef struct hair_wind {
     hair_struct_header header;
     hair_wind_model model; ///< Default HAIR_WIND_AMBIENT.
     float velocity[3]; ///< Velocity of the air in the world. m/s. [-1000, 1000]. Default 0.
-    /// Drag law in still air. 1 applies the law also where no wind blows, at the cost of a wind. A
-    /// level hair then falls at 0.47 m/s when hair_physics.drag is 1. 0 leaves still air to
+    /// Drag law in still air. True applies the law also where no wind blows, at the cost of a wind.
+    /// A level hair then falls at 0.47 m/s when hair_physics.drag is 1. False leaves still air to
     /// hair_physics.damping, whose default lets every hair fall at 2.45 m/s.
-    uint32_t still_air; ///< [0, 1]. Default 0.
-    float density; ///< Density of the air. kg/m^3. [0.001, 1000]. Default 1.204.
-    float viscosity; ///< Dynamic viscosity of the air. Pa s. [1e-7, 1]. Default 1.82e-5.
-    /// Number of grid cells along a side of the fluid, rounded up to a multiple of 16.
-    uint32_t resolution; ///< [16, 128]. Default 32.
-    /// Side length of the fluid's grid. HAIR_AUTO is 1.5 times the longest side of the field.
-    float grid_size; ///< m. [0, 100]. Default HAIR_AUTO.
-    hair_projection projection; ///< Default HAIR_PROJECTION_MULTIGRID.
-    /// Number of cycles or sweeps of the projection per 1/60 s. HAIR_AUTO selects a sufficient
-    /// number.
-    uint32_t projection_iterations; ///< [0, 10000]. Default HAIR_AUTO.
-    /// Turbulence intensity of gusts, the standard deviation of each component of the velocity as a
-    /// fraction of the wind's speed. The turbulence is isotropic with von Karman's spectrum, and
-    /// the wind carries it along.
-    float turbulence_intensity; ///< [0, 2]. Default 0.
-    /// Integral length scale of the turbulence. Gusts are several times as long.
-    float turbulence_length; ///< m. [0.1, 1000]. Default 1.
-    uint32_t seed; ///< Seed of the turbulence. Default 1.
+    bool still_air; ///< Default false.
     /// Strength with which spheres divert ambient wind and gusts, by potential flow upstream and a
     /// wake downstream. The spheres are the head, estimated from the roots, and the largest
     /// colliders of at most 0.5 m around it.
     float shelter; ///< [0, 1]. Default 1.
+    float density; ///< Density of the air. kg/m^3. [0.001, 1000]. Default 1.204.
+    float viscosity; ///< Dynamic viscosity of the air. Pa s. [1e-7, 1]. Default 1.82e-5.
+    /// Turbulence of the wind.
+    struct {
+        /// Turbulence intensity of gusts, the standard deviation of each component of the velocity
+        /// as a fraction of the wind's speed. The turbulence is isotropic with von Karman's
+        /// spectrum, and the wind carries it along.
+        float intensity; ///< [0, 2]. Default 0.
+        /// Integral length scale of the turbulence. Gusts are several times as long.
+        float length; ///< m. [0.1, 1000]. Default 1.
+        uint32_t seed; ///< Seed of the turbulence. Default 1.
+    } turbulence;
     /// Local sources, source_count of them. They are copied. NULL if there are none.
     const hair_wind_source* sources; ///< Default NULL.
     uint32_t source_count; ///< [0, 4]. Default 0.
@@ -280,10 +301,21 @@ typedef struct hair_wind {
     uint32_t texture; ///< Default 0.
     /// Affine transform from the world to texture coordinates.
     float texture_transform[16]; ///< Default identity.
-    /// Number of strands that slow the fluid, like a porous medium. They lie where the guides are.
-    /// Each strand takes from the air the force that hair_physics.drag gives to a guide. A scalp
-    /// has about 100000. 0 lets the fluid flow through hair without resistance.
-    uint32_t drag_strand_count; ///< [0, 10000000]. Default 0.
+    /// Parameters of HAIR_WIND_FLUID.
+    struct {
+        /// Number of grid cells along a side of the fluid, rounded up to a multiple of 16.
+        uint32_t resolution; ///< [16, 128]. Default 32.
+        /// Side length of the fluid's grid. HAIR_AUTO is 1.5 times the longest side of the field.
+        float grid_size; ///< m. [0, 100]. Default HAIR_AUTO.
+        hair_projection projection; ///< Default HAIR_PROJECTION_MULTIGRID.
+        /// Number of cycles or sweeps of the projection per 1/60 s. HAIR_AUTO selects a sufficient
+        /// number.
+        uint32_t projection_iterations; ///< [0, 10000]. Default HAIR_AUTO.
+        /// Number of strands that slow the fluid, like a porous medium. They lie where the guides
+        /// are. Each strand takes from the air the force that hair_physics.drag gives to a guide. A
+        /// scalp has about 100000. 0 lets the fluid flow through hair without resistance.
+        uint32_t drag_strand_count; ///< [0, 10000000]. Default 0.
+    } fluid;
 } hair_wind;
 HAIR_DESC(hair_wind)
 
@@ -294,6 +326,12 @@ HAIR_DESC(hair_wind)
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION. HAIR_ERROR_OPENGL with a texture only.
 /// OpenGL: required only with hair_wind.texture. Does not wait for the GPU.
 HAIR_API hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind);
+
+/// Write the wind of an instance to `out`, which comes from hair_wind_default(). `sources` points
+/// to memory of the instance, and is valid until the next hair_set_wind() or hair_destroy().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_wind(const hair_instance* hair, hair_wind* out);
 
 // Collision meshes --------------------------------------------------------------------------------
 
@@ -344,7 +382,7 @@ HAIR_API void hair_collision_mesh_destroy(hair_collision_mesh* mesh);
 /// Grid of a collision mesh.
 typedef struct hair_collision_mesh_info {
     hair_struct_header header;
-    uint32_t closed; ///< 1 if the mesh is closed, 0 if the mesh is a shell.
+    bool is_closed; ///< True if the mesh is closed, false if the mesh is a shell.
     uint32_t unused; ///< Number of triangles that use a vertex twice.
     uint32_t size[3]; ///< Number of nodes along each axis of the grid.
     float voxel_size; ///< Distance between neighbouring nodes, m.
@@ -386,7 +424,7 @@ typedef struct hair_collider {
     /// Distance by which the shape grows on all sides, which rounds its edges.
     float rounding; ///< m. [0, 1e6]. Default 0.
     float scale; ///< Scale factor of HAIR_SHAPE_MESH. [1e-6, 1e6]. Default 1.
-    /// Multiple of hair_physics.friction, the coefficient of Coulomb friction.
+    /// Multiple of hair_physics.collision.friction, the coefficient of Coulomb friction.
     float friction; ///< [0, 100]. Default 1.
     /// Mesh of HAIR_SHAPE_MESH. It is kept alive as long as the collider is set. NULL for other
     /// shapes.

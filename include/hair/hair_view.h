@@ -112,14 +112,14 @@ typedef struct hair_lod {
     hair_struct_header header;
     /// Maximum fraction of the strands that are drawn.
     float strand_fraction; ///< [0, 1]. Default 1.
-    /// Maximum fraction of hair_look.segments per strand.
+    /// Maximum fraction of hair_look.strand.segments per strand.
     float segment_fraction; ///< [0, 1]. Default 1.
     /// Exponent of the width. Strands become wider by the drawn fraction to the power of
     /// -width_exponent.
     float width_exponent; ///< [0, 2]. Default 1.
-    /// Selection by the size on the screen of each patch of strands, by the members below. 0 uses
-    /// the members above for all patches.
-    uint32_t per_patch; ///< [0, 1]. Default 1.
+    /// Selection by the size on the screen of each patch of strands, by the members below. False
+    /// uses the members above for all patches.
+    bool per_patch; ///< Default true.
     /// Minimum width of a strand on the screen. Strands that would be thinner are drawn with this
     /// width, and in proportionally smaller number.
     float strand_pixels; ///< Pixels. [0.01, 100]. Default 0.25.
@@ -274,7 +274,8 @@ typedef struct hair_view {
     float slice_at; ///< [0, 1]. Default 0.5.
     /// Level of detail. NULL draws everything.
     const hair_lod* lod; ///< Default NULL.
-    /// Shader of HAIR_PASS_COLOR, from the context of the instance. NULL selects hair_look.shading.
+    /// Shader of HAIR_PASS_COLOR, from the context of the instance. NULL selects
+    /// hair_look.shading.model.
     hair_shader* shader; ///< Default NULL.
     hair_coverage coverage; ///< Default HAIR_COVERAGE_MSAA.
     /// Opacity of the covered area, for HAIR_COVERAGE_ALPHA and HAIR_PASS_OPACITY.
@@ -320,16 +321,17 @@ HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 /// Compile all programs that hair_step() and a hair_draw() of `view` need with the current
 /// settings, so that no frame waits for the compiler.
 ///
-/// Call it while something else is shown, until `ready` is 1. Also call it before colliders, wind
-/// or another look are set on visible hair for the first time. Drivers with
+/// Call it while something else is shown, until `ready` is true. Also call it before colliders,
+/// wind or another look are set on visible hair for the first time. Drivers with
 /// KHR_parallel_shader_compile compile all programs in the background, and no call waits. On other
 /// drivers each call compiles one program and waits for it. This also holds for programs of a
 /// hair_shader on every driver.
 ///
 /// @param view View to prepare. NULL prepares hair_step() only.
-/// @param ready Receives 1 if all programs are compiled, and 0 otherwise. Unchanged on failure.
+/// @param ready Receives true if all programs are compiled, and false otherwise. Unchanged on
+///     failure.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
 /// OpenGL: required. Does not wait for the GPU.
-HAIR_API hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready);
+HAIR_API hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready);
 
 #endif

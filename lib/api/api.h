@@ -36,6 +36,7 @@ struct hair_instance {
     struct hair_rods_softened told; // state of softened guides that was logged last
     int has_left_out; // 1 if guides pass through some colliders and the log has said so
     hair_vec3 bounds[2]; // bounds of the hair in the head's frame, without pins
+    hair_look look; // look of the application, before its wetness is applied
     float longest; // maximum length of a strand with its stretch, m
     struct hair_sim sim;
     struct hair_geometry geometry;

@@ -78,7 +78,8 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          "solver redblack has",
                          hair->label);
     hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
-    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->geometry.look);
+    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look);
+    hair->geometry.look = hair->look;
     if (!result) hair_look_apply_wetness(&hair->geometry.look);
     if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
     if (!result) result = hair_check_current(context);
@@ -142,9 +143,15 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
     hair_physics own;
     hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
     if (result) return result;
-    if (own.collision_margin != hair->sim.physics.collision_margin) hair_geometry_invalidate(&hair->geometry);
+    if (own.collision.margin != hair->sim.physics.collision.margin) hair_geometry_invalidate(&hair->geometry);
     hair->sim.physics = own;
     return HAIR_OK;
+}
+
+hair_result hair_get_physics(const hair_instance* hair, hair_physics* out)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    return HAIR_COPY_OUT(&hair->context->host, hair_physics, &hair->sim.physics, out);
 }
 
 hair_result hair_set_look(hair_instance* hair, const hair_look* look)
@@ -153,10 +160,17 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
     hair_look own;
     hair_result result = HAIR_COPY_IN(&hair->context->host, hair_look, look, &own);
     if (result) return result;
+    hair->look = own;
     hair_look_apply_wetness(&own);
     if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_geometry_invalidate(&hair->geometry);
     hair->geometry.look = own;
     return HAIR_OK;
+}
+
+hair_result hair_get_look(const hair_instance* hair, hair_look* out)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    return HAIR_COPY_OUT(&hair->context->host, hair_look, &hair->look, out);
 }
 
 hair_result hair_set_transform(hair_instance* hair, const float transform[16])
@@ -166,6 +180,15 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
     hair_result result = hair_check_transform(hair, "transform", transform, &pose);
     if (!result) hair->sim.head = pose;
     return result;
+}
+
+hair_result hair_get_transform(const hair_instance* hair, float transform[16])
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    if (!transform)
+        return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: transform is NULL", hair->label);
+    hair_pose_to_matrix(&hair->sim.head, transform);
+    return HAIR_OK;
 }
 
 hair_result hair_set_colliders(hair_instance* hair, const hair_collider* colliders, uint32_t count,

@@ -18,51 +18,51 @@ const char* hair_look_name(hair_look_preset kind)
 
 static void wave(hair_look* look)
 {
-    look->clump = (hair_curve){{0, 0.15f, 0.35f, 0.5f, 0.6f, 0.68f, 0.74f, 0.8f}};
-    look->curl_radius = 0.009f;
-    look->curl_profile = (hair_curve){{0, 0.15f, 0.45f, 0.8f, 1, 1.1f, 1.1f, 1}};
-    look->curl_wavelength = 0.085f;
-    look->curl_flatness = 0.4f;
-    look->curl_guide_phase = 0.5f;
-    look->curl_strand_phase = 0.06f;
-    look->curl_spread = 0.08f;
-    look->curl_left_fraction = 0.5f;
+    look->clump.weight = (hair_curve){{0, 0.15f, 0.35f, 0.5f, 0.6f, 0.68f, 0.74f, 0.8f}};
+    look->curl.radius = 0.009f;
+    look->curl.profile = (hair_curve){{0, 0.15f, 0.45f, 0.8f, 1, 1.1f, 1.1f, 1}};
+    look->curl.wavelength = 0.085f;
+    look->curl.flatness = 0.4f;
+    look->curl.guide_phase = 0.5f;
+    look->curl.strand_phase = 0.06f;
+    look->curl.spread = 0.08f;
+    look->curl.left_fraction = 0.5f;
 }
 
 static void curl(hair_look* look)
 {
-    look->clump = (hair_curve){{0, 0.35f, 0.65f, 0.82f, 0.9f, 0.94f, 0.96f, 0.97f}};
-    look->clump_width = (hair_curve){{1, 0.95f, 0.8f, 0.65f, 0.55f, 0.5f, 0.5f, 0.55f}};
-    look->curl_radius = 0.012f;
-    look->curl_profile = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
-    look->curl_wavelength = 0.05f;
-    look->curl_strand_phase = 0.08f;
-    look->curl_spread = 0.05f;
-    look->curl_left_fraction = 0.5f;
-    look->tip_stray_fraction = 0.4f;
+    look->clump.weight = (hair_curve){{0, 0.35f, 0.65f, 0.82f, 0.9f, 0.94f, 0.96f, 0.97f}};
+    look->clump.width = (hair_curve){{1, 0.95f, 0.8f, 0.65f, 0.55f, 0.5f, 0.5f, 0.55f}};
+    look->curl.radius = 0.012f;
+    look->curl.profile = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
+    look->curl.wavelength = 0.05f;
+    look->curl.strand_phase = 0.08f;
+    look->curl.spread = 0.05f;
+    look->curl.left_fraction = 0.5f;
+    look->strays.tip_fraction = 0.4f;
 }
 
 static void coil(hair_look* look)
 {
-    look->clump = (hair_curve){{0, 0.3f, 0.5f, 0.65f, 0.75f, 0.8f, 0.85f, 0.9f}};
-    look->curl_radius = 0.0045f;
-    look->curl_profile = (hair_curve){{0, 0.8f, 1, 1, 1, 1, 1, 0.9f}};
-    look->curl_wavelength = 0.018f;
-    look->curl_strand_phase = 0.2f;
-    look->curl_spread = 0.15f;
-    look->curl_left_fraction = 0.5f;
-    look->stray_fraction = 0.25f;
+    look->clump.weight = (hair_curve){{0, 0.3f, 0.5f, 0.65f, 0.75f, 0.8f, 0.85f, 0.9f}};
+    look->curl.radius = 0.0045f;
+    look->curl.profile = (hair_curve){{0, 0.8f, 1, 1, 1, 1, 1, 0.9f}};
+    look->curl.wavelength = 0.018f;
+    look->curl.strand_phase = 0.2f;
+    look->curl.spread = 0.15f;
+    look->curl.left_fraction = 0.5f;
+    look->strays.fraction = 0.25f;
 }
 
 static void frizz(hair_look* look)
 {
-    look->clump = (hair_curve){{0, 0, 0.03f, 0.08f, 0.14f, 0.2f, 0.25f, 0.3f}};
-    look->tip_stray_fraction = 0.5f;
-    look->tip_stray_distance = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
-    look->stray_fraction = 0.35f;
-    look->stray_distance = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
-    look->frizz = (hair_curve){{0, 0.0012f, 0.0022f, 0.003f, 0.0035f, 0.004f, 0.0045f, 0.005f}};
-    look->frizz_wavelength = 0.012f;
+    look->clump.weight = (hair_curve){{0, 0, 0.03f, 0.08f, 0.14f, 0.2f, 0.25f, 0.3f}};
+    look->strays.tip_fraction = 0.5f;
+    look->strays.tip_distance = (hair_curve){{0, 0, 0.001f, 0.003f, 0.008f, 0.018f, 0.035f, 0.06f}};
+    look->strays.fraction = 0.35f;
+    look->strays.distance = (hair_curve){{0, 0.01f, 0.025f, 0.035f, 0.04f, 0.045f, 0.05f, 0.055f}};
+    look->strays.frizz = (hair_curve){{0, 0.0012f, 0.0022f, 0.003f, 0.0035f, 0.004f, 0.0045f, 0.005f}};
+    look->strays.frizz_wavelength = 0.012f;
 }
 
 hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
@@ -78,25 +78,28 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
     hair_look own, fresh = hair_look_default();
     hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
     if (result) return result;
-    // The members that shape strands are contiguous.
-    size_t first = offsetof(hair_look, taper), end = offsetof(hair_look, absorption);
-    memcpy((char*)&own + first, (char*)&fresh + first, end - first);
+    own.strand.taper = fresh.strand.taper;
+    own.strand.length = fresh.strand.length;
+    own.strand.length_variation = fresh.strand.length_variation;
+    own.clump = fresh.clump;
+    own.strays = fresh.strays;
+    own.curl = fresh.curl;
     if (kind == HAIR_LOOK_STRAIGHT) {
-        own.tip_stray_fraction = 0.1f;
-        own.stray_fraction = 0;
-        own.clump = hair_curve_line(0, 0.4f);
+        own.strays.tip_fraction = 0.1f;
+        own.strays.fraction = 0;
+        own.clump.weight = hair_curve_line(0, 0.4f);
     }
     if (kind == HAIR_LOOK_WAVY) wave(&own);
     if (kind == HAIR_LOOK_CURLY) curl(&own);
     if (kind == HAIR_LOOK_COILY) coil(&own);
     if (kind == HAIR_LOOK_FRIZZY) frizz(&own);
     if (kind == HAIR_LOOK_SHORT) {
-        own.length = 0.32f;
-        own.length_variation = 0.3f;
-        own.clump = hair_curve_line(0, 0.25f);
-        own.tip_stray_fraction = 0.5f;
+        own.strand.length = 0.32f;
+        own.strand.length_variation = 0.3f;
+        own.clump.weight = hair_curve_line(0, 0.25f);
+        own.strays.tip_fraction = 0.5f;
     }
-    if (own.segments < segments[kind]) own.segments = segments[kind];
+    if (own.strand.segments < segments[kind]) own.strand.segments = segments[kind];
     return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }
 
@@ -127,9 +130,9 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     hair_look own;
     hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
     if (result) return result;
-    memcpy(own.root_color, colors[color].root, sizeof own.root_color);
-    memcpy(own.tip_color, colors[color].tip, sizeof own.tip_color);
-    own.color_spread = colors[color].spread;
+    memcpy(own.color.root, colors[color].root, sizeof own.color.root);
+    memcpy(own.color.tip, colors[color].tip, sizeof own.color.tip);
+    own.color.spread = colors[color].spread;
     return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }
 
@@ -211,15 +214,15 @@ hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t
     e.z = hair_cross(e.x, chord);
     for (uint32_t i = 0; i + 1 < vertex_count; ++i)
         e.length += hair_distance(vertex_of(&e, i), vertex_of(&e, i + 1));
-    find_turn(&e, turn, &own.curl_radius);
-    if (!(own.curl_radius <= 0.1f)) return HAIR_ERROR_ARGUMENT;
-    float unit = fmaxf(own.curl_radius, 1e-9f);
+    find_turn(&e, turn, &own.curl.radius);
+    if (!(own.curl.radius <= 0.1f)) return HAIR_ERROR_ARGUMENT;
+    float unit = fmaxf(own.curl.radius, 1e-9f);
     for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
-        own.curl_profile_x[i] = turn[0][i] / unit;
-        own.curl_profile_z[i] = turn[1][i] / unit;
+        own.curl.profile_x[i] = turn[0][i] / unit;
+        own.curl.profile_z[i] = turn[1][i] / unit;
     }
-    own.curl_shape = HAIR_CURL_SHAPE_EXAMPLE;
-    own.curl_wavelength = axis;
-    own.curl_turns = 0;
+    own.curl.shape = HAIR_CURL_SHAPE_EXAMPLE;
+    own.curl.wavelength = axis;
+    own.curl.turns = 0;
     return HAIR_COPY_OUT(&silent, hair_look, &own, look);
 }

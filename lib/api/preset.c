@@ -27,12 +27,12 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
     hair_physics own;
     hair_result result = HAIR_COPY_IN(&silent, hair_physics, physics, &own);
     if (result) return result;
-    own.fiber_radius = presets[preset].radius;
-    own.youngs_modulus = presets[preset].young;
-    own.fiber_density = presets[preset].density;
-    own.flatness = presets[preset].flatness;
-    own.stiffness_root = own.stiffness_tip = presets[preset].stiffness;
+    own.fiber.radius = presets[preset].radius;
+    own.fiber.youngs_modulus = presets[preset].young;
+    own.fiber.density = presets[preset].density;
+    own.fiber.flatness = presets[preset].flatness;
+    own.shape.stiffness_root = own.shape.stiffness_tip = presets[preset].stiffness;
     own.damping = presets[preset].damping;
-    own.friction = presets[preset].friction;
+    own.collision.friction = presets[preset].friction;
     return HAIR_COPY_OUT(&silent, hair_physics, &own, physics);
 }

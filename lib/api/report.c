@@ -52,9 +52,9 @@ static hair_skip_reason why_not_collided(const hair_instance* hair,
                                          const struct hair_frame_requests* requests, int pushes)
 {
     const hair_look* look = &hair->geometry.look;
-    int off = look->follower_collision == HAIR_FOLLOWER_COLLISION_NONE || look->density <= 0 ||
+    int off = look->followers.collision == HAIR_FOLLOWER_COLLISION_NONE || look->followers.density <= 0 ||
               !hair->geometry.followers;
-    if (off || (pushes && look->follower_collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
+    if (off || (pushes && look->followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
         return HAIR_SKIP_REASON_NOT_WANTED;
     if (!hair->sim.colliders.current.count) return HAIR_SKIP_REASON_NONE_NEAR;
     hair_skip_reason why = why_not_shown(requests);
@@ -66,7 +66,7 @@ static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct ha
                                       int kind)
 {
     if (requests->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
-    if (hair->geometry.look.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
+    if (hair->geometry.look.followers.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
     return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
@@ -109,8 +109,9 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
         return requests->vertex_cache || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
                                                                              : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_SELF_SHADOW:
-        return hair->geometry.look.self_shadow != HAIR_SELF_SHADOW_STRANDS ? HAIR_SKIP_REASON_NOT_WANTED
-                                                                           : shown;
+        return hair->geometry.look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS
+                   ? HAIR_SKIP_REASON_NOT_WANTED
+                   : shown;
     case HAIR_GL_CATEGORY_OCCLUSION: return why_not_culled(requests);
     case HAIR_GL_CATEGORY_SCAN_STRANDS:
     case HAIR_GL_CATEGORY_COMPACT_STRANDS:
@@ -231,7 +232,7 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
     return row;
 }
 
-hair_result hair_report(hair_instance* hair, uint32_t waits, hair_report_info* info, hair_report_row* rows,
+hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info, hair_report_row* rows,
                         size_t stride, uint32_t capacity, uint32_t* count)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;

@@ -139,18 +139,18 @@ static hair_result update_follower_collision(hair_instance* hair)
     if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
     if (geometry->push_out_weight <= 0) {
         hair_result result =
-            geometry->look.self_shadow == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
+            geometry->look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
         geometry->follower_collision.field =
             !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
         return result;
     }
-    int wanted = geometry->look.follower_collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
+    int wanted = geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
     hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
     if (result) return result;
     int near = wanted && hair_field_is_near(&hair->field);
     if (!hair->sim.colliders.current.count) hair_geometry_free_follower_collision(geometry);
     return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
-                                                   hair->sim.physics.collision_margin);
+                                                   hair->sim.physics.collision.margin);
 }
 
 static void make_ready(hair_instance* hair)
@@ -194,7 +194,7 @@ static int is_to_be_drawn(hair_instance* hair, const struct hair_draw_plan* plan
     requests->strand_list |= !unseen && plan->has_strand_list;
     requests->vertex_cache |= !unseen && plan->vertices == HAIR_VERTICES_CACHED;
     requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
-    return !unseen && hair->geometry.look.density > 0;
+    return !unseen && hair->geometry.look.followers.density > 0;
 }
 
 static void make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out)
@@ -223,7 +223,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     } else {
         make_ready(hair);
         hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
-        if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.density > 0)
+        if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.followers.density > 0)
             result = update_follower_collision(hair);
         hair->renderer.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
                                      !hair_scalp_motion_is_on(&hair->sim);
@@ -253,7 +253,7 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     return hair_draw_precompile(&hair->renderer, plan, colliders);
 }
 
-hair_result hair_precompile(hair_instance* hair, const hair_view* view, uint32_t* ready)
+hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)
 {
     if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
@@ -338,7 +338,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
     case HAIR_READ_SMOOTH: all = hair->geometry.smooth.vertices; break;
     case HAIR_READ_FOLLOWERS:
-        all = (uint64_t)hair->geometry.followers * (hair->geometry.look.segments + 1);
+        all = (uint64_t)hair->geometry.followers * (hair->geometry.look.strand.segments + 1);
         break;
     default:
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: source is %d, not in [0, %d]", hair->label,

@@ -1,4 +1,4 @@
-// wind.c - the public call that sets the wind.
+// wind.c - public calls that set and get the wind.
 #include "lib/api/api.h"
 
 #include <string.h>
@@ -60,4 +60,10 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     own.sources = own.source_count ? hair->sim.wind_state.source : NULL;
     hair->sim.wind = own;
     return HAIR_OK;
+}
+
+hair_result hair_get_wind(const hair_instance* hair, hair_wind* out)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    return HAIR_COPY_OUT(&hair->context->host, hair_wind, &hair->sim.wind, out);
 }

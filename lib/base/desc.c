@@ -3,10 +3,14 @@
 
 #include <string.h>
 
+#define OLDEST_VERSION 200u // The structs of earlier versions have another layout.
+
 static double read_field(const void* desc, const struct hair_field* field)
 {
     const unsigned char* at = (const unsigned char*)desc + field->offset;
-    HAIR_ASSERT(field->offset % 4 == 0 && field->offset >= sizeof(hair_struct_header));
+    HAIR_ASSERT(field->offset % hair_schema_size(field->type) == 0);
+    HAIR_ASSERT(field->offset >= sizeof(hair_struct_header));
+    if (field->type == HAIR_SCHEMA_BOOL) return *at; // A bool of a caller may hold any byte.
     if (field->type == HAIR_SCHEMA_UINT) {
         uint32_t value;
         memcpy(&value, at, sizeof value);
@@ -20,7 +24,9 @@ static double read_field(const void* desc, const struct hair_field* field)
 static void write_default(void* desc, const struct hair_field* field)
 {
     unsigned char* at = (unsigned char*)desc + field->offset;
-    if (field->type == HAIR_SCHEMA_UINT) {
+    if (field->type == HAIR_SCHEMA_BOOL) {
+        *at = field->value != 0;
+    } else if (field->type == HAIR_SCHEMA_UINT) {
         uint32_t value = (uint32_t)field->value;
         memcpy(at, &value, sizeof value);
     } else {
@@ -35,7 +41,19 @@ static void write_defaults(void* desc, uint32_t size, hair_struct_header header,
     memset(desc, 0, size);
     memcpy(desc, &header, sizeof header);
     for (uint32_t i = 0; i < fields.count; ++i)
-        if (fields.field[i].offset + 4 <= size) write_default(desc, &fields.field[i]);
+        if (fields.field[i].offset + hair_schema_size(fields.field[i].type) <= size)
+            write_default(desc, &fields.field[i]);
+}
+
+// Clear the padding after a truth value, which ends at the next field or at a multiple of 4. Descs
+// can then be compared as bytes.
+static void clear_padding(void* desc, struct hair_schema fields, uint32_t i)
+{
+    uint32_t begin = fields.field[i].offset + 1, end = (begin + 3) / 4 * 4;
+    if (i + 1 < fields.count && fields.field[i + 1].offset < end) end = fields.field[i + 1].offset;
+    if (end > fields.size) end = fields.size;
+    HAIR_ASSERT(begin <= end);
+    memset((unsigned char*)desc + begin, 0, end - begin);
 }
 
 void hair_schema_init(void* desc, hair_struct_header header, struct hair_schema fields)
@@ -53,6 +71,9 @@ hair_result hair_check_header(const hair_host* host, const char* name, hair_stru
         return hair_fail(host, HAIR_ERROR_VERSION,
                          "%s.header.version is %u, of another major version than %u", name, header.version,
                          HAIR_VERSION);
+    if (header.version < OLDEST_VERSION)
+        return hair_fail(host, HAIR_ERROR_VERSION, "%s.header.version is %u, older than %u", name,
+                         header.version, OLDEST_VERSION);
     return HAIR_OK;
 }
 
@@ -69,7 +90,7 @@ hair_result hair_schema_copy_in(const hair_host* host, const char* name, const v
     memcpy(own, desc, header.size < fields.size ? header.size : fields.size);
     for (uint32_t i = 0; i < fields.count; ++i) {
         const struct hair_field* field = &fields.field[i];
-        HAIR_ASSERT(field->offset + 4 <= fields.size);
+        HAIR_ASSERT(field->offset + hair_schema_size(field->type) <= fields.size);
         HAIR_ASSERT(field->min <= field->value && field->value <= field->max);
         double value = read_field(own, field);
         double min = field->type == HAIR_SCHEMA_FLOAT ? (float)field->min : field->min;
@@ -77,6 +98,7 @@ hair_result hair_schema_copy_in(const hair_host* host, const char* name, const v
         if (!(value >= min && value <= max)) // Written so that NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is %.9g, not in [%.9g, %.9g]", field->name, value,
                              field->min, field->max);
+        if (field->type == HAIR_SCHEMA_BOOL) clear_padding(own, fields, i);
     }
     return HAIR_OK;
 }

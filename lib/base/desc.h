@@ -5,16 +5,22 @@
 
 #include "lib/base/host.h"
 
-typedef enum hair_schema_type { HAIR_SCHEMA_FLOAT = 0, HAIR_SCHEMA_UINT } hair_schema_type;
+typedef enum hair_schema_type { HAIR_SCHEMA_FLOAT = 0, HAIR_SCHEMA_UINT, HAIR_SCHEMA_BOOL } hair_schema_type;
 
-// One number of a desc. Enums are unsigned here. The table has no pointers, so it is read-only
-// without relocation.
+// One number of a desc. Enums are unsigned here. A truth value is one byte, 0 or 1. The table has
+// no pointers, so it is read-only without relocation.
 struct hair_field {
     char name[48]; // "hair_physics.damping"
     uint32_t offset;
     hair_schema_type type;
     double value, min, max; // `value` is the default.
 };
+
+// Return the number of bytes of a field.
+static inline uint32_t hair_schema_size(hair_schema_type type)
+{
+    return type == HAIR_SCHEMA_BOOL ? 1 : 4;
+}
 
 struct hair_schema {
     const struct hair_field* field;
@@ -26,7 +32,8 @@ struct hair_schema {
 // older caller may know a shorter struct.
 void hair_schema_init(void* desc, hair_struct_header header, struct hair_schema fields);
 
-// Return HAIR_ERROR_VERSION unless a default function of this major version has filled in `header`.
+// Return HAIR_ERROR_VERSION unless a default function of this major version, from 0.2 on, has
+// filled in `header`.
 hair_result hair_check_header(const hair_host* host, const char* name, hair_struct_header header);
 
 // Copy a caller's desc into `own`. Fields that the caller's desc is too short for get their

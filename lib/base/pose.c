@@ -1,4 +1,4 @@
-// pose.c - poses from matrices, and interpolation between poses.
+// pose.c - poses from and to matrices, and interpolation between poses.
 #include "lib/base/pose.h"
 
 #include <string.h>
@@ -27,6 +27,19 @@ int hair_pose_from_matrix(const float m[16], struct hair_pose* out)
     out->rotation = hair_quat_from_axes(x, y, z);
     HAIR_ASSERT(hair_quat_is_unit(out->rotation));
     return 1;
+}
+
+void hair_pose_to_matrix(const struct hair_pose* pose, float out[16])
+{
+    for (int axis = 0; axis < 3; ++axis) {
+        hair_vec3 v = hair_rotate(pose->rotation, hair_v3(axis == 0, axis == 1, axis == 2));
+        out[4 * axis] = v.x;
+        out[4 * axis + 1] = v.y;
+        out[4 * axis + 2] = v.z;
+        out[4 * axis + 3] = 0;
+        out[12 + axis] = (float)pose->position[axis];
+    }
+    out[15] = 1;
 }
 
 struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_pose* b, double t)

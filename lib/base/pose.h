@@ -14,6 +14,9 @@ struct hair_pose {
 // Convert a column-major matrix. Return 0 if it is not finite, or not rigid within 1e-3.
 int hair_pose_from_matrix(const float matrix[16], struct hair_pose* out);
 
+// Convert a pose to a column-major matrix.
+void hair_pose_to_matrix(const struct hair_pose* pose, float out[16]);
+
 // Interpolate from a (t = 0) to b (t = 1), with constant speed along the straight line and the
 // shortest rotation.
 struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_pose* b, double t);

@@ -51,14 +51,14 @@ static void choose_voxel(const hair_collision_mesh_desc* desc, const struct hair
 {
     float side = longest(hair_sub(t->bounds.upper, t->bounds.lower));
     float voxels = (float)(desc->voxel_size > 0 ? MAX_VOXELS : desc->resolution);
-    float thickness = info->closed ? 0 : desc->thickness;
+    float thickness = info->is_closed ? 0 : desc->thickness;
     info->voxel_size = fmaxf(desc->voxel_size, (side + thickness) / voxels);
-    if (!info->closed && thickness < 2 * info->voxel_size) {
+    if (!info->is_closed && thickness < 2 * info->voxel_size) {
         info->voxel_size = fmaxf(desc->voxel_size, side / (voxels - 2));
         thickness = 2 * info->voxel_size;
     }
     info->voxel_size = fmaxf(info->voxel_size, (side + thickness + 2 * desc->padding) / MAX_VOXELS);
-    info->thickness = fmaxf(thickness, info->closed ? 0 : 2 * info->voxel_size);
+    info->thickness = fmaxf(thickness, info->is_closed ? 0 : 2 * info->voxel_size);
     HAIR_ASSERT(info->voxel_size > 0 && info->thickness >= 0);
 }
 
@@ -290,11 +290,11 @@ static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triang
                          "hair_collision_mesh_desc: none of %u triangles has three different corners",
                          desc->triangle_count);
     mesh->info.unused = desc->triangle_count - t->count;
-    mesh->info.closed = (uint32_t)hair_triangles_are_closed(t);
+    mesh->info.is_closed = (uint32_t)hair_triangles_are_closed(t);
     result = build_grid(desc, t, mesh);
     if (!result) result = measure(mesh, t);
     if (result) return result;
-    if (mesh->info.closed) return find_sides(mesh, t);
+    if (mesh->info.is_closed) return find_sides(mesh, t);
     thicken(mesh);
     hair_log(&mesh->host, HAIR_LOG_WARNING, "a collision mesh of %u triangles is not closed: a shell of %g m",
              t->count, (double)mesh->info.thickness);

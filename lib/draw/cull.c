@@ -33,8 +33,8 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
 
 double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* lod)
 {
-    double width =
-        (double)(renderer->geometry->look.radius * hair_curve_max(&renderer->geometry->look.taper));
+    double width = (double)(renderer->geometry->look.strand.radius *
+                            hair_curve_max(&renderer->geometry->look.strand.taper));
     if (!lod) return width;
     return width *
            pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
@@ -45,7 +45,7 @@ double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* 
 static double reach_of(const struct hair_renderer* renderer, const hair_lod* lod)
 {
     const hair_look* look = &renderer->geometry->look;
-    double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump_width), 1) * renderer->extent.reach);
+    double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump.width), 1) * renderer->extent.reach);
     return reach +
            (double)(hair_look_max_stray(look) * renderer->extent.length + hair_look_max_offset(look)) +
            WIDEST * hair_draw_thickest(renderer, lod);

@@ -110,11 +110,11 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     const hair_view* view = plan->view;
     struct hair_draw_params params;
     if (view->pass == HAIR_PASS_GUIDES) return draw_guides(renderer, head, view);
-    if (renderer->geometry->look.density <= 0) return HAIR_OK;
+    if (renderer->geometry->look.followers.density <= 0) return HAIR_OK;
     plan->head = head;
     plan->has_occlusion = hair_draw_find_occlusion(renderer, head, view, &plan->occlusion);
     plan->is_empty = plan->is_computed && !hair_draw_find_raster(renderer, head, view, &plan->raster);
-    if (renderer->geometry->look.self_shadow != HAIR_SELF_SHADOW_STRANDS)
+    if (renderer->geometry->look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS)
         hair_lighting_free_self_shadow(renderer->lighting);
     hair_draw_find_passes(renderer, find_state(renderer, plan), plan);
     hair_result result = hair_draw_compile(renderer, plan);

@@ -81,14 +81,14 @@ void hair_draw_select_lod(struct hair_renderer* renderer, const struct hair_pose
 float hair_draw_cell(const struct hair_renderer* renderer, const hair_view* view)
 {
     return view->lod && renderer->pixels_per_metre > 0
-               ? fmaxf(renderer->geometry->look.self_shadow_cell, CELL / renderer->pixels_per_metre)
-               : renderer->geometry->look.self_shadow_cell;
+               ? fmaxf(renderer->geometry->look.self_shadow.cell, CELL / renderer->pixels_per_metre)
+               : renderer->geometry->look.self_shadow.cell;
 }
 
 // Return about which fraction of all strands is drawn.
 static double find_fraction(const struct hair_renderer* renderer, const hair_lod* lod)
 {
-    float width = 2 * renderer->geometry->look.radius * renderer->pixels_per_metre;
+    float width = 2 * renderer->geometry->look.strand.radius * renderer->pixels_per_metre;
     return (double)(lod->strand_fraction *
                     (renderer->pixels_per_metre > 0
                          ? fminf(fmaxf(width / lod->strand_pixels, lod->min_strand_fraction), 1)

@@ -165,7 +165,7 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     struct hair_raster* raster = &renderer->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
     HAIR_ASSERT(raster->room >= count_numbers(params, with) && raster->tile_room >= params->tiles);
-    uint64_t segments = (uint64_t)renderer->geometry->followers * renderer->geometry->look.segments;
+    uint64_t segments = (uint64_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
     uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
     uint64_t fours = (count_numbers(params, with) + 3) / 4;
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);

@@ -95,7 +95,7 @@ static void find_needed(const struct hair_renderer* renderer, const struct hair_
     const hair_view* view = plan->view;
     bool is_per_view = plan->vertices == HAIR_VERTICES_PER_VIEW, is_lit = plan->light_values > 0;
     needed[HAIR_RESOURCE_FIBRES] =
-        view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading == HAIR_SHADING_FIBRES;
+        view->pass == HAIR_PASS_COLOR && renderer->geometry->look.shading.model == HAIR_SHADING_FIBRES;
     needed[HAIR_RESOURCE_STRAND_LIST] = plan->has_strand_list;
     needed[HAIR_RESOURCE_OCCLUSION] = plan->has_occlusion;
     needed[HAIR_RESOURCE_VERTEX_CACHE] = plan->vertices == HAIR_VERTICES_CACHED || is_lit;

@@ -25,7 +25,7 @@ hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer, str
     (void)plan;
     struct hair_gl* gl = renderer->gl;
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
-    size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.segments;
+    size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
     hair_result result = hair_gl_ensure_array(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t),
                                               &sorted_segments->bucket, 0, NULL);
     if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
@@ -47,7 +47,7 @@ void hair_draw_sort(struct hair_renderer* renderer)
     struct hair_gl* gl = renderer->gl;
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     HAIR_ASSERT(sorted_segments->segments ==
-                (size_t)renderer->geometry->followers * renderer->geometry->look.segments);
+                (size_t)renderer->geometry->followers * renderer->geometry->look.strand.segments);
     GLuint sorts[] = {sorted_segments->bucket, sorted_segments->index};
     GLuint strands[] = {renderer->strand_list.strand, renderer->strand_list.command};
     uint32_t groups = (uint32_t)((sorted_segments->segments + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);

@@ -51,7 +51,7 @@ static hair_result ensure_indices(struct hair_renderer* renderer, int paired)
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(paired == 0 || paired == 1);
     struct hair_strand_list_indices* own = &renderer->strand_list.indices[paired];
-    uint32_t segments = renderer->geometry->look.segments;
+    uint32_t segments = renderer->geometry->look.strand.segments;
     if (own->segments == segments) return HAIR_OK;
     own->segments = 0;
     hair_gl_free_buffer(gl, &own->index);
@@ -140,7 +140,7 @@ void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired)
     struct hair_gl* gl = renderer->gl;
     const char* first =
         (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
-    HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.segments);
+    HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.strand.segments);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->strand_list.indices[paired].vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);

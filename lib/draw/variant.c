@@ -13,7 +13,7 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
     if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
     if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
-    if (view->pass == HAIR_PASS_COLOR && look->shading == HAIR_SHADING_FIBRES)
+    if (view->pass == HAIR_PASS_COLOR && look->shading.model == HAIR_SHADING_FIBRES)
         features |= HAIR_GL_WITH(FIBRES);
     if (plan->blending)
         features |= HAIR_GL_WITH(ALPHA_COVERAGE);
@@ -107,7 +107,7 @@ hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_dra
     const struct hair_geometry* geometry = renderer->geometry;
     hair_draw_find_passes(renderer, occlusion, plan);
     hair_result result = hair_draw_compile(renderer, plan);
-    if (result || !may_collide || geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_NONE)
+    if (result || !may_collide || geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_NONE)
         return result;
     result = hair_geometry_ensure_hit_programs(renderer->geometry);
     hair_draw_find_passes(renderer, occlusion | HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS), plan);

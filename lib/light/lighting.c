@@ -28,17 +28,18 @@ void hair_lighting_destroy(struct hair_lighting* lighting)
 // the absorption, with d from Chiang et al. 2016, equation 9.
 static void write_fibre(const hair_look* look, hair_vec4* out)
 {
-    float variance[3], b = look->roughness[1];
-    hair_fibre_variances(look->roughness[0], variance);
+    float variance[3], b = look->shading.roughness[1];
+    hair_fibre_variances(look->shading.roughness[0], variance);
     float d = 5.969f + b * (-0.215f + b * (2.532f + b * (-10.73f + b * (5.574f + 0.245f * b))));
-    *out = (hair_vec4){variance[0], 1 / (d * d), look->cuticle_tilt, look->scattering};
+    *out = (hair_vec4){variance[0], 1 / (d * d), look->shading.cuticle_tilt, look->shading.scattering};
 }
 
 void hair_lighting_write_params(const struct hair_lighting* lighting, const hair_look* look,
                                 const struct hair_pose* head, const hair_view* view,
                                 struct hair_draw_params* out)
 {
-    out->specular = (hair_vec4){look->specular[0], look->specular[1], look->gloss[0], look->gloss[1]};
+    out->specular = (hair_vec4){look->shading.specular[0], look->shading.specular[1], look->shading.gloss[0],
+                                look->shading.gloss[1]};
     write_fibre(look, &out->fibre);
     hair_look_write_tint(look, &out->tint);
     if (!view) return;

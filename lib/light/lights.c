@@ -110,7 +110,7 @@ void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const
         HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(gl, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
-        light[HAIR_LIGHT_MORE].z = look->absorption;
+        light[HAIR_LIGHT_MORE].z = look->self_shadow.absorption;
         if (maps[i].shadow) light[HAIR_LIGHT_MORE].w = (float)i;
         if (maps[i].body) light[HAIR_LIGHT_MAP].x = (float)i;
     }

@@ -85,7 +85,7 @@ static bool is_found(struct hair_lighting* lighting, const hair_view* view,
 
 uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view)
 {
-    int wanted = view->pass == HAIR_PASS_COLOR && look->self_shadow == HAIR_SELF_SHADOW_STRANDS;
+    int wanted = view->pass == HAIR_PASS_COLOR && look->self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
     return wanted ? 1 + view->light_count : 0;
 }
 

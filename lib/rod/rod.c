@@ -364,7 +364,7 @@ bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest
                          hair_solver solver, double substep)
 {
     double h = substep > 0 ? substep : FRAME / MIN_PER_FRAME_DIRECT;
-    if (physics->flatness < 1) return true;
+    if (physics->fiber.flatness < 1) return true;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
         if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MAX_STRAIGHT) return true;
@@ -378,10 +378,13 @@ bool hair_rods_differ(const hair_physics* a, const hair_physics* b)
 {
     for (int k = 0; k < 3; ++k)
         if (a->gravity[k] != b->gravity[k]) return true;
-    return a->damping != b->damping || a->shape_frequency_root != b->shape_frequency_root ||
-           a->shape_frequency_tip != b->shape_frequency_tip || a->youngs_modulus != b->youngs_modulus ||
-           a->poisson_ratio != b->poisson_ratio || a->fiber_radius != b->fiber_radius ||
-           a->fiber_density != b->fiber_density || a->flatness != b->flatness ||
-           a->stiffness_root != b->stiffness_root || a->stiffness_tip != b->stiffness_tip ||
-           a->gravity_preload != b->gravity_preload || a->root != b->root || a->tip_mass != b->tip_mass;
+    return a->damping != b->damping || a->shape.frequency_root != b->shape.frequency_root ||
+           a->shape.frequency_tip != b->shape.frequency_tip ||
+           a->fiber.youngs_modulus != b->fiber.youngs_modulus ||
+           a->fiber.poisson_ratio != b->fiber.poisson_ratio || a->fiber.radius != b->fiber.radius ||
+           a->fiber.density != b->fiber.density || a->fiber.flatness != b->fiber.flatness ||
+           a->shape.stiffness_root != b->shape.stiffness_root ||
+           a->shape.stiffness_tip != b->shape.stiffness_tip ||
+           a->shape.gravity_preload != b->shape.gravity_preload || a->root != b->root ||
+           a->tip_mass != b->tip_mass;
 }

@@ -64,10 +64,10 @@ static inline struct hair_rods_report hair_rods_report_none(void)
 // solver and no substep.
 //
 // The rest strain of a guide with a clamped root balances the fraction
-// hair_physics.gravity_preload of gravity. With 1 the groom is in equilibrium. A strand that is too
-// soft would still buckle out of the groom, or need a rest strain further than 1 from the groom's
-// own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. A guide that
-// needs more stiffness sags to a pose that it can keep.
+// hair_physics.shape.gravity_preload of gravity. With 1 the groom is in equilibrium. A strand that
+// is too soft would still buckle out of the groom, or need a rest strain further than 1 from the
+// groom's own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. A
+// guide that needs more stiffness sags to a pose that it can keep.
 void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
                                const hair_physics* physics, struct hair_rod_borne* out,
                                struct hair_rods_report* report);

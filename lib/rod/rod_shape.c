@@ -38,24 +38,25 @@ static hair_dquat frame_of(const hair_vec4* rounded, hair_dvec3 segment)
 
 void hair_rods_ratios(const hair_physics* physics, double ratio[3])
 {
-    double flat = (double)physics->flatness;
+    double flat = (double)physics->fiber.flatness;
     HAIR_ASSERT(flat > 0);
     ratio[0] = flat;
-    ratio[1] = 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
+    ratio[1] = 2 / ((1 + (double)physics->fiber.poisson_ratio) * (flat + 1 / flat));
     ratio[2] = 1 / flat;
 }
 
 static double pull_squared(const hair_physics* physics, double fraction)
 {
-    double root = (double)physics->shape_frequency_root,
-           frequency = root + fraction * ((double)physics->shape_frequency_tip - root);
+    double root = (double)physics->shape.frequency_root,
+           frequency = root + fraction * ((double)physics->shape.frequency_tip - root);
     return TWO_PI * TWO_PI * frequency * frequency;
 }
 
 static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, const hair_physics* physics)
 {
-    double total = 0, so_far = 0, radius = (double)physics->fiber_radius;
-    double bend = (double)physics->youngs_modulus * radius * radius / (4 * (double)physics->fiber_density);
+    double total = 0, so_far = 0, radius = (double)physics->fiber.radius;
+    double bend =
+        (double)physics->fiber.youngs_modulus * radius * radius / (4 * (double)physics->fiber.density);
     hair_dvec3 gravity = hair_dload(physics->gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
         s->length[i] = i + 1 < s->count ? fmax((double)rest[i].position.w, SHORTEST) : 0;
@@ -67,8 +68,8 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
     s->weight = 0;
     s->gravity = hair_dlength(gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
-        double fraction = so_far / total, root = (double)physics->stiffness_root;
-        s->bend[i] = bend * (root + fraction * ((double)physics->stiffness_tip - root));
+        double fraction = so_far / total, root = (double)physics->shape.stiffness_root;
+        s->bend[i] = bend * (root + fraction * ((double)physics->shape.stiffness_tip - root));
         s->pull[i] = pull_squared(physics, (double)i / (s->count - 1));
         so_far += s->length[i];
         if (i > 0) s->weight += s->mass[i] * s->gravity;
@@ -105,7 +106,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
     out->rest_real[out->count - 1] = 0;
     // Only a clamped strand can balance gravity. A hinged strand hangs, and a free strand falls.
     out->load =
-        hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->gravity_preload : 0);
+        hair_dscale(hair_dload(physics->gravity), out->clamped ? (double)physics->shape.gravity_preload : 0);
     find_masses(out, rest, physics);
     find_turns(out, guide, rest);
 }

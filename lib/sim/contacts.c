@@ -21,7 +21,7 @@ static struct hair_collider_grid_desc describe(const struct hair_sim* sim, doubl
     return (struct hair_collider_grid_desc){
         .reach = may ? FARTHEST : fminf(far, FARTHEST),
         .slack = (float)HAIR_CONTACT_FIT + fminf(half, HAIR_CONTACT_SLACK),
-        .margin = sim->physics.collision_margin,
+        .margin = sim->physics.collision.margin,
         .fraction_start = fraction_start,
         .max_rounds = sim->gl->software ? MAX_ROUNDS : UINT32_MAX,
     };

@@ -291,7 +291,7 @@ static uint32_t block_length(const struct hair_sim* sim)
 static void write_params(const struct hair_sim* sim, struct hair_grid_params* params)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
-    double time = block_length(sim) * sim->substep, rate = (double)sim->physics.cohesion;
+    double time = block_length(sim) * sim->substep, rate = (double)sim->physics.hair_hair.cohesion;
     float sound = 0.5f * hair_grid->cell / (float)time; // Half a cell per block is stable.
     hair_quat q = sim->last_after.rotation;
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
@@ -306,7 +306,7 @@ static void write_params(const struct hair_sim* sim, struct hair_grid_params* pa
         .nodes_z = hair_grid->nodes[2],
         .vertices = sim->guide_vertices,
         .cohesion = (float)(-expm1(-rate * time) / time),
-        .pressure_stiffness = fminf(sim->physics.pressure_stiffness, sound * sound),
+        .pressure_stiffness = fminf(sim->physics.hair_hair.pressure_stiffness, sound * sound),
         .per_strand = (float)(hair_grid->metres / HAIR_GRID_UNITS) / (MAX_OF_STRAND * hair_grid->cell),
         .ahead = HAIR_GRID_SPEED * 0.5f * (float)time / hair_grid->cell,
     };

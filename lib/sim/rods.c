@@ -233,7 +233,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->ratio = (hair_vec4){(float)ratio[0], (float)ratio[1], (float)ratio[2], 0};
     params->kick = (float)(c * h > 1e-6 ? -expm1(-c * h) / c * h : h * h);
     params->damping = physics->damping;
-    params->friction = physics->friction;
+    params->friction = physics->collision.friction;
     params->rescale = (float)(h / sim->last_substep);
     params->vertices = sim->guide_vertices;
     params->rounds = sim->rounds;

@@ -103,11 +103,11 @@ static void write_physics(const struct hair_sim* sim, struct hair_step_params* p
     params->gravity =
         (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
     params->keep = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
-    params->shape_frequency_root = TWO_PI * physics->shape_frequency_root;
-    params->shape_frequency_tip = TWO_PI * physics->shape_frequency_tip;
+    params->shape_frequency_root = TWO_PI * physics->shape.frequency_root;
+    params->shape_frequency_tip = TWO_PI * physics->shape.frequency_tip;
     params->angular = squared_frequency(physics->redblack.angular_hz);
     params->bend = physics->redblack.bend;
-    params->collision_margin = physics->collision_margin;
+    params->collision_margin = physics->collision.margin;
     params->iterations = physics->redblack.iterations;
     params->guides = sim->guides;
     params->smooth_vertices = sim->smooth_vertices;

@@ -90,7 +90,7 @@ static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const
     }
     hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
     float max =
-        LOOSE * sim->reach + AROUND + sim->physics.collision_margin + radius + 0.5f * hair_length(way);
+        LOOSE * sim->reach + AROUND + sim->physics.collision.margin + radius + 0.5f * hair_length(way);
     hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
     int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_scalp_motion_is_on(sim);
     return !bound || !(hair_length(mid) > max);

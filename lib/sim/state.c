@@ -67,5 +67,6 @@ bool hair_scalp_motion_is_on(const struct hair_sim* sim)
 
 bool hair_grid_is_on(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->physics.cohesion > 0 || sim->physics.pressure_stiffness > 0);
+    return sim->rods &&
+           (sim->physics.hair_hair.cohesion > 0 || sim->physics.hair_hair.pressure_stiffness > 0);
 }

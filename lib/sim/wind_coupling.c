@@ -30,12 +30,12 @@ static struct hair_fluid_desc desc_of(const struct hair_sim* sim)
 {
     const hair_wind* wind = &sim->wind;
     hair_vec3 size = field_size(&sim->wind_coupling.field->box);
-    struct hair_fluid_desc desc = {.cells = (wind->resolution + 15) / 16 * 16,
-                                   .side = wind->grid_size,
-                                   .method = (hair_fluid_method)wind->projection,
-                                   .cycles = wind->projection_iterations};
+    struct hair_fluid_desc desc = {.cells = (wind->fluid.resolution + 15) / 16 * 16,
+                                   .side = wind->fluid.grid_size,
+                                   .method = (hair_fluid_method)wind->fluid.projection,
+                                   .cycles = wind->fluid.projection_iterations};
     if (desc.side == 0) desc.side = AROUND * fmaxf(size.x, fmaxf(size.y, size.z));
-    if (desc.cycles == 0) desc.cycles = enough(wind->projection, desc.cells);
+    if (desc.cycles == 0) desc.cycles = enough(wind->fluid.projection, desc.cells);
     return desc;
 }
 
@@ -47,7 +47,7 @@ static void free_hair(struct hair_wind_coupling* wind_coupling, struct hair_gl* 
 
 static bool is_porous(const struct hair_sim* sim)
 {
-    return sim->wind.drag_strand_count > 0 && sim->physics.drag > 0;
+    return sim->wind.fluid.drag_strand_count > 0 && sim->physics.drag > 0;
 }
 
 static hair_result ensure_hair(struct hair_sim* sim)
@@ -67,7 +67,7 @@ static hair_result ensure_hair(struct hair_sim* sim)
 hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim)
 {
     if (!hair_wind_coupling_is_on(sim)) return HAIR_OK;
-    return hair_fluid_ensure_programs(sim->gl, (hair_fluid_method)sim->wind.projection, is_porous(sim));
+    return hair_fluid_ensure_programs(sim->gl, (hair_fluid_method)sim->wind.fluid.projection, is_porous(sim));
 }
 
 hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
@@ -141,8 +141,8 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
     HAIR_ASSERT(sim->guides > 0 && sim->wind_coupling.metres > 0);
     double viscosity = (double)wind->viscosity / (double)wind->density;
     return (struct hair_fluid_strands){
-        .metres = sim->wind_coupling.metres * wind->drag_strand_count / sim->guides,
-        .per_speed = (float)(2 * (double)sim->physics.fiber_radius / viscosity),
+        .metres = sim->wind_coupling.metres * wind->fluid.drag_strand_count / sim->guides,
+        .per_speed = (float)(2 * (double)sim->physics.fiber.radius / viscosity),
         .viscous = (float)((double)sim->physics.drag * viscosity),
     };
 }

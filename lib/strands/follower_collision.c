@@ -21,7 +21,7 @@ hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
     hair_result result = hair_gl_ensure_program(gl, pass_of(geometry));
     if (!result && geometry->follower_collision.prepass)
         result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_PREPASS));
-    if (!result && geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+    if (!result && geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
         result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR));
     return result;
 }
@@ -36,7 +36,7 @@ static hair_result make(struct hair_geometry* geometry)
     if (!result)
         result =
             hair_gl_ensure_array(gl, "hair hit list", (count + 2) * sizeof(uint32_t), &own->list, 0, NULL);
-    if (!result && geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+    if (!result && geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
         result = hair_gl_ensure_array(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, &own->repair,
                                       GL_RGBA16F, &own->repair_texture);
     if (!result && own->prepass) result = hair_geometry_ensure_prepass(geometry);
@@ -79,7 +79,7 @@ static void run(struct hair_geometry* geometry, const struct hair_collider_field
     }
     hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.
-    if (geometry->look.follower_collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
+    if (geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
         hair_gl_run(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR),
                     (geometry->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
 }

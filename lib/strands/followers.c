@@ -9,13 +9,13 @@
 
 size_t hair_geometry_count_vertices(const struct hair_geometry* geometry)
 {
-    return (size_t)geometry->followers * (geometry->look.segments + 1);
+    return (size_t)geometry->followers * (geometry->look.strand.segments + 1);
 }
 
 uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction)
 {
     HAIR_ASSERT(fraction >= 0);
-    double each = geometry->look.segments + 1.0;
+    double each = geometry->look.strand.segments + 1.0;
     double mean = fraction * geometry->followers * each / (HAIR_GROUP_SIZE * fmax(geometry->patches, 1));
     double max = geometry->max_isolines * each / ((double)HAIR_GROUP_SIZE * MAX_ROUNDS);
     return 1 + (uint32_t)fmax(mean, max);
@@ -36,16 +36,16 @@ static hair_vec4 weigh_sets(float set, uint32_t sets)
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out)
 {
     const hair_look* look = &geometry->look;
-    HAIR_ASSERT(look->segments > 0);
+    HAIR_ASSERT(look->strand.segments > 0);
     memset(out, 0, sizeof *out);
-    out->radius = look->radius;
-    out->density = look->density;
-    out->segments = look->segments;
+    out->radius = look->strand.radius;
+    out->density = look->followers.density;
+    out->segments = look->strand.segments;
     out->smooth_vertices = geometry->smooth_vertices;
     out->followers = geometry->followers;
-    out->follower_collision = look->follower_collision;
+    out->follower_collision = look->followers.collision;
     out->push_out_weight = 1;
-    out->map_weights = weigh_sets(look->map_set, geometry->map_sets);
+    out->map_weights = weigh_sets(look->followers.map_set, geometry->map_sets);
     out->chunks = hair_geometry_chunk_count(geometry, 1);
     out->strand_fraction = 1;
     out->segment_fraction = 1;

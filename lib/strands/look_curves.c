@@ -61,18 +61,18 @@ static void write_turns(const hair_look* look, struct hair_strand_look* out)
         circle[0][i] = cosf(6.2831853f * (float)i / HAIR_TURN_PLACES);
         circle[1][i] = sinf(6.2831853f * (float)i / HAIR_TURN_PLACES);
     }
-    int like = look->curl_shape == HAIR_CURL_SHAPE_EXAMPLE;
-    write_turn(like ? look->curl_profile_x : circle[0], 1, out->loop);
-    write_turn(like ? look->curl_profile_z : circle[1], 1 - look->curl_flatness,
+    int like = look->curl.shape == HAIR_CURL_SHAPE_EXAMPLE;
+    write_turn(like ? look->curl.profile_x : circle[0], 1, out->loop);
+    write_turn(like ? look->curl.profile_z : circle[1], 1 - look->curl.flatness,
                out->loop + HAIR_TURN_PLACES);
 }
 
 // Return the clump curve. Single and multi interpolation are its limits 1 and 0.
 static hair_curve clump_of(const hair_look* look)
 {
-    if (look->interpolation == HAIR_INTERPOLATION_SINGLE) return hair_curve_line(1, 1);
-    if (look->interpolation == HAIR_INTERPOLATION_MULTI) return hair_curve_line(0, 0);
-    return look->clump;
+    if (look->clump.interpolation == HAIR_INTERPOLATION_SINGLE) return hair_curve_line(1, 1);
+    if (look->clump.interpolation == HAIR_INTERPOLATION_MULTI) return hair_curve_line(0, 0);
+    return look->clump.weight;
 }
 
 float hair_curve_max(const hair_curve* curve)
@@ -87,47 +87,48 @@ float hair_curve_max(const hair_curve* curve)
 
 float hair_look_max_stray(const hair_look* look)
 {
-    float tip = look->tip_stray_fraction > 0 ? hair_curve_max(&look->tip_stray_distance) : 0;
-    float all = look->stray_fraction > 0 ? hair_curve_max(&look->stray_distance) : 0;
+    float tip = look->strays.tip_fraction > 0 ? hair_curve_max(&look->strays.tip_distance) : 0;
+    float all = look->strays.fraction > 0 ? hair_curve_max(&look->strays.distance) : 0;
     return DIAGONAL * (tip + all);
 }
 
 float hair_look_max_offset(const hair_look* look)
 {
-    float curl = look->curl_radius * (1 + look->curl_spread) * hair_curve_max(&look->curl_profile);
-    return DIAGONAL * (curl + hair_curve_max(&look->frizz));
+    float curl = look->curl.radius * (1 + look->curl.spread) * hair_curve_max(&look->curl.profile);
+    return DIAGONAL * (curl + hair_curve_max(&look->strays.frizz));
 }
 
 void hair_look_write_curves(const hair_look* look, struct hair_strand_look* out)
 {
-    write_curve(look->taper, out, HAIR_CURVE_TAPER);
+    write_curve(look->strand.taper, out, HAIR_CURVE_TAPER);
     write_curve(clump_of(look), out, HAIR_CURVE_CLUMP);
-    write_curve(look->clump_width, out, HAIR_CURVE_CLUMP_WIDTH);
-    write_curve(look->tip_stray_distance, out, HAIR_CURVE_TIP_STRAY);
-    write_curve(look->stray_distance, out, HAIR_CURVE_STRAY);
-    write_curve(look->frizz, out, HAIR_CURVE_FRIZZ);
-    write_curve(look->curl_profile, out, HAIR_CURVE_CURL);
+    write_curve(look->clump.width, out, HAIR_CURVE_CLUMP_WIDTH);
+    write_curve(look->strays.tip_distance, out, HAIR_CURVE_TIP_STRAY);
+    write_curve(look->strays.distance, out, HAIR_CURVE_STRAY);
+    write_curve(look->strays.frizz, out, HAIR_CURVE_FRIZZ);
+    write_curve(look->curl.profile, out, HAIR_CURVE_CURL);
     write_turns(look, out);
-    out->tip_stray_fraction = look->tip_stray_fraction;
-    out->stray_fraction = look->stray_fraction;
-    HAIR_ASSERT(look->frizz_wavelength > 0 && look->curl_wavelength > 0);
-    out->kinks = 1 / look->frizz_wavelength;
-    out->drawn = look->length;
-    out->length_variation = look->length_variation;
-    out->curl_radius = look->curl_radius;
-    out->curl_waves = 1 / look->curl_wavelength;
-    out->curl_turns = look->curl_turns;
-    out->curl_guide_phase = look->curl_guide_phase;
-    out->curl_strand_phase = look->curl_strand_phase;
-    out->curl_spread = look->curl_spread;
-    out->curl_left_fraction = look->curl_left_fraction;
+    out->tip_stray_fraction = look->strays.tip_fraction;
+    out->stray_fraction = look->strays.fraction;
+    HAIR_ASSERT(look->strays.frizz_wavelength > 0 && look->curl.wavelength > 0);
+    out->kinks = 1 / look->strays.frizz_wavelength;
+    out->drawn = look->strand.length;
+    out->length_variation = look->strand.length_variation;
+    out->curl_radius = look->curl.radius;
+    out->curl_waves = 1 / look->curl.wavelength;
+    out->curl_turns = look->curl.turns;
+    out->curl_guide_phase = look->curl.guide_phase;
+    out->curl_strand_phase = look->curl.strand_phase;
+    out->curl_spread = look->curl.spread;
+    out->curl_left_fraction = look->curl.left_fraction;
     out->max_stray = hair_look_max_stray(look);
     out->max_offset = hair_look_max_offset(look);
-    out->max_width = fmaxf(hair_curve_max(&look->clump_width), 1);
+    out->max_width = fmaxf(hair_curve_max(&look->clump.width), 1);
 }
 
 bool hair_look_is_styled(const hair_look* look)
 {
-    return look->length < 1 || look->length_variation > 0 || hair_curve_max(&look->frizz) > 0 ||
-           look->curl_radius * hair_curve_max(&look->curl_profile) > 0;
+    return look->strand.length < 1 || look->strand.length_variation > 0 ||
+           hair_curve_max(&look->strays.frizz) > 0 ||
+           look->curl.radius * hair_curve_max(&look->curl.profile) > 0;
 }

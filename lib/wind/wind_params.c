@@ -28,24 +28,25 @@ bool hair_wind_is_on(const hair_wind* wind)
 bool hair_wind_is_unsteady(const hair_wind* wind)
 {
     int moves =
-        wind->texture || (wind->turbulence_intensity > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
+        wind->texture || (wind->turbulence.intensity > 0 && blows(wind)) || wind->model != HAIR_WIND_AMBIENT;
     return moves && hair_wind_is_on(wind);
 }
 
 static hair_result ensure_gusts(struct hair_wind_state* state, struct hair_gl* gl, const hair_wind* wind)
 {
     static const uint32_t size[3] = {HAIR_GUST_NODES, HAIR_GUST_NODES, HAIR_GUST_NODES};
-    int wanted = wind->turbulence_intensity > 0 && blows(wind);
-    if (state->gusts && (!wanted || state->gust_seed != wind->seed)) hair_gl_free_texture(gl, &state->gusts);
+    int wanted = wind->turbulence.intensity > 0 && blows(wind);
+    if (state->gusts && (!wanted || state->gust_seed != wind->turbulence.seed))
+        hair_gl_free_texture(gl, &state->gusts);
     if (!wanted || state->gusts) return HAIR_OK;
-    float* texels = hair_gusts_make(&gl->host, wind->seed);
+    float* texels = hair_gusts_make(&gl->host, wind->turbulence.seed);
     if (!texels) return hair_fail_memory(&gl->host, "gusts");
     hair_result result = hair_gl_texture_3d(gl, "hair gusts", GL_RGBA16F, size, GL_LINEAR, &state->gusts);
     if (!result) {
         static const GLenum wraps[3] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
         for (int i = 0; i < 3; ++i) gl->TextureParameteri(state->gusts, wraps[i], GL_REPEAT);
         hair_gl_fill_texture_3d(gl, state->gusts, size, texels);
-        state->gust_seed = wind->seed;
+        state->gust_seed = wind->turbulence.seed;
     }
     hair_free(&gl->host, texels);
     return result;
@@ -141,7 +142,7 @@ static void write_sources(const struct hair_wind_step* step, struct hair_wind_pa
 struct hair_wind_gusts hair_wind_find_gusts(const struct hair_wind_state* state, const hair_wind* wind,
                                             const struct hair_pose* head)
 {
-    double side = HAIR_GUST_LENGTHS * (double)wind->turbulence_length, at[3], place[3];
+    double side = HAIR_GUST_LENGTHS * (double)wind->turbulence.length, at[3], place[3];
     double r[9], x = (double)lie.x, y = (double)lie.y, z = (double)lie.z, w = (double)lie.w;
     double n = x * x + y * y + z * z + w * w, speed = 0;
     r[0] = 1 - 2 * (y * y + z * z) / n, r[1] = 2 * (x * y - w * z) / n, r[2] = 2 * (x * z + w * y) / n;
@@ -162,7 +163,7 @@ struct hair_wind_gusts hair_wind_find_gusts(const struct hair_wind_state* state,
         .texture = state->gusts,
         .turn = {q.x, q.y, q.z, q.w},
         .from = {(float)place[0], (float)place[1], (float)place[2], (float)(1 / side)},
-        .speed = state->gusts ? (float)(sqrt(speed) * (double)wind->turbulence_intensity) : 0,
+        .speed = state->gusts ? (float)(sqrt(speed) * (double)wind->turbulence.intensity) : 0,
     };
 }
 
@@ -231,8 +232,8 @@ void hair_wind_write(struct hair_wind_state* state, struct hair_gl* gl, const st
 {
     const hair_wind* wind = step->wind;
     const hair_physics* physics = step->physics;
-    double radius = (double)physics->fiber_radius;
-    double mass = (double)physics->fiber_density * PI * radius * radius;
+    double radius = (double)physics->fiber.radius;
+    double mass = (double)physics->fiber.density * PI * radius * radius;
     HAIR_ASSERT(state->params && mass > 0);
 
     struct hair_wind_params params = {

@@ -29,7 +29,7 @@ int main(void)
 
     hair_look look = hair_look_default();
     hair_desc desc = hair_desc_default();
-    look.self_shadow = HAIR_SELF_SHADOW_STRANDS;
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
     desc.look = &look;
     if (hair_create(context, groom, &desc, &hair)) return 1;
 

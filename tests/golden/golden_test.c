@@ -23,8 +23,8 @@ struct golden {
 
 // Fewer and wider strands than in the scenes. All strands would take a CPU half a minute, and use
 // the same shaders.
-#define FEW "--followers 3000 --set radius=4e-4"
-#define FEWER "--followers 1500 --set radius=6e-4"
+#define FEW "--followers 3000 --set strand.radius=4e-4"
+#define FEWER "--followers 1500 --set strand.radius=6e-4"
 static const struct golden goldens[] = {
     {"demo", "--scene demo --frames 10:11 " FEW, 0.05, 0.5},
     {"demo_lines", "--scene demo --frames 10:11 " FEW " --primitive lines", 0.05, 0.5},
@@ -63,7 +63,7 @@ static void scene_equals_its_golden_picture_and_shows_hair(void** state)
     snprintf(bald, sizeof bald, HAIR_BUILD_DIR "/golden_%s_bald.png", golden->name);
     capture(golden, "", actual);
     // A picture without visible hair. The little hair there is simulated the fastest way.
-    capture(golden, "--set density=0 --solver follow --followers 100 --guides 16", bald);
+    capture(golden, "--set followers.density=0 --solver follow --followers 100 --guides 16", bald);
     hair_test_read_png(actual, with, WIDTH, HEIGHT);
     hair_test_read_png(bald, without, WIDTH, HEIGHT);
 

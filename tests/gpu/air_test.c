@@ -61,7 +61,7 @@ static void gusts_have_the_set_intensity_and_are_alike_nearby(void** state)
     uint32_t random = 1;
     hair_wind wind = hair_wind_default();
     wind.velocity[0] = 4, wind.velocity[2] = 3;
-    wind.turbulence_intensity = 0.3f, wind.turbulence_length = 0.5f;
+    wind.turbulence.intensity = 0.3f, wind.turbulence.length = 0.5f;
     for (int i = 0; i < COUNT; ++i) // Pairs are a tenth of the turbulence length apart.
         at[i] =
             i % 2 ? hair_add(at[i - 1], hair_v3(0.05f, 0, 0))
@@ -107,7 +107,7 @@ static void gusts_travel_with_the_wind(void** state)
     struct hair_test_living living = tracers(*state, &origin, 1);
     hair_wind wind = hair_wind_default();
     double start[3], end[3], world[3] = {0.3, 0.1, -0.2};
-    wind.turbulence_intensity = 0.2f;
+    wind.turbulence.intensity = 0.2f;
     wind.velocity[0] = 2, wind.velocity[1] = -1;
     hair_test_wind_coupling(&living, &wind);
     hair_test_advance(&living, NULL, STEP);
@@ -258,7 +258,7 @@ static void gusts_continue_from_a_saved_state(void** state)
     const hair_vec3 at[] = {{0, 0, 0}, {1, 0.5f, 0}};
     struct hair_test_living first = tracers(*state, at, 2), second = tracers(*state, at, 2);
     hair_wind wind = hair_wind_default();
-    wind.velocity[0] = 3, wind.turbulence_intensity = 0.5f;
+    wind.velocity[0] = 3, wind.turbulence.intensity = 0.5f;
     hair_test_wind_coupling(&first, &wind);
     hair_test_wait(&first, 7);
     struct hair_test_blob blob = hair_test_save(*state, first.hair);

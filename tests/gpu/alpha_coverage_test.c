@@ -28,9 +28,9 @@ static struct fixture start(void** state, uint32_t followers, float radius)
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     wanted.followers = followers;
-    look.radius = radius;
-    look.taper = hair_curve_line(1, 1);
-    look.shading = HAIR_SHADING_LINES;
+    look.strand.radius = radius;
+    look.strand.taper = hair_curve_line(1, 1);
+    look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -111,7 +111,7 @@ static void the_nearest_strand_is_in_front(void** state)
     hair_view view = view_of(HAIR_COVERAGE_MSAA);
     for (int lod = 0; lod < 2; ++lod) {
         hair_lod part = hair_lod_default();
-        part.per_patch = 0, part.strand_fraction = 0.7f, part.segment_fraction = 0.5f;
+        part.per_patch = false, part.strand_fraction = 0.7f, part.segment_fraction = 0.5f;
         view.render_path = HAIR_RENDER_PATH_INSTANCED;
         view.lod = lod ? &part : NULL;
         view.coverage = HAIR_COVERAGE_MSAA;

@@ -67,7 +67,7 @@ static struct fixture* start(void** state)
     f->test = *state;
     f->view = hair_view_default();
     wanted.followers = 160;
-    look.segments = 8, look.radius = 0.002f;
+    look.strand.segments = 8, look.strand.radius = 0.002f;
     desc.look = &look;
     f->groom = hair_test_groom(&f->test->host.host, wanted);
     hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
@@ -109,7 +109,7 @@ static void shade_by(struct fixture* f, const char* glsl)
 static void set_look(struct fixture* f, hair_self_shadow shadow, hair_shading shading)
 {
     hair_look look = f->hair->geometry.look;
-    look.self_shadow = shadow, look.shading = shading;
+    look.self_shadow.method = shadow, look.shading.model = shading;
     hair_test_ok(f->test, hair_set_look(f->hair, &look));
 }
 

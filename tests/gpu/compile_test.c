@@ -271,7 +271,7 @@ static uint64_t reported(struct fixture* f)
 {
     hair_report_info info = hair_report_info_default();
     uint32_t count;
-    hair_test_ok(f->test, hair_report(f->hair, 0, &info, NULL, 0, 0, &count));
+    hair_test_ok(f->test, hair_report(f->hair, false, &info, NULL, 0, 0, &count));
     return info.bytes;
 }
 
@@ -291,9 +291,9 @@ static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
     assert_int_equal(memory_of(&f).bytes, reported(&f));
     plain = memory_of(&f).bytes;
     collider.size[0] = 0.05f, collider.position[1] = -0.1f;
-    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.turbulence_intensity = 0.2f,
-    wind.resolution = 16;
-    physics.cohesion = physics.pressure_stiffness = 1;
+    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.turbulence.intensity = 0.2f,
+    wind.fluid.resolution = 16;
+    physics.hair_hair.cohesion = physics.hair_hair.pressure_stiffness = 1;
     pin.position[0] = 0.1f;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
@@ -359,20 +359,20 @@ static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
     struct fixture f = start(*state, NULL);
     hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
-    look.shading = HAIR_SHADING_LINES;
+    look.shading.model = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &plain, pixels[0]);
     uint64_t min = memory_of(&f).bytes;
     for (int kind = 0; kind < 4; ++kind) {
         view.pass = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
         view.coverage = kind == 1 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
-        look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
+        look.shading.model = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         for (int turn = 0; turn < 2; ++turn) {
             hair_test_ok(f.test, hair_reset(f.hair));
             hair_test_ok(f.test, hair_set_look(f.hair, &look));
             draw(&f, &view, pixels[turn]);
             assert_true(memory_of(&f).bytes > min);
-            look.shading = HAIR_SHADING_LINES;
+            look.shading.model = HAIR_SHADING_LINES;
             hair_test_ok(f.test, hair_set_look(f.hair, &look));
             for (int i = 0; i < 250; ++i) {
                 hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
@@ -381,7 +381,7 @@ static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
                 if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &plain));
             }
             assert_int_equal(memory_of(&f).bytes, min);
-            look.shading = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
+            look.shading.model = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         }
         // Equally distant fragments of segments are blended in any order.
         double max = 0;
@@ -400,7 +400,7 @@ static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
     struct fixture f = start(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
-    look.shading = HAIR_SHADING_LINES;
+    look.shading.model = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     view.pass = HAIR_PASS_DEPTH;
     draw(&f, &view, pixels);

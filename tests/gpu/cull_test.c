@@ -26,9 +26,9 @@ static hair_instance* make(struct hair_test* test, hair_context* context)
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     hair_instance* hair = NULL;
-    look.segments = 12;
-    look.radius = 1e-3f;
-    look.shading = HAIR_SHADING_LINES;
+    look.strand.segments = 12;
+    look.strand.radius = 1e-3f;
+    look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
     hair_groom* groom = hair_test_groom(&test->host.host, wanted);
     hair_test_ok(test, hair_create(context, groom, &desc, &hair));
@@ -42,7 +42,7 @@ static struct fixture start(void** state)
     hair_context_desc desc = hair_context_desc_default();
     desc.host = &f.test->host.host;
     desc.get_proc = hair_test_trace_proc;
-    desc.timings = 1;
+    desc.timings = true;
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
     f.hair = make(f.test, f.context);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
@@ -207,7 +207,7 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
         // view, stepped, and again.
         static const uint32_t dispatches[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
         look_along(hair_v3(0, 0.1f, i >= 2 && i < 6 ? 0.7f : 0.8f), hair_v3(0, 0, -1), view.view);
-        look.density = i >= 3 ? 0.6f : 1;
+        look.followers.density = i >= 3 ? 0.6f : 1;
         view.lod = i >= 4 ? &lod : NULL;
         hair_test_ok(f.test, hair_set_look(f.hair, &look));
         if (i == 7) hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
@@ -245,7 +245,7 @@ static void culled_patches_do_not_change_the_picture(void** state)
     hair_physics physics = hair_physics_default(), lets_go = physics;
     uint32_t random = 7, drawn[2] = {0, 0};
     hair_look look = f.hair->geometry.look;
-    look.radius = 4e-3f;
+    look.strand.radius = 4e-3f;
     lets_go.root = HAIR_ROOT_FREE;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     for (int i = 0; i < 120; ++i) {

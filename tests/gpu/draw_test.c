@@ -23,8 +23,8 @@ static struct fixture start(void** state, float radius)
     struct fixture f = {.test = *state};
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    look.radius = radius;
-    look.taper = hair_curve_line(1, 1);
+    look.strand.radius = radius;
+    look.strand.taper = hair_curve_line(1, 1);
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));

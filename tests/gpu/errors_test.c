@@ -39,6 +39,10 @@ static void null_objects_are_argument_errors(void** state)
     assert_int_equal(hair_set_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_physics(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_look(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_wind(NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_get_transform(NULL, transform), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_colliders(NULL, NULL, 0, 0), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_step(NULL, 0.1f), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_reset(NULL), HAIR_ERROR_ARGUMENT);
@@ -81,6 +85,10 @@ static void null_arguments_are_refused_by_name(void** state)
     refused(test, hair_set_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
     refused(test, hair_set_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
     refused(test, hair_teleport(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
+    refused(test, hair_get_physics(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_physics is NULL");
+    refused(test, hair_get_look(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_look is NULL");
+    refused(test, hair_get_wind(hair, NULL), HAIR_ERROR_ARGUMENT, "hair_wind is NULL");
+    refused(test, hair_get_transform(hair, NULL), HAIR_ERROR_ARGUMENT, "transform is NULL");
     refused(test, hair_set_colliders(hair, NULL, 1, sizeof(hair_collider)), HAIR_ERROR_ARGUMENT,
             "colliders is NULL");
     refused(test, hair_save(hair, positions, sizeof positions, NULL), HAIR_ERROR_ARGUMENT, "size is NULL");
@@ -208,6 +216,16 @@ static int is_filled_in(const char* name)
     return strcmp(name, "hair_groom_desc.strand_count") == 0;
 }
 
+static void write_value(unsigned char* desc, const struct hair_field* field, double value)
+{
+    float real = (float)value;
+    uint32_t whole = field->type == HAIR_SCHEMA_FLOAT ? 0 : (uint32_t)value;
+    if (field->type == HAIR_SCHEMA_BOOL)
+        desc[field->offset] = (unsigned char)whole;
+    else
+        memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
+}
+
 static void check_field(struct user* user, const struct subject* subject, const struct hair_field* field)
 {
     _Alignas(16) unsigned char desc[1024];
@@ -219,6 +237,9 @@ static void check_field(struct user* user, const struct subject* subject, const 
         wrong[count++] = -INFINITY;
         if (field->max < 1e30) wrong[count++] = (double)nextafterf((float)field->max, INFINITY);
         if (field->min > -1e30) wrong[count++] = (double)nextafterf((float)field->min, -INFINITY);
+    } else if (field->type == HAIR_SCHEMA_BOOL) {
+        wrong[count++] = 2;
+        wrong[count++] = 255;
     } else {
         if (field->max < UINT32_MAX) wrong[count++] = field->max + 1;
         if (field->max < UINT32_MAX) wrong[count++] = UINT32_MAX;
@@ -226,13 +247,7 @@ static void check_field(struct user* user, const struct subject* subject, const 
     }
     for (int i = 0; i < count; ++i) {
         subject->init(desc);
-        if (field->type == HAIR_SCHEMA_FLOAT) {
-            float value = (float)wrong[i];
-            memcpy(desc + field->offset, &value, sizeof value);
-        } else {
-            uint32_t value = (uint32_t)wrong[i];
-            memcpy(desc + field->offset, &value, sizeof value);
-        }
+        write_value(desc, field, wrong[i]);
         char words[96];
         snprintf(words, sizeof words, "%s is ", field->name);
         refused(user->test, subject->use(user, desc), HAIR_ERROR_ARGUMENT, words);
@@ -278,11 +293,9 @@ static void check_ends(struct user* user, const struct subject* subject)
         for (int end = 0; end < 2; ++end) {
             subject->init(desc);
             double value = end ? field->max : field->min;
-            float real = (float)value;
-            uint32_t whole = (uint32_t)value;
-            memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
+            write_value(desc, field, value);
             if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
-                whole == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
+                value == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
                 ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
             hair_test_ok(user->test, subject->use(user, desc));
         }
@@ -298,8 +311,8 @@ static void ends_of_every_range_are_accepted(void** state)
 static void check_made(struct user* user, const struct subject* subject)
 {
     static const hair_struct_header wrong[] = {
-        {0, 0},  {0, HAIR_VERSION},         {7, HAIR_VERSION}, {4097, HAIR_VERSION},
-        {64, 0}, {64, HAIR_VERSION + 10000}};
+        {0, 0},  {0, HAIR_VERSION},          {7, HAIR_VERSION}, {4097, HAIR_VERSION},
+        {64, 0}, {64, HAIR_VERSION + 10000}, {64, 199}};
     _Alignas(16) unsigned char desc[1024];
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         subject->init(desc);
@@ -326,12 +339,12 @@ static void shorter_desc_of_an_older_caller_is_accepted(void** state)
     hair_groom* groom;
     hair_instance* hair = make(test, &groom);
     hair_physics physics = hair_physics_default();
-    physics.header.size = offsetof(hair_physics, collision_margin);
+    physics.header.size = offsetof(hair_physics, collision.margin);
     physics.damping = 7;
-    physics.collision_margin = NAN; // Beyond the end, so it must not be read.
+    physics.collision.margin = NAN; // Beyond the end, so it must not be read.
     hair_test_ok(test, hair_set_physics(hair, &physics));
     assert_true(hair->sim.physics.damping == 7);
-    assert_true(hair->sim.physics.collision_margin == hair_physics_default().collision_margin);
+    assert_true(hair->sim.physics.collision.margin == hair_physics_default().collision.margin);
     drop(hair, groom);
 }
 
@@ -480,7 +493,7 @@ static void a_failed_call_leaves_the_instance_as_it_was(void** state)
     hair_instance before = *hair;
     hair_physics physics = hair_physics_default();
     hair_look look = hair_look_default();
-    physics.damping = -1, look.segments = 0;
+    physics.damping = -1, look.strand.segments = 0;
     hair_set_physics(hair, &physics);
     hair_set_look(hair, &look);
     hair_set_transform(hair, (float[16]){0});

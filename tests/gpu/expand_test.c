@@ -84,18 +84,19 @@ static void compare(struct fixture* f, const hair_look* look)
     hair_result result = hair_geometry_read_vertex_cache(&f->hair->geometry, &vertices);
     hair_gl_leave(gl);
     hair_test_ok(f->test, result);
-    for (uint32_t i = 0; i < f->groom->info.follower_count * (look->segments + 1); ++i) {
+    for (uint32_t i = 0; i < f->groom->info.follower_count * (look->strand.segments + 1); ++i) {
         struct hair_reference_point expected;
-        double t = (double)(i % (look->segments + 1)) / look->segments;
-        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
+        double t = (double)(i % (look->strand.segments + 1)) / look->strand.segments;
+        hair_reference_follower(&f->groom->followers[i / (look->strand.segments + 1)], look,
                                 2 * f->groom->max_vertices - 1, f->samples, t, NULL, &expected);
         hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
         hair_test_near("y", i, vertices[i].y, expected.position[1], TOLERANCE);
         hair_test_near("z", i, vertices[i].z, expected.position[2], TOLERANCE);
-        hair_test_near("radius", i, vertices[i].w, expected.radius, 32 * look->radius / 16777216);
+        hair_test_near("radius", i, vertices[i].w, expected.radius, 32 * look->strand.radius / 16777216);
         worst = fmax(worst, fabs(vertices[i].x - expected.position[0]));
     }
-    print_message("    %u segments: off by up to %.2g m of %.2g m\n", look->segments, worst, TOLERANCE);
+    print_message("    %u segments: off by up to %.2g m of %.2g m\n", look->strand.segments, worst,
+                  TOLERANCE);
     assert_true(worst < 1e-5 * f->longest);
     hair_free(&f->test->host.host, vertices);
 }
@@ -106,7 +107,7 @@ static void followers_equal_the_reference(void** state)
     struct fixture f = start(state);
     hair_look look = hair_look_default();
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
-        look.segments = segments[i];
+        look.strand.segments = segments[i];
         compare(&f, &look);
     }
     finish(&f);
@@ -127,32 +128,32 @@ static hair_curve any_curve(uint32_t* random, float max)
 static hair_look any_look(uint32_t* random)
 {
     hair_look look = hair_look_default();
-    look.segments = 20;
-    look.taper = any_curve(random, 2);
-    look.clump = any_curve(random, 1);
-    look.clump_width = any_curve(random, 1);
-    look.interpolation = (hair_interpolation)between(random, 0, 3);
-    look.tip_stray_fraction = between(random, 0, 1);
-    look.stray_fraction = between(random, 0, 1);
-    look.tip_stray_distance = any_curve(random, 0.03f);
-    look.stray_distance = any_curve(random, 0.03f);
-    look.length = between(random, 0.2f, 1);
-    look.length_variation = between(random, 0, 1);
-    look.frizz = any_curve(random, 0.004f);
-    look.frizz_wavelength = between(random, 0.01f, 0.1f);
-    look.curl_radius = between(random, 0, 0.008f);
-    look.curl_profile = any_curve(random, 1);
-    look.curl_wavelength = between(random, 0.02f, 0.2f);
-    look.curl_turns = between(random, 0, 4);
-    look.curl_flatness = between(random, 0, 1);
-    look.curl_left_fraction = between(random, 0, 1);
-    look.curl_guide_phase = between(random, 0, 1);
-    look.curl_strand_phase = between(random, 0, 1);
-    look.curl_spread = between(random, 0, 0.9f);
-    look.curl_shape = (hair_curl_shape)between(random, 0, 2);
+    look.strand.segments = 20;
+    look.strand.taper = any_curve(random, 2);
+    look.clump.weight = any_curve(random, 1);
+    look.clump.width = any_curve(random, 1);
+    look.clump.interpolation = (hair_interpolation)between(random, 0, 3);
+    look.strays.tip_fraction = between(random, 0, 1);
+    look.strays.fraction = between(random, 0, 1);
+    look.strays.tip_distance = any_curve(random, 0.03f);
+    look.strays.distance = any_curve(random, 0.03f);
+    look.strand.length = between(random, 0.2f, 1);
+    look.strand.length_variation = between(random, 0, 1);
+    look.strays.frizz = any_curve(random, 0.004f);
+    look.strays.frizz_wavelength = between(random, 0.01f, 0.1f);
+    look.curl.radius = between(random, 0, 0.008f);
+    look.curl.profile = any_curve(random, 1);
+    look.curl.wavelength = between(random, 0.02f, 0.2f);
+    look.curl.turns = between(random, 0, 4);
+    look.curl.flatness = between(random, 0, 1);
+    look.curl.left_fraction = between(random, 0, 1);
+    look.curl.guide_phase = between(random, 0, 1);
+    look.curl.strand_phase = between(random, 0, 1);
+    look.curl.spread = between(random, 0, 0.9f);
+    look.curl.shape = (hair_curl_shape)between(random, 0, 2);
     for (int i = 0; i < 16; ++i) {
-        look.curl_profile_x[i] = between(random, -1, 1);
-        look.curl_profile_z[i] = between(random, -1, 1);
+        look.curl.profile_x[i] = between(random, -1, 1);
+        look.curl.profile_z[i] = between(random, -1, 1);
     }
     return look;
 }
@@ -198,7 +199,7 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     struct hair_geometry* geometry = &f->hair->geometry;
     struct hair_gl* gl = geometry->gl;
     GLuint buffer = 0;
-    uint32_t count = f->groom->info.follower_count * (look->segments + 1);
+    uint32_t count = f->groom->info.follower_count * (look->strand.segments + 1);
     hair_vec4* got = malloc(count * sizeof *got);
     struct hair_draw_params params;
     double worst = 0, square = 0;
@@ -217,9 +218,9 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     hair_gl_free_buffer(gl, &buffer);
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_reference_point expected;
-        hair_reference_follower(&f->groom->followers[i / (look->segments + 1)], look,
-                                2 * f->groom->max_vertices - 1, f->samples,
-                                (double)(i % (look->segments + 1)) / look->segments, NULL, &expected);
+        hair_reference_follower(
+            &f->groom->followers[i / (look->strand.segments + 1)], look, 2 * f->groom->max_vertices - 1,
+            f->samples, (double)(i % (look->strand.segments + 1)) / look->strand.segments, NULL, &expected);
         double off[3] = {(double)got[i].x - expected.tangent[0], (double)got[i].y - expected.tangent[1],
                          (double)got[i].z - expected.tangent[2]};
         for (int k = 0; k < 3; ++k) {
@@ -252,7 +253,7 @@ static void positions_are_read_in_world_space(void** state)
 {
     struct fixture f = start(state);
     hair_look look = hair_look_default();
-    look.segments = 3;
+    look.strand.segments = 3;
     uint32_t count = f.groom->info.follower_count * 4, there;
     float* near = malloc(3 * sizeof *near * count);
     float* far = malloc(3 * sizeof *far * count);

@@ -179,9 +179,9 @@ static void gusts_enter_the_grid_and_travel_with_the_wind(void** state)
     struct hair_wind_state air = {0};
     hair_wind wind = hair_wind_default();
     begin(*state, 32, 0, &f);
-    wind.velocity[0] = (float)WIND, wind.turbulence_intensity = 0.2f, wind.turbulence_length = 0.5f;
+    wind.velocity[0] = (float)WIND, wind.turbulence.intensity = 0.2f, wind.turbulence.length = 0.5f;
     hair_test_ok(f.test, hair_wind_ensure(&air, &f.test->context->gl, &wind));
-    float* texel = hair_gusts_make(&f.test->host.host, wind.seed);
+    float* texel = hair_gusts_make(&f.test->host.host, wind.turbulence.seed);
     assert_non_null(texel);
     double alike = 0, there = 0, all = 0;
     for (int i = 0; i < 60; ++i) { // After 0.16 s the air in the box has been replaced.

@@ -96,8 +96,8 @@ static void preloaded_strand_keeps_its_groom_and_another_sags(void** state)
 {
     for (int held = 0; held < 2; ++held) {
         hair_physics physics = hair_physics_default();
-        physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-        physics.gravity_preload = (float)held;
+        physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+        physics.shape.gravity_preload = (float)held;
         struct hair_test_strands strands =
             hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(1, 0.3f, 0.1f), 0.05f);
         hair_desc desc = hair_test_rods(HAIR_SOLVER_FOLLOW, HAIR_THREAD_MAPPING_AUTO, 0, &physics);

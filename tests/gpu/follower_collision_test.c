@@ -136,9 +136,9 @@ static double distance_to_all(const struct fixture* f, const double p[3])
 
 static float* read_followers(struct fixture* f, hair_follower_collision collision)
 {
-    uint32_t count = f->groom->info.follower_count * (f->look.segments + 1), there;
+    uint32_t count = f->groom->info.follower_count * (f->look.strand.segments + 1), there;
     float* vertices = malloc(3 * sizeof *vertices * count);
-    f->look.follower_collision = collision;
+    f->look.followers.collision = collision;
     hair_test_ok(f->test, hair_set_look(f->hair, &f->look));
     hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
     assert_int_equal(there, count);
@@ -155,9 +155,9 @@ static void read_buffer(struct fixture* f, GLuint buffer, size_t each, void* out
 static uint32_t find_hit(struct fixture* f, uint32_t number, double* nearest)
 {
     *nearest = INFINITY;
-    for (uint32_t k = 1; k <= f->look.segments; ++k) {
+    for (uint32_t k = 1; k <= f->look.strand.segments; ++k) {
         struct hair_reference_point point;
-        find_point(f, number, (double)k / f->look.segments, NULL, &point);
+        find_point(f, number, (double)k / f->look.strand.segments, NULL, &point);
         double d = distance_to_all(f, point.position);
         *nearest = fmin(*nearest, fabs(d));
         if (d < 0) return k;
@@ -172,7 +172,7 @@ static void hit_is_the_first_vertex_inside_a_collider(void** state)
     static float hits[400];
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         uint32_t found = 0, doubtful = 0;
-        f.look.segments = segments[i];
+        f.look.strand.segments = segments[i];
         free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
         read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
@@ -208,7 +208,7 @@ static void hit_by_work_group_equals_hit_by_thread(void** state)
         uint32_t differ = 0;
         hair_follower_collision collision =
             i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
-        f.look.segments = segments[i / 2];
+        f.look.strand.segments = segments[i / 2];
         float* before = read_followers(&f, collision);
         read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         f.test->context->gl.software = !software;
@@ -220,7 +220,8 @@ static void hit_by_work_group_equals_hit_by_thread(void** state)
         assert_in_range(differ, 0, 1); // Rounding decides where a vertex is on the surface.
         if (!differ)
             assert_memory_equal(before, after,
-                                3 * sizeof *after * f.groom->info.follower_count * (f.look.segments + 1));
+                                3 * sizeof *after * f.groom->info.follower_count *
+                                    (f.look.strand.segments + 1));
         free(before);
         free(after);
     }
@@ -250,7 +251,7 @@ static void hit_by_prepass_equals_hit_by_compute(void** state)
         uint32_t differ = 0;
         hair_follower_collision collision =
             i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
-        f.look.segments = segments[i / 2];
+        f.look.strand.segments = segments[i / 2];
         f.hair = compute;
         free(read_followers(&f, collision));
         read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
@@ -258,7 +259,7 @@ static void hit_by_prepass_equals_hit_by_compute(void** state)
         free(read_followers(&f, collision));
         read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *others, others);
         for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
-        print_message("    %u segments: %u of %u differ\n", f.look.segments, differ,
+        print_message("    %u segments: %u of %u differ\n", f.look.strand.segments, differ,
                       f.groom->info.follower_count);
         assert_in_range(differ, 0, 1);
     }
@@ -270,7 +271,7 @@ static void compare(struct fixture* f, uint32_t number, uint32_t k, double t,
                     const struct hair_reference_repair* repair, const float* vertices)
 {
     struct hair_reference_point expected;
-    size_t at = (size_t)number * (f->look.segments + 1) + k;
+    size_t at = (size_t)number * (f->look.strand.segments + 1) + k;
     find_point(f, number, t, repair, &expected);
     for (int i = 0; i < 3; ++i)
         hair_test_near("coordinate", at, (double)vertices[3 * at + (size_t)i], expected.position[i],
@@ -289,10 +290,10 @@ static void follower_beyond_its_hit_follows_a_single_guide(void** state)
         // The other followers have nothing to switch.
         assert_true(!hit || f.groom->followers[n].multi > 0);
         switched += hit;
-        for (uint32_t k = 0; k <= f.look.segments; ++k) {
+        for (uint32_t k = 0; k <= f.look.strand.segments; ++k) {
             struct hair_reference_repair repair;
-            double t = (double)k / f.look.segments;
-            hair_reference_switch(t, (double)hits[n] / f.look.segments, &repair);
+            double t = (double)k / f.look.strand.segments;
+            hair_reference_switch(t, (double)hits[n] / f.look.strand.segments, &repair);
             compare(&f, n, k, t, hit ? &repair : NULL, vertices);
         }
     }
@@ -315,7 +316,7 @@ static void push_out_curve_is_a_spline(void** state)
     static uint16_t halves[400][HAIR_REPAIR_CONTROLS][4];
     struct fixture f = start(state, 0);
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
-        f.look.segments = segments[i];
+        f.look.strand.segments = segments[i];
         float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
         read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
         read_buffer(&f, f.hair->geometry.follower_collision.repair, sizeof *halves, halves);
@@ -324,9 +325,9 @@ static void push_out_curve_is_a_spline(void** state)
             double controls[HAIR_REPAIR_CONTROLS][4];
             for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c)
                 for (int axis = 0; axis < 4; ++axis) controls[c][axis] = from_half(halves[n][c][axis]);
-            for (uint32_t k = 0; k <= f.look.segments; ++k) {
+            for (uint32_t k = 0; k <= f.look.strand.segments; ++k) {
                 struct hair_reference_repair repair;
-                double t = (double)k / f.look.segments;
+                double t = (double)k / f.look.strand.segments;
                 if (hit) t *= 1 + controls[0][0];
                 hair_reference_spline(controls, t, &repair);
                 compare(&f, n, k, t, hit ? &repair : NULL, vertices);
@@ -344,8 +345,8 @@ struct strand {
 static struct strand measure(const struct fixture* f, const float* vertices, uint32_t number)
 {
     struct strand strand = {0};
-    const float* p = vertices + (size_t)number * (f->look.segments + 1) * 3;
-    for (uint32_t k = 1; k <= f->look.segments; ++k) {
+    const float* p = vertices + (size_t)number * (f->look.strand.segments + 1) * 3;
+    for (uint32_t k = 1; k <= f->look.strand.segments; ++k) {
         double at[3] = {(double)p[3 * k], (double)p[3 * k + 1], (double)p[3 * k + 2]}, square = 0;
         for (uint32_t i = 0; i < 3; ++i) square += pow(at[i] - (double)p[3 * (k - 1) + i], 2);
         strand.length += sqrt(square);
@@ -364,12 +365,12 @@ static void pushed_out_followers_are_outside_and_keep_their_length(void** state)
     uint32_t inside = 0, left = 0;
     double deepest = 0, longest = 0;
     for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
-        const float* p = before + (size_t)n * (f.look.segments + 1) * 3;
+        const float* p = before + (size_t)n * (f.look.strand.segments + 1) * 3;
         double root[3] = {(double)p[0], (double)p[1], (double)p[2]};
         struct strand a = measure(&f, before, n), b = measure(&f, after, n);
         if (distance_to_all(&f, root) < 0.01) continue;
         if (a.deepest == 0)
-            assert_memory_equal(p, after + (p - before), 3 * (f.look.segments + 1) * sizeof *p);
+            assert_memory_equal(p, after + (p - before), 3 * (f.look.strand.segments + 1) * sizeof *p);
         inside += a.deepest > 1e-3;
         left += b.deepest > 1e-4;
         deepest = fmax(deepest, a.deepest);
@@ -393,7 +394,7 @@ static void small_collider_motion_moves_followers_little(void** state)
     struct fixture f = start(state, 1);
     float* before = NULL;
     double worst = 0;
-    size_t each = f.look.segments + 1;
+    size_t each = f.look.strand.segments + 1;
     float* freely = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
     for (int frame = 0; frame < 60; ++frame) {
         f.colliders[0].position[0] = 0.25f - 0.002f * (float)frame;
@@ -426,7 +427,7 @@ static void follower_collision_costs_nothing_out_of_reach(void** state)
     for (int i = 0; i < COLLIDERS; ++i) f.colliders[i].position[1] += 3;
     hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
     float* far = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
-    size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.segments + 1);
+    size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.strand.segments + 1);
     assert_memory_equal(none, without, size);
     assert_memory_equal(far, without, size);
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit"), hits);

@@ -111,7 +111,7 @@ static struct change run(struct hair_test* test, hair_solver solver, enum scene 
     hair_physics physics = hair_test_only_hair_grid(cohesion, volume);
     uint32_t random = 7;
     physics.root = HAIR_ROOT_FREE;
-    physics.youngs_modulus = hair_test_bare().youngs_modulus;
+    physics.fiber.youngs_modulus = hair_test_bare().fiber.youngs_modulus;
     hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     struct hair_test_strands strands = strands_of(scene, &random);
     hair_test_live(test, &strands, &desc, &living);

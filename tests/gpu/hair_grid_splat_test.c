@@ -240,8 +240,8 @@ static void hair_grid_accelerations_equal_the_reference(void** state)
             rigid(sum, r, u);
             for (int a = 0; a < 3; ++a) {
                 pull[a] += rate * (double)HAIR_GRID_SPEED * weight * company * (u[a] - root_binding.speed[a]);
-                press[a] += 6 * (double)physics.pressure_stiffness / (double)g.hair_grid.cell * weight *
-                            over * (r[a] - sum[HAIR_GRID_MOMENT + a] / sum[0]);
+                press[a] += 6 * (double)physics.hair_hair.pressure_stiffness / (double)g.hair_grid.cell *
+                            weight * over * (r[a] - sum[HAIR_GRID_MOMENT + a] / sum[0]);
             }
         }
         for (int a = 0; a < 3; ++a) {

@@ -63,8 +63,8 @@ static double spread(struct hair_test* test, float volume)
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
     hair_collider wall[2] = {hair_collider_default()};
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.pressure_stiffness = volume;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.hair_hair.pressure_stiffness = volume;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_hair_grid(test, &desc, 0.04f, &living);
     // Two walls leave half of the width.
@@ -101,8 +101,8 @@ static void groom_at_rest_has_no_pressure(void** state)
 {
     struct hair_test_living living;
     hair_physics physics = hair_physics_default();
-    physics.cohesion = 10;
-    physics.pressure_stiffness = 1;
+    physics.hair_hair.cohesion = 10;
+    physics.hair_hair.pressure_stiffness = 1;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
     hair_test_hair_grid(*state, &desc, 0.04f, &living);
     hair_test_wait(&living, 30);
@@ -116,10 +116,10 @@ static void swing(struct hair_test_living* living, struct hair_test* test, hair_
                   hair_thread_mapping mapping)
 {
     hair_physics physics = hair_physics_default();
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.gravity_preload = 0;
-    physics.cohesion = 8;
-    physics.pressure_stiffness = 0.2f;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.shape.gravity_preload = 0;
+    physics.hair_hair.cohesion = 8;
+    physics.hair_hair.pressure_stiffness = 0.2f;
     physics.gravity[0] = 7;
     hair_desc desc = hair_test_rods(solver, mapping, 0, &physics);
     hair_test_hair_grid(test, &desc, 0.04f, living);
@@ -141,8 +141,8 @@ static void lone_strand_feels_no_hair_force(void** state)
     for (int on = 0; on < 2; ++on) {
         struct hair_test_strands strand = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(2, -1, 1), 0.2f);
         hair_physics physics = hair_test_bare();
-        physics.cohesion = on ? 20.0f : 0;
-        physics.pressure_stiffness = on ? 1.0f : 0;
+        physics.hair_hair.cohesion = on ? 20.0f : 0;
+        physics.hair_hair.pressure_stiffness = on ? 1.0f : 0;
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strand, &desc, &living[on]);
         hair_test_strands_free(&strand);
@@ -200,8 +200,8 @@ static struct hair_test_subject moving(hair_solver solver, float cohesion, float
     struct hair_test_subject subject = hair_test_subject_of(0);
     subject.desc.solver = solver;
     subject.desc.substep = 0;
-    subject.physics.cohesion = cohesion;
-    subject.physics.pressure_stiffness = volume;
+    subject.physics.hair_hair.cohesion = cohesion;
+    subject.physics.hair_hair.pressure_stiffness = volume;
     return subject;
 }
 
@@ -280,7 +280,7 @@ static void state_saved_between_grid_updates_continues_bit_for_bit(void** state)
     // An instance without the hair-hair grid goes on without it.
     hair_physics off = straight.physics;
     hair_test_die(&loaded);
-    off.cohesion = off.pressure_stiffness = 0;
+    off.hair_hair.cohesion = off.hair_hair.pressure_stiffness = 0;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, &off);
     hair_test_hair_grid(*state, &desc, 0.04f, &loaded);
     hair_test_ok(*state, hair_load(loaded.hair, blob.bytes, blob.size));
@@ -300,11 +300,11 @@ static void disabled_hair_grid_has_no_buffer_and_no_effect(void** state)
     hair_instance* hair = hair_test_subject_make(*state, &subject);
     assert_int_equal(hair->sim.hair_grid.texture, 0);
     assert_int_equal(hair->sim.hair_grid.grid, 0);
-    subject.physics.cohesion = 50;
+    subject.physics.hair_hair.cohesion = 50;
     hair_test_ok(*state, hair_set_physics(hair, &subject.physics));
     hair_test_ok(*state, hair_step(hair, 0.01f));
     assert_int_not_equal(hair->sim.hair_grid.texture, 0);
-    subject.physics.cohesion = 0;
+    subject.physics.hair_hair.cohesion = 0;
     hair_test_ok(*state, hair_set_physics(hair, &subject.physics));
     hair_test_ok(*state, hair_reset(hair));
     hair_test_run(*state, hair, &subject, 0, 12);

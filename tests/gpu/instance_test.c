@@ -142,7 +142,7 @@ static void teleport_keeps_shape_and_motion(void** state)
     hair_look look = hair_look_default();
     hair_physics still = hair_physics_default();
     float here[16], there[16];
-    look.segments = 8;
+    look.strand.segments = 8;
     // Gravity has a fixed direction in the world. Without gravity, all rotations of the world are
     // equivalent.
     memset(still.gravity, 0, sizeof still.gravity);
@@ -377,7 +377,7 @@ static void strands_stay_finite_under_any_calls(void** state)
         pose(6.28f * hair_random(&random), far, -far, 0, there);
         for (int k = 0; k < 3; ++k) physics.gravity[k] = 2000 * hair_random(&random) - 1000;
         physics.damping = 1000 * hair_random(&random),
-        physics.shape_frequency_root = 30 * hair_random(&random);
+        physics.shape.frequency_root = 30 * hair_random(&random);
         physics.redblack.angular_hz = 30 * hair_random(&random), physics.redblack.bend = hair_random(&random);
         physics.redblack.iterations = 1 + (uint32_t)(40 * hair_random(&random));
         hair_collider collider = {HAIR_SHAPE_CAPSULE, {far, -far, 0},

@@ -162,9 +162,9 @@ static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_rende
 static hair_look look_of(uint32_t segments)
 {
     hair_look look = hair_look_default();
-    look.segments = segments;
-    look.radius = 0.001f;
-    look.taper = hair_curve_line(1, 1);
+    look.strand.segments = segments;
+    look.strand.radius = 0.001f;
+    look.strand.taper = hair_curve_line(1, 1);
     return look;
 }
 
@@ -260,7 +260,7 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
     hair_desc desc = hair_desc_default();
     hair_instance* hair = NULL;
     desc.look = &look;
-    look.follower_collision = collision;
+    look.followers.collision = collision;
     hair_collider collider = hair_collider_default();
     collider.position[0] = 0.15f;
     collider.size[0] = 0.06f;
@@ -351,7 +351,7 @@ static size_t count_drawn(struct hair_test* test, hair_render_path path, float d
     hair_look look = look_of(segments);
     hair_desc desc = hair_desc_default();
     hair_instance* hair = NULL;
-    look.density = density;
+    look.followers.density = density;
     desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     struct drawn drawn = draw(test, hair, path, (size_t)1000 * segments, 0);
@@ -423,7 +423,7 @@ static void map_sets_blend_density_and_thickness(void** state)
     for (size_t i = 0; i < 7 * PATHS; ++i) {
         // There is no set beyond the last one.
         float set = 0.25f * (float)(i % 7), blend = fminf(set, 1);
-        look.map_set = set;
+        look.followers.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
         struct drawn drawn = draw(test, hair, (hair_render_path)(i / 7), (size_t)64 * 4, 0);
         size_t first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
@@ -454,7 +454,7 @@ static void segment_fraction_is_drawn_equally_by_every_path(void** state)
     hair_lod lod = hair_lod_default();
     hair_instance* hair = NULL;
     desc.look = &look;
-    lod.per_patch = 0;
+    lod.per_patch = false;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < sizeof fractions / sizeof *fractions; ++i) {
         lod.segment_fraction = fractions[i];

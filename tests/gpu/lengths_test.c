@@ -58,7 +58,7 @@ static struct fixture start_in(void** state, hair_context* context, uint32_t gui
 
     hair_desc instance = hair_test_way(way);
     hair_look look = hair_look_default();
-    look.tip_stray_fraction = look.stray_fraction = 0;
+    look.strays.tip_fraction = look.strays.fraction = 0;
     instance.look = &look;
     hair_test_ok(f.test, hair_create(context, f.groom, &instance, &f.hair));
     return f;
@@ -184,7 +184,7 @@ static void only_one_work_group_size_runs(void** state)
         hair_context_desc of = hair_context_desc_default();
         of.host = &test->host.host;
         of.get_proc = hair_egl_get_proc;
-        of.timings = 1;
+        of.timings = true;
         hair_test_ok(test, hair_context_create(&of, &context));
         check_sizes(state, context, ways[n]);
         hair_context_destroy(context);

@@ -27,8 +27,8 @@ static struct fixture start(void** state, hair_shading shading)
     struct hair_test_handmade wanted = hair_test_handmade_default();
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    look.shading = shading, look.segments = 8, look.radius = 0.002f;
-    look.roughness[0] = look.roughness[1] = 0.05f; // These are the sharpest lobes.
+    look.shading.model = shading, look.strand.segments = 8, look.strand.radius = 0.002f;
+    look.shading.roughness[0] = look.shading.roughness[1] = 0.05f; // These are the sharpest lobes.
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));

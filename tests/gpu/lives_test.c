@@ -34,7 +34,7 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_look look = hair_look_default();
     hair_physics other = hair_physics_default();
     uint32_t count;
-    look.segments = 4;
+    look.strand.segments = 4;
     other.damping = 5;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     hair_test_ok(test, hair_set_look(hair, &look));
@@ -72,7 +72,7 @@ static hair_context* make_context(struct hair_test* test)
     hair_context_desc desc = hair_context_desc_default();
     desc.host = &test->host.host;
     desc.get_proc = hair_egl_get_proc;
-    desc.timings = 1;
+    desc.timings = true;
     hair_test_ok(test, hair_context_create(&desc, &context));
     return context;
 }
@@ -222,7 +222,7 @@ static void check_compiled(struct hair_test* test, int way)
     hair_gl_pass passes[4];
     uint32_t compiled = 0;
     // With gravity preload, straight hair is curved in the absence of forces.
-    limp.gravity_preload = 0;
+    limp.shape.gravity_preload = 0;
     for (int kind = 0; kind < 4; ++kind) {
         struct hair_test_handmade wanted = hair_test_handmade_default();
         hair_instance* hair = NULL;

@@ -102,7 +102,7 @@ static void fewer_strands_cover_as_much_as_all(void** state)
         hair_lod lod = hair_lod_default();
         double full = coverage_of(&f, 1.4f, NULL);
         assert_true(full > 0.03);
-        lod.per_patch = 0;
+        lod.per_patch = false;
         for (int k = 0; k < 4; ++k) {
             static const float fractions[] = {0.5f, 0.2f, 0.1f, 0.05f};
             lod.strand_fraction = fractions[k];
@@ -186,7 +186,7 @@ static void strands_and_segments_are_reduced_without_popping(void** state)
     hair_view view = view_from(1.2f, 0);
     hair_lod lod = hair_lod_default();
     view.lod = &lod;
-    lod.per_patch = 0;
+    lod.per_patch = false;
     for (int k = 0; k < 2; ++k)
         for (int i = 0; i < 2; ++i) {
             float fraction = 0.5f + (i ? 1e-6f : -1e-6f);

@@ -42,8 +42,8 @@ static void finish(struct fixture* f)
 static hair_look plain_look(void)
 {
     hair_look look = hair_look_default();
-    look.segments = SEGMENTS;
-    look.tip_stray_fraction = look.stray_fraction = 0;
+    look.strand.segments = SEGMENTS;
+    look.strays.tip_fraction = look.strays.fraction = 0;
     return look;
 }
 
@@ -81,11 +81,11 @@ static void stray_fraction_is_the_fraction_of_strays(void** state)
     struct fixture f = start(state);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
-    look.tip_stray_fraction = 0.3f;
+    look.strays.tip_fraction = 0.3f;
     float* tips = read_with(&f, &look);
-    look.tip_stray_fraction = 0, look.stray_fraction = 0.1f;
+    look.strays.tip_fraction = 0, look.strays.fraction = 0.1f;
     float* whole = read_with(&f, &look);
-    look.tip_stray_fraction = look.stray_fraction = 1;
+    look.strays.tip_fraction = look.strays.fraction = 1;
     float* all = read_with(&f, &look);
     print_message("    %.3f stray at their tips, %.3f all along\n", fraction_moved(plain, tips, 0, SEGMENTS),
                   fraction_moved(plain, whole, 0, SEGMENTS));
@@ -108,14 +108,14 @@ static void curls_are_their_radius_away_from_the_strand(void** state)
     struct fixture f = start(state);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
-    look.curl_radius = 0.004f;
-    look.curl_wavelength = 0.04f;
-    look.curl_profile = hair_curve_line(1, 1);
-    look.curl_spread = 0;
+    look.curl.radius = 0.004f;
+    look.curl.wavelength = 0.04f;
+    look.curl.profile = hair_curve_line(1, 1);
+    look.curl.spread = 0;
     float* curled = read_with(&f, &look);
     for (size_t i = 0; i < FOLLOWERS * EACH; ++i)
         hair_test_near("radius", i, distance_at(plain, curled, i), 0.004, 1e-6);
-    look.curl_profile.at[0] = 0;
+    look.curl.profile.at[0] = 0;
     float* rooted = read_with(&f, &look);
     hair_test_near("roots", 0, fraction_moved(plain, rooted, 0, 0), 0, 0);
     free(plain), free(curled), free(rooted);
@@ -126,11 +126,11 @@ static void strands_have_the_length_of_the_look(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
-    look.interpolation = HAIR_INTERPOLATION_SINGLE;
+    look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     float* whole = read_with(&f, &look);
-    look.length = 0.5f;
+    look.strand.length = 0.5f;
     float* half = read_with(&f, &look);
-    look.length_variation = 0.8f;
+    look.strand.length_variation = 0.8f;
     float* thinned = read_with(&f, &look);
     double mean = 0;
     for (size_t n = 0; n < FOLLOWERS; ++n) {
@@ -159,8 +159,8 @@ static void follower_without_offset_is_its_guide(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
-    look.interpolation = HAIR_INTERPOLATION_SINGLE;
-    look.clump_width = hair_curve_line(0, 0);
+    look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
+    look.clump.width = hair_curve_line(0, 0);
     float* positions = read_with(&f, &look);
     uint32_t count, each = 2 * f.groom->max_vertices - 1;
     float* smooth = malloc(3 * sizeof *smooth * each * f.groom->info.guide_count);
@@ -186,10 +186,10 @@ static void interpolation_modes_are_the_ends_of_the_blend(void** state)
     struct fixture f = start(state);
     hair_look look = plain_look();
     for (int single = 0; single < 2; ++single) {
-        look.interpolation = single ? HAIR_INTERPOLATION_SINGLE : HAIR_INTERPOLATION_MULTI;
+        look.clump.interpolation = single ? HAIR_INTERPOLATION_SINGLE : HAIR_INTERPOLATION_MULTI;
         float* pure = read_with(&f, &look);
-        look.interpolation = HAIR_INTERPOLATION_MIXED;
-        look.clump = hair_curve_line((float)single, (float)single);
+        look.clump.interpolation = HAIR_INTERPOLATION_MIXED;
+        look.clump.weight = hair_curve_line((float)single, (float)single);
         float* mixed = read_with(&f, &look);
         assert_memory_equal(pure, mixed, 3 * sizeof *pure * FOLLOWERS * EACH);
         free(pure), free(mixed);
@@ -204,23 +204,24 @@ static void disabled_look_has_no_effect_and_no_program(void** state)
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
     float* plain = read_with(&f, &look);
-    off.tip_stray_distance = off.stray_distance = hair_curve_line(0.1f, 0.2f); // No strand strays.
-    off.frizz_wavelength = 0.1f;
-    off.curl_profile = hair_curve_line(2, 1); // The radius is 0.
-    off.curl_wavelength = 0.01f;
-    off.curl_turns = 7, off.curl_flatness = 0.5f, off.curl_left_fraction = 0.5f, off.curl_strand_phase = 1,
-    off.curl_spread = 0.5f;
+    // No strand strays.
+    off.strays.tip_distance = off.strays.distance = hair_curve_line(0.1f, 0.2f);
+    off.strays.frizz_wavelength = 0.1f;
+    off.curl.profile = hair_curve_line(2, 1); // The radius is 0.
+    off.curl.wavelength = 0.01f;
+    off.curl.turns = 7, off.curl.flatness = 0.5f, off.curl.left_fraction = 0.5f, off.curl.strand_phase = 1,
+    off.curl.spread = 0.5f;
     float* same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
-    off.tip_stray_fraction = off.stray_fraction = 1;
-    off.tip_stray_distance = off.stray_distance = hair_curve_line(0, 0); // The distance is 0.
-    off.curl_radius = 0.1f;
-    off.curl_profile = hair_curve_line(0, 0);
+    off.strays.tip_fraction = off.strays.fraction = 1;
+    off.strays.tip_distance = off.strays.distance = hair_curve_line(0, 0); // The distance is 0.
+    off.curl.radius = 0.1f;
+    off.curl.profile = hair_curve_line(0, 0);
     free(same);
     same = read_with(&f, &off);
     assert_memory_equal(plain, same, size);
     assert_int_equal(hair_test_runs_of(&f.test->context->gl, "_styled"), styled);
-    off.curl_profile = hair_curve_line(0, 0.1f);
+    off.curl.profile = hair_curve_line(0, 0.1f);
     free(same);
     same = read_with(&f, &off);
     assert_memory_not_equal(plain, same, size);
@@ -233,16 +234,17 @@ static void invalid_looks_are_refused_by_name(void** state)
 {
     struct fixture f = start(state);
     hair_look look = plain_look();
-    look.taper.at[3] = NAN;
-    hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT, "hair_look.taper.at[3]");
-    look = plain_look();
-    look.curl_radius = -1;
+    look.strand.taper.at[3] = NAN;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
-                      "hair_look.curl_radius is -1, not in [0, 0.1");
+                      "hair_look.strand.taper.at[3]");
     look = plain_look();
-    look.curl_profile_x[15] = 1.5f;
+    look.curl.radius = -1;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
-                      "hair_look.curl_profile_x[15] is 1.5");
+                      "hair_look.curl.radius is -1, not in [0, 0.1");
+    look = plain_look();
+    look.curl.profile_x[15] = 1.5f;
+    hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
+                      "hair_look.curl.profile_x[15] is 1.5");
     finish(&f);
 }
 

@@ -28,9 +28,9 @@ static struct fixture start(void** state)
     struct fixture f = {.test = *state};
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    look.radius = 0.003f;
-    look.segments = SEGMENTS;
-    look.curl_radius = 0.003f;
+    look.strand.radius = 0.003f;
+    look.strand.segments = SEGMENTS;
+    look.curl.radius = 0.003f;
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     f.count = f.groom->info.follower_count * (SEGMENTS + 1);
@@ -241,7 +241,7 @@ static void motion_vectors_are_right_at_any_level_of_detail(void** state)
     struct fixture f = start(state);
     hair_view view = view_of(HAIR_PASS_MOTION, 0.01f);
     hair_lod lod = hair_lod_default();
-    lod.per_patch = 0, lod.strand_fraction = 0.6f, lod.segment_fraction = 0.33f;
+    lod.per_patch = false, lod.strand_fraction = 0.6f, lod.segment_fraction = 0.33f;
     view.lod = &lod;
     read_now(&f);
     draw(&f, &view, &picture);

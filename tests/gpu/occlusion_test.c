@@ -39,9 +39,9 @@ static void make_hair(struct fixture* f)
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     style.guide_count = 200;
-    look.radius = 1e-3f;
-    look.segments = 8;
-    look.shading = HAIR_SHADING_LINES;
+    look.strand.radius = 1e-3f;
+    look.strand.segments = 8;
+    look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
     memcpy(desc.transform, head, sizeof head);
     f->groom = hair_test_haircut(f->test, &style, 3000);
@@ -231,7 +231,7 @@ static void visible_strands_are_not_occlusion_culled(void** state)
     uint32_t random = 5, hidden = 0, drawn = 0;
     lod.strand_pixels = 6;
     hair_test_ok(f.test, hair_look_apply_preset(&curls, HAIR_LOOK_WAVY));
-    curls.segments = 12;
+    curls.strand.segments = 12;
     for (int i = 0; i < 96; ++i) {
         float number[6];
         for (int k = 0; k < 6; ++k) number[k] = hair_random(&random);
@@ -319,7 +319,7 @@ static hair_report_row report(const struct fixture* f)
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[64], none = {0};
     uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].stage, "occlusion") == 0) return rows[i];
     fail_msg("there is no row occlusion");

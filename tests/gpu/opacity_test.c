@@ -37,7 +37,7 @@ static struct fixture* start(void** state, uint32_t followers, float radius)
     wanted.guides = 40;
     f->test = *state;
     f->view = hair_view_default();
-    look.segments = 12, look.radius = radius;
+    look.strand.segments = 12, look.strand.radius = radius;
     desc.look = &look;
     f->groom = hair_test_groom(&f->test->host.host, wanted);
     f->view.pass = HAIR_PASS_OPACITY;
@@ -91,7 +91,7 @@ static void draw(struct fixture* f, float bodies)
 // Count the rays that meet strands at z >= `behind`.
 static void count_rays(struct fixture* f, double behind)
 {
-    uint32_t each = f->hair->geometry.look.segments + 1, count = f->hair->geometry.followers * each;
+    uint32_t each = f->hair->geometry.look.strand.segments + 1, count = f->hair->geometry.followers * each;
     f->view.render_path = HAIR_RENDER_PATH_CACHED; // Stores vertices and radii in a buffer.
     make_map(f, 16);
     draw(f, 1);
@@ -169,7 +169,7 @@ static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
     struct fixture* f = start(state, 1500, 2e-4f);
     hair_lod part = hair_lod_default();
     double all = 0;
-    part.per_patch = 0;
+    part.per_patch = false;
     count_rays(f, -1);
     make_map(f, 256);
     for (int path = 0; path <= HAIR_RENDER_PATH_CACHED; ++path)
@@ -247,7 +247,7 @@ static const hair_report_row* find_row(struct fixture* f, const char* work)
     static hair_report_row rows[64];
     hair_report_info info = hair_report_info_default();
     uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].stage, work) == 0) return &rows[i];
     fail_msg("there is no row %s", work);

@@ -34,7 +34,7 @@ static struct fixture start(void** state, int curly)
     of.style = HAIR_STYLE_CURLY;
     if (curly) hair_test_ok(f.test, hair_look_apply_preset(&look, HAIR_LOOK_CURLY));
     hair_test_ok(f.test, hair_look_color(&look, HAIR_COLOR_BLOND));
-    look.radius = 5e-4f;
+    look.strand.radius = 5e-4f;
     how.look = &look;
     f.groom = hair_test_haircut(f.test, &of, curly ? 1500 : 200);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
@@ -110,7 +110,7 @@ static const char* drawn_by(struct fixture* f)
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[64];
     uint32_t count;
-    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].stage, "color") == 0 && rows[i].pass) return rows[i].pass;
     return "";
@@ -166,8 +166,8 @@ static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
     static struct picture picture[PATHS];
     struct fixture f = start(state, 1);
     hair_lod lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
-    lods[0].strand_fraction = 0.37f, lods[0].segment_fraction = 0.3f, lods[0].per_patch = 0;
-    lods[1].strand_fraction = 0.1f, lods[1].per_patch = 0;
+    lods[0].strand_fraction = 0.37f, lods[0].segment_fraction = 0.3f, lods[0].per_patch = false;
+    lods[1].strand_fraction = 0.1f, lods[1].per_patch = false;
     lods[2].strand_pixels = 3, lods[2].segment_pixels = 20;
     for (int i = 0; i < 12; ++i)
         for (hair_render_path path = 0; (int)path < PATHS; ++path) {
@@ -220,7 +220,7 @@ static void groom_colors_are_drawn_by_all_paths(void** state)
                       names[path], sum[0][0], sum[0][1], sum[1][0], sum[1][1]);
         assert_true(sum[0][0] > 2 * sum[0][1] && sum[1][1] > 2 * sum[1][0]);
     }
-    look.groom_colors = 0;
+    look.color.groom_colors = 0;
     view.render_path = HAIR_RENDER_PATH_TESSELLATION;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &view, &picture[PATHS + 1]);

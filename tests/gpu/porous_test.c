@@ -256,7 +256,7 @@ static void hair_drag_shelters_hair_behind_and_costs_nothing_off(void** state)
     for (int k = 0; k < 2; ++k) {
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
-        wind.drag_strand_count = k ? 50000 : 0;
+        wind.fluid.drag_strand_count = k ? 50000 : 0;
         hair_test_wind_coupling(&living, &wind);
         hair_test_wait(&living, 30);
         hair_test_read_guides(&living);
@@ -266,7 +266,7 @@ static void hair_drag_shelters_hair_behind_and_costs_nothing_off(void** state)
             GLuint grid = living.hair->sim.wind_coupling.fluid.hair.grid.buffer,
                    fraction = living.hair->sim.wind_coupling.splat;
             assert_true(glIsBuffer(grid) && glIsBuffer(fraction));
-            wind.drag_strand_count = 0;
+            wind.fluid.drag_strand_count = 0;
             hair_test_wind_coupling(&living, &wind);
             hair_test_wait(&living, 1);
             assert_false(glIsBuffer(grid) || glIsBuffer(fraction));

@@ -31,7 +31,7 @@ static struct fixture start(void** state)
     struct hair_test_handmade wanted = hair_test_handmade_default();
     desc.host = &f.test->host.host;
     desc.get_proc = hair_egl_get_proc;
-    desc.timings = 1;
+    desc.timings = true;
     wanted.guides = GUIDES;
     wanted.turn = 0.1f;
     f.groom = hair_test_groom(desc.host, wanted);

@@ -321,9 +321,9 @@ static void hair_step_with_all_inputs_equals_the_reference(void** state)
     struct fixture f = start(state);
     hair_physics physics = hair_physics_default();
     // No value is its default, which may change.
-    physics.damping = 3, physics.shape_frequency_root = 5, physics.shape_frequency_tip = 0.75f,
+    physics.damping = 3, physics.shape.frequency_root = 5, physics.shape.frequency_tip = 0.75f,
     physics.redblack.angular_hz = 1.5f;
-    physics.redblack.bend = 0.15f, physics.redblack.iterations = 19, physics.collision_margin = 0.002f,
+    physics.redblack.bend = 0.15f, physics.redblack.iterations = 19, physics.collision.margin = 0.002f,
     physics.gravity[0] = 1;
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     hair_collider collider = {HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)},

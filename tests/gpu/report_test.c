@@ -31,7 +31,7 @@ static struct fixture start(void** state, const hair_physics* physics)
     struct hair_test_handmade wanted = hair_test_handmade_default();
     desc.host = &f.test->host.host;
     desc.get_proc = hair_test_trace_proc;
-    desc.timings = 1;
+    desc.timings = true;
     of.physics = physics;
     f.view.projection[0] = f.view.projection[5] = f.view.projection[10] = 2;
     hair_test_ok(f.test, hair_context_create(&desc, &f.context));
@@ -52,7 +52,7 @@ static void finish(struct fixture* f)
 static void report(struct fixture* f)
 {
     f->info = hair_report_info_default();
-    hair_test_ok(f->test, hair_report(f->hair, 1, &f->info, f->row, sizeof *f->row, MAX, &f->rows));
+    hair_test_ok(f->test, hair_report(f->hair, true, &f->info, f->row, sizeof *f->row, MAX, &f->rows));
     assert_in_range(f->rows, 10, MAX);
     assert_int_equal(f->info.age, 0);
 }
@@ -122,7 +122,7 @@ static void removed_features_free_their_memory(void** state)
     hair_physics physics = hair_physics_default();
     run_frame(&f);
     uint64_t before = f.info.bytes;
-    collider.size[0] = 0.12f, physics.cohesion = 3;
+    collider.size[0] = 0.12f, physics.hair_hair.cohesion = 3;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     run_frame(&f);
@@ -132,7 +132,7 @@ static void removed_features_free_their_memory(void** state)
     check(&f, "hair_grid", HAIR_SKIP_REASON_NONE, 1);
     print_message("    %llu bytes, with a collider and a crowd %llu\n", (unsigned long long)before,
                   (unsigned long long)f.info.bytes);
-    physics.cohesion = 0;
+    physics.hair_hair.cohesion = 0;
     hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof collider));
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     run_frame(&f);
@@ -186,7 +186,7 @@ static void report_does_not_wait_and_is_of_one_instance(void** state)
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_step(other.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-        hair_test_ok(f.test, hair_report(f.hair, 0, &f.info, f.row, sizeof *f.row, MAX, &f.rows));
+        hair_test_ok(f.test, hair_report(f.hair, false, &f.info, f.row, sizeof *f.row, MAX, &f.rows));
         if (!f.rows) continue;
         assert_in_range(f.info.frame, last, i + 1);
         assert_int_equal(f.info.frame + f.info.age, i + 1);
@@ -209,16 +209,16 @@ static void report_refuses_invalid_arguments(void** state)
     hair_report_info info = hair_report_info_default();
     uint32_t count;
     size_t stride = sizeof *f.row;
-    assert_int_equal(hair_report(NULL, 0, &info, f.row, stride, MAX, &count), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_report(NULL, false, &info, f.row, stride, MAX, &count), HAIR_ERROR_ARGUMENT);
     hair_test_refused(f.test, hair_report(f.hair, 0, NULL, f.row, stride, MAX, &count), HAIR_ERROR_ARGUMENT,
                       "hair_report_info is NULL");
-    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, stride, MAX, NULL), HAIR_ERROR_ARGUMENT,
-                      "count is NULL");
-    hair_test_refused(f.test, hair_report(f.hair, 0, &info, NULL, stride, 1, &count), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.test, hair_report(f.hair, false, &info, f.row, stride, MAX, NULL),
+                      HAIR_ERROR_ARGUMENT, "count is NULL");
+    hair_test_refused(f.test, hair_report(f.hair, false, &info, NULL, stride, 1, &count), HAIR_ERROR_ARGUMENT,
                       "rows is NULL but capacity is 1");
-    hair_test_refused(f.test, hair_report(f.hair, 0, &info, f.row, 1, MAX, &count), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.test, hair_report(f.hair, false, &info, f.row, 1, MAX, &count), HAIR_ERROR_ARGUMENT,
                       "stride is 1, not in");
-    hair_test_ok(f.test, hair_report(f.hair, 0, &info, NULL, 0, 0, &count));
+    hair_test_ok(f.test, hair_report(f.hair, false, &info, NULL, 0, 0, &count));
     assert_int_equal(info.frame, 0);
     assert_int_equal(count, 0);
     assert_null(hair_skip_reason_string((hair_skip_reason)(HAIR_SKIP_REASON_NOT_CALLED + 1)));

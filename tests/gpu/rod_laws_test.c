@@ -129,7 +129,7 @@ static void motion_does_not_depend_on_the_step_length(void** state)
 static void equal_steps_give_equal_bits(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.flatness = 0.5f;
+    physics.fiber.flatness = 0.5f;
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver) {
         struct hair_test_living living[2];
         for (int m = 0; m < 2; ++m) {
@@ -211,8 +211,8 @@ static void free_stiff_strand_falls_and_drifts_by_the_formula(void** state)
         hair_physics physics = hair_test_bare();
         struct hair_test_strands strands = hair_test_strands_make(1, 8);
         double worst = 0;
-        physics.youngs_modulus = 1e12f;
-        physics.fiber_radius = 1e-3f;
+        physics.fiber.youngs_modulus = 1e12f;
+        physics.fiber.radius = 1e-3f;
         physics.damping = 0;
         physics.root = HAIR_ROOT_FREE;
         hair_test_strands_add(&strands, 8, kinked, NULL);
@@ -307,7 +307,7 @@ static void accurate_solver_keeps_the_energy_of_a_swing(void** state)
 {
     hair_physics physics = hair_test_bare();
     physics.damping = 0;
-    physics.youngs_modulus = 0;
+    physics.fiber.youngs_modulus = 0;
     struct hair_test_strands strands = hair_test_straight(8, hair_v3(0, 0, 0), hair_v3(1, 0, 0), 0.3f);
     struct hair_test_living living;
     const double h = 1.0 / 960, scale = 9.81 * 0.3 * 0.15;

@@ -84,7 +84,7 @@ static void strands_of_2_to_256_vertices_follow_a_shaken_head(void** state)
 static void error_is_of_second_order_in_the_substep(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.youngs_modulus = 3e7f;
+    physics.fiber.youngs_modulus = 3e7f;
     for (int solver = 0; solver < 2; ++solver) {
         double before = 0, substep = 1.0 / 240;
         for (int k = 0; k < 3; ++k, substep /= 2) {
@@ -104,7 +104,7 @@ static void chain_released_level_is_within_the_stated_error(void** state)
 {
     static const double limit[] = {3.5e-3, 6e-4}; // Metres.
     hair_physics physics = hair_test_bare();
-    physics.youngs_modulus = 0;
+    physics.fiber.youngs_modulus = 0;
     physics.damping = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
@@ -153,7 +153,7 @@ static void heavy_tip_swings_like_the_reference(void** state)
 static void shape_pull_is_a_spring_to_the_rest_pose(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.shape_frequency_root = 8, physics.shape_frequency_tip = 2;
+    physics.shape.frequency_root = 8, physics.shape.frequency_tip = 2;
     shake_both(*state, 16, &physics, 2e-3, 5e-5);
     // The solver accurate integrates this one implicitly.
     shake_both(*state, 70, &physics, 2e-3, 3e-4);
@@ -185,9 +185,9 @@ static void wind_carries_hair_like_the_reference(void** state)
 static void stiffness_scale_goes_from_root_to_tip(void** state)
 {
     hair_physics physics = hair_test_bare();
-    physics.stiffness_root = 8, physics.stiffness_tip = 0.5f;
+    physics.shape.stiffness_root = 8, physics.shape.stiffness_tip = 0.5f;
     shake_both(*state, 16, &physics, 4e-3, 1e-4);
-    physics.stiffness_root = 0.2f, physics.stiffness_tip = 8;
+    physics.shape.stiffness_root = 0.2f, physics.shape.stiffness_tip = 8;
     shake_both(*state, 16, &physics, 4e-3, 1e-4);
 }
 

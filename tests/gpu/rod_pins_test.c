@@ -115,8 +115,8 @@ static void pinned_tip_stays_with_all_other_forces_enabled(void** state)
         hair_physics physics = hair_physics_default();
         hair_desc desc = way_of(way, &physics);
         hair_collider sphere = hair_collider_default();
-        physics.flatness = 0.5f;
-        physics.cohesion = 5;
+        physics.fiber.flatness = 0.5f;
+        physics.hair_hair.cohesion = 5;
         sphere.size[0] = 0.03f;
         sphere.position[0] = 0.1f;
         live(*state, 1, 20, hair_v3(1, -1, 0), &desc, &living);
@@ -131,7 +131,7 @@ static void chain_between_two_pins_hangs_in_a_catenary(void** state)
 {
     static const double rows[][2] = {{0.5, 0.3981941779}, {0.8, 0.2654375091}};
     hair_physics physics = hair_test_bare();
-    physics.youngs_modulus = 0, physics.damping = 6, physics.root = HAIR_ROOT_HINGED;
+    physics.fiber.youngs_modulus = 0, physics.damping = 6, physics.root = HAIR_ROOT_HINGED;
     for (int i = 0; i < 2 * SOLVERS; ++i) {
         struct hair_test_living living;
         hair_desc desc = way_of(each(i / 2), &physics);

@@ -43,7 +43,7 @@ static void groom_without_loads_is_at_rest(void** state)
     for (int solver = 0; solver < 2; ++solver)
         for (int flat = 0; flat < 2; ++flat) {
             struct hair_test_living living;
-            physics.flatness = flat ? 0.4f : 1;
+            physics.fiber.flatness = flat ? 0.4f : 1;
             live(*state, shapes(33, 0.2f), (hair_solver)solver, &physics, &living);
             hair_test_wait(&living, 120);
             hair_test_read_guides(&living);
@@ -60,7 +60,7 @@ static void gravity_preload_keeps_a_straight_strand_groomed(void** state)
 {
     static const float lengths[] = {0.05f, 0.14f};
     hair_physics physics = hair_physics_default();
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
     for (int solver = 0; solver < HAIR_SOLVER_REDBLACK; ++solver)
         for (int k = 0; k < 2; ++k) {
             struct hair_test_living living;
@@ -107,7 +107,7 @@ static void too_soft_strand_sags_by_the_reported_distance(void** state)
 static void gravity_preload_keeps_waves_and_curls_groomed(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
     for (int solver = 0; solver < 2; ++solver) {
         struct hair_test_living living;
         live(*state, shapes(33, 0.125f), (hair_solver)solver, &physics, &living);
@@ -186,7 +186,7 @@ static void curved_strands_bend_and_twist_like_the_reference(void** state)
             struct hair_test_living living;
             hair_physics physics = hair_test_bare();
             physics.gravity[1] = (float)-cases[n].gravity;
-            physics.flatness = (float)cases[n].flatness;
+            physics.fiber.flatness = (float)cases[n].flatness;
             live(*state, shapes(20, 0.25f), (hair_solver)solver, &physics, &living);
             double off = shake(&living, 15);
             print_message("    gravity %g, flatness %g, solver %d: off by %.2g of the length\n",
@@ -279,17 +279,17 @@ static void cantilever_hangs_like_the_reference(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0; // With sleep, motion would stop before hair reaches equilibrium.
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.gravity_preload = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.shape.gravity_preload = 0;
     physics.damping = 8;
     compare_at_rest(*state, "5 cm", &physics, 0.05f, 5e-4, 1e-4);
     compare_at_rest(*state, "10 cm", &physics, 0.1f, 1e-2, 5e-6);
     compare_at_rest(*state, "30 cm", &physics, 0.3f, 1e-2, 5e-6);
-    physics.stiffness_root = 6, physics.stiffness_tip = 0.3f;
+    physics.shape.stiffness_root = 6, physics.shape.stiffness_tip = 0.3f;
     compare_at_rest(*state, "stiff at the root", &physics, 0.1f, 1e-3, 1e-4);
-    physics.stiffness_root = 0.3f, physics.stiffness_tip = 6;
+    physics.shape.stiffness_root = 0.3f, physics.shape.stiffness_tip = 6;
     compare_at_rest(*state, "stiff at the tip", &physics, 0.1f, 2e-2, 5e-3);
-    physics.stiffness_root = physics.stiffness_tip = 1;
+    physics.shape.stiffness_root = physics.shape.stiffness_tip = 1;
     physics.tip_mass = 2;
     compare_at_rest(*state, "heavy at the tip", &physics, 0.05f, 2e-2, 5e-3);
 }
@@ -301,12 +301,12 @@ static void coarse_curl_hangs_like_the_reference(void** state)
 {
     hair_physics physics = hair_physics_default();
     physics.sleep_threshold = 0;
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.gravity_preload = 0;
-    physics.youngs_modulus = 4e10f;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.shape.gravity_preload = 0;
+    physics.fiber.youngs_modulus = 4e10f;
     physics.damping = 8;
     compare_at_rest(*state, "coarse curl", &physics, 0, 2e-3, 2e-3);
-    physics.flatness = 0.5f;
+    physics.fiber.flatness = 0.5f;
     compare_at_rest(*state, "flat coarse curl", &physics, 0, 2e-3, 2e-3);
 }
 
@@ -316,10 +316,10 @@ static void coarse_curl_hangs_like_the_reference(void** state)
 static void flat_section_bends_about_its_long_axis(void** state)
 {
     hair_physics physics = hair_physics_default();
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.gravity_preload = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.shape.gravity_preload = 0;
     physics.damping = 8;
-    physics.flatness = 0.4f;
+    physics.fiber.flatness = 0.4f;
     physics.gravity[1] = 0, physics.gravity[2] = -9.81f;
     double bent[2];
     for (int side = 0; side < 2; ++side) {

@@ -76,11 +76,11 @@ static double flip(uint32_t i, struct hair_reference_rod_pose* head)
 
 static void make_stiff(hair_physics* physics)
 {
-    physics->youngs_modulus = 1e12f;
+    physics->fiber.youngs_modulus = 1e12f;
 }
 static void make_soft(hair_physics* physics)
 {
-    physics->youngs_modulus = 0;
+    physics->fiber.youngs_modulus = 0;
 }
 static void make_heavy(hair_physics* physics)
 {
@@ -221,8 +221,8 @@ static double jump_as_many(struct hair_test* test, hair_solver solver, float tip
     struct hair_test_strands s = hair_test_strands_make(8, HAIR_MAX_GUIDE_VERTICES);
     hair_physics physics = hair_physics_default();
     double max = 0, dt = 0.01;
-    physics.youngs_modulus = 1e12f;
-    physics.flatness = 0.5f;
+    physics.fiber.youngs_modulus = 1e12f;
+    physics.fiber.flatness = 0.5f;
     physics.tip_mass = tip_mass;
     for (int k = 0; k < 8; ++k) hair_test_strands_add(&s, HAIR_MAX_GUIDE_VERTICES, jagged, NULL);
     hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, dt, &physics);

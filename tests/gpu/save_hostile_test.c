@@ -45,7 +45,8 @@ static hair_instance* make_small(struct hair_test* test, int way)
     subject.groom.guides = 2;
     subject.groom.fewest = 4, subject.groom.max = 5;
     subject.groom.followers = 8;
-    if (way == HAIR_GRID) subject.physics.cohesion = 5, subject.physics.pressure_stiffness = 0.2f;
+    if (way == HAIR_GRID)
+        subject.physics.hair_hair.cohesion = 5, subject.physics.hair_hair.pressure_stiffness = 0.2f;
     hair_instance* hair = hair_test_subject_make(test, &subject);
     hair_pin pin = {1, 2, HAIR_PIN_WORLD, {0.1f, 0.2f, 0.1f}};
     if (way == HAIR_GRID) hair_test_ok(test, hair_set_pins(hair, &pin, 1, sizeof pin));

@@ -89,7 +89,7 @@ static void loading_leaves_physics_and_look_as_they_are(void** state)
     subject.physics.damping = 77;
     hair_instance* into = hair_test_subject_make(test, &subject);
     hair_look own = hair_look_default();
-    own.segments = 3;
+    own.strand.segments = 3;
     hair_test_ok(test, hair_set_look(into, &own));
     struct hair_test_blob blob = hair_test_save(test, from);
     hair_test_ok(test, hair_load(into, blob.bytes, blob.size));
@@ -109,7 +109,9 @@ static void interleaved_instances_give_the_bits_of_each_alone(void** state)
     hair_instance* hair[3];
     for (uint32_t n = 0; n < 3; ++n) {
         subjects[n] = hair_test_subject_of(n);
-        if (n > 0) subjects[n].physics.cohesion = 6, subjects[n].physics.pressure_stiffness = 0.2f;
+        if (n > 0)
+            subjects[n].physics.hair_hair.cohesion = 6,
+            subjects[n].physics.hair_hair.pressure_stiffness = 0.2f;
         hair[n] = hair_test_subject_make(test, &subjects[n]);
         for (uint32_t half = 0; half < 2; ++half) {
             hair_test_run(test, hair[n], &subjects[n], 20 * half, 20 * half + 20);

@@ -58,9 +58,9 @@ static struct skinned make_by(struct hair_test* test, hair_solver solver, hair_t
     hair_desc desc = hair_desc_default();
     desc.thread_mapping = mapping;
     hair_look look = hair_look_default();
-    look.segments = SEGMENTS;
+    look.strand.segments = SEGMENTS;
     // Rounding may decide whether a follower hits a collider.
-    look.follower_collision = HAIR_FOLLOWER_COLLISION_NONE;
+    look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
     desc.look = &look;
     desc.solver = solver;
     s.groom = make_groom(test, s.rest);
@@ -190,7 +190,7 @@ static void rigid_scalp_equals_a_head_when_substeps_change(void** state)
         float m[16];
         physics.substep_rate = rates[frame / 5 % 6];
         // This change does not wait for the end of a substep.
-        if (frame % 30 == 0) physics.youngs_modulus *= 1.1f;
+        if (frame % 30 == 0) physics.fiber.youngs_modulus *= 1.1f;
         float dt = frame % 10 == 5 ? STEP : 1.0f / 250;
         time += dt;
         pose_at(time, m);
@@ -224,7 +224,7 @@ static void scalp_at_rest_in_a_moving_head_changes_nothing(void** state)
     struct skinned head = make(test, HAIR_SOLVER_DIRECT), scalp = make(test, HAIR_SOLVER_DIRECT);
     hair_physics physics = hair_physics_default();
     hair_collider colliders[2] = {hair_collider_default(), hair_collider_default()};
-    physics.cohesion = 5;
+    physics.hair_hair.cohesion = 5;
     colliders[0].size[0] = 0.04f;
     colliders[1].shape = HAIR_SHAPE_BOX;
     for (int i = 0; i < 2; ++i) {

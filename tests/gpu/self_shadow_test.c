@@ -45,8 +45,8 @@ static struct fixture start(void** state, uint32_t followers)
     hair_look look = hair_look_default();
     wanted.followers = followers;
     wanted.density = 1;
-    look.segments = SEGMENTS, look.radius = 0.001f, look.self_shadow_cell = 0.012f;
-    look.self_shadow = HAIR_SELF_SHADOW_STRANDS;
+    look.strand.segments = SEGMENTS, look.strand.radius = 0.001f, look.self_shadow.cell = 0.012f;
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, wanted);
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -111,7 +111,7 @@ static void look_inside(struct fixture* f)
     uint32_t box[6];
     size_t nodes = 1;
     glGetNamedBufferSubData(own->box, 0, sizeof box, box);
-    f->grid.cell = (double)geometry->look.self_shadow_cell;
+    f->grid.cell = (double)geometry->look.self_shadow.cell;
     for (int i = 0; i < 3; ++i) {
         double low = (double)from_float_key(box[i]), high = (double)from_float_key(~box[3 + i]);
         f->grid.lower[i] = f->grid.cell * floor(low / f->grid.cell);
@@ -292,7 +292,7 @@ static hair_report_row row_of(struct fixture* f, const char* work)
     hair_report_row rows[64] = {{0}};
     hair_report_info info = hair_report_info_default();
     uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, 1, &info, rows, sizeof *rows, 64, &count));
+    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
     for (uint32_t i = 0; i < count; ++i)
         if (strcmp(rows[i].stage, work) == 0) return rows[i];
     fail_msg("there is no row %s", work);
@@ -312,7 +312,7 @@ static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
     f.light[1].position[1] = 1;
     draw(&f);
     assert_int_equal(row_of(&f, "self_shadow").runs, 6); // The grid does not change.
-    look.self_shadow = HAIR_SELF_SHADOW_DEPTH;
+    look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     draw(&f);
@@ -331,7 +331,7 @@ static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
     hair_lod lod = hair_lod_default();
     double area[2] = {0};
     uint32_t lit = 0;
-    lod.per_patch = 0;
+    lod.per_patch = false;
     lod.strand_fraction = 0.25f;
     for (int i = 0; i < 2; ++i) {
         f.view.lod = i ? &lod : NULL;

@@ -23,8 +23,8 @@ static struct fixture start(void** state)
     struct fixture f = {.test = *state};
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    look.radius = 0.004f;
-    look.shading = HAIR_SHADING_LINES;
+    look.strand.radius = 0.004f;
+    look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
     f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
@@ -300,8 +300,8 @@ static void roots_have_the_uvs_and_texture_of_the_scalp(void** state)
     groom.scalp_uvs = uvs;
     hair_look look = hair_look_default();
     hair_desc desc = hair_desc_default();
-    look.radius = 0.004f, look.tip_stray_fraction = look.stray_fraction = 0, look.color_spread = 0;
-    look.interpolation = HAIR_INTERPOLATION_MULTI;
+    look.strand.radius = 0.004f, look.strays.tip_fraction = look.strays.fraction = 0, look.color.spread = 0;
+    look.clump.interpolation = HAIR_INTERPOLATION_MULTI;
     desc.look = &look;
     hair_test_ok(f.test, hair_groom_create(&groom, &f.groom));
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));

@@ -53,7 +53,7 @@ static void check_haircut(struct hair_test* test, hair_style style, hair_solver 
     physics.damping = damping;
     desc.physics = &physics;
     desc.solver = solver;
-    desc.diagnose = 1;
+    desc.diagnose = true;
     hair_groom* groom = hair_test_haircut(test, &of, 0);
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     if (collides) add_box(test, hair);
@@ -126,7 +126,7 @@ static void energy_equals_the_reference(void** state)
         double h = 1.0 / 960;
         uint32_t count;
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, h, &physics);
-        desc.diagnose = 1;
+        desc.diagnose = true;
         hair_test_live(*state, &strands, &desc, &living);
         struct hair_reference_rod* rod = hair_test_reference(&living, 0, NULL);
         for (int n = 0; n < 80; ++n) {
@@ -159,7 +159,7 @@ static void too_stiff_guide_is_softened_and_counted(void** state)
             hair_test_straight(64, hair_v3(0, 0, 0), hair_v3(0, 1, 0), stiff ? 0.01f : 0.3f);
         struct hair_test_living living;
         hair_physics physics = hair_test_bare();
-        physics.stiffness_root = physics.stiffness_tip = stiff ? 1e4f : 1;
+        physics.shape.stiffness_root = physics.shape.stiffness_tip = stiff ? 1e4f : 1;
         hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
         hair_test_live(*state, &strands, &desc, &living);
         hair_solver_stats solver_stats = ask(*state, living.hair);

@@ -90,7 +90,7 @@ static hair_result create_context(struct fixture* f)
     hair_context_desc desc = hair_context_desc_default();
     desc.host = &f->host.host;
     desc.get_proc = hair_egl_get_proc;
-    desc.timings = 1;
+    desc.timings = true;
     desc.gl_state = f->promise;
     return hair_context_create(&desc, &f->context);
 }
@@ -127,9 +127,9 @@ static hair_result set_all(struct fixture* f)
     hair_wind wind = hair_wind_default();
     hair_collider collider = {HAIR_SHAPE_SPHERE, {0}, {0, 0, 0, 1}, {0.1f, 0}, .scale = 1, .friction = 1};
     wind.model = HAIR_WIND_FLUID;
-    wind.resolution = 16;
+    wind.fluid.resolution = 16;
     wind.velocity[0] = 1;
-    look.segments = 100; // Draws in two parts.
+    look.strand.segments = 100; // Draws in two parts.
     physics.damping = 5; // Makes the rods again.
     hair_result result = hair_set_physics(f->hair, &physics);
     if (!result) result = hair_set_look(f->hair, &look);
@@ -200,7 +200,7 @@ static hair_result read_all(struct fixture* f)
 static hair_result prepare(struct fixture* f)
 {
     hair_view view = hair_view_default();
-    uint32_t ready = 0;
+    bool ready = false;
     view.render_path = HAIR_RENDER_PATH_CACHED;
     return hair_precompile(f->hair, &view, &ready);
 }

@@ -78,7 +78,7 @@ static void finish(struct fixture* f)
 static hair_look even_look(void)
 {
     hair_look look = hair_look_default();
-    look.color_spread = 0;
+    look.color.spread = 0;
     return look;
 }
 
@@ -86,8 +86,8 @@ static void colors_blend_from_root_to_tip_times_the_tint(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
-    look.tint_red.at[4] = 3;
-    look.tint_blue = hair_curve_line(0, 40.0f / 7);
+    look.color.tint_red.at[4] = 3;
+    look.color.tint_blue = hair_curve_line(0, 40.0f / 7);
     for (int i = 0; i <= 14; ++i) {
         float t = (float)i / 14;
         const struct strand* strand = look_at(&f, &look, t);
@@ -95,22 +95,22 @@ static void colors_blend_from_root_to_tip_times_the_tint(void** state)
             double at[2];
             for (int end = 0; end < 2; ++end) { // The ends are two of the curve's eight points.
                 int n = i / 2 + (i % 2 ? end : 0);
-                double way = n / 7.0, factor = k == 0   ? look.tint_red.at[n]
-                                               : k == 2 ? look.tint_blue.at[n]
+                double way = n / 7.0, factor = k == 0   ? look.color.tint_red.at[n]
+                                               : k == 2 ? look.color.tint_blue.at[n]
                                                         : 1;
-                double mixed = look.root_color[k] + way * (look.tip_color[k] - look.root_color[k]);
+                double mixed = look.color.root[k] + way * (look.color.tip[k] - look.color.root[k]);
                 at[end] = fmin(factor * mixed, 1);
             }
             hair_test_near("colour", (size_t)(3 * i + k), (double)strand[i].color[k], 0.5 * (at[0] + at[1]),
                            1e-5);
         }
     }
-    look.root_darkening = 0.75f, look.root_darkening_length = 0.5f;
-    double shaded = (double)look_at(&f, &look, 0)[0].color[1], whole = (double)look.root_color[1];
+    look.color.root_darkening = 0.75f, look.color.root_darkening_length = 0.5f;
+    double shaded = (double)look_at(&f, &look, 0)[0].color[1], whole = (double)look.color.root[1];
     hair_test_near("at the root", 0, shaded, 0.25 * whole, 1e-6);
     double half = (double)look_at(&f, &look, 0.25f)[0].color[1],
            beyond = (double)look_at(&f, &look, 0.5f)[0].color[1];
-    look.root_darkening = 0;
+    look.color.root_darkening = 0;
     hair_test_near("half way", 0, half / (double)look_at(&f, &look, 0.25f)[0].color[1], 0.625, 1e-5);
     hair_test_near("beyond", 0, beyond, (double)look_at(&f, &look, 0.5f)[0].color[1], 1e-7);
     finish(&f);
@@ -120,9 +120,9 @@ static void streak_fraction_is_the_fraction_of_streaks(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
-    look.streaks = 0.3f;
+    look.color.streaks = 0.3f;
     for (int locks = 0; locks < 2; ++locks) {
-        look.streak_clumping = (float)locks;
+        look.color.streak_clumping = (float)locks;
         const struct strand* strand = look_at(&f, &look, 0.5f);
         double sum = 0, mixed = 0;
         for (uint32_t i = 0; i < STRANDS; i += 16) {
@@ -131,7 +131,7 @@ static void streak_fraction_is_the_fraction_of_streaks(void** state)
                 int is = strand[k].streak > 0;
                 of_lock += (uint32_t)is;
                 for (int c = 0; c < 3; ++c)
-                    assert_true(is == (fabsf(strand[k].color[c] - look.streak_color[c]) < 1e-6f));
+                    assert_true(is == (fabsf(strand[k].color[c] - look.color.streak_color[c]) < 1e-6f));
             }
             sum += of_lock;
             mixed += of_lock > 0 && of_lock < 16;
@@ -150,13 +150,13 @@ static void spread_of_strand_colors_has_the_set_width(void** state)
 {
     struct fixture f = start(state);
     hair_look look = even_look();
-    look.color_spread = 0.4f;
-    look.hue_spread = 0;
-    look.roughness_spread = 0.5f;
-    look.sparkle = 0.8f;
+    look.color.spread = 0.4f;
+    look.color.hue_spread = 0;
+    look.shading.roughness_spread = 0.5f;
+    look.shading.sparkle = 0.8f;
     double min[4] = {9, 9, 9, 9}, max[4] = {0}, mean[4] = {0};
     const struct strand* strand = look_at(&f, &look, 0.37f);
-    double green = (double)(look.root_color[1] + 0.37f * (look.tip_color[1] - look.root_color[1]));
+    double green = (double)(look.color.root[1] + 0.37f * (look.color.tip[1] - look.color.root[1]));
     for (uint32_t i = 0; i < STRANDS; ++i) {
         double found[4] = {(double)strand[i].color[1] / green, sqrt((double)strand[i].variance),
                            (double)strand[i].tilt, (double)strand[i].sparkle};
@@ -172,11 +172,11 @@ static void spread_of_strand_colors_has_the_set_width(void** state)
         hair_test_near("most", k, max[k], 1 + by[k], 0.02);
         hair_test_near("mean", k, mean[k], 1, 0.01);
     }
-    look.hue_spread = 1, look.color_spread = 0;
+    look.color.hue_spread = 1, look.color.spread = 0;
     strand = look_at(&f, &look, 1);
     for (uint32_t i = 0; i < STRANDS; ++i) {
-        double red = (double)(strand[i].color[0] / look.tip_color[0]),
-               blue = (double)(strand[i].color[2] / look.tip_color[2]);
+        double red = (double)(strand[i].color[0] / look.color.tip[0]),
+               blue = (double)(strand[i].color[2] / look.color.tip[2]);
         hair_test_near("red and blue", i, red + blue, 2, 1e-5);
         assert_true(red >= 0 && blue >= 0);
     }
@@ -192,14 +192,18 @@ static void wet_hair_is_darker_smoother_and_clumped(void** state)
     wet.wetness = 1;
     hair_look_apply_wetness(&wet);
     for (int k = 0; k < 3; ++k)
-        assert_true(wet.root_color[k] < dry.root_color[k] && wet.tip_color[k] < dry.tip_color[k]);
+        assert_true(wet.color.root[k] < dry.color.root[k] && wet.color.tip[k] < dry.color.tip[k]);
     for (int i = 1; i < 8; ++i)
-        assert_true(wet.clump.at[i] > dry.clump.at[i] && wet.clump_width.at[i] < dry.clump_width.at[i]);
-    assert_true(wet.roughness[0] < dry.roughness[0] && wet.stray_fraction < dry.stray_fraction);
+        assert_true(wet.clump.weight.at[i] > dry.clump.weight.at[i] &&
+                    wet.clump.width.at[i] < dry.clump.width.at[i]);
+    assert_true(wet.shading.roughness[0] < dry.shading.roughness[0] &&
+                wet.strays.fraction < dry.strays.fraction);
     hair_look steep = dry;
-    steep.wetness = 1, steep.gloss[0] = 1000, steep.specular[0] = 4, steep.roughness[0] = 0.05f;
+    steep.wetness = 1, steep.shading.gloss[0] = 1000, steep.shading.specular[0] = 4,
+    steep.shading.roughness[0] = 0.05f;
     hair_look_apply_wetness(&steep);
-    assert_true(steep.gloss[0] <= 1000 && steep.specular[0] <= 4 && steep.roughness[0] >= 0.05f);
+    assert_true(steep.shading.gloss[0] <= 1000 && steep.shading.specular[0] <= 4 &&
+                steep.shading.roughness[0] >= 0.05f);
 }
 
 int main(void)

@@ -90,7 +90,7 @@ static void motion_in_fluid_wind_is_equal_at_any_frame_rate(void** state)
         struct hair_test_living living;
         begin(*state, HAIR_SOLVER_DIRECT, &living);
         hair_wind wind = blowing(4, HAIR_WIND_FLUID);
-        wind.resolution = 16;
+        wind.fluid.resolution = 16;
         hair_test_wind_coupling(&living, &wind);
         for (int i = 0; i < rates[k] / 5; ++i) hair_test_advance(&living, NULL, 1.0 / rates[k]);
         hair_test_read_guides(&living);
@@ -106,7 +106,7 @@ static void fluid_wind_costs_nothing_when_off(void** state)
     struct hair_test_living living;
     begin(*state, HAIR_SOLVER_DIRECT, &living);
     hair_wind wind = blowing(3, HAIR_WIND_FLUID), none = blowing(0, HAIR_WIND_FLUID);
-    none.resolution = wind.resolution = 16;
+    none.fluid.resolution = wind.fluid.resolution = 16;
     hair_test_wait(&living, 1);
     size_t bytes = living.test->host.live;
     uint32_t before = runs(&living);
@@ -142,9 +142,9 @@ static void hair_stays_finite_in_any_wind(void** state)
     for (int i = 0; i < 24; ++i) {
         hair_wind wind = blowing(i % 4 == 1 ? 1000 : -5, i % 3 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT);
         wind.velocity[1] = i % 5 == 2 ? -1000 : 0;
-        wind.resolution = i % 7 ? 16 : 32;
-        wind.projection = i % 6 ? HAIR_PROJECTION_MULTIGRID : HAIR_PROJECTION_JACOBI;
-        wind.projection_iterations = i % 6 ? 0 : 1;
+        wind.fluid.resolution = i % 7 ? 16 : 32;
+        wind.fluid.projection = i % 6 ? HAIR_PROJECTION_MULTIGRID : HAIR_PROJECTION_JACOBI;
+        wind.fluid.projection_iterations = i % 6 ? 0 : 1;
         hair_test_wind_coupling(&living, i % 2 ? &wind : NULL);
         hair_test_advance(&living, NULL, i % 3 == 0 ? 0.1 : i % 3 == 1 ? 1e-4 : 1.0 / 60);
         hair_test_read_guides(&living);
@@ -153,7 +153,7 @@ static void hair_stays_finite_in_any_wind(void** state)
     hair_wind wind = blowing(NAN, HAIR_WIND_FLUID);
     hair_test_refused(living.test, hair_set_wind(living.hair, &wind), HAIR_ERROR_ARGUMENT, "velocity[0]");
     wind = blowing(2, HAIR_WIND_FLUID);
-    wind.resolution = 16;
+    wind.fluid.resolution = 16;
     hair_test_wind_coupling(&living, &wind);
     hair_test_wait(&living, 60);
     hair_test_read_guides(&living);
@@ -171,7 +171,7 @@ static void saved_fluid_wind_continues_bit_for_bit(void** state)
     begin(*state, HAIR_SOLVER_DIRECT, &living);
     begin(*state, HAIR_SOLVER_DIRECT, &other);
     hair_wind wind = blowing(4, HAIR_WIND_FLUID);
-    wind.resolution = 16;
+    wind.fluid.resolution = 16;
     hair_test_wind_coupling(&living, &wind);
     hair_test_wind_coupling(&other, &wind);
     for (int i = 0; i < 7; ++i) hair_test_advance(&living, NULL, 0.011);
@@ -192,7 +192,7 @@ static void saved_fluid_wind_continues_bit_for_bit(void** state)
     assert_memory_equal(living.positions, straight, sizeof straight);
     assert_memory_equal(other.positions, straight, sizeof straight);
     // With another resolution, or without wind, the fluid starts with the ambient wind.
-    wind.resolution = 32;
+    wind.fluid.resolution = 32;
     for (int i = 0; i < 2; ++i) {
         hair_test_wind_coupling(&other, i ? NULL : &wind);
         hair_test_ok(other.test, hair_load(other.hair, bytes, size));

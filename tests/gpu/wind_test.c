@@ -34,7 +34,7 @@ static void wind_carries_a_free_strand_like_the_reference(void** state)
     static const hair_vec3 ways[] = {{1, 0, 0}, {1, 0, 1}};
     hair_physics physics = hair_test_bare();
     physics.gravity[1] = 0, physics.damping = 0, physics.drag = 1;
-    physics.fiber_radius = 4e-5f;
+    physics.fiber.radius = 4e-5f;
     physics.root = HAIR_ROOT_FREE;
     for (int k = 0; k < 6; ++k)
         for (int solver = 0; solver < 2; ++solver) {
@@ -67,7 +67,7 @@ static void wind_deflects_a_strand_like_the_reference(void** state)
     for (int k = 0; k < 4; ++k)
         for (int solver = 0; solver < 2; ++solver) {
             hair_physics physics = hair_test_bare();
-            physics.damping = 6, physics.drag = cases[k].drag, physics.fiber_radius = 4e-5f;
+            physics.damping = 6, physics.drag = cases[k].drag, physics.fiber.radius = 4e-5f;
             hair_wind wind = blowing(0.8f * cases[k].speed, 0, 0.6f * cases[k].speed);
             struct hair_test_living living =
                 straight(*state, 16, hair_v3(0.1f, -1, 0), &physics, (hair_solver)solver);
@@ -91,10 +91,10 @@ static void wind_deflects_a_strand_like_the_reference(void** state)
 // Return the rate of the law across a hair that moves at `speed`, in 1/s.
 static double rate_of_law(const hair_physics* physics, const hair_wind* wind, double speed)
 {
-    double diameter = 2 * (double)physics->fiber_radius, density = (double)wind->density;
+    double diameter = 2 * (double)physics->fiber.radius, density = (double)wind->density;
     double reynolds = speed * diameter * density / (double)wind->viscosity;
     double force = hair_reference_drag_across(reynolds) * density * diameter / 2 * speed;
-    return (double)physics->drag * force / ((double)physics->fiber_density * PI * diameter * diameter / 4);
+    return (double)physics->drag * force / ((double)physics->fiber.density * PI * diameter * diameter / 4);
 }
 
 // Return the terminal speed of a level hair, on which the greater of damping and the law acts.
@@ -119,7 +119,7 @@ static void still_air_slows_a_falling_strand_by_the_drag_law(void** state)
             hair_physics physics = hair_physics_default();
             hair_wind wind = hair_wind_default();
             physics.root = HAIR_ROOT_FREE,
-            physics.gravity_preload = physics.shape_frequency_root = physics.shape_frequency_tip = 0;
+            physics.shape.gravity_preload = physics.shape.frequency_root = physics.shape.frequency_tip = 0;
             physics.damping = cases[k].damping, physics.drag = cases[k].drag;
             wind.still_air = cases[k].still_air;
             struct hair_test_living living =

@@ -114,7 +114,7 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
     const place first = find(samples + size_t(guide[0]) * count, count, u);
     const double length = ratio * first.length;
     const bezier offset = evaluate(own.offset, v);
-    const along width = hair_reference_curve(look->clump_width, v);
+    const along width = hair_reference_curve(look->clump.width, v);
     const along single = hair_reference_singleness(*look, v);
 
     // One guide contributes its offset. Three guides contribute their mean, with a fixed offset
@@ -142,5 +142,6 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
                            ratio * first.bend.dot(turned) * first.tangent;
     store(position + Vector3d(r.away), out->position);
     store(direction_of(slope + Vector3d(r.away_slope)), out->tangent);
-    out->radius = double(look->radius) * own.offset[0].w * hair_reference_curve(look->taper, v).value;
+    out->radius =
+        double(look->strand.radius) * own.offset[0].w * hair_reference_curve(look->strand.taper, v).value;
 }

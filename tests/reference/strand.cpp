@@ -97,15 +97,15 @@ along turn(const float* values, double turns)
 
 astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
-    const double spread = look.curl_spread * (2 * high(seed + 2) - 1);
-    const double turns = (length / look.curl_wavelength + look.curl_turns) / (1 + spread);
-    const double phase = look.curl_guide_phase * low(guide) + look.curl_strand_phase * low(seed + 2);
-    const double hand = high(guide) < double(look.curl_left_fraction) ? -1 : 1;
-    const double flat = 1 - double(look.curl_flatness), at = t * turns + phase;
+    const double spread = look.curl.spread * (2 * high(seed + 2) - 1);
+    const double turns = (length / look.curl.wavelength + look.curl.turns) / (1 + spread);
+    const double phase = look.curl.guide_phase * low(guide) + look.curl.strand_phase * low(seed + 2);
+    const double hand = high(guide) < double(look.curl.left_fraction) ? -1 : 1;
+    const double flat = 1 - double(look.curl.flatness), at = t * turns + phase;
     along x, z;
-    if (look.curl_shape == HAIR_CURL_SHAPE_EXAMPLE) {
-        x = turn(look.curl_profile_x, at);
-        z = turn(look.curl_profile_z, at);
+    if (look.curl.shape == HAIR_CURL_SHAPE_EXAMPLE) {
+        x = turn(look.curl.profile_x, at);
+        z = turn(look.curl.profile_z, at);
     } else {
         const double angle = 6.283185307179586 * at;
         x = {std::cos(angle), -6.283185307179586 * std::sin(angle)};
@@ -113,7 +113,7 @@ astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, doub
     }
     const astray around = {Vector3d(x.value, 0, hand * flat * z.value),
                            turns * Vector3d(x.slope, 0, hand * flat * z.slope)};
-    return times(around, look.curl_radius * (1 + spread), hair_reference_curve(look.curl_profile, t));
+    return times(around, look.curl.radius * (1 + spread), hair_reference_curve(look.curl.profile, t));
 }
 
 } // namespace
@@ -134,25 +134,25 @@ along hair_reference_curve(const hair_curve& curve, double t)
 
 along hair_reference_singleness(const hair_look& look, double t)
 {
-    if (look.interpolation == HAIR_INTERPOLATION_SINGLE) return {1, 0};
-    if (look.interpolation == HAIR_INTERPOLATION_MULTI) return {0, 0};
-    return hair_reference_curve(look.clump, t);
+    if (look.clump.interpolation == HAIR_INTERPOLATION_SINGLE) return {1, 0};
+    if (look.clump.interpolation == HAIR_INTERPOLATION_MULTI) return {0, 0};
+    return hair_reference_curve(look.clump.weight, t);
 }
 
 double hair_reference_fraction(const hair_look& look, uint32_t seed)
 {
-    return look.length * (1 - look.length_variation * ((hash(seed + 3) >> 8) / 16777216.0));
+    return look.strand.length * (1 - look.strand.length_variation * ((hash(seed + 3) >> 8) / 16777216.0));
 }
 
 astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
-    const along by_tip = hair_reference_curve(look.tip_stray_distance, t),
-                by = hair_reference_curve(look.stray_distance, t);
-    const bool tip = low(seed + 1) < double(look.tip_stray_fraction),
-               whole = high(seed + 1) < double(look.stray_fraction);
+    const along by_tip = hair_reference_curve(look.strays.tip_distance, t),
+                by = hair_reference_curve(look.strays.distance, t);
+    const bool tip = low(seed + 1) < double(look.strays.tip_fraction),
+               whole = high(seed + 1) < double(look.strays.fraction);
     const along stray = {tip * by_tip.value + whole * by.value, tip * by_tip.slope + whole * by.slope};
     astray all = times(wander(seed + 16, t, 6), length, stray);
-    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.frizz_wavelength), 1,
-                         hair_reference_curve(look.frizz, t)));
+    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.strays.frizz_wavelength), 1,
+                         hair_reference_curve(look.strays.frizz, t)));
     return sum(all, curl(look, guide, seed, t, length));
 }

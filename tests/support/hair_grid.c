@@ -21,9 +21,9 @@ hair_physics hair_test_only_hair_grid(float cohesion, float volume)
     hair_physics physics = hair_test_bare();
     memset(physics.gravity, 0, sizeof physics.gravity);
     physics.damping = 0;
-    physics.youngs_modulus = 0;
-    physics.cohesion = cohesion;
-    physics.pressure_stiffness = volume;
+    physics.fiber.youngs_modulus = 0;
+    physics.hair_hair.cohesion = cohesion;
+    physics.hair_hair.pressure_stiffness = volume;
     return physics;
 }
 

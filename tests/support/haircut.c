@@ -24,8 +24,8 @@ hair_instance* hair_test_wear(struct hair_test* test, hair_style style, uint32_t
     hair_look look = hair_look_default();
     hair_instance* hair = NULL;
     of.style = style;
-    look.radius = radius;
-    look.segments = 24;
+    look.strand.radius = radius;
+    look.strand.segments = 24;
     desc.look = &look;
     *groom = hair_test_haircut(test, &of, followers);
     hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));

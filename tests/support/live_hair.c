@@ -212,14 +212,14 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
     double total = 0, so_far = 0;
     for (uint32_t i = 0; i + 1 < count; ++i) total += (double)rest[i].position.w;
     for (uint32_t i = 0; i < count; ++i) {
-        double root = (double)physics->stiffness_root, pull = (double)physics->shape_frequency_root;
+        double root = (double)physics->shape.stiffness_root, pull = (double)physics->shape.frequency_root;
         out->positions[3 * i] = (double)rest[i].position.x;
         out->positions[3 * i + 1] = (double)rest[i].position.y;
         out->positions[3 * i + 2] = (double)rest[i].position.z;
         out->lengths[i] = (double)rest[i].position.w;
-        out->scale[i] = root + so_far / total * ((double)physics->stiffness_tip - root);
+        out->scale[i] = root + so_far / total * ((double)physics->shape.stiffness_tip - root);
         out->pull[i] = 6.283185307179586 *
-                       (pull + (double)i / (count - 1) * ((double)physics->shape_frequency_tip - pull));
+                       (pull + (double)i / (count - 1) * ((double)physics->shape.frequency_tip - pull));
         so_far += (double)rest[i].position.w;
     }
 }
@@ -227,24 +227,25 @@ static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair
 // Fill in the material, with the mass of a metre of hair as the unit of mass, as in lib/rod/rod.h.
 static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
 {
-    double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
-    double bend = (double)physics->youngs_modulus * radius * radius / (4 * (double)physics->fiber_density);
+    double radius = (double)physics->fiber.radius, flat = (double)physics->fiber.flatness;
+    double bend =
+        (double)physics->fiber.youngs_modulus * radius * radius / (4 * (double)physics->fiber.density);
     out->line_density = 1;
     out->tip_mass = (double)physics->tip_mass * length;
     out->bend[0] = bend * flat;
     out->bend[1] = bend / flat;
-    out->twist = bend * 2 / ((1 + (double)physics->poisson_ratio) * (flat + 1 / flat));
+    out->twist = bend * 2 / ((1 + (double)physics->fiber.poisson_ratio) * (flat + 1 / flat));
     out->damping = (double)physics->damping;
     for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
 }
 
 static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct hair_reference_rod_desc* out)
 {
-    double radius = (double)physics->fiber_radius;
+    double radius = (double)physics->fiber.radius;
     for (int k = 0; k < 3; ++k) out->wind[k] = (double)wind->velocity[k];
     if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0 && !wind->still_air)
         return;
-    out->drag = (double)physics->drag / ((double)physics->fiber_density * 3.14159265358979 * radius * radius);
+    out->drag = (double)physics->drag / ((double)physics->fiber.density * 3.14159265358979 * radius * radius);
     out->diameter = 2 * radius;
     out->air = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
 }
@@ -264,13 +265,13 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
     desc.positions = arrays->positions;
     desc.lengths = arrays->lengths;
     desc.scale = arrays->scale;
-    if (physics->shape_frequency_root > 0 || physics->shape_frequency_tip > 0) desc.pull = arrays->pull;
+    if (physics->shape.frequency_root > 0 || physics->shape.frequency_tip > 0) desc.pull = arrays->pull;
     desc.root = (enum hair_reference_rod_root)physics->root;
     desc.root_frame[0] = (double)frame.x, desc.root_frame[1] = (double)frame.y;
     desc.root_frame[2] = (double)frame.z, desc.root_frame[3] = (double)frame.w;
     if (head) desc.head = *head;
     desc.rest_strain = arrays->strain;
-    if (physics->gravity_preload > 0) {
+    if (physics->shape.gravity_preload > 0) {
         assert_true(hair_reference_rod_hold(&desc, arrays->strain, arrays->real));
         desc.rest_real = arrays->real;
     } else
@@ -278,7 +279,7 @@ struct hair_reference_rod* hair_test_reference(const struct hair_test_living* li
     double max = 0;
     for (uint32_t i = 0; i < 3 * (of->count - 1); ++i) max = fmax(max, fabs(arrays->strain[i]));
     // The mixed scheme solves straight guides with the energy of curved ones.
-    desc.straight = max < 2e-5 && physics->flatness == 1 && !hair_sim_is_mixed(&living->hair->sim);
+    desc.straight = max < 2e-5 && physics->fiber.flatness == 1 && !hair_sim_is_mixed(&living->hair->sim);
     struct hair_reference_rod* rod = hair_reference_rod_create(&desc);
     free(arrays);
     assert_non_null(rod);
@@ -311,20 +312,20 @@ struct hair_reference_rod_pose hair_test_pose_of(hair_vec3 position, hair_vec3 a
 hair_physics hair_test_bare(void)
 {
     hair_physics physics = hair_physics_default();
-    physics.youngs_modulus = 3e9f;
-    physics.fiber_radius = 5e-5f;
+    physics.fiber.youngs_modulus = 3e9f;
+    physics.fiber.radius = 5e-5f;
     physics.damping = 1;
-    physics.gravity_preload = 0;
-    physics.shape_frequency_root = physics.shape_frequency_tip = physics.sleep_threshold = 0;
+    physics.shape.gravity_preload = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = physics.sleep_threshold = 0;
     return physics;
 }
 
 hair_physics hair_test_loose(float friction)
 {
     hair_physics physics = hair_physics_default();
-    physics.gravity_preload = 0;
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.friction = friction;
+    physics.shape.gravity_preload = 0;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.collision.friction = friction;
     return physics;
 }
 

@@ -35,7 +35,7 @@ hair_instance* hair_test_subject_make(struct hair_test* test, const struct hair_
     hair_groom* groom = hair_test_groom(&test->host.host, subject->groom);
     hair_desc desc = subject->desc;
     hair_look look = hair_look_default();
-    look.segments = 8;
+    look.strand.segments = 8;
     desc.physics = &subject->physics;
     desc.look = &look;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
@@ -62,7 +62,7 @@ void hair_test_set(struct hair_test* test, hair_instance* hair, const struct hai
                    uint32_t i)
 {
     hair_physics physics = subject->physics;
-    if (subject->hardens && i / 6 % 2) physics.youngs_modulus *= 5, physics.damping += 1;
+    if (subject->hardens && i / 6 % 2) physics.fiber.youngs_modulus *= 5, physics.damping += 1;
     hair_test_ok(test, hair_set_physics(hair, &physics));
 }
 

@@ -56,15 +56,15 @@ struct hair_test_rod* hair_test_rod_make(void)
 {
     struct hair_test_rod* f = calloc(1, sizeof *f);
     f->physics = hair_physics_default();
-    f->physics.youngs_modulus = 3e9f;
-    f->physics.fiber_radius = 5e-5f;
+    f->physics.fiber.youngs_modulus = 3e9f;
+    f->physics.fiber.radius = 5e-5f;
     return f;
 }
 
 double hair_test_rod_bend(const hair_physics* p)
 {
-    double r = (double)p->fiber_radius;
-    return (double)p->youngs_modulus * r * r / (4 * (double)p->fiber_density);
+    double r = (double)p->fiber.radius;
+    return (double)p->fiber.youngs_modulus * r * r / (4 * (double)p->fiber.density);
 }
 
 void hair_test_rod_hold(struct hair_test_rod* f)

@@ -20,9 +20,9 @@ static const struct table {
 };
 #define TABLES (sizeof tables / sizeof *tables)
 
-// A member of a struct, as declared in its header.
+// A member of a struct, as declared in its header. The name has that of its group: "curl.radius".
 struct member {
-    char owner[40], type[40], name[40];
+    char owner[40], type[40], name[80];
     char comment[256];
 };
 
@@ -65,17 +65,32 @@ static void read_member(const char* line, const char* owner)
     members[member_count++] = member;
 }
 
+// Put the name of a group, which follows its members, before the names of its members.
+static void close_group(const char* text, size_t first)
+{
+    for (size_t i = first; i < member_count; ++i) {
+        char name[40];
+        snprintf(name, sizeof name, "%.39s", members[i].name);
+        snprintf(members[i].name, sizeof members[i].name, "%.*s.%s", (int)strcspn(text, ";"), text, name);
+    }
+}
+
 static int read_members(void** state)
 {
     (void)state;
     char owner[40] = "";
+    size_t group = 0; // first member of the current group
     read_headers();
     for (char* line = headers; *line; line += strcspn(line, "\n") + 1) {
         char text[512];
         snprintf(text, sizeof text, "%.*s", (int)strcspn(line, "\n"), line);
         if (sscanf(text, "typedef struct %39s {", owner) == 1 && strchr(text, '{')) continue;
         if (*text == '}') *owner = 0;
-        if (*owner && *text == ' ') read_member(text, owner);
+        if (strcmp(text, "    struct {") == 0) group = member_count;
+        if (strncmp(text, "    } ", 6) == 0)
+            close_group(text + 6, group);
+        else if (*owner && *text == ' ')
+            read_member(text, owner);
         if (line[strcspn(line, "\n")] == 0) break;
     }
     return 0;
@@ -120,10 +135,11 @@ static int count_enumerators(const char* type)
     return count;
 }
 
-// Read a value such as "3", "1/120" or "HAIR_UP_Y".
+// Read a value such as "3", "1/120", "true" or "HAIR_UP_Y".
 static double read_value(const char* at)
 {
     char* end;
+    if (strncmp(at, "true", 4) == 0) return 1;
     if (strncmp(at, "HAIR_", 5) == 0)
         return find_enumerator(at, strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
     double value = strtod(at, &end);
@@ -131,10 +147,13 @@ static double read_value(const char* at)
     return value;
 }
 
-// Read the range "[a, b]" of a comment. Return 0 if there is none.
-static int read_range(const char* comment, double* min, double* max)
+// Read the range "[a, b]" of a member's comment. Return 0 if there is none. A truth value has the
+// range [0, 1].
+static int read_range(const struct member* member, double* min, double* max)
 {
-    for (const char* at = strchr(comment, '['); at; at = strchr(at + 1, '['))
+    *min = 0, *max = 1;
+    if (strcmp(member->type, "bool") == 0) return 1;
+    for (const char* at = strchr(member->comment, '['); at; at = strchr(at + 1, '['))
         if (sscanf(at, "[%lf, %lf]", min, max) == 2) return 1;
     return 0;
 }
@@ -170,27 +189,28 @@ static void check(const char* field, const char* what, double said, double held)
         fail_msg("%s: the header says %s %.9g, the table has %.9g", field, what, said, held);
 }
 
-// Return the name that a header declares: taper for "taper.at[0]", and bend for "redblack.bend".
-static const char* declared_name(const char* name)
+// Return the length of the name that a header declares: that of curl.profile in
+// "curl.profile.at[0]", and that of shading.gloss in "shading.gloss[1]".
+static size_t declared_length(const char* name)
 {
-    const char* dot = strchr(name, '.');
-    return dot && strncmp(dot, ".at[", 4) ? dot + 1 : name;
+    const char* curve = strstr(name, ".at[");
+    return curve ? (size_t)(curve - name) : strcspn(name, "[");
 }
 
 static void check_field(const char* owner, const struct hair_field* field)
 {
-    char name[40];
-    snprintf(name, sizeof name, "%s", declared_name(strchr(field->name, '.') + 1));
-    char* bracket = strchr(name, '[');
+    char name[48];
+    const char* path = strchr(field->name, '.') + 1;
+    const char* bracket = strchr(path, '[');
     int index = bracket ? atoi(bracket + 1) : 0;
-    name[strcspn(name, "[.")] = 0; // Numbers of a curve are members of a member.
+    snprintf(name, sizeof name, "%.*s", (int)declared_length(path), path);
     const struct member* member = find_member(owner, name);
     if (!member) fail_msg("%s is in no header", field->name);
 
     double min, max, value;
     int enumerators = count_enumerators(member->type);
     int everything = field->max > 1e30 || (field->min == 0 && field->max == UINT32_MAX);
-    if (read_range(member->comment, &min, &max)) {
+    if (read_range(member, &min, &max)) {
         check(field->name, "least", min, field->min);
         check(field->name, "most", max, field->max);
     } else if (enumerators) {
@@ -225,9 +245,9 @@ static int has_field(const struct member* member)
         if (strcmp(tables[t].name, member->owner)) continue;
         struct hair_schema fields = tables[t].fields();
         for (uint32_t i = 0; i < fields.count; ++i) {
-            const char* name = declared_name(strchr(fields.field[i].name, '.') + 1);
-            if (strncmp(name, member->name, strlen(member->name)) == 0 &&
-                strchr("[.", name[strlen(member->name)]))
+            const char* name = strchr(fields.field[i].name, '.') + 1;
+            if (declared_length(name) == strlen(member->name) &&
+                strncmp(name, member->name, strlen(member->name)) == 0)
                 return 1;
         }
     }
@@ -251,7 +271,7 @@ static void header_ranges_are_in_the_schema(void** state)
         double min, max;
         if (!has_table(member->owner) || strcmp(member->type, "const") == 0)
             continue; // Other tests check arrays.
-        int range = read_range(member->comment, &min, &max);
+        int range = read_range(member, &min, &max);
         if (!range && count_enumerators(member->type) == 0) continue;
         ++ranges;
         if (!has_field(member)) fail_msg("%s.%s is in no table", member->owner, member->name);
@@ -283,9 +303,10 @@ static void schema_fields_do_not_overlap(void** state)
         struct hair_schema fields = tables[t].fields();
         for (uint32_t i = 0; i < fields.count; ++i) {
             assert_true(fields.field[i].offset >= sizeof(hair_struct_header) &&
-                        fields.field[i].offset + 4 <= fields.size);
+                        fields.field[i].offset + hair_schema_size(fields.field[i].type) <= fields.size);
             for (uint32_t k = 0; k < i; ++k)
-                assert_true(fields.field[k].offset + 4 <= fields.field[i].offset);
+                assert_true(fields.field[k].offset + hair_schema_size(fields.field[k].type) <=
+                            fields.field[i].offset);
         }
     }
 }

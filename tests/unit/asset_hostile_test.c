@@ -37,7 +37,7 @@ static const struct {
 static bool survives(const void* bytes, size_t size)
 {
     hair_import imports[3] = {hair_test_import(), hair_test_import(), hair_test_import()};
-    imports[1].tip_first = 1;
+    imports[1].tip_first = true;
     imports[1].up = HAIR_UP_X;
     imports[1].strand_vertices = 8;
     imports[2].scale = 1e6f;

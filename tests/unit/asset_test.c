@@ -260,7 +260,7 @@ static void import_options_are_applied(void** state)
     hair_import import = hair_test_import();
     import.scale = 0.01f;
     import.up = HAIR_UP_Z;
-    import.tip_first = 1;
+    import.tip_first = true;
     import.strand_vertices = 16;
     import.keep_fraction = 0.34f;
     hair_asset* asset = read_with(&import, hair_test_tfx3());

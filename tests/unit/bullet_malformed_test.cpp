@@ -135,7 +135,7 @@ static void degenerate_triangles_are_left_out(void**)
     assert_int_equal(take(shape), HAIR_OK);
     hair_collision_mesh_info info = hair_collision_mesh_info_default();
     hair_collision_mesh_describe(colliders(1)[0].mesh, &info);
-    assert_int_equal(info.closed, 1);
+    assert_true(info.is_closed);
     assert_int_equal(info.unused, 1000);
     btTriangleMesh points;
     for (int i = 0; i < 1000; ++i) points.addTriangle(a, b, i % 2 ? b : a);

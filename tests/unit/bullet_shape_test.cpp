@@ -108,7 +108,7 @@ static double voxel_of(const hair_collider& collider)
 {
     hair_collision_mesh_info info = hair_collision_mesh_info_default();
     assert_int_equal(hair_collision_mesh_describe(collider.mesh, &info), HAIR_OK);
-    assert_int_equal(info.closed, 1);
+    assert_true(info.is_closed);
     return static_cast<double>(info.voxel_size * collider.scale);
 }
 

@@ -17,8 +17,9 @@
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
 // Black hair, so that only skin is visible.
 #define BLACK                                                                                                \
-    "--set shading=lines --set root_color.r=0 --set tip_color.r=0 --set specular.white=0 --set streaks=0 "   \
-    "--set radius=0.0005 --set lod=off"
+    "--set shading.model=lines --set color.root.r=0 --set color.tip.r=0 --set shading.specular.white=0 "     \
+    "--set color.streaks=0 "                                                                                 \
+    "--set strand.radius=0.0005 --set lod=off"
 #define WIDTH 96
 #define HEIGHT 72
 

@@ -62,10 +62,10 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set preset=dry", "not one of: natural, fine, thick, wet, frizzy"},
         {"-o $D/a.png --set look=dry", "not one of: natural, straight, wavy, curly, coily, frizzy, short"},
         {"-o $D/a.png --set color=plaid", "not one of: brown, dark_brown, black, blond,"},
-        {"-o $D/a.png --set taper=1,,2",
+        {"-o $D/a.png --set strand.taper=1,,2",
          "taper is 1,,2, not one to eight finite numbers with commas between"},
-        {"-o $D/a.png --set clump=1,2,3,4,5,6,7,8,9", "not one to eight finite numbers"},
-        {"-o $D/a.png --set clump=0,2", "hair_look.clump.at[4] is 1.14"},
+        {"-o $D/a.png --set clump.weight=1,2,3,4,5,6,7,8,9", "not one to eight finite numbers"},
+        {"-o $D/a.png --set clump.weight=0,2", "hair_look.clump.weight.at[4] is 1.14"},
         {"-o $D/a.png --set fit_curl=$D/none.hair", "none.hair"},
         {"-o $D/a.png --set wind.x=1001", "hair_wind.velocity[0] is 1001"},
         {"-o $D/a.png --set substep=1e-6", "hair_desc.substep is 1e-06"},
@@ -76,10 +76,12 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set damping=", "damping is empty"},
         {"-o $D/a.png --set damping=nan", "not a finite number"},
         {"-o $D/a.png --set damping=1e999", "not a finite number"},
+        {"-o $D/a.png --set wind.still_air=2", "wind.still_air is 2, not one of: off, on"},
+        {"-o $D/a.png --set lod.per_patch=", "lod.per_patch is empty, not one of: off, on"},
         {"-o $D/a.png --set redblack.iterations=1.5", "not a whole number"},
         {"-o $D/a.png --set redblack.iterations=-1", "not a whole number"},
         {"-o $D/a.png --set damping=-1", "hair_physics.damping is -1"},
-        {"-o $D/a.png --set segments=257", "hair_look.segments"},
+        {"-o $D/a.png --set strand.segments=257", "hair_look.strand.segments"},
         {"-o $D/a.png --keep-fraction 2 --groom $D/x.hair", "hair_import.keep_fraction"},
         {"-o $D/a.png --guides 99999", "guide_count"},
         {"-o $D/a.png --groom a --style bob", "too many"},
@@ -104,7 +106,7 @@ static void wrong_use_exits_with_2(void** state)
 static void help_and_version_are_printed_on_the_standard_output(void** state)
 {
     (void)state;
-    expect(0, "$T --help 2>/dev/null", "gravity.y                    -9.81");
+    expect(0, "$T --help 2>/dev/null", "gravity.y                        -9.81");
     assert_non_null(strstr(hair_test_said, "Scenes: demo"));
     expect(0, "$T --version 2>/dev/null", "hair-capture 0.");
     hair_test_shell_expect_full("--help");
@@ -243,7 +245,7 @@ static void hashes_of_different_captures_differ(void** state)
     // The look does not change the strands.
     expect(0,
            "$T --hash --frames 2:4 " SMALL
-           " --set root_color.r=0.9 >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
+           " --set color.root.r=0.9 >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
            "3\n");
 }
 
@@ -285,7 +287,7 @@ static void wind_of_a_scene_moves_hair_and_can_be_shown(void** state)
 {
     (void)state;
     static const char* const winds[] = {"\"velocity\": [4, 0, 0]",
-                                        "\"velocity\": [4, 0, 0], \"turbulence_intensity\": 0.5",
+                                        "\"velocity\": [4, 0, 0], \"turbulence.intensity\": 0.5",
                                         "\"sources\": [{\"position\": [0.3, 1.6, 0], \"speed\": 9}]"};
     for (int i = 0; i < 3; ++i) {
         char command[512];
@@ -465,14 +467,15 @@ static void scene_files_and_options_are_equivalent(void** state)
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}, \"light\": {\"color\": [2, 2, 2]},"
         " \"settings\": {\"followers\": 300, \"gravity.y\": -5, \"primitive\": \"lines\", \"solver\": "
         "\"follow\","
-        " \"preset\": \"wet\", \"youngs_modulus\": 1e9, \"root\": \"hinged\", \"wind.z\": 2}}' >$D/s.json",
+        " \"preset\": \"wet\", \"fiber.youngs_modulus\": 1e9, \"root\": \"hinged\", \"wind.z\": 2}}' "
+        ">$D/s.json",
         "");
     expect(
         0,
         "$T $D/s.json --hash >$D/1 && echo '{\"style\": \"bob\", \"motion\": \"turn\", \"frames\": 2,"
         " \"camera\": {\"eye\": [0, 1.6, 1.2], \"target\": [0, 1.5, 0]}}' >$D/t.json && $T $D/t.json --hash"
         " --size 64x36 --fps 20 --followers 300 --set gravity.y=-5 --primitive lines --solver follow"
-        " --set preset=wet --set youngs_modulus=1e9 --set root=hinged --set wind.z=2 --set light.r=2"
+        " --set preset=wet --set fiber.youngs_modulus=1e9 --set root=hinged --set wind.z=2 --set light.r=2"
         " --set light.g=2 --set light.b=2 >$D/2 && cmp $D/1 $D/2",
         "");
 }

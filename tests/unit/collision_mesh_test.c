@@ -84,7 +84,7 @@ static void distance_to_a_box_mesh_equals_a_box(void** state)
     const float size[3] = {0.3f, 0.2f, 0.11f};
     struct hair_test_mesh mesh = hair_test_box_mesh(size);
     hair_collision_mesh* collision_mesh = mesh_of(&mesh, 48);
-    assert_int_equal(collision_mesh->info.closed, 1);
+    assert_true(collision_mesh->info.is_closed);
     compare("box", collision_mesh, HAIR_SHAPE_BOX, size, 1e-3);
     hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
@@ -97,7 +97,7 @@ static void distance_to_a_ball_mesh_equals_a_sphere(void** state)
     const float size[3] = {0.1f, 0, 0};
     struct hair_test_mesh mesh = hair_test_ball_mesh(0.1f, 64, 128);
     hair_collision_mesh* collision_mesh = mesh_of(&mesh, 40);
-    assert_int_equal(collision_mesh->info.closed, 1);
+    assert_true(collision_mesh->info.is_closed);
     double sag = 0.1 * (1 - cos(3.14159265 / 64)) / (double)collision_mesh->voxel;
     compare("ball", collision_mesh, HAIR_SHAPE_SPHERE, size, 1.1 * sag + 1e-3);
     hair_collision_mesh_destroy(collision_mesh);
@@ -134,7 +134,7 @@ static void triangle_soup_is_closed_by_equal_positions(void** state)
         memcpy(soup.positions + 3 * i, mesh.positions + 3 * mesh.triangles[i], 3 * sizeof(float));
     }
     hair_collision_mesh* collision_mesh = mesh_of(&soup, 16);
-    assert_int_equal(collision_mesh->info.closed, 1);
+    assert_true(collision_mesh->info.is_closed);
     compare("soup", collision_mesh, HAIR_SHAPE_BOX, size, 1e-3);
     hair_collision_mesh_destroy(collision_mesh);
     hair_test_mesh_free(&mesh);
@@ -153,7 +153,7 @@ static void an_open_mesh_is_a_shell_and_the_log_warns(void** state)
     hair_collision_mesh* collision_mesh = NULL;
     assert_int_equal(hair_collision_mesh_create(&desc, &collision_mesh), HAIR_OK);
     assert_int_equal(test.warnings, 1);
-    assert_int_equal(collision_mesh->info.closed, 0);
+    assert_false(collision_mesh->info.is_closed);
     const double in[3] = {0, 0, 0}, wall[3] = {0, 0.1, 0}, near[3] = {0, 0.12, 0};
     hair_test_near("centre", 0, hair_distance_to_mesh(collision_mesh, in, NULL), 0.1 - 0.015, 1e-3);
     hair_test_near("wall", 0, hair_distance_to_mesh(collision_mesh, wall, NULL), -0.015, 2e-3);
@@ -172,7 +172,7 @@ static void hollow_of_a_mesh_is_outside(void** state)
     hair_test_mesh_append(&mesh, &inner, 1);
     hair_collision_mesh* collision_mesh = mesh_of(&mesh, 32);
     const double middle[3] = {0, 0, 0}, wall[3] = {0.075, 0, 0}, out[3] = {0.2, 0, 0};
-    assert_int_equal(collision_mesh->info.closed, 1);
+    assert_true(collision_mesh->info.is_closed);
     hair_test_near("middle", 0, hair_distance_to_mesh(collision_mesh, middle, NULL), 0.05, 2e-3);
     hair_test_near("wall", 0, hair_distance_to_mesh(collision_mesh, wall, NULL), -0.025, 2e-3);
     hair_test_near("out", 0, hair_distance_to_mesh(collision_mesh, out, NULL), 0.1, 2e-3);

@@ -11,15 +11,17 @@ struct sample {
     hair_struct_header header;
     float fraction;
     uint32_t count;
+    bool is_on;
     float newer; // Not in the struct of an older caller.
 };
 
 static const struct hair_field rows[] = {
     {"sample.fraction", offsetof(struct sample, fraction), HAIR_SCHEMA_FLOAT, 0.3, 0.1, 0.9},
     {"sample.count", offsetof(struct sample, count), HAIR_SCHEMA_UINT, 5, 2, 4000000000.0},
+    {"sample.is_on", offsetof(struct sample, is_on), HAIR_SCHEMA_BOOL, 1, 0, 1},
     {"sample.newer", offsetof(struct sample, newer), HAIR_SCHEMA_FLOAT, -1, -2, 0},
 };
-static const struct hair_schema fields = {rows, 3, sizeof(struct sample)};
+static const struct hair_schema fields = {rows, 4, sizeof(struct sample)};
 
 static struct hair_test_host test;
 
@@ -49,6 +51,7 @@ static void defaults_equal_the_schema(void** state)
     struct sample sample = defaults();
     assert_true(sample.fraction == 0.3f);
     assert_int_equal(sample.count, 5);
+    assert_true(sample.is_on);
     assert_true(sample.newer == -1);
     assert_int_equal(sample.header.size, sizeof sample);
     assert_int_equal(sample.header.version, HAIR_VERSION);
@@ -126,16 +129,42 @@ static void number_outside_its_range_is_named_with_the_range(void** state)
     assert_string_equal(test.sentence, "sample is NULL");
 }
 
+static void truth_value_of_another_byte_is_refused(void** state)
+{
+    (void)state;
+    struct sample sample = defaults(), own;
+    for (int byte = 0; byte < 256; ++byte) {
+        *((unsigned char*)&sample + offsetof(struct sample, is_on)) = (unsigned char)byte;
+        assert_int_equal(take(&sample, &own), byte < 2 ? HAIR_OK : HAIR_ERROR_ARGUMENT);
+        if (byte < 2) assert_int_equal(own.is_on, byte);
+    }
+    assert_string_equal(test.sentence, "sample.is_on is 255, not in [0, 1]");
+}
+
+static void copies_of_equal_descs_are_equal_bytes(void** state)
+{
+    (void)state;
+    struct sample sample = defaults(), own[2];
+    take(&sample, &own[0]);
+    memset((unsigned char*)&sample + offsetof(struct sample, is_on) + 1, 0xff,
+           offsetof(struct sample, newer) - offsetof(struct sample, is_on) - 1);
+    take(&sample, &own[1]);
+    assert_memory_equal(&own[0], &own[1], sizeof *own);
+}
+
 static void desc_without_a_header_is_refused(void** state)
 {
     (void)state;
-    struct sample zero = {{0, 0}, 0.5f, 5, 0}, own;
+    struct sample zero = {{0, 0}, 0.5f, 5, true, 0}, own;
     assert_int_equal(take(&zero, &own), HAIR_ERROR_VERSION);
     assert_string_equal(test.sentence, "sample.header is (0, 0), not from sample_default()");
     struct sample other = defaults();
     other.header.version = HAIR_VERSION + 10000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
     assert_non_null(strstr(test.sentence, "of another major version"));
+    other.header.version = 199; // Structs of 0.1 have another layout.
+    assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
+    assert_string_equal(test.sentence, "sample.header.version is 199, older than 200");
     other = defaults();
     other.header.size = 5000;
     assert_int_equal(take(&other, &own), HAIR_ERROR_VERSION);
@@ -160,6 +189,8 @@ int main(void)
         TEST(members_of_a_newer_caller_are_not_read),
         TEST(ends_of_a_range_are_accepted),
         TEST(number_outside_its_range_is_named_with_the_range),
+        TEST(truth_value_of_another_byte_is_refused),
+        TEST(copies_of_equal_descs_are_equal_bytes),
         TEST(desc_without_a_header_is_refused),
         TEST(desc_of_another_minor_version_is_accepted),
     };

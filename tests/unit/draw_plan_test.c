@@ -103,7 +103,7 @@ static void passes_of_plans_make_what_later_passes_read(void** state)
     for (int i = 0; i < 2 * VIEWS; ++i) {
         struct settings s = settings_of(f, i % VIEWS);
         struct hair_draw_plan plan;
-        f->geometry.look.self_shadow = i < VIEWS ? HAIR_SELF_SHADOW_DEPTH : HAIR_SELF_SHADOW_STRANDS;
+        f->geometry.look.self_shadow.method = i < VIEWS ? HAIR_SELF_SHADOW_DEPTH : HAIR_SELF_SHADOW_STRANDS;
         hair_draw_make_plan(&f->renderer, &s.view, s.shader, &plan);
         hair_draw_find_passes(&f->renderer, HAIR_GL_WITH(OCCLUSION) | HAIR_GL_WITH(HITS), &plan);
         bool is_lit = i >= VIEWS && s.view.pass == HAIR_PASS_COLOR;

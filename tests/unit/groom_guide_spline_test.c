@@ -107,8 +107,8 @@ static void compare_guides(const struct fixture* fixture)
 static void compare_followers(const struct fixture* fixture)
 {
     hair_look look = hair_look_default();
-    look.tip_stray_fraction = look.stray_fraction = 0;
-    look.interpolation = HAIR_INTERPOLATION_SINGLE;
+    look.strays.tip_fraction = look.strays.fraction = 0;
+    look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     for (uint32_t i = 0; i < fixture->groom->info.follower_count; ++i)
         for (uint32_t j = 0; j <= 16; ++j) {
             const struct hair_follower* follower = &fixture->groom->followers[i];

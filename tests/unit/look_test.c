@@ -26,23 +26,21 @@ static void shape_and_color_presets_are_independent(void** state)
         kind[i] = hair_look_default();
         hair_look_color(&kind[i], HAIR_COLOR_RED);
         hair_look red = kind[i];
-        kind[i].density = 0.5f;
+        kind[i].followers.density = 0.5f;
         for (int again = 0; again < 2; ++again) // Independent of the previous settings.
             assert_int_equal(
                 hair_look_apply_preset(&kind[i], (hair_look_preset)(again ? i : (i + 1) % HAIR_LOOK_COUNT)),
                 HAIR_OK);
-        assert_memory_equal(kind[i].root_color, red.root_color, sizeof red.root_color);
-        assert_true(kind[i].density == 0.5f && kind[i].color_spread == red.color_spread);
-        for (int k = 0; k < i; ++k)
-            assert_memory_not_equal(&kind[i].taper, &kind[k].taper,
-                                    offsetof(hair_look, absorption) - offsetof(hair_look, taper));
+        assert_memory_equal(kind[i].color.root, red.color.root, sizeof red.color.root);
+        assert_true(kind[i].followers.density == 0.5f && kind[i].color.spread == red.color.spread);
+        for (int k = 0; k < i; ++k) assert_memory_not_equal(&kind[i], &kind[k], sizeof kind[i]);
     }
     for (int i = 0; i < HAIR_COLOR_COUNT; ++i) {
         color[i] = hair_look_default();
-        color[i].curl_radius = 0.01f;
+        color[i].curl.radius = 0.01f;
         assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
         assert_int_equal(hair_look_color(&color[i], (hair_color)i), HAIR_OK);
-        assert_true(color[i].curl_radius == 0.01f);
+        assert_true(color[i].curl.radius == 0.01f);
         for (int k = 0; k < i; ++k) assert_memory_not_equal(&color[i], &color[k], sizeof color[i]);
     }
 }
@@ -79,14 +77,14 @@ static void fit_curl_recognizes_a_helix(void** state)
     hair_look look = hair_look_default();
     make_helix(positions, 200, 0.007, 0.04);
     assert_int_equal(hair_look_fit_curl(&look, positions, 200), HAIR_OK);
-    assert_int_equal(look.curl_shape, HAIR_CURL_SHAPE_EXAMPLE);
-    hair_test_near("radius", 0, look.curl_radius, 0.007, 2e-5);
-    hair_test_near("wavelength", 0, look.curl_wavelength, 0.04, 1e-6);
-    double start = atan2((double)look.curl_profile_z[0], (double)look.curl_profile_x[0]), hand = 0;
+    assert_int_equal(look.curl.shape, HAIR_CURL_SHAPE_EXAMPLE);
+    hair_test_near("radius", 0, look.curl.radius, 0.007, 2e-5);
+    hair_test_near("wavelength", 0, look.curl.wavelength, 0.04, 1e-6);
+    double start = atan2((double)look.curl.profile_z[0], (double)look.curl.profile_x[0]), hand = 0;
     for (int i = 0; i < 16; ++i) {
-        double angle = atan2((double)look.curl_profile_z[i], (double)look.curl_profile_x[i]) - start;
+        double angle = atan2((double)look.curl.profile_z[i], (double)look.curl.profile_x[i]) - start;
         if (i == 1) hand = sin(angle) > 0 ? 1 : -1;
-        hair_test_near("radius", i, hypot((double)look.curl_profile_x[i], (double)look.curl_profile_z[i]), 1,
+        hair_test_near("radius", i, hypot((double)look.curl.profile_x[i], (double)look.curl.profile_z[i]), 1,
                        0.003);
         hair_test_near("angle", i, cos(hand * angle - 6.283185307179586 * i / 16), 1, 1e-4);
     }
@@ -116,7 +114,7 @@ static void fit_curl_refuses_invalid_examples(void** state)
     // The strand is straight. It has no curl, and the result is finite.
     make_helix(positions, 30, 0, 0.04);
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_OK);
-    assert_true(look.curl_radius < 1e-6f);
+    assert_true(look.curl.radius < 1e-6f);
     // The strand has no length.
     for (int i = 0; i < 30; ++i) memcpy(positions + 3 * i, positions, 12);
     assert_int_equal(hair_look_fit_curl(&look, positions, 30), HAIR_ERROR_ARGUMENT);
@@ -184,7 +182,7 @@ static void tangents_are_derivatives_of_positions(void** state)
         for (int mode = 0; mode <= HAIR_INTERPOLATION_MULTI; ++mode) {
             hair_look look = hair_look_default();
             assert_int_equal(hair_look_apply_preset(&look, (hair_look_preset)kind), HAIR_OK);
-            look.interpolation = (hair_interpolation)mode;
+            look.clump.interpolation = (hair_interpolation)mode;
             double straight = worst_tangent(look, 0, 1e-6), bent = worst_tangent(look, 10, 1e-6);
             print_message("    %s %d: %.2g rad, with bent guides %.2g\n",
                           hair_look_name((hair_look_preset)kind), mode, straight, bent);

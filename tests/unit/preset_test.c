@@ -44,7 +44,7 @@ static void invalid_presets_and_physics_are_refused(void** state)
     hair_physics physics = hair_physics_default();
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_COUNT), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_physics_preset(NULL, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
-    physics.youngs_modulus = -1;
+    physics.fiber.youngs_modulus = -1;
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_ARGUMENT);
     memset(&physics, 0, sizeof physics); // The default function did not make these.
     assert_int_equal(hair_physics_preset(&physics, HAIR_PRESET_FINE), HAIR_ERROR_VERSION);

@@ -366,9 +366,9 @@ static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
 static hair_look plain_look(float radius)
 {
     hair_look look = hair_look_default();
-    look.radius = radius;
-    look.tip_stray_fraction = look.stray_fraction = 0;
-    look.clump = hair_curve_line(0, 0);
+    look.strand.radius = radius;
+    look.strays.tip_fraction = look.strays.fraction = 0;
+    look.clump.weight = hair_curve_line(0, 0);
     return look;
 }
 
@@ -382,7 +382,7 @@ static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
     struct hair_reference_point point;
     f.params.smooth_vertices = 7;
     hair_look look = plain_look(0.5f);
-    look.taper = hair_curve_line(1, 0.5f);
+    look.strand.taper = hair_curve_line(1, 0.5f);
     hair_reference_smooth(whole(&f), f.state, samples);
     struct hair_follower follower = {.length_ratio = 1,
                                      .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
@@ -415,7 +415,7 @@ static void a_follower_between_guides_is_their_mean(void** state)
     follower.offset[0].w = 1;
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
     near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
-    look.clump = hair_curve_line(0, 1);
+    look.clump.weight = hair_curve_line(0, 1);
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
     near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
     hair_reference_follower(&follower, &look, 7, samples, 0, NULL, &point);

@@ -33,7 +33,7 @@ struct held {
 static void hold(const struct hair_test_rod* f, const double* stiffen, double load, struct held* h)
 {
     h->shape = shape_of(f);
-    h->gravity = hair_dscale(hair_dload(f->physics.gravity), load * (double)f->physics.gravity_preload);
+    h->gravity = hair_dscale(hair_dload(f->physics.gravity), load * (double)f->physics.shape.gravity_preload);
     for (uint32_t i = 0; i < h->shape.count; ++i) h->shape.bend[i] *= stiffen[i];
     hair_rod_pose_at(&h->shape, h->shape.frame, &h->pose);
     hair_rod_load(&h->shape, load, &h->pose);
@@ -90,9 +90,9 @@ static void make_groom(struct hair_test_rod* f, int kind)
         hair_test_rod_straight(f, 12, sizes[kind], kind == 0 ? PI / 2 : PI);
     else
         hair_test_rod_curl(f, 12, sizes[kind]);
-    if (kind == 3) f->physics.flatness = 0.4f;
-    if (kind == 4) f->physics.stiffness_root = 2, f->physics.stiffness_tip = 0.3f;
-    if (kind == 5) f->physics.tip_mass = 0.2f, f->physics.gravity_preload = 0.6f;
+    if (kind == 3) f->physics.fiber.flatness = 0.4f;
+    if (kind == 4) f->physics.shape.stiffness_root = 2, f->physics.shape.stiffness_tip = 0.3f;
+    if (kind == 5) f->physics.tip_mass = 0.2f, f->physics.shape.gravity_preload = 0.6f;
 }
 
 static void multiply(double* out, double by)
@@ -243,8 +243,8 @@ static void guide_is_stiffened_until_its_groom_is_stable(void** state)
     for (int pulled = 0; pulled < 2; ++pulled)
         for (int kind = 0; kind < GROOMS; ++kind) {
             make_groom(f, kind);
-            f->physics.shape_frequency_root = pulled ? 1.5f : 0;
-            f->physics.shape_frequency_tip = pulled ? 0.5f : 0;
+            f->physics.shape.frequency_root = pulled ? 1.5f : 0;
+            f->physics.shape.frequency_tip = pulled ? 0.5f : 0;
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
             double mean = 0;
             for (uint32_t i = 0; i < 11; ++i) mean += f->borne[i].stiffen / 11;
@@ -274,7 +274,7 @@ static void straight_grooms_buckle_at_the_lengths_of_the_continuous_rod(void** s
     struct hair_test_rod* f = hair_test_rod_make();
     struct held* h = calloc(1, sizeof *h);
     double stiffen[MAX];
-    f->physics.shape_frequency_root = f->physics.shape_frequency_tip = 0;
+    f->physics.shape.frequency_root = f->physics.shape.frequency_tip = 0;
     for (int i = 0; i < 5; ++i)
         for (int side = -1; side < 2; side += 2) {
             double length = 0.3, gamma = 9.81 * pow(length, 3) / hair_test_rod_bend(&f->physics);
@@ -318,7 +318,7 @@ static void rest_strain_differs_from_the_groom_by_at_most_1(void** state)
     hair_test_near("of few segments", 0, max_strain(f), 0.985, 0.015);
     free(h);
     // A thread, for which no multiple is sufficient.
-    f->physics.youngs_modulus = 1;
+    f->physics.fiber.youngs_modulus = 1;
     hair_test_rod_straight(f, 32, 0.3, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.stiffened, 1);
@@ -326,8 +326,8 @@ static void rest_strain_differs_from_the_groom_by_at_most_1(void** state)
     assert_true(max_strain(f) < 1 + 1e-6);
     // Hair without stiffness is neither expected to hold nor stiffened.
     for (int k = 0; k < 2; ++k) {
-        f->physics.youngs_modulus = k == 0 ? 0 : 4e9f;
-        f->physics.stiffness_root = k == 0 ? 1 : 0;
+        f->physics.fiber.youngs_modulus = k == 0 ? 0 : 4e9f;
+        f->physics.shape.stiffness_root = k == 0 ? 1 : 0;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
         assert_int_equal(f->report.stiffened, 0);
         assert_true(f->report.stiffest == 1 && f->rod[0].strain.w == 0 && fabsf(f->rod[0].strain.z) < 1e-6f);

@@ -18,7 +18,7 @@ static void build(const struct hair_test_rod* f, double b, double a[][MAX])
 {
     uint32_t n = f->guide.count;
     int fixed = f->physics.root != HAIR_ROOT_FREE;
-    double ratio = 1 / (double)f->physics.flatness;
+    double ratio = 1 / (double)f->physics.fiber.flatness;
     for (uint32_t i = 0; i < n; ++i)
         for (uint32_t j = 0; j < n; ++j) a[i][j] = 0;
     for (uint32_t i = 0; i + 1 < n; ++i) {
@@ -57,7 +57,7 @@ static void factors_are_those_of_the_implicit_systems(void** state)
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     double(*a)[MAX] = calloc(MAX, sizeof *a);
-    f->physics.flatness = 0.5f;
+    f->physics.fiber.flatness = 0.5f;
     f->physics.damping = 100;
     f->physics.tip_mass = 0.1f;
     static const uint32_t lengths[] = {2, 3, 20};
@@ -132,7 +132,7 @@ static void leave_out(hair_root root)
     static const uint32_t lengths[] = {2, 3, 20, 32, 65, 256};
     static const double steps[] = {1.0 / 120, 1.0 / 240, 1.0 / 480, 1.0 / 960};
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.gravity_preload = 0;
+    f->physics.shape.gravity_preload = 0;
     f->physics.root = root;
     for (int k = 0; k < 6; ++k) {
         uint32_t n = lengths[k], rounds[4], all = hair_rods_rounds(n) - 1;
@@ -200,8 +200,8 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     double(*a)[MAX] = calloc(MAX, sizeof *a);
-    f->physics.gravity_preload = f->physics.damping = f->physics.shape_frequency_root =
-        f->physics.shape_frequency_tip = 0;
+    f->physics.shape.gravity_preload = f->physics.damping = f->physics.shape.frequency_root =
+        f->physics.shape.frequency_tip = 0;
     for (uint32_t count = 4; count <= 100; count += 8) {
         hair_test_rod_straight(f, count, 0.3, PI / 2);
         double h = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE),
@@ -226,7 +226,7 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     // A strand stiffened by gravity preload needs an even shorter substep.
     hair_test_rod_straight(f, 40, 0.3, PI / 2);
     double before = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
-    f->physics.gravity_preload = 1;
+    f->physics.shape.gravity_preload = 1;
     assert_true(hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE) < before / 1.7);
     hair_test_near("direct", 0, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
     hair_test_near("follow", 0, hair_test_rod_substep(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
@@ -257,10 +257,10 @@ static void solve(const struct hair_test_rod* f, float* x)
 // Make a straight strand of the maximum stiffness, without other forces.
 static void make_stiff(struct hair_test_rod* f, hair_root root, uint32_t count, double length)
 {
-    f->physics.damping = f->physics.shape_frequency_root = f->physics.shape_frequency_tip =
-        f->physics.gravity_preload = 0;
+    f->physics.damping = f->physics.shape.frequency_root = f->physics.shape.frequency_tip =
+        f->physics.shape.gravity_preload = 0;
     f->physics.root = root;
-    f->physics.youngs_modulus = 1e12f;
+    f->physics.fiber.youngs_modulus = 1e12f;
     hair_test_rod_straight(f, count, length, PI / 2);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
 }
@@ -334,7 +334,7 @@ static void strand_with_a_heavy_tip_has_added_inertia(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.gravity_preload = 0;
+    f->physics.shape.gravity_preload = 0;
     hair_test_rod_straight(f, 32, 0.31, PI / 2);
     for (int k = 0; k < 4; ++k) {
         const float masses[] = {0, 10, 100, 1000};

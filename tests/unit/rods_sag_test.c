@@ -113,8 +113,8 @@ static void built_in_haircuts_rest_as_groomed_or_as_reported(void** state)
             hair_physics physics = hair_physics_default();
             compare(hair_style_name((hair_style)style), groom, &physics);
             if (vertices == 32) {
-                physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-                physics.flatness = 0.6f;
+                physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+                physics.fiber.flatness = 0.6f;
                 physics.tip_mass = 0.1f;
                 compare("without pull, flat, with tips", groom, &physics);
             }
@@ -127,7 +127,7 @@ static void too_long_upright_strand_leans(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.shape_frequency_root = f->physics.shape_frequency_tip = 0;
+    f->physics.shape.frequency_root = f->physics.shape.frequency_tip = 0;
     for (int k = 0; k < 2; ++k) {
         hair_test_rod_straight(f, 32, k ? 0.3 : 0.21, PI);
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);

@@ -20,7 +20,7 @@ static void guide_without_preload_rests_in_the_groomed_strain(void** state)
     hair_reference_rod_strain(20, p, root, strain);
     for (int k = 0; k < 4; ++k) {
         f->physics = hair_physics_default();
-        f->physics.gravity_preload = k == 0 ? 0 : 1;
+        f->physics.shape.gravity_preload = k == 0 ? 0 : 1;
         f->physics.gravity[1] = k == 1 ? 0 : -9.81f;
         f->physics.root = k == 2 ? HAIR_ROOT_HINGED : k == 3 ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
         hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);

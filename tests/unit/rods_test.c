@@ -48,8 +48,8 @@ static void shape_frequency_is_linear_from_root_to_tip(void** state)
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
     hair_test_rod_straight(f, 5, 0.1, 0);
-    f->physics.shape_frequency_root = 5;
-    f->physics.shape_frequency_tip = 1;
+    f->physics.shape.frequency_root = 5;
+    f->physics.shape.frequency_tip = 1;
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     for (uint32_t i = 0; i < 5; ++i)
         hair_test_near("pull", i, (double)f->rod[i].segment.z, pow(2 * PI * (5 - i), 2), 1e-4);
@@ -65,14 +65,14 @@ static void stiffness_ratios_are_those_of_an_ellipse(void** state)
     hair_physics p = hair_physics_default();
     double ratio[3];
     for (int i = 1; i <= 10; ++i) {
-        p.flatness = 0.1f * (float)i;
-        double a = 1 / sqrt((double)p.flatness), b = 1 / a;
+        p.fiber.flatness = 0.1f * (float)i;
+        double a = 1 / sqrt((double)p.fiber.flatness), b = 1 / a;
         hair_rods_ratios(&p, ratio);
         hair_test_near("about x", i, ratio[0], a * b * b * b, 1e-12);
         hair_test_near("about z", i, ratio[2], a * a * a * b, 1e-12);
-        hair_test_near("twist", i, ratio[1],
-                       4 * a * a * a * b * b * b / (a * a + b * b) / (2 * (1 + (double)p.poisson_ratio)),
-                       1e-12);
+        hair_test_near(
+            "twist", i, ratio[1],
+            4 * a * a * a * b * b * b / (a * a + b * b) / (2 * (1 + (double)p.fiber.poisson_ratio)), 1e-12);
     }
     hair_test_near("of hair", 0, ratio[1], 0.68966, 1e-5);
 }
@@ -81,9 +81,9 @@ static void stiffness_is_per_length_and_tapers(void** state)
 {
     (void)state;
     struct hair_test_rod* f = hair_test_rod_make();
-    f->physics.stiffness_root = 2;
-    f->physics.stiffness_tip = 0.5f;
-    f->physics.gravity_preload = 0;
+    f->physics.shape.stiffness_root = 2;
+    f->physics.shape.stiffness_tip = 0.5f;
+    f->physics.shape.gravity_preload = 0;
     hair_test_rod_curl(f, 12, 0.01);
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, STEP);
     double bend = hair_test_rod_bend(&f->physics), so_far = 0, weight = 0;
@@ -119,19 +119,19 @@ static void rods_of_any_settings_are_finite(void** state)
     uint32_t random = 7;
     for (int run = 0; run < 3000; ++run) {
         hair_physics* p = &f->physics;
-        p->youngs_modulus = within(&random, 0, 1e12);
-        p->poisson_ratio = within(&random, 0, 0.5);
-        p->fiber_radius = within(&random, 1e-6, 1e-3);
-        p->fiber_density = within(&random, 1, 1e5);
-        p->flatness = within(&random, 0.03, 1);
-        p->stiffness_root = within(&random, 0, 1e4);
-        p->stiffness_tip = within(&random, 0, 1e4);
-        p->gravity_preload = within(&random, 0, 1);
+        p->fiber.youngs_modulus = within(&random, 0, 1e12);
+        p->fiber.poisson_ratio = within(&random, 0, 0.5);
+        p->fiber.radius = within(&random, 1e-6, 1e-3);
+        p->fiber.density = within(&random, 1, 1e5);
+        p->fiber.flatness = within(&random, 0.03, 1);
+        p->shape.stiffness_root = within(&random, 0, 1e4);
+        p->shape.stiffness_tip = within(&random, 0, 1e4);
+        p->shape.gravity_preload = within(&random, 0, 1);
         p->root = (hair_root)(run % 3);
         p->tip_mass = within(&random, 0, 1e4);
         p->damping = within(&random, 0, 1000);
-        p->shape_frequency_root = within(&random, 0, 30);
-        p->shape_frequency_tip = within(&random, 0, 30);
+        p->shape.frequency_root = within(&random, 0, 30);
+        p->shape.frequency_tip = within(&random, 0, 30);
         for (int k = 0; k < 3; ++k)
             p->gravity[k] = within(&random, 0, 1000) * (hair_random(&random) < 0.5f ? -1 : 1);
         float at[3 * MAX] = {0}, size = within(&random, 1e-9, 1e4);
@@ -210,19 +210,19 @@ static void rods_are_rebuilt_only_when_their_numbers_change(void** state)
                    &f->physics.gravity[1],
                    &f->physics.gravity[2],
                    &f->physics.damping,
-                   &f->physics.shape_frequency_root,
-                   &f->physics.shape_frequency_tip,
-                   &f->physics.youngs_modulus,
-                   &f->physics.poisson_ratio,
-                   &f->physics.fiber_radius,
-                   &f->physics.fiber_density,
-                   &f->physics.flatness,
-                   &f->physics.stiffness_root,
-                   &f->physics.stiffness_tip,
-                   &f->physics.gravity_preload,
+                   &f->physics.shape.frequency_root,
+                   &f->physics.shape.frequency_tip,
+                   &f->physics.fiber.youngs_modulus,
+                   &f->physics.fiber.poisson_ratio,
+                   &f->physics.fiber.radius,
+                   &f->physics.fiber.density,
+                   &f->physics.fiber.flatness,
+                   &f->physics.shape.stiffness_root,
+                   &f->physics.shape.stiffness_tip,
+                   &f->physics.shape.gravity_preload,
                    &f->physics.tip_mass};
-    float* out[] = {&f->physics.redblack.angular_hz, &f->physics.redblack.bend, &f->physics.collision_margin,
-                    &f->physics.drag, &f->physics.friction};
+    float* out[] = {&f->physics.redblack.angular_hz, &f->physics.redblack.bend, &f->physics.collision.margin,
+                    &f->physics.drag, &f->physics.collision.friction};
     hair_test_rod_curl(f, 20, 0.01);
     f->physics = d;
     assert_false(hair_rods_differ(&f->physics, &d));

@@ -132,7 +132,7 @@ static void tip_first_strands_are_reversed(void** state)
 {
     (void)state;
     hair_import import = defaults();
-    import.tip_first = 1;
+    import.tip_first = true;
     struct hair_strands strands = make(2, 5);
     clean(&import, &strands);
     for (uint32_t i = 0; i < 10; ++i) {

@@ -298,9 +298,9 @@ static void measure_static(struct bench* bench, hair_solver solver, double lengt
     bench_scene_straight(&scene, 32, length, root, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.youngs_modulus = 4e9f;
-    scene.physics.fiber_radius = 4e-5f;
-    scene.physics.fiber_density = 1300;
+    scene.physics.fiber.youngs_modulus = 4e9f;
+    scene.physics.fiber.radius = 4e-5f;
+    scene.physics.fiber.density = 1300;
     scene.physics.damping = 10;
     if (solver == HAIR_SOLVER_REDBLACK) {
         scene.mapping = HAIR_THREAD_MAPPING_AUTO;

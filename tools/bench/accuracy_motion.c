@@ -26,9 +26,9 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
     out->scene = make_scene(bench, vertices, -BENCH_PI / 6);
     hair_physics* p = &out->scene.physics;
     p->damping = 1;
-    p->youngs_modulus = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
-    p->fiber_radius = 5e-5f;
-    p->fiber_density = 1300;
+    p->fiber.youngs_modulus = 3e9f; // E R^2 / (4 rho) is 1.442308e-3 m^4/s^2.
+    p->fiber.radius = 5e-5f;
+    p->fiber.density = 1300;
     const double up[3] = {0, 1, 0}, none[3] = {0, 0, 0};
     for (uint32_t k = 0; k < out->frames; ++k) {
         double sine = sin(BENCH_PI * (k + 1) * BENCH_MOTION_FRAME);
@@ -84,7 +84,7 @@ void bench_make_swing(const struct bench* bench, uint32_t vertices, struct bench
 {
     *out = (struct bench_motion){.name = "swing", .length = LENGTH, .frames = 24, .runs = 1};
     out->scene = make_scene(bench, vertices, 0);
-    out->scene.physics.youngs_modulus = 0;
+    out->scene.physics.fiber.youngs_modulus = 0;
     out->scene.physics.redblack.bend = 0;
 }
 

@@ -122,7 +122,7 @@ static bool look(struct bench_studio* studio, struct work works[MAX_CATEGORIES],
 {
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[MAX_CATEGORIES];
-    if (hair_report(studio->hair, 1, &info, rows, sizeof *rows, MAX_CATEGORIES, count)) return false;
+    if (hair_report(studio->hair, true, &info, rows, sizeof *rows, MAX_CATEGORIES, count)) return false;
     for (uint32_t i = 0; i < *count && i < MAX_CATEGORIES; ++i) {
         struct work* work = &works[i];
         work->name = rows[i].stage;

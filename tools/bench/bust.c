@@ -62,8 +62,8 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     if (followers) out->scene.settings.groom.follower_count = followers;
     out->look = out->scene.settings.look;
     // Only interpolation and colliders may turn strands.
-    out->look.tip_stray_fraction = out->look.stray_fraction = 0;
-    if (segments) out->look.segments = segments;
+    out->look.strays.tip_fraction = out->look.strays.fraction = 0;
+    if (segments) out->look.strand.segments = segments;
     if (!hair_groom_source_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
         bring_to_life(out, hit_method))
         return true;
@@ -90,15 +90,15 @@ bool bench_bust_step(struct bench_bust* bust)
 
 bool bench_bust_read(struct bench_bust* bust, hair_follower_collision collision, float* followers)
 {
-    uint32_t count = bust->followers * (bust->look.segments + 1), there;
-    bust->look.follower_collision = collision;
+    uint32_t count = bust->followers * (bust->look.strand.segments + 1), there;
+    bust->look.followers.collision = collision;
     return !hair_set_look(bust->hair, &bust->look) &&
            !hair_read_positions(bust->hair, HAIR_READ_FOLLOWERS, followers, count, &there) && there == count;
 }
 
 bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
 {
-    uint32_t count = bust->guides * bust->smooth, there, each = bust->look.segments + 1;
+    uint32_t count = bust->guides * bust->smooth, there, each = bust->look.strand.segments + 1;
     float* all = malloc(3 * sizeof *all * count);
     bool ok = all && !hair_read_positions(bust->hair, HAIR_READ_SMOOTH, all, count, &there) && there == count;
     for (uint32_t i = 0; i < bust->guides * each && ok; ++i) {
@@ -162,7 +162,7 @@ static bool ask_for_frame(struct bench_bust* bust, bool again)
     for (int k = 0; k < 3; ++k) view.projection[5 * k] = 0.01f;
     // Hits are not searched for unchanged hair, therefore alternate the density.
     bust->turn = again ? bust->turn : !bust->turn;
-    look.density = bust->turn ? 1e-6f : 2e-6f;
+    look.followers.density = bust->turn ? 1e-6f : 2e-6f;
     return (again || !hair_set_look(bust->hair, &look)) && !hair_draw(bust->hair, &view);
 }
 
@@ -195,7 +195,7 @@ static int compare(const void* a, const void* b)
 bool bench_bust_time(struct bench_bust* bust, hair_follower_collision collision, double* ms, uint32_t* runs)
 {
     double all[MAX_RUNS], first, second, start = 0, enough = bust->bench->options.quick ? 300 : 3000;
-    bust->look.follower_collision = collision;
+    bust->look.followers.collision = collision;
     *runs = 0;
     if (!warm_up(bust)) return false;
     for (int k = -2; k < MAX_RUNS; ++k) { // The first two runs compile shaders.

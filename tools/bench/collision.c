@@ -77,7 +77,7 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
                            double voxel, bool follows, struct found* found)
 {
     const float *p = frame->before + first, *q = frame->after + first;
-    uint32_t segments = bust->look.segments;
+    uint32_t segments = bust->look.strand.segments;
     double before = 0, after = 0, max = 0, sum = 0;
     bool finite = true;
     for (uint32_t k = 0; k <= segments; ++k) {
@@ -115,13 +115,13 @@ static void look_at_strand(const struct bench_bust* bust, const struct frame* fr
 static bool look_at_frame(struct bench_bust* bust, hair_follower_collision collision, struct frame* frame,
                           double voxel, bool follows, struct found* found)
 {
-    size_t each = 3 * (size_t)(bust->look.segments + 1);
+    size_t each = 3 * (size_t)(bust->look.strand.segments + 1);
     if (!bench_bust_read(bust, HAIR_FOLLOWER_COLLISION_NONE, frame->before)) return false;
     if (!bench_bust_read(bust, collision, frame->after)) return false;
     if (!bench_bust_read_guides(bust, frame->guides)) return false;
     for (size_t i = 0; i < bust->guides; ++i)
         found->turn_of_guides =
-            fmax(found->turn_of_guides, turn_of(frame->guides + each * i, bust->look.segments));
+            fmax(found->turn_of_guides, turn_of(frame->guides + each * i, bust->look.strand.segments));
     for (size_t i = 0; i < bust->followers; ++i) look_at_strand(bust, frame, each * i, voxel, follows, found);
     float* swapped = frame->last_before;
     frame->last_before = frame->before;
@@ -139,7 +139,7 @@ static void add_row(struct bench_bust* bust, hair_follower_collision collision, 
     bench_set_text(row, "case", "shoulders");
     bench_set_text(row, "method", names[collision]);
     bench_set_count(row, "strands", bust->followers);
-    bench_set_count(row, "vertices", bust->look.segments + 1);
+    bench_set_count(row, "vertices", bust->look.strand.segments + 1);
     bench_set_count(row, "frames", frames);
     bench_set_number(row, "voxel", voxel);
     bench_set_count(row, "inside_before", found->inside_before);
@@ -190,9 +190,9 @@ static void measure_shoulders(struct bench* bench, hair_follower_collision colli
         bench_refuse(bench, "shoulders", names[collision]);
         return;
     }
-    size_t size = 3 * sizeof(float) * bust.followers * (bust.look.segments + 1);
+    size_t size = 3 * sizeof(float) * bust.followers * (bust.look.strand.segments + 1);
     struct frame frame = {malloc(size), malloc(size), malloc(size), malloc(size),
-                          malloc(3 * sizeof(float) * bust.guides * (bust.look.segments + 1))};
+                          malloc(3 * sizeof(float) * bust.guides * (bust.look.strand.segments + 1))};
     bool room = frame.before && frame.after && frame.last_before && frame.last_after && frame.guides;
     if (!room || !run_frames(&bust, collision, &frame)) bench_refuse(bench, "shoulders", names[collision]);
     free(frame.before);
@@ -220,7 +220,7 @@ static double measure_first_hit(struct bench* bench, hair_hit_method way, double
         bench_set_text(row, "case", "first hit");
         bench_set_text(row, "method", ways[way]);
         bench_set_count(row, "strands", bust.followers);
-        bench_set_count(row, "vertices", bust.look.segments + 1);
+        bench_set_count(row, "vertices", bust.look.strand.segments + 1);
         bench_set_number(row, "ms", ms);
         bench_set_count(row, "runs", runs);
         if (compute > 0) bench_set_number(row, "ratio", ms / compute);

@@ -64,7 +64,7 @@ void bench_drag(struct bench* bench)
     if (!bench_begin(bench, "drag", "accurate")) return;
     struct bench_scene scene = bench_scene_default();
     struct bench_section section = bench_section_of(&scene.physics);
-    double diameter = 2 * (double)scene.physics.fiber_radius, density = (double)scene.wind.density;
+    double diameter = 2 * (double)scene.physics.fiber.radius, density = (double)scene.wind.density;
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         double re = rows[i].reynolds, speed = re * (double)scene.wind.viscosity / (density * diameter);
         double published = rows[i].published > 0 ? rows[i].published : slow_drag(re), rate;
@@ -92,7 +92,7 @@ void bench_drag(struct bench* bench)
 static double terminal_speed(const struct bench_scene* scene)
 {
     struct bench_section section = bench_section_of(&scene->physics);
-    double diameter = 2 * (double)scene->physics.fiber_radius, density = (double)scene->wind.density;
+    double diameter = 2 * (double)scene->physics.fiber.radius, density = (double)scene->wind.density;
     double low = 0, high = 100;
     for (int i = 0; i < 60; ++i) {
         double speed = (low + high) / 2, re = speed * diameter * density / (double)scene->wind.viscosity;

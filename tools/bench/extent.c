@@ -57,7 +57,7 @@ float bench_extent_texel(const struct bench_studio* studio, const struct hair_ma
 bool bench_extent_fits(const struct bench_studio* studio, const struct hair_matrices* light, uint32_t size)
 {
     const struct bench_shot* shot = &studio->shot;
-    float wide = 2 * shot->look.radius;
+    float wide = 2 * shot->look.strand.radius;
     if (shot->has_lod && !shot->lod.per_patch) wide /= fmaxf(shot->lod.strand_fraction, 1e-3f);
     return shot->map_fits && wide * scale_of(light, 1, size) >= 1;
 }

@@ -90,8 +90,8 @@ static bool make(struct turn* turn)
 static struct bench_shot shot_of(const struct turn* turn, const struct way* way)
 {
     struct bench_shot shot = bench_studio_shot(&turn->studio);
-    shot.look.radius *= turn->studio.fewer;
-    shot.look.self_shadow = way->shadow;
+    shot.look.strand.radius *= turn->studio.fewer;
+    shot.look.self_shadow.method = way->shadow;
     shot.view.coverage = way->coverage;
     shot.view.render_path = HAIR_RENDER_PATH_CACHED;
     shot.samples = way->msaa;

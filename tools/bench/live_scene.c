@@ -259,9 +259,9 @@ void bench_set_material(json_t* row, const struct bench_live_scene* live)
     bench_set_number(row, "substep", live->substep);
     bench_set_number(row, "damping", (double)p->damping);
     if (!rod) return; // redblack has no material
-    bench_set_number(row, "youngs_modulus", (double)p->youngs_modulus);
-    bench_set_number(row, "poisson_ratio", (double)p->poisson_ratio);
-    bench_set_number(row, "fiber_radius", (double)p->fiber_radius);
-    bench_set_number(row, "fiber_density", (double)p->fiber_density);
-    bench_set_number(row, "flatness", (double)p->flatness);
+    bench_set_number(row, "youngs_modulus", (double)p->fiber.youngs_modulus);
+    bench_set_number(row, "poisson_ratio", (double)p->fiber.poisson_ratio);
+    bench_set_number(row, "fiber_radius", (double)p->fiber.radius);
+    bench_set_number(row, "fiber_density", (double)p->fiber.density);
+    bench_set_number(row, "flatness", (double)p->fiber.flatness);
 }

@@ -88,7 +88,7 @@ static bool compare_coverage(struct scene* scene, float fraction, const char* me
               bench_picture_make(scene->studio.size, &thin) && take(&scene->studio, &shot, &full) &&
               bench_picture_cover(&full);
     shot.has_lod = true;
-    shot.lod.per_patch = 0;
+    shot.lod.per_patch = false;
     shot.lod.strand_fraction = fraction;
     ok = ok && take(&scene->studio, &shot, &thin) && bench_picture_compare(&full, &full, &thin, &error);
     if (ok) {

@@ -97,7 +97,7 @@ static const char* drawn_by(struct scene* scene, const struct kind* kind)
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[32];
     uint32_t count = 0;
-    if (hair_report(scene->studio.hair, 1, &info, rows, sizeof *rows, 32, &count)) return "";
+    if (hair_report(scene->studio.hair, true, &info, rows, sizeof *rows, 32, &count)) return "";
     for (uint32_t i = 0; i < count && i < 32; ++i)
         if (!strcmp(rows[i].stage, kind->of_depth ? "depth" : "color") && rows[i].pass) return rows[i].pass;
     return "";

@@ -52,7 +52,7 @@ static bool spin_up(struct body* body, const double axis[3])
 {
     struct bench_live_scene* live = &body->living;
     hair_physics calm = live->scene->physics, pulled = calm;
-    pulled.shape_frequency_root = pulled.shape_frequency_tip = PULL;
+    pulled.shape.frequency_root = pulled.shape.frequency_tip = PULL;
     pulled.damping = DRAG;
     if (hair_set_physics(live->hair, &pulled)) return false;
     for (double time = STEP; time < SECONDS_UP + STEP / 2; time += STEP) {

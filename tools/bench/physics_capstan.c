@@ -53,10 +53,10 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
     scene.physics.root = HAIR_ROOT_FREE;
-    scene.physics.youngs_modulus = 0;
+    scene.physics.fiber.youngs_modulus = 0;
     scene.physics.damping = 4;
-    scene.physics.friction = (float)friction;
-    scene.physics.collision_margin = (float)margin;
+    scene.physics.collision.friction = (float)friction;
+    scene.physics.collision.margin = (float)margin;
     return scene;
 }
 

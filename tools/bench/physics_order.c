@@ -17,8 +17,8 @@ static struct bench_scene make_hair(const struct bench* bench, hair_solver solve
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.youngs_modulus = 3e9f;
-    scene.physics.fiber_radius = 5e-5f;
+    scene.physics.fiber.youngs_modulus = 3e9f;
+    scene.physics.fiber.radius = 5e-5f;
     return scene;
 }
 

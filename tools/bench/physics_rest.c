@@ -44,7 +44,7 @@ static void measure_cantilever(struct bench* bench, hair_solver solver, uint32_t
     bench_scene_straight(&scene, vertices, length, nowhere, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.fiber_radius = 1e-4f;
+    scene.physics.fiber.radius = 1e-4f;
     scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
     if (!bench_live(bench, &scene, &live)) {
@@ -102,7 +102,7 @@ static void measure_arc(struct bench* bench, hair_solver solver, uint32_t vertic
     bench_scene_arc(&scene, vertices, length, degrees(turn), along, across);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.fiber_radius = 1e-4f;
+    scene.physics.fiber.radius = 1e-4f;
     scene.physics.damping = 20;
     bench_scene_set_gamma(&scene, length, gamma);
     snprintf(bench->sentence, sizeof bench->sentence, "the reference does not come to rest");
@@ -164,7 +164,7 @@ static void measure_catenary(struct bench* bench, hair_solver solver, uint32_t v
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
     scene.physics.damping = 6;
-    scene.physics.youngs_modulus = 0;
+    scene.physics.fiber.youngs_modulus = 0;
     scene.physics.root = HAIR_ROOT_HINGED;
     pin.position[0] = (float)(span * length);
     if (!bench_live(bench, &scene, &live)) {
@@ -271,7 +271,7 @@ void bench_bend_twist(struct bench* bench)
             b.leaves = i / 2 % 2 != i % 2;
             bench_scene_arc(&b.scene, 64, length, degrees(b.phi), down, across);
             disturb(&b.scene, length);
-            b.scene.physics.fiber_radius = 1e-4f;
+            b.scene.physics.fiber.radius = 1e-4f;
             b.scene.physics.damping = 10;
             bench_scene_set_gamma(&b.scene, length, b.critical * b.fraction);
             measure_buckling(bench, bench_rod_solvers[s], &b);
@@ -294,15 +294,15 @@ void bench_lateral_buckling(struct bench* bench)
             bench_scene_straight(&b.scene, 64, length, nowhere, along);
             disturb(&b.scene, length);
             hair_physics* p = &b.scene.physics;
-            p->fiber_radius = 1e-4f;
+            p->fiber.radius = 1e-4f;
             p->damping = 10;
-            p->flatness = 0.1f;
-            p->poisson_ratio = 0.43493f;
+            p->fiber.flatness = 0.1f;
+            p->fiber.poisson_ratio = 0.43493f;
             // Stiffness is proportional to Young's modulus.
             struct bench_section section = bench_section_of(p);
             double root = sqrt(section.bend[0] * section.twist);
-            p->youngs_modulus *= (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) /
-                                         (root * critical * b.fraction));
+            p->fiber.youngs_modulus *= (float)(section.line_density * BENCH_GRAVITY * pow(length, 3) /
+                                               (root * critical * b.fraction));
             measure_buckling(bench, bench_rod_solvers[s], &b);
         }
 }

@@ -71,7 +71,7 @@ static void measure(struct bench* bench, const char* name, hair_solver solver, d
     bench_scene_straight(&scene, vertices, LENGTH, root, along);
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.fiber_radius = 1e-4f;
+    scene.physics.fiber.radius = 1e-4f;
     scene.physics.damping = 15;
     bench_scene_set_gamma(&scene, LENGTH, gamma);
     struct hair_reference_rod* rod = bench_reference(&scene);

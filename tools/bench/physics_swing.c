@@ -14,7 +14,7 @@ static struct bench_scene make_chain(const struct bench* bench, hair_solver solv
     struct bench_scene scene = bench_scene_default();
     scene.solver = solver;
     scene.mapping = bench->options.mapping;
-    scene.physics.youngs_modulus = 0;
+    scene.physics.fiber.youngs_modulus = 0;
     scene.physics.root = HAIR_ROOT_HINGED;
     return scene;
 }

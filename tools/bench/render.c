@@ -20,7 +20,7 @@
 #define SIZE 512
 #define SIZE_OF_SOFTWARE 256
 #define STRANDS_OF_SOFTWARE 4500 // the density of 18,000 strands at 1,024 pixels
-#define MAX_RADIUS 0.01f // maximum of hair_look.radius, m
+#define MAX_RADIUS 0.01f // maximum of hair_look.strand.radius, m
 #define MIN_RATIO 5 // minimum ratio of a reported error to that of the reference
 
 static const char* const columns[] = {
@@ -112,13 +112,14 @@ static uint32_t strands_of(const struct bench* bench, const struct subject* subj
 static struct bench_shot shot_of(const struct scene* scene)
 {
     struct bench_shot shot = bench_studio_shot(&scene->studio);
-    shot.look.radius = fminf(shot.look.radius * scene->studio.fewer, MAX_RADIUS);
+    shot.look.strand.radius = fminf(shot.look.strand.radius * scene->studio.fewer, MAX_RADIUS);
     shot.away = scene->subject->away;
     // Compute drawing, which is faster on GPUs, supports no lines.
     shot.map_fits = scene->bench->software;
     if (scene->subject->width > 0) {
-        shot.look.radius = 0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
-        shot.look.taper = hair_curve_line(1, 1);
+        shot.look.strand.radius =
+            0.5f * scene->subject->width / bench_extent_scale(&scene->studio, shot.away);
+        shot.look.strand.taper = hair_curve_line(1, 1);
     }
     return shot;
 }
@@ -128,7 +129,7 @@ static bool find_truth(struct scene* scene)
     struct hair_image_error error;
     struct bench_ground_truth* ground_truth = &scene->truth;
     struct bench_shot shot = shot_of(scene);
-    shot.look.segments = REFERENCE_SEGMENTS;
+    shot.look.strand.segments = REFERENCE_SEGMENTS;
     bool ok =
         bench_ground_truth_create(scene->studio.size, ground_truth) &&
         bench_ground_truth_render(&scene->studio, &shot, REFERENCE_SAMPLES, 0, ground_truth) &&
@@ -181,7 +182,7 @@ static bool add_row(struct scene* scene, const struct setting* setting, const st
     bench_set_count(row, "supersample", side);
     bench_set_count(row, "size", scene->studio.size);
     bench_set_count(row, "strands", scene->studio.info.follower_count);
-    bench_set_number(row, "radius", (double)scene->studio.shot.look.radius);
+    bench_set_number(row, "radius", (double)scene->studio.shot.look.strand.radius);
     bench_set_number(row, "ms", times->ms);
     bench_set_number(row, "ms_min", times->ms_min);
     bench_set_number(row, "ms_max", times->ms_max);
@@ -206,7 +207,7 @@ static bool look(struct scene* scene, const struct setting* setting)
     shot.view.render_path = setting->path->path;
     shot.view.primitive = setting->primitive->primitive;
     shot.view.coverage = setting->primitive->coverage;
-    shot.look.segments = setting->segments;
+    shot.look.strand.segments = setting->segments;
     shot.has_lod = setting->lod->fraction < 1;
     shot.lod.per_patch = setting->lod->fraction > 0 ? 0 : 1;
     if (setting->lod->fraction > 0) shot.lod.strand_fraction = setting->lod->fraction;

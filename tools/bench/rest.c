@@ -22,7 +22,7 @@ bool bench_is_asleep(hair_instance* hair)
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[MAX_ROWS];
     uint32_t count = 0;
-    if (hair_report(hair, 1, &info, rows, sizeof *rows, MAX_ROWS, &count)) return false;
+    if (hair_report(hair, true, &info, rows, sizeof *rows, MAX_ROWS, &count)) return false;
     for (uint32_t i = 0; i < count && i < MAX_ROWS; ++i)
         if (!strcmp(rows[i].stage, "solve")) return rows[i].skip_reason == HAIR_SKIP_REASON_ASLEEP;
     return false;

@@ -35,7 +35,7 @@ static void add_row(const struct bench_studio* studio, const struct point* point
     bench_set_count(row, "guides", info->guide_count);
     bench_set_number(row, "vertices", (double)info->guide_vertex_count / info->guide_count);
     bench_set_count(row, "followers", info->follower_count);
-    bench_set_count(row, "segments", studio->shot.look.segments);
+    bench_set_count(row, "segments", studio->shot.look.strand.segments);
     bench_set_count(row, "size", studio->size);
     bench_set_number(row, "ms_step", step.ms);
     bench_set_number(row, "ms_step_min", step.ms_min);

@@ -62,18 +62,18 @@ static bool make(struct scatter* scatter)
     studio->bare = true;
     scatter->shot = bench_studio_shot(studio);
     hair_look* look = &scatter->shot.look;
-    look->taper = hair_curve_line(1, 1);
-    look->segments = SEGMENTS;
-    look->radius = look->radius * studio->fewer; // Keep the total amount of hair.
-    look->cuticle_tilt_spread = 0;
+    look->strand.taper = hair_curve_line(1, 1);
+    look->strand.segments = SEGMENTS;
+    look->strand.radius = look->strand.radius * studio->fewer; // Keep the total amount of hair.
+    look->shading.cuticle_tilt_spread = 0;
     scatter->shot.samples = 4;
     scatter->shot.supersample = 2;
     memset(scatter->shot.view.ambient, 0, sizeof scatter->shot.view.ambient);
     for (size_t i = 0; i < COLORS; ++i) {
         if (hair_look_color(look, colors[i].color)) return false;
-        memcpy(scatter->colors[i], look->tip_color, sizeof look->tip_color);
+        memcpy(scatter->colors[i], look->color.tip, sizeof look->color.tip);
     }
-    look->color_spread = 0;
+    look->color.spread = 0;
     return true;
 }
 
@@ -130,7 +130,7 @@ static bool trace(struct scatter* scatter)
 {
     static hair_fibre_table table;
     const hair_look* look = &scatter->shot.look;
-    struct hair_fibre of = {look->roughness[1], look->roughness[0], REFRACTION};
+    struct hair_fibre of = {look->shading.roughness[1], look->shading.roughness[0], REFRACTION};
     uint32_t rays = scatter->bench->options.quick ? RAYS_OF_QUICK : RAYS;
     uint32_t count = scatter->studio.info.follower_count * (SEGMENTS + 1), there = 0;
     float *positions = malloc(3 * sizeof *positions * count), variance[3];
@@ -138,7 +138,7 @@ static bool trace(struct scatter* scatter)
     hair_fibre_fill(&of, table);
     hair_fibre_variances(of.along, variance);
     for (size_t i = 0; i < 3 * COLORS; ++i)
-        mu[i] = absorption_of((double)scatter->colors[i / 3][i % 3], (double)look->roughness[1]);
+        mu[i] = absorption_of((double)scatter->colors[i / 3][i % 3], (double)look->shading.roughness[1]);
     bool ok = positions && make_rays(scatter, rays) && bench_studio_set(&scatter->studio, &scatter->shot) &&
               !hair_read_positions(scatter->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &there) &&
               there == count;
@@ -146,8 +146,8 @@ static bool trace(struct scatter* scatter)
         .positions = positions,
         .count = scatter->studio.info.follower_count,
         .each = SEGMENTS + 1,
-        .radius = (double)look->radius,
-        .fibre = {&table[0][0][0], (double)variance[0], (double)look->cuticle_tilt},
+        .radius = (double)look->strand.radius,
+        .fibre = {&table[0][0][0], (double)variance[0], (double)look->shading.cuticle_tilt},
         .mu = mu,
         .colors = 3 * COLORS,
         .to_light = scatter->to_light[0],
@@ -185,7 +185,7 @@ static bool measure_light(struct scatter* scatter, float scattering, double mean
     for (int k = 0; k < 3; ++k) light->color[k] = 0;
     if (scatter->covers <= 0 && !take(scatter, scatter->dark, &scatter->covers)) return false;
     for (int k = 0; k < 3; ++k) light->color[k] = 1;
-    scatter->shot.look.scattering = scattering;
+    scatter->shot.look.shading.scattering = scattering;
     if (!take(scatter, mean, &covers)) return false;
     for (int k = 0; k < 3; ++k) mean[k] = (mean[k] - scatter->dark[k]) / covers;
     return true;
@@ -199,9 +199,9 @@ static bool compare(struct scatter* scatter, const struct method* method, const 
     hair_light* light = &scatter->studio.scene.settings.light;
     size_t of = 3 * (size_t)(color - colors), from = (size_t)(lit - lits);
     double all[3], once[3], ground_truth[3], alone[3], error = 0;
-    look->self_shadow = method->shadow;
-    memcpy(look->root_color, scatter->colors[of / 3], sizeof look->root_color);
-    memcpy(look->tip_color, scatter->colors[of / 3], sizeof look->tip_color);
+    look->self_shadow.method = method->shadow;
+    memcpy(look->color.root, scatter->colors[of / 3], sizeof look->color.root);
+    memcpy(look->color.tip, scatter->colors[of / 3], sizeof look->color.tip);
     for (int k = 0; k < 3; ++k) light->direction[k] = (float)scatter->to_light[from][k];
     if (!measure_light(scatter, 1, all) || !measure_light(scatter, 0, once)) return false;
     for (size_t k = 0; k < 3; ++k) {

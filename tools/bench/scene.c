@@ -12,8 +12,8 @@ struct bench_scene bench_scene_default(void)
     hair_physics* p = &scene.physics;
     *p = hair_physics_default();
     scene.wind = hair_wind_default();
-    p->damping = p->shape_frequency_root = p->shape_frequency_tip = p->collision_margin = p->gravity_preload =
-        p->sleep_threshold = 0;
+    p->damping = p->shape.frequency_root = p->shape.frequency_tip = p->collision.margin =
+        p->shape.gravity_preload = p->sleep_threshold = 0;
     p->redblack.angular_hz = 0;
     return scene;
 }
@@ -45,9 +45,9 @@ void bench_scene_arc(struct bench_scene* scene, uint32_t vertices, double length
 void bench_scene_set_gamma(struct bench_scene* scene, double length, double gamma)
 {
     hair_physics* p = &scene->physics;
-    double radius = (double)p->fiber_radius;
-    p->youngs_modulus = (float)(4 * (double)p->fiber_density * BENCH_GRAVITY * length * length * length /
-                                (gamma * radius * radius));
+    double radius = (double)p->fiber.radius;
+    p->fiber.youngs_modulus = (float)(4 * (double)p->fiber.density * BENCH_GRAVITY * length * length *
+                                      length / (gamma * radius * radius));
 }
 
 double bench_scene_length(const struct bench_scene* scene)
@@ -66,12 +66,12 @@ double bench_scene_length(const struct bench_scene* scene)
 // pi a^3 b^3 / (a^2 + b^2).
 struct bench_section bench_section_of(const hair_physics* physics)
 {
-    double radius = (double)physics->fiber_radius, flat = (double)physics->flatness;
-    double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->youngs_modulus;
+    double radius = (double)physics->fiber.radius, flat = (double)physics->fiber.flatness;
+    double round = BENCH_PI * pow(radius, 4) / 4 * (double)physics->fiber.youngs_modulus;
     return (struct bench_section){
         .bend = {round * flat, round / flat},
-        .twist = 2 * round / (1 + (double)physics->poisson_ratio) * flat / (1 + flat * flat),
-        .line_density = (double)physics->fiber_density * BENCH_PI * radius * radius};
+        .twist = 2 * round / (1 + (double)physics->fiber.poisson_ratio) * flat / (1 + flat * flat),
+        .line_density = (double)physics->fiber.density * BENCH_PI * radius * radius};
 }
 
 struct hair_reference_rod_pose bench_pose(const double axis[3], double angle, const double move[3])
@@ -127,7 +127,7 @@ static int is_straight(const struct bench_scene* scene, const double* strain)
 {
     double max = 0;
     for (uint32_t i = 0; i < 3 * (scene->vertices - 1); ++i) max = fmax(max, fabs(strain[i]));
-    return scene->physics.flatness == 1 && max < 1e-4;
+    return scene->physics.fiber.flatness == 1 && max < 1e-4;
 }
 
 // Return whether the mixed scheme solves the strand, which is straight. Only the scheme of straight
@@ -162,8 +162,8 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
     for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
     for (uint32_t i = 0; i < scene->vertices; ++i) {
-        scale[i] = between(p->stiffness_root, p->stiffness_tip, i, scene->vertices);
-        pull[i] = 2 * BENCH_PI * between(p->shape_frequency_root, p->shape_frequency_tip, i, scene->vertices);
+        scale[i] = between(p->shape.stiffness_root, p->shape.stiffness_tip, i, scene->vertices);
+        pull[i] = 2 * BENCH_PI * between(p->shape.frequency_root, p->shape.frequency_tip, i, scene->vertices);
     }
     find_root_frame(positions, desc.root_frame);
     hair_reference_rod_strain(scene->vertices, positions, desc.root_frame, strain);
@@ -186,7 +186,7 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
         desc.wind[k] = (double)scene->wind.velocity[k];
         if (desc.wind[k] != 0 || scene->wind.still_air) desc.drag = (double)p->drag;
     }
-    desc.diameter = 2 * (double)p->fiber_radius;
+    desc.diameter = 2 * (double)p->fiber.radius;
     desc.air = (struct hair_reference_air){(double)scene->wind.density, (double)scene->wind.viscosity};
     return hair_reference_rod_create(&desc);
 }

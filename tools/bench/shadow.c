@@ -117,9 +117,9 @@ static void set_shot(struct scene* scene)
     hair_look* look = &scene->shot.look;
     scene->shot = bench_studio_shot(&scene->studio);
     hair_look_color(look, HAIR_COLOR_BLOND);
-    look->taper = hair_curve_line(1, 1);
-    look->segments = SEGMENTS;
-    look->radius = look->radius * sqrtf(scene->studio.fewer);
+    look->strand.taper = hair_curve_line(1, 1);
+    look->strand.segments = SEGMENTS;
+    look->strand.radius = look->strand.radius * sqrtf(scene->studio.fewer);
     scene->shot.samples = 4;
     scene->shot.supersample = 2;
     scene->studio.bare = true;
@@ -136,7 +136,7 @@ static bool read_strands(struct scene* scene)
         positions && bench_studio_set(&scene->studio, &scene->shot) &&
         !hair_read_positions(scene->studio.hair, HAIR_READ_FOLLOWERS, positions, count, &scene->vertices) &&
         bench_strands_make(positions, scene->studio.info.follower_count, SEGMENTS + 1,
-                           scene->shot.look.radius, to, &scene->strands);
+                           scene->shot.look.strand.radius, to, &scene->strands);
     free(positions);
     scene->light = malloc((scene->vertices + 1) * sizeof(float));
     return ok && scene->light;
@@ -207,9 +207,9 @@ static bool look(struct scene* scene, const struct method* method)
 {
     struct bench_picture picture = {0};
     struct hair_image_error error;
-    scene->shot.look.self_shadow = method->shadow;
+    scene->shot.look.self_shadow.method = method->shadow;
     scene->shot.unmapped = method->unmapped;
-    if (method->shadow == HAIR_SELF_SHADOW_STRANDS) scene->shot.look.self_shadow_cell = method->with[0];
+    if (method->shadow == HAIR_SELF_SHADOW_STRANDS) scene->shot.look.self_shadow.cell = method->with[0];
     bool ok = (!method->find || method->find(scene, method->with)) &&
               take(scene, method->find ? scene->by_table : scene->by_library, &picture) &&
               bench_picture_compare(&scene->truth, &scene->truth, &picture, &error);

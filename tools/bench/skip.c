@@ -177,7 +177,7 @@ static bool measure(struct bench* bench, const struct scene* scene, double* ms, 
     hair_report_info info = hair_report_info_default();
     hair_report_row works[64];
     uint32_t count = 0, ran = 0;
-    if (!result) result = hair_report(heads.hair[0], 1, &info, works, sizeof *works, 64, &count);
+    if (!result) result = hair_report(heads.hair[0], true, &info, works, sizeof *works, 64, &count);
     for (uint32_t i = 0; i < count && i < 64; ++i) ran += works[i].skip_reason == HAIR_SKIP_REASON_NONE;
     if (!result) {
         qsort(times, *runs, sizeof *times, compare);

@@ -210,9 +210,9 @@ static struct bench_scene make_scene(const struct bench* bench, hair_solver solv
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     scene.substep = solver == HAIR_SOLVER_REDBLACK ? FRAME : 0;
     scene.physics.damping = 4;
-    scene.physics.collision_margin = 0.001f;
-    scene.physics.youngs_modulus = 3e9f;
-    scene.physics.fiber_radius = 5e-5f;
+    scene.physics.collision.margin = 0.001f;
+    scene.physics.fiber.youngs_modulus = 3e9f;
+    scene.physics.fiber.radius = 5e-5f;
     return scene;
 }
 

@@ -120,8 +120,8 @@ static void measure(struct bench* bench, const struct contact* contact, hair_sol
     struct bench_scene scene = bench_scene_default();
     hair_desc desc = hair_desc_default();
     scene.physics = hair_physics_default();
-    scene.physics.shape_frequency_root = scene.physics.shape_frequency_tip = scene.physics.gravity_preload =
-        0;
+    scene.physics.shape.frequency_root = scene.physics.shape.frequency_tip =
+        scene.physics.shape.gravity_preload = 0;
     scene.physics.damping = 4;
     scene.physics.root = contact->is_free ? HAIR_ROOT_FREE : HAIR_ROOT_CLAMPED;
     scene.vertices = contact->vertices;

@@ -60,23 +60,23 @@ static void any_vector(uint64_t* state, double longest, float out[3])
 static void any_physics(uint64_t* state, hair_physics* p, hair_wind* wind)
 {
     p->damping = any(state, 4, 0, 1000);
-    p->shape_frequency_root = any(state, 4, 0, 30);
-    p->shape_frequency_tip = any(state, 1, 0, 30);
+    p->shape.frequency_root = any(state, 4, 0, 30);
+    p->shape.frequency_tip = any(state, 1, 0, 30);
     p->redblack.angular_hz = any(state, 8, 0, 30);
     p->redblack.bend = any(state, 0.1, 0, 1);
     p->redblack.iterations = 1 + one_of(state, 30);
-    p->collision_margin = any(state, 0.001, 0, 0.1);
-    p->youngs_modulus = any(state, 4e9, 0, 1e12);
-    p->poisson_ratio = any(state, 0.45, 0, 0.5);
-    p->fiber_radius = any(state, 4e-5, 1e-6, 1e-3);
-    p->fiber_density = any(state, 1300, 1, 1e5);
-    p->flatness = any(state, 0.8, 0.03, 1);
-    p->stiffness_root = any(state, 1, 0, 1e4);
-    p->stiffness_tip = any(state, 1, 0, 1e4);
-    p->gravity_preload = any(state, 1, 0, 1);
+    p->collision.margin = any(state, 0.001, 0, 0.1);
+    p->fiber.youngs_modulus = any(state, 4e9, 0, 1e12);
+    p->fiber.poisson_ratio = any(state, 0.45, 0, 0.5);
+    p->fiber.radius = any(state, 4e-5, 1e-6, 1e-3);
+    p->fiber.density = any(state, 1300, 1, 1e5);
+    p->fiber.flatness = any(state, 0.8, 0.03, 1);
+    p->shape.stiffness_root = any(state, 1, 0, 1e4);
+    p->shape.stiffness_tip = any(state, 1, 0, 1e4);
+    p->shape.gravity_preload = any(state, 1, 0, 1);
     p->root = one_of(state, 4) ? HAIR_ROOT_CLAMPED : (hair_root)one_of(state, 3);
     p->tip_mass = one_of(state, 3) ? 0 : any(state, 1, 0, 1e4);
-    p->friction = any(state, 0.3, 0, 10);
+    p->collision.friction = any(state, 0.3, 0, 10);
     any_vector(state, 1000, p->gravity);
     any_vector(state, 1000, wind->velocity);
     if (one_of(state, 2)) {

@@ -114,7 +114,7 @@ static void measure(struct bench* bench, hair_style style, uint32_t vertices, ha
     scene.mapping = solver == HAIR_SOLVER_REDBLACK ? HAIR_THREAD_MAPPING_AUTO : bench->options.mapping;
     desc.solver = solver;
     desc.thread_mapping = scene.mapping;
-    desc.diagnose = 1;
+    desc.diagnose = true;
     if (make_groom(bench, style, guides, vertices, &groom) ||
         hair_create(bench->context, groom, &desc, &hair) || !run(bench, name, groom, hair, &scene, collides))
         bench_refuse(bench, name, method);

@@ -168,12 +168,12 @@ static void hang_thousand(struct bench_scene* scene)
 static void make_stiff(struct bench_scene* scene)
 {
     // Use the maximum, and a section that makes up for the rest.
-    scene->physics.youngs_modulus = 1e12f;
-    scene->physics.fiber_radius *= sqrtf(3);
+    scene->physics.fiber.youngs_modulus = 1e12f;
+    scene->physics.fiber.radius *= sqrtf(3);
 }
 static void make_limp(struct bench_scene* scene)
 {
-    scene->physics.youngs_modulus = 0;
+    scene->physics.fiber.youngs_modulus = 0;
 }
 
 static bool shake_under(struct bench_watch* watch, const hair_physics* physics)
@@ -201,8 +201,8 @@ static void hair_grid(struct bench_scene* scene)
 static bool shake_in_hair_grid(struct bench_watch* watch)
 {
     hair_physics physics = watch->calm;
-    physics.cohesion = 1000;
-    physics.pressure_stiffness = 100;
+    physics.hair_hair.cohesion = 1000;
+    physics.hair_hair.pressure_stiffness = 100;
     return shake_under(watch, &physics);
 }
 static bool weigh(struct bench_watch* watch)

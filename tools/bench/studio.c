@@ -113,7 +113,7 @@ static bool make_subject(struct bench_studio* studio, const struct bench_studio_
     uint32_t followers = scene->settings.groom.follower_count;
     studio->fewer = 1;
     if (!set(studio, "guides", desc->guides) || !set(studio, "followers", desc->followers) ||
-        !set(studio, "segments", desc->segments))
+        !set(studio, "strand.segments", desc->segments))
         return false;
     scene->width = scene->height = studio->size;
     if (desc->followers) studio->fewer = (float)followers / (float)desc->followers;

@@ -96,7 +96,7 @@ void bench_lee_cost(struct bench* bench)
         scene.mapping = bench->options.mapping;
         scene.wind.velocity[0] = i > 0 ? 3 : 0;
         scene.wind.model = i > 1 ? HAIR_WIND_FLUID : HAIR_WIND_AMBIENT;
-        scene.wind.drag_strand_count = i > 2 ? 100000 : 0;
+        scene.wind.fluid.drag_strand_count = i > 2 ? 100000 : 0;
         if (!measure(bench, &scene, &times)) {
             bench_refuse(bench, "a step in wind", methods[i]);
             continue;
@@ -104,7 +104,7 @@ void bench_lee_cost(struct bench* bench)
         json_t* row = bench_rows_add(&bench->rows);
         bench_set_text(row, "case", "a step in wind");
         bench_set_text(row, "method", methods[i]);
-        bench_set_count(row, "resolution", scene.wind.resolution);
+        bench_set_count(row, "resolution", scene.wind.fluid.resolution);
         bench_set_number(row, "ms", times.ms / FRAMES);
         bench_set_number(row, "ms_min", times.ms_min / FRAMES);
         bench_set_number(row, "ms_max", times.ms_max / FRAMES);

@@ -12,10 +12,13 @@
 #define STUDIO                                                                                               \
     "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
     "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                            \
-    "'settings': {'self_shadow': 'strands', 'self_shadow_cell': 0.006, 'roughness.along': 0.2, "             \
-    "'roughness.round': 0.35, "                                                                              \
-    "'length_variation': 0.45, 'taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color_spread': 0.5, "              \
-    "'hue_spread': 0.12, 'roughness_spread': 0.2, 'root_darkening': 0.35, 'stray_fraction': 0.14}"
+    "'settings': {'self_shadow.method': 'strands', 'self_shadow.cell': 0.006, 'shading.roughness.along': "   \
+    "0.2, "                                                                                                  \
+    "'shading.roughness.round': 0.35, "                                                                      \
+    "'strand.length_variation': 0.45, 'strand.taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color.spread': "     \
+    "0.5, "                                                                                                  \
+    "'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35, "              \
+    "'strays.fraction': 0.14}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
@@ -27,30 +30,32 @@ const struct hair_builtin hair_builtin_scenes[] = {
              " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.56, 0.0], 'fov': 27}}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
-            " 'settings': {'clump': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'radius': 1e-4, 'segments': 8, "
+            " 'settings': {'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'strand.radius': 1e-4, "
+            "'strand.segments': 8, "
             "'guides': 1000, 'redblack.iterations': 8, "
-            "'shape_frequency_root': 8, 'shape_frequency_tip': 6}}"},
-    {"wind", "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
-             " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
-             " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'grid_size': 1, 'turbulence_intensity': "
-             "0.4, 'turbulence_length': 0.25},"
-             " 'settings': {'drag': 0.5, 'shape_frequency_root': 3, 'shape_frequency_tip': 0.3}}"},
+            "'shape.frequency_root': 8, 'shape.frequency_tip': 6}}"},
+    {"wind",
+     "{'style': 'long', 'motion': 'still', 'settle': 0.5, 'frames': 150, 'picture': 24,"
+     " 'camera': {'eye': [0.3, 1.6, 1.7], 'target': [0.13, 1.54, 0.0], 'fov': 27},"
+     " 'wind': {'velocity': [3, 0, 0], 'model': 'fluid', 'fluid.grid_size': 1, 'turbulence.intensity': "
+     "0.4, 'turbulence.length': 0.25},"
+     " 'settings': {'drag': 0.5, 'shape.frequency_root': 3, 'shape.frequency_tip': 0.3}}"},
     {NULL, NULL},
 };
 
 // Settings that keep each haircut in shape against gravity. Every style sets every key, because one
 // style can replace another. A curl needs about eight vertices a turn, more than a wave.
-#define SMOOTH "'guide_vertices': 32, 'segments': 24"
-#define CURLED "'guide_vertices': 64, 'segments': 64"
+#define SMOOTH "'guide_vertices': 32, 'strand.segments': 24"
+#define CURLED "'guide_vertices': 64, 'strand.segments': 64"
 
 const struct hair_builtin hair_builtin_styles[] = {
-    {"long", "{'shape_frequency_root': 6, 'shape_frequency_tip': 1, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"bob", "{'shape_frequency_root': 8, 'shape_frequency_tip': 3, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"short", "{'shape_frequency_root': 10, 'shape_frequency_tip': 6, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"long", "{'shape.frequency_root': 6, 'shape.frequency_tip': 1, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"bob", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"short", "{'shape.frequency_root': 10, 'shape.frequency_tip': 6, 'redblack.angular_hz': 8, " SMOOTH "}"},
     {"ponytail",
-     "{'shape_frequency_root': 12, 'shape_frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
-    {"curly", "{'shape_frequency_root': 8, 'shape_frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
-    {"afro", "{'shape_frequency_root': 12, 'shape_frequency_tip': 8, 'redblack.angular_hz': 8, " CURLED "}"},
+     "{'shape.frequency_root': 12, 'shape.frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"curly", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
+    {"afro", "{'shape.frequency_root': 12, 'shape.frequency_tip': 8, 'redblack.angular_hz': 8, " CURLED "}"},
     {NULL, NULL},
 };
 

@@ -23,8 +23,8 @@ struct hair_settings {
     hair_view view;
     hair_light light; // first light of the view
     hair_lod lod;
-    uint32_t has_lod; // 1 enables level of detail in views
-    uint32_t hides; // 1 enables occlusion culling by the head, which is drawn before the hair
+    bool has_lod; // enables level of detail in views
+    bool hides; // enables occlusion culling by the head, which is drawn before the hair
 };
 
 struct hair_settings hair_settings_default(void);

@@ -74,7 +74,7 @@ static json_t* report_of(hair_instance* hair)
     hair_report_row rows[64];
     uint32_t count = 0;
     json_t* works = json_array();
-    if (hair_report(hair, 1, &info, rows, sizeof *rows, 64, &count)) count = 0;
+    if (hair_report(hair, true, &info, rows, sizeof *rows, 64, &count)) count = 0;
     for (uint32_t i = 0; i < count && i < 64; ++i)
         json_array_append_new(works, json_pack("{s:s, s:s, s:s?, s:i, s:f, s:I}", "stage", rows[i].stage,
                                                "skip_reason", hair_skip_reason_string(rows[i].skip_reason),

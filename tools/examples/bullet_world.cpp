@@ -41,11 +41,11 @@ static hair_instance* make_hair(hair_context* context)
     hair_instance* hair;
     hair_groom* groom = make_curtain();
     hair_physics physics = hair_physics_default();
-    physics.shape_frequency_root = physics.shape_frequency_tip = 0;
-    physics.gravity_preload = 0; // The hair falls instead of keeping its shape.
+    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
+    physics.shape.gravity_preload = 0; // The hair falls instead of keeping its shape.
     hair_look look = hair_look_default();
     check(hair_look_color(&look, HAIR_COLOR_AUBURN));
-    look.radius = 4e-4f;
+    look.strand.radius = 4e-4f;
     hair_desc desc = hair_desc_default();
     desc.physics = &physics;
     desc.look = &look;
@@ -91,7 +91,7 @@ int main(int argc, char** argv)
     btCollisionObject objects[2];
     for (int i = 0; i < 2; ++i) {
         objects[i].setCollisionShape(shapes[i]);
-        objects[i].setFriction(3); // times hair_physics.friction
+        objects[i].setFriction(3); // times hair_physics.collision.friction
         world.addCollisionObject(&objects[i]);
     }
 

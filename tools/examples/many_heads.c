@@ -23,8 +23,8 @@ static void make_head(struct head* head, int i, hair_context* context, const hai
     hair_look look = hair_look_default();
     check(hair_look_apply_preset(&look, i % 3 == 0 ? HAIR_LOOK_STRAIGHT : HAIR_LOOK_NATURAL));
     check(hair_look_color(&look, (hair_color)(i % HAIR_COLOR_COUNT)));
-    look.radius = 4e-4f; // 3000 strands stand for 100000.
-    look.segments = 16;
+    look.strand.radius = 4e-4f; // 3000 strands stand for 100000.
+    look.strand.segments = 16;
     hair_desc desc = hair_desc_default();
     desc.look = &look;
     memcpy(desc.transform, transform, sizeof transform);
@@ -40,7 +40,7 @@ static void print_report(hair_instance* hair, const hair_context* context)
     hair_report_info info = hair_report_info_default();
     hair_report_row rows[ROWS];
     uint32_t count;
-    check(hair_report(hair, 1, &info, rows, sizeof *rows, ROWS, &count));
+    check(hair_report(hair, true, &info, rows, sizeof *rows, ROWS, &count));
     printf("%-20s %10s %10s\n", "stage", "ms", "KiB");
     for (uint32_t i = 0; i < count && i < ROWS; ++i)
         if (rows[i].runs || rows[i].bytes)
@@ -60,7 +60,7 @@ int main(int argc, char** argv)
     hair_context_desc context_desc = hair_context_desc_default();
     context_desc.host = &host;
     context_desc.get_proc = hair_egl_get_proc;
-    context_desc.timings = 1;
+    context_desc.timings = true;
     check(hair_context_create(&context_desc, &context));
 
     struct head heads[HEADS];

@@ -42,7 +42,7 @@ int main(int argc, char** argv)
     // 6000 strands stand for the 100000 of a real head, therefore they are thicker.
     hair_groom* groom = make_bob();
     hair_look look = hair_look_default();
-    look.radius = 3e-4f;
+    look.strand.radius = 3e-4f;
     hair_desc desc = hair_desc_default();
     desc.look = &look;
     check(hair_create(context, groom, &desc, &hair));

@@ -30,7 +30,7 @@ static hair_instance* make_hair(hair_context* context)
     hair_instance* hair;
     hair_groom* groom = make_groom(HAIR_STYLE_LONG, 6000);
     hair_look look = hair_look_default();
-    look.radius = 3e-4f; // 6000 strands stand for 100000.
+    look.strand.radius = 3e-4f; // 6000 strands stand for 100000.
     hair_desc desc = hair_desc_default();
     desc.look = &look;
     check(hair_create(context, groom, &desc, &hair));
