@@ -312,8 +312,8 @@ static void write_params(const struct hair_sim* sim, struct hair_grid_params* pa
     };
 }
 
-// Return the number of substeps done in the current block. If substeps have become longer, the block
-// may be over already.
+// Return the number of substeps done in the current block. If substeps have become longer, the
+// block may be over already.
 static uint32_t done_in_block(const struct hair_sim* sim)
 {
     uint32_t done = sim->hair_grid.substeps_done;

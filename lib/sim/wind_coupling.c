@@ -147,8 +147,8 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
     };
 }
 
-// Return the number of substeps done in the current block. If substeps have become longer, the block
-// may be over already.
+// Return the number of substeps done in the current block. If substeps have become longer, the
+// block may be over already.
 static uint32_t done_in_block(const struct hair_sim* sim)
 {
     uint32_t done = sim->wind_coupling.substeps_done;
