@@ -4,7 +4,7 @@
 // Number of steps after which contacts are only added, so that the iteration ends.
 #define KEEP_FROM 4u
 
-void update_follower_collision(uint i, vec3 head_moved, bool keep)
+void resolve_contact(uint i, vec3 head_moved, bool keep)
 {
     outcome made =
         allowed(i, local(wanted), local(reachable), keep ? local(met) : BITS(0u), head_moved, local(met));
@@ -20,9 +20,9 @@ void try_wanted(vec3 head_moved, bool keep)
         PUT(moved, local(wanted));
         if (COLLIDERS) local(touch) = local(slip) = vec4(0.0);
         if (COLLIDERS && !LISTS_REACHING && local(reachable) != BITS(0u))
-            update_follower_collision(i, head_moved, keep);
+            resolve_contact(i, head_moved, keep);
     }
     if (COLLIDERS && LISTS_REACHING) {
-        EACH_REACHING { update_follower_collision(i, head_moved, keep); }
+        EACH_REACHING { resolve_contact(i, head_moved, keep); }
     }
 }

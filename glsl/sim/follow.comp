@@ -54,7 +54,7 @@ LOCAL(vec3, pushed); // Displacement by colliders in the last round
 
 // Find the planes above which colliders keep vertices. Return false if no vertex touches a
 // collider.
-bool update_follower_collision(vec3 head_moved)
+bool resolve_contact(vec3 head_moved)
 {
     bool touches = false;
     FOR_VERTICES(guide_count) { local(touch) = local(slip) = vec4(0.0); }
@@ -85,7 +85,7 @@ void attempt_all(vec3 head_moved)
         FOR_VERTICES(guide_count) { local(wanted) = GET(handed); }
         find_colliders(head_moved);
         list_reaching();
-        for (uint n = 0u; n < CONTACT_ROUNDS && update_follower_collision(head_moved); ++n) {
+        for (uint n = 0u; n < CONTACT_ROUNDS && resolve_contact(head_moved); ++n) {
             draw(true);
             FOR_VERTICES(guide_count) { local(wanted) = GET(handed); }
         }

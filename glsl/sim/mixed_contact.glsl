@@ -148,7 +148,7 @@ void hold_vertices(bool first)
 }
 
 // Find the displacements that colliders allow in a Newton step.
-void update_follower_collision(uint n, bool leads, vec3 head_moved)
+void resolve_contact(uint n, bool leads, vec3 head_moved)
 {
     if (COLLIDERS && touching) {
         if (leads) FOR_VERTICES(guide_count) { local(chain) = local(wanted); }

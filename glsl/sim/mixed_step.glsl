@@ -90,7 +90,7 @@ bool attempt(int method, vec3 head_moved)
     for (uint n = 0u; n < MAX_ROUNDS && (n < MIN_ROUNDS || rounds_in_all < MAX_ROUNDS_IN_ALL); ++n) {
         ++rounds_in_all;
         if (!leads) find_wanted();
-        update_follower_collision(n, leads, head_moved);
+        resolve_contact(n, leads, head_moved);
         GROUP_BARRIER;
         // Vertices that are drawn into colliders are pushed out once.
         if (leads) {

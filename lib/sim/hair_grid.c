@@ -312,7 +312,30 @@ static void write_params(const struct hair_sim* sim, struct hair_grid_params* pa
     };
 }
 
-static void find_acceleration(struct hair_sim* sim)
+// Return the number of substeps done in the current block. If substeps have become longer, the
+// block may be over already.
+static uint32_t done_in_block(const struct hair_sim* sim)
+{
+    uint32_t done = sim->hair_grid.substeps_done;
+    return done < block_length(sim) ? done : 0;
+}
+
+bool hair_grid_is_due(const struct hair_sim* sim)
+{
+    return hair_grid_is_on(sim) && done_in_block(sim) == 0;
+}
+
+uint32_t hair_grid_substeps_left(const struct hair_sim* sim)
+{
+    return block_length(sim) - done_in_block(sim);
+}
+
+void hair_grid_reset(struct hair_sim* sim)
+{
+    sim->hair_grid.substeps_done = 0;
+}
+
+void hair_grid_update(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_grid* hair_grid = &sim->hair_grid;
@@ -321,6 +344,7 @@ static void find_acceleration(struct hair_sim* sim)
                         hair_grid->splat, hair_grid->rest_density, hair_grid->acceleration};
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     HAIR_ASSERT(hair_grid->texture && sim->last_substep > 0);
+    hair_grid_reset(sim);
     write_params(sim, &params);
     hair_gl_write_uniform(gl, hair_grid->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
@@ -328,19 +352,6 @@ static void find_acceleration(struct hair_sim* sim)
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_CLEAR, (grid_fours(hair_grid) + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_SPLAT, groups);
     hair_gl_run(gl, HAIR_GL_HAIR_GRID_GATHER, groups);
-}
-
-uint32_t hair_grid_substeps_left(struct hair_sim* sim)
-{
-    uint32_t length = block_length(sim);
-    if (sim->hair_grid.substeps_done >= length)
-        sim->hair_grid.substeps_done = 0; // Substeps have become longer.
-    if (sim->hair_grid.substeps_done == 0) {
-        find_acceleration(sim);
-        hair_sim_bind(sim);
-        hair_sim_bind_rods(sim);
-    }
-    return length - sim->hair_grid.substeps_done;
 }
 
 void hair_grid_bind(struct hair_sim* sim)

@@ -10,6 +10,8 @@
 #include "lib/base/math.h"
 #include "lib/gl/gl.h"
 
+#include <stdbool.h>
+
 // Total mass of all vertices, in the grid's units of mass, and their total volume, in its units of
 // volume. Rounding adds at most half a unit per vertex, and there are at most 2^26 vertices. No sum
 // exceeds 32 bits, even if all hair is at one node. The unit of
@@ -40,9 +42,14 @@ void hair_grid_free(struct hair_sim* sim);
 // hair_grid_splat[]. Set *metres to the length of guides per unit of mass, m.
 hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres);
 
-// Return the number of substeps left in the current block. Find its accelerations first at the
-// start of a block.
-uint32_t hair_grid_substeps_left(struct hair_sim* sim);
+// Return whether the grid is on and a block starts with the next substep.
+bool hair_grid_is_due(const struct hair_sim* sim);
+// Start a block: find its accelerations from the current state.
+void hair_grid_update(struct hair_sim* sim);
+// Let the next substep start a block.
+void hair_grid_reset(struct hair_sim* sim);
+// Return the number of substeps left in the current block, or in the block that is due.
+uint32_t hair_grid_substeps_left(const struct hair_sim* sim);
 // Bind the accelerations for the solver.
 void hair_grid_bind(struct hair_sim* sim);
 // Count substeps as done.

@@ -39,27 +39,22 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     size_t solver_stats =
         sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
-    hair_result result = HAIR_OK;
-    if (!result)
-        result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
-                                 &sim->guide);
-    if (!result)
-        result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
-                                 &sim->rest);
-    if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
-    if (!result)
-        result = hair_gl_storage(gl, "hair solver stats", solver_stats * sizeof(uint32_t), NULL,
-                                 &sim->solver_stats);
-    if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
-    if (sim->solver == HAIR_SOLVER_REDBLACK) {
+    HAIR_TRY(
+        hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide));
+    HAIR_TRY(
+        hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
+    HAIR_TRY(hair_gl_storage(gl, "hair state", state, NULL, &sim->state));
+    HAIR_TRY(
+        hair_gl_storage(gl, "hair solver stats", solver_stats * sizeof(uint32_t), NULL, &sim->solver_stats));
+    HAIR_TRY(hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step));
+    if (sim->solver == HAIR_SOLVER_REDBLACK)
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
-    } else if (!result) {
-        result = hair_sim_create_rods(sim, groom);
-    }
+    else
+        HAIR_TRY(hair_sim_create_rods(sim, groom));
     sim->last_substep = sim->substep;
-    if (!result) result = hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 0));
-    if (!result && sim->feedback.wanted) result = hair_feedback_create(sim, groom->guides);
-    return result ? result : hair_sim_ensure_solver(sim);
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 0)));
+    if (sim->feedback.wanted) HAIR_TRY(hair_feedback_create(sim, groom->guides));
+    return hair_sim_ensure_solver(sim);
 }
 
 void hair_sim_destroy(struct hair_sim* sim)
@@ -190,16 +185,17 @@ static float fraction_of(double from, double dt)
     return (float)fmin(fmax(from / dt, -1), 1);
 }
 
+// Ensure everything that a step needs. The coming substeps begin `from` seconds into the step.
 static hair_result prepare(struct hair_sim* sim, double from, double dt)
 {
     sim->contacts.any = hair_contacts_are_any(sim);
-    hair_result result = hair_pins_write(sim);
-    if (!result) result = hair_sim_ensure_hair_grid(sim);
-    if (!result && sim->rods) result = hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind);
-    if (!result) result = hair_wind_coupling_ensure(sim);
-    if (!result && !hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
-    if (!result && sim->contacts.any) result = hair_contacts_find(sim, dt, fraction_of(from, dt));
-    return result ? result : hair_sim_ensure_solver(sim);
+    HAIR_TRY(hair_pins_write(sim));
+    HAIR_TRY(hair_sim_ensure_hair_grid(sim));
+    if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
+    HAIR_TRY(hair_wind_coupling_ensure(sim));
+    if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
+    if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of(from, dt)));
+    return hair_sim_ensure_solver(sim);
 }
 
 // Write the wind for `count` substeps of the parameters.
@@ -216,58 +212,116 @@ static void write_air(struct hair_sim* sim, const struct hair_step_params* param
     hair_wind_write(&sim->wind_state, sim->gl, &now);
 }
 
-// Run `total` substeps. sim->accumulator is already the time that remains after them. `again` is 1
-// if the step has begun already.
-static void advance(struct hair_sim* sim, int again, uint32_t total, double from, double dt)
+// Bind the buffers that the solvers read.
+static void bind_buffers(struct hair_sim* sim)
 {
-    struct hair_step_params params = {0};
-    int hair_grid = hair_grid_is_on(sim), blown = hair_wind_coupling_is_on(sim);
-    sim->next_substep = sim->substep;
-    write_physics(sim, &params);
-    write_colliders(sim, &params);
-    if (hair_scalp_motion_is_on(sim)) {
-        float before = (float)fraction_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
-        hair_scalp_motion_run(sim, again, total, before,
-                              (float)fraction_at_end(sim, total > 0 ? total - 1 : 0, from, dt));
-    }
     if (sim->contacts.any) hair_contacts_bind(sim);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
+}
+
+static uint32_t min_count(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+// Return the number of substeps of the next dispatch, of which `left` remain in the step. No block
+// of the hair-hair grid or of the fluid ends within a dispatch.
+static uint32_t next_substeps(const struct hair_sim* sim, uint32_t left)
+{
+    uint32_t count = min_count(left, hair_sim_substeps_at_once(sim));
+    if (hair_grid_is_on(sim)) count = min_count(count, hair_grid_substeps_left(sim));
+    if (hair_wind_coupling_is_on(sim)) count = min_count(count, hair_wind_coupling_substeps_left(sim));
+    HAIR_ASSERT(0 < count && count <= left);
+    return count;
+}
+
+// Update the forces whose block starts with the next substep. Their passes use the solvers' slots.
+static void update_forces(struct hair_sim* sim, double dt)
+{
+    if (hair_grid_is_due(sim)) {
+        hair_grid_update(sim);
+        bind_buffers(sim);
+    }
+    if (hair_wind_coupling_is_due(sim)) {
+        hair_wind_coupling_update(sim, dt);
+        bind_buffers(sim);
+    }
+}
+
+// Write and upload the next `count` substeps. The first begins `from` seconds into a step of `dt`.
+static void write_dispatch(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
+                           double dt)
+{
+    params->rotation_start = vec4_of_quat(sim->last_after.rotation);
+    sim->last_substep = sim->substep;
+    write_substeps(sim, params, count, from, dt);
+    write_now(sim, params);
+    params->list = hair_sim_flip_work_list(sim);
+    upload(sim, params);
+}
+
+// Bind the forces that are on, for a dispatch that has been written.
+static void bind_forces(struct hair_sim* sim, const struct hair_step_params* params)
+{
+    if (hair_grid_is_on(sim)) hair_grid_bind(sim);
+    if (sim->pins.count) hair_pins_bind(sim);
+    if (hair_wind_coupling_is_on(sim)) {
+        hair_fluid_bind(&sim->wind_coupling.fluid);
+        sim->wind_state.box = hair_wind_coupling_box(sim);
+    }
+    if (sim->wind_state.params) write_air(sim, params, params->substeps);
+}
+
+static void run_solver(struct hair_sim* sim, struct hair_step_params* params)
+{
+    if (sim->feedback.wanted && !hair_scalp_motion_is_on(sim))
+        hair_feedback_run(sim, params);
+    else
+        hair_sim_run_solver(sim, params);
+}
+
+// Count substeps in the blocks of forces. The next dispatch continues where this one ended.
+static void end_dispatch(struct hair_sim* sim, struct hair_step_params* params, uint32_t count)
+{
+    if (hair_grid_is_on(sim)) hair_grid_count(sim, count);
+    if (hair_wind_coupling_is_on(sim)) hair_wind_coupling_count(sim, count);
+    params->fraction_start = params->substep[count - 1].displacement.w;
+    params->rescale = 1;
+}
+
+// Move the roots with a skinned scalp in `total` substeps.
+static void move_roots(struct hair_sim* sim, bool again, uint32_t total, double from, double dt)
+{
+    float before = (float)fraction_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
+    float after = (float)fraction_at_end(sim, total > 0 ? total - 1 : 0, from, dt);
+    hair_scalp_motion_run(sim, again, total, before, after);
+}
+
+// Run `total` substeps. sim->accumulator is already the time that remains after them. `again` is
+// true if the step has begun already.
+static void advance(struct hair_sim* sim, bool again, uint32_t total, double from, double dt)
+{
+    struct hair_step_params params = {0};
+    sim->next_substep = sim->substep;
+    write_physics(sim, &params);
+    write_colliders(sim, &params);
     params.fraction_start = fraction_of(from, dt);
-    for (uint32_t done = 0; done < total;) {
-        uint32_t max = hair_sim_substeps_at_once(sim);
-        uint32_t block = hair_grid ? hair_grid_substeps_left(sim) : max;
-        uint32_t count = total - done < max ? total - done : max;
-        if (block < count) count = block;
-        if (blown) block = hair_wind_coupling_substeps_left(sim, dt);
-        if (block < count) count = block;
-        HAIR_ASSERT(0 < count && count <= total - done);
-        params.rotation_start = vec4_of_quat(sim->last_after.rotation);
-        sim->last_substep = sim->substep;
-        write_substeps(sim, &params, count, from + done * sim->substep, dt);
-        write_now(sim, &params);
-        params.list = hair_sim_flip_work_list(sim);
-        upload(sim, &params);
-        if (hair_grid) hair_grid_bind(sim);
-        if (sim->pins.count) hair_pins_bind(sim);
-        if (blown) hair_fluid_bind(&sim->wind_coupling.fluid);
-        if (blown) sim->wind_state.box = hair_wind_coupling_box(sim);
-        if (sim->wind_state.params) write_air(sim, &params, count);
-        if (sim->feedback.wanted && !hair_scalp_motion_is_on(sim))
-            hair_feedback_run(sim, &params);
-        else
-            hair_sim_run_solver(sim, &params);
-        if (hair_grid) hair_grid_count(sim, count);
-        if (blown) hair_wind_coupling_count(sim, count);
-        done += count;
-        params.fraction_start = params.substep[count - 1].displacement.w;
-        params.rescale = 1;
+    if (hair_scalp_motion_is_on(sim)) move_roots(sim, again, total, from, dt);
+    bind_buffers(sim);
+    for (uint32_t done = 0, count; done < total; done += count) {
+        count = next_substeps(sim, total - done);
+        update_forces(sim, dt);
+        write_dispatch(sim, &params, count, from + done * sim->substep, dt);
+        bind_forces(sim, &params);
+        run_solver(sim, &params);
+        end_dispatch(sim, &params, count);
     }
     if (total == 0) {
         write_now(sim, &params);
         upload(sim, &params);
     }
-    if (!hair_grid) sim->hair_grid.substeps_done = 0;
+    if (!hair_grid_is_on(sim)) hair_grid_reset(sim);
 }
 
 // Return the number of substeps that fit into a time. The tolerance EARLY makes 2/120 s hold two
@@ -285,30 +339,36 @@ static void free_unused(struct hair_sim* sim)
     if (!hair_grid_is_on(sim) && sim->hair_grid.texture) hair_grid_free(sim);
 }
 
+// Return whether the current substep must be finished at its old length, because only the rate has
+// changed. The drawn hair then does not jump.
+static bool must_finish_substep(const struct hair_sim* sim)
+{
+    return hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->accumulator > EARLY * sim->substep;
+}
+
+// Finish the current substep, which began `from` seconds into the step. Return its end.
+static double finish_substep(struct hair_sim* sim, double from, double dt)
+{
+    double end = from + sim->substep;
+    sim->accumulator = fmax(dt - end, 0);
+    advance(sim, false, 1, from, dt);
+    return end;
+}
+
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
-    // If only the rate has changed, finish the current substep at its old length first. The drawn
-    // hair then does not jump.
     HAIR_ASSERT(dt > 0);
-    int waits =
-        hair_sim_is_other_rate(sim) && sim->next_substep > 0 && sim->accumulator > EARLY * sim->substep;
-    int again = 0;
     double from = -sim->accumulator;
-    int disturbed = hair_sleep_is_disturbed(sim);
-    hair_result result = waits ? HAIR_OK : hair_sim_rebuild_rods(sim);
-    if (!result) result = prepare(sim, from, dt);
-    if (!result) result = hair_sleep_ensure(sim, disturbed, dt);
-    if (!result) result = hair_diagnosis_ensure(sim, disturbed);
-    if (result) return result;
-    if (waits && count_substeps(sim, dt - from) > 0) {
-        double end = from + sim->substep;
-        sim->accumulator = fmax(dt - end, 0);
-        advance(sim, 0, 1, from, dt);
-        from = end;
-        again = 1;
-        result = hair_sim_rebuild_rods(sim);
-        if (!result) result = prepare(sim, from, dt);
-        if (result) return result;
+    bool waits = must_finish_substep(sim), disturbed = hair_sleep_is_disturbed(sim);
+    if (!waits) HAIR_TRY(hair_sim_rebuild_rods(sim));
+    HAIR_TRY(prepare(sim, from, dt));
+    HAIR_TRY(hair_sleep_ensure(sim, disturbed, dt));
+    HAIR_TRY(hair_diagnosis_ensure(sim, disturbed));
+    bool again = waits && count_substeps(sim, dt - from) > 0;
+    if (again) {
+        from = finish_substep(sim, from, dt);
+        HAIR_TRY(hair_sim_rebuild_rods(sim));
+        HAIR_TRY(prepare(sim, from, dt));
     }
     uint32_t total = count_substeps(sim, dt - from);
     sim->accumulator = fmax(dt - from - total * sim->substep, 0);
@@ -336,7 +396,7 @@ static void reset_history(struct hair_sim* sim)
     sim->last_before = sim->last_after = sim->head_at_last_step = sim->head;
     sim->accumulator = 0;
     sim->last_substep = sim->next_substep = sim->substep;
-    sim->hair_grid.substeps_done = 0;
+    hair_grid_reset(sim);
     hair_wind_coupling_reset(sim);
     hair_colliders_end_step(&sim->colliders);
 }
@@ -365,8 +425,7 @@ void hair_sim_reset(struct hair_sim* sim)
 // Move all past poses by the rigid motion that moves the head, so that the hair does not swing.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
 {
-    hair_result result = hair_gl_ensure_program(sim->gl, hair_sim_rotate_pass(sim));
-    if (result) return result;
+    HAIR_TRY(hair_gl_ensure_program(sim->gl, hair_sim_rotate_pass(sim)));
     struct hair_step_params params = {0};
     struct hair_pose from = sim->head;
     struct hair_pose* moved[] = {&sim->last_before, &sim->last_after, &sim->head_at_last_step, &sim->head};
@@ -380,8 +439,7 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     }
     hair_pins_teleport(sim, &from, to);
     hair_sleep_wake(sim);
-    // The grid's accelerations are for the old rotation of the head.
-    sim->hair_grid.substeps_done = 0;
+    hair_grid_reset(sim); // The grid's accelerations are for the old rotation of the head.
     hair_colliders_reset(&sim->colliders); // Old positions imply no velocities.
     write_physics(sim, &params);
     params.rotation_before = vec4_of_quat(from.rotation);

@@ -147,21 +147,36 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
     };
 }
 
-uint32_t hair_wind_coupling_substeps_left(struct hair_sim* sim, double dt)
+// Return the number of substeps done in the current block. If substeps have become longer, the
+// block may be over already.
+static uint32_t done_in_block(const struct hair_sim* sim)
+{
+    uint32_t done = sim->wind_coupling.substeps_done;
+    return done < block_length(sim) ? done : 0;
+}
+
+bool hair_wind_coupling_is_due(const struct hair_sim* sim)
+{
+    return hair_wind_coupling_is_on(sim) && done_in_block(sim) == 0;
+}
+
+uint32_t hair_wind_coupling_substeps_left(const struct hair_sim* sim)
+{
+    return block_length(sim) - done_in_block(sim);
+}
+
+void hair_wind_coupling_update(struct hair_sim* sim, double dt)
 {
     struct hair_wind_coupling* wind_coupling = &sim->wind_coupling;
     const struct hair_field_box* box = &wind_coupling->field->box;
-    uint32_t length = block_length(sim);
-    if (wind_coupling->substeps_done >= length)
-        wind_coupling->substeps_done = 0; // Substeps have become longer.
-    if (wind_coupling->substeps_done != 0) return length - wind_coupling->substeps_done;
     HAIR_ASSERT(wind_coupling->fluid.gl && dt > 0);
+    wind_coupling->substeps_done = 0;
     struct hair_fluid_now now = {.head = sim->last_after,
                                  .middle = hair_add(box->lower, hair_scale(field_size(box), 0.5f)),
                                  .wind = hair_load3(sim->wind.velocity),
                                  .gusts =
                                      hair_wind_find_gusts(&sim->wind_state, &sim->wind, &sim->last_after),
-                                 .dt = length * sim->substep,
+                                 .dt = block_length(sim) * sim->substep,
                                  .field = wind_coupling->field,
                                  .colliders = &sim->colliders,
                                  .colliders_dt = dt};
@@ -169,10 +184,6 @@ uint32_t hair_wind_coupling_substeps_left(struct hair_sim* sim, double dt)
     hair_fluid_place(&wind_coupling->fluid, &now);
     if (wind_coupling->splat) gather_hair(sim);
     hair_fluid_move(&wind_coupling->fluid);
-    hair_sim_bind(sim);
-    hair_sim_bind_rods(sim);
-    if (sim->contacts.any) hair_contacts_bind(sim);
-    return length;
 }
 
 void hair_wind_coupling_count(struct hair_sim* sim, uint32_t substeps)

@@ -30,9 +30,12 @@ void hair_wind_coupling_free(struct hair_sim* sim);
 // Discard the fluid's past. The fluid starts again from the wind.
 void hair_wind_coupling_reset(struct hair_sim* sim);
 
-// Return the number of substeps left in the current block, within a step of `dt`. Step the fluid
-// first at the start of a block.
-uint32_t hair_wind_coupling_substeps_left(struct hair_sim* sim, double dt);
+// Return whether the fluid is on and a block starts with the next substep.
+bool hair_wind_coupling_is_due(const struct hair_sim* sim);
+// Start a block: step the fluid by the length of the block, within a step of `dt`.
+void hair_wind_coupling_update(struct hair_sim* sim, double dt);
+// Return the number of substeps left in the current block, or in the block that is due.
+uint32_t hair_wind_coupling_substeps_left(const struct hair_sim* sim);
 // Count substeps as done.
 void hair_wind_coupling_count(struct hair_sim* sim, uint32_t substeps);
 

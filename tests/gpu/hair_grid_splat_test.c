@@ -124,9 +124,8 @@ static struct grids find(struct hair_test_living* living, const struct hair_stat
 {
     struct hair_sim* sim = &living->hair->sim;
     hair_test_set_state(living, state);
-    sim->hair_grid.substeps_done = 0;
     hair_gl_enter(sim->gl);
-    hair_grid_substeps_left(sim);
+    hair_grid_update(sim);
     hair_gl_leave(sim->gl);
     struct grids g = {.hair_grid = sim->hair_grid, .substep = sim->substep};
     g.nodes = g.hair_grid.nodes[0] * g.hair_grid.nodes[1] * g.hair_grid.nodes[2];
