@@ -91,7 +91,9 @@ hair_result hair_schema_copy_in(const hair_host* host, const char* name, const v
     for (uint32_t i = 0; i < fields.count; ++i) {
         const struct hair_field* field = &fields.field[i];
         HAIR_ASSERT(field->offset + hair_schema_size(field->type) <= fields.size);
-        HAIR_ASSERT(field->min <= field->value && field->value <= field->max);
+        // The default 0 outside the range marks a number that every application must set.
+        HAIR_ASSERT(field->min <= field->max);
+        HAIR_ASSERT(field->value == 0 || (field->min <= field->value && field->value <= field->max));
         double value = read_field(own, field);
         double min = field->type == HAIR_SCHEMA_FLOAT ? (float)field->min : field->min;
         double max = field->type == HAIR_SCHEMA_FLOAT ? (float)field->max : field->max;

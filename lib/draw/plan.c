@@ -159,4 +159,8 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
     out->is_painted = is_colored && renderer->lighting->groom_color && geometry->look.color.groom_colors > 0;
     out->has_root_uvs = out->is_textured || (out->shader && has_uvs);
     out->light_values = hair_lighting_value_count(&geometry->look, view);
+    HAIR_ASSERT(out->path != HAIR_RENDER_PATH_AUTO && out->light_values <= 1 + HAIR_LIGHTS);
+    // Pixels by compute are opaque, and sorted segments index the vertex cache.
+    HAIR_ASSERT(!out->is_computed || (!out->blending && view->primitive == HAIR_PRIMITIVE_RIBBONS));
+    HAIR_ASSERT(out->blending != HAIR_BLENDING_SORTED || out->vertices == HAIR_VERTICES_CACHED);
 }

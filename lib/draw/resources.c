@@ -32,6 +32,7 @@ static hair_result ensure_root_uvs(struct hair_renderer* renderer, struct hair_d
 
 static hair_result ensure_history(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
+    HAIR_ASSERT(plan->head && plan->vertices == HAIR_VERTICES_CACHED);
     hair_result result = hair_geometry_ensure_history(renderer->geometry);
     if (!result) hair_geometry_begin_history(renderer->geometry, plan->head, plan->view->frame_index);
     return result;
@@ -112,6 +113,8 @@ hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct ha
 {
     bool needed[HAIR_RESOURCES];
     hair_result result = HAIR_OK;
+    HAIR_ASSERT(plan->pass_count > 0 && plan->draw == plan->pass[plan->pass_count - 1]);
+    HAIR_ASSERT(plan->draw_program); // The passes must be compiled.
     find_needed(renderer, plan, needed);
     for (int i = 0; i < HAIR_RESOURCES && !result; ++i) {
         if (!needed[i]) continue;

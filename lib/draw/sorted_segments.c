@@ -63,6 +63,7 @@ void hair_draw_issue_sorted_segments(struct hair_renderer* renderer)
 {
     struct hair_gl* gl = renderer->gl;
     const char* first = (const char*)NULL + HAIR_SORTED_COMMAND * sizeof(struct hair_draw_command);
+    HAIR_ASSERT(renderer->sorted_segments.vertex_array && renderer->strand_list.command);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->sorted_segments.vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);

@@ -100,16 +100,31 @@ hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_p
     return result;
 }
 
+// Compile the passes for a state of the hair, with and without occlusion culling. Only the draw
+// knows whether the depth function and the window of the hair allow culling.
+static hair_result compile_state(struct hair_renderer* renderer, hair_gl_pass state,
+                                 struct hair_draw_plan* plan)
+{
+    hair_result result = HAIR_OK;
+    if (hair_draw_uses_occlusion(plan->view)) {
+        hair_draw_find_passes(renderer, state | HAIR_GL_WITH(OCCLUSION), plan);
+        result = hair_draw_compile(renderer, plan);
+        if (result) return result;
+    }
+    hair_draw_find_passes(renderer, state, plan);
+    return hair_draw_compile(renderer, plan);
+}
+
 hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,
                                  bool may_collide)
 {
-    const hair_gl_pass occlusion = hair_draw_uses_occlusion(plan->view) ? HAIR_GL_WITH(OCCLUSION) : 0;
     const struct hair_geometry* geometry = renderer->geometry;
-    hair_draw_find_passes(renderer, occlusion, plan);
-    hair_result result = hair_draw_compile(renderer, plan);
-    if (result || !may_collide || geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_NONE)
-        return result;
+    hair_result result = compile_state(renderer, 0, plan);
+    if (result || !may_collide) return result;
+    // Colliders block light also where a level of detail shows no displacement of followers.
+    if (plan->view->lod) result = compile_state(renderer, HAIR_GL_WITH(COLLIDERS), plan);
+    if (result || geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_NONE) return result;
     result = hair_geometry_ensure_hit_programs(renderer->geometry);
-    hair_draw_find_passes(renderer, occlusion | HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS), plan);
-    return result ? result : hair_draw_compile(renderer, plan);
+    if (result) return result;
+    return compile_state(renderer, HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS), plan);
 }

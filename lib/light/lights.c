@@ -68,6 +68,7 @@ uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_S
         if (light->hair_shadow_map || light->opaque_shadow_map)
             out[maps++] = (struct hair_light_maps){i, light->hair_shadow_map, light->opaque_shadow_map};
     }
+    HAIR_ASSERT(maps <= HAIR_SHADOW_MAPS);
     return maps;
 }
 

@@ -59,6 +59,7 @@ static void fill(struct hair_lighting* lighting, const struct hair_geometry* geo
     static const GLuint none = 0, outermost = UINT32_MAX;
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
+    HAIR_ASSERT(own->density && own->box && groups > 0);
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
     hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);

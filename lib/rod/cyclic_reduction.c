@@ -42,6 +42,8 @@ static struct block plus(struct block a, struct block b)
 
 static struct block inverse(struct block a)
 {
+    // Pivots of a positive definite system are positive definite.
+    HAIR_ASSERT(a.m[0] > 0 && a.m[0] * a.m[3] - a.m[1] * a.m[2] > 0);
     double d = 1 / (a.m[0] * a.m[3] - a.m[1] * a.m[2]);
     return (struct block){{a.m[3] * d, -a.m[1] * d, -a.m[2] * d, a.m[0] * d}};
 }

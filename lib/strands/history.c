@@ -60,6 +60,7 @@ void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct
 {
     struct hair_history_pose* was = &geometry->history.last;
     if (!geometry->history.shown) return;
+    HAIR_ASSERT(geometry->history.shown <= geometry->vertex_cache.writes);
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
     hair_vec3 away = {(float)(was->position[0] - from->position[0]),
                       (float)(was->position[1] - from->position[1]),

@@ -89,6 +89,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     // glBindBufferBase, which also clears the application's generic binding.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
     ++vertex_cache->writes;
+    HAIR_ASSERT(vertex_cache->writes > 0); // 0 means that no frame was shown.
     vertex_cache->is_complete = !drawn->drawn_only;
     vertex_cache->generation = geometry->follower_collision.generation;
     vertex_cache->program_generation = gl->program_generation;

@@ -37,6 +37,7 @@ static struct fixture start(struct hair_test* test)
 
 static void finish(struct fixture* f)
 {
+    glDepthFunc(GL_LESS);
     glDeleteTextures(1, &f->depth);
     hair_test_frame_free(&f->frame);
     hair_destroy(f->hair);
@@ -137,6 +138,28 @@ static void lend_depth(struct fixture* f, hair_view* view)
     view->occluder_depth = f->depth;
 }
 
+// The depth function neither less nor greater disables culling, also after precompilation.
+static void lend_depth_without_order(struct fixture* f, hair_view* view)
+{
+    lend_depth(f, view);
+    put_a_ball_into(f, view);
+    glDepthFunc(GL_ALWAYS);
+}
+
+// Show no displacement of followers, because the hair is small. A ball blocks its light.
+static void shade_small_hair(struct fixture* f, hair_view* view)
+{
+    static hair_lod lod;
+    lod = hair_lod_default();
+    lod.per_patch = true;
+    lod.importance = 1e-6f;
+    view->lod = &lod;
+    shade_strands(f, view);
+    hair_look look = f->hair->geometry.look;
+    look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
+    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+}
+
 static void show_motion(struct fixture* f, hair_view* view)
 {
     (void)f;
@@ -177,6 +200,10 @@ static const struct {
     {"depth", HAIR_RENDER_PATH_TESSELLATION, lend_depth},
     {"depth, expanded", HAIR_RENDER_PATH_CACHED, lend_depth},
     {"depth, computed", HAIR_RENDER_PATH_COMPUTE, lend_depth},
+    {"depth without order", HAIR_RENDER_PATH_TESSELLATION, lend_depth_without_order},
+    {"depth without order, instanced", HAIR_RENDER_PATH_INSTANCED, lend_depth_without_order},
+    {"depth without order, expanded", HAIR_RENDER_PATH_CACHED, lend_depth_without_order},
+    {"shadows on small hair", HAIR_RENDER_PATH_TESSELLATION, shade_small_hair},
     {"levels of detail, computed", HAIR_RENDER_PATH_COMPUTE, leave_out},
     {"levels of detail, expanded", HAIR_RENDER_PATH_CACHED, leave_out},
     {"velocities", HAIR_RENDER_PATH_TESSELLATION, show_motion},

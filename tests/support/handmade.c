@@ -112,6 +112,29 @@ static uint32_t count_vertices(const struct hair_test_handmade* wanted, uint32_t
     return wanted->fewest + guide % (wanted->max - wanted->fewest + 1);
 }
 
+// Write the lengths and the bounds of the guides.
+static void measure_guides(hair_groom* groom)
+{
+    hair_groom_info* info = &groom->info;
+    float sum = 0;
+    info->length[0] = INFINITY;
+    for (int k = 0; k < 3; ++k) info->lower[k] = INFINITY, info->upper[k] = -INFINITY;
+    for (uint32_t i = 0; i < info->guide_count; ++i) {
+        info->length[0] = fminf(info->length[0], groom->guides[i].arc_length);
+        info->length[2] = fmaxf(info->length[2], groom->guides[i].arc_length);
+        sum += groom->guides[i].arc_length;
+    }
+    info->length[1] = sum / (float)info->guide_count;
+    for (uint32_t i = 0; i < info->guide_vertex_count; ++i) {
+        hair_vec4 p = groom->rest[i].position;
+        const float at[3] = {p.x, p.y, p.z};
+        for (int k = 0; k < 3; ++k) {
+            info->lower[k] = fminf(info->lower[k], at[k]);
+            info->upper[k] = fmaxf(info->upper[k], at[k]);
+        }
+    }
+}
+
 hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wanted)
 {
     uint32_t random = wanted.seed, vertices = 0;
@@ -140,6 +163,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.guide_vertex_count = vertices;
     groom->info.follower_count = wanted.followers;
     groom->info.patch_count = patches;
+    measure_guides(groom);
     hair_measure_patches(groom);
     groom->head_sphere = hair_find_head_sphere(groom);
     return groom;

@@ -10,7 +10,7 @@ int hair_test_shell_start(const char* tool);
 int hair_test_shell_finish(void** state);
 const char* hair_test_folder(void); // Return the path of the folder.
 
-extern char hair_test_said[16384]; // output of the last command, both streams
+extern char hair_test_said[65536]; // output of the last command, both streams
 
 // Run a shell command in which $T is the tool and $D the folder. Return its exit code.
 int hair_test_shell(const char* command);
