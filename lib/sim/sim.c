@@ -41,16 +41,18 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
         sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
     hair_result result = HAIR_OK;
     if (!result)
-        result = hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides,
-                                 &sim->guide);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides",
+                                 sim->guides * sizeof *groom->guides, groom->guides, &sim->guide);
     if (!result)
-        result = hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest,
-                                 &sim->rest);
-    if (!result) result = hair_gl_storage(gl, "hair state", state, NULL, &sim->state);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
+                                 sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest);
+    if (!result) result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, NULL, &sim->state);
     if (!result)
-        result = hair_gl_storage(gl, "hair solver stats", solver_stats * sizeof(uint32_t), NULL,
-                                 &sim->solver_stats);
-    if (!result) result = hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats",
+                                 solver_stats * sizeof(uint32_t), NULL, &sim->solver_stats);
+    if (!result)
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair step", sizeof(struct hair_step_params),
+                                 &sim->step);
     if (sim->solver == HAIR_SOLVER_REDBLACK) {
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
     } else if (!result) {
