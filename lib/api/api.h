@@ -44,6 +44,7 @@ struct hair_instance {
     struct hair_renderer renderer;
     struct hair_collider_field field;
     struct hair_gl_profiler profiler;
+    struct hair_gl_owner memory; // memory of buffers and textures by category
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
 };
 
@@ -63,6 +64,8 @@ hair_result hair_check_view_textures(const hair_instance* hair, const hair_view*
 
 // Enter the context for work that the ledger records.
 void hair_enter(hair_instance* hair);
+// Enter the context for work of an instance that the ledger does not record. Memory is recorded.
+void hair_enter_unprofiled(hair_instance* hair);
 // Return the requests of the current frame.
 struct hair_frame_requests* hair_current_requests(hair_instance* hair);
 // End the current frame and begin the next.

@@ -91,7 +91,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     hair->renderer.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
     hair_field_create(&hair->field, &context->sdf_pool, groom, desc->field_voxel);
     hair->sim.wind_coupling.field = &hair->field;
-    hair_gl_enter(&context->gl);
+    hair_enter_unprofiled(hair);
     result = hair_sim_create(&hair->sim, &context->gl, groom);
     hair->told = hair_rods_report_none().softened;
     if (!result) tell_held(hair);
@@ -134,6 +134,7 @@ void hair_destroy(hair_instance* hair)
     hair_geometry_destroy(&hair->geometry);
     hair_field_destroy(&hair->field);
     hair_sim_destroy(&hair->sim);
+    for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
     hair_free(&hair->context->host, hair);
 }
 

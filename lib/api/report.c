@@ -4,9 +4,6 @@
 
 #include <string.h>
 
-#define MAX_BUFFERS 17 // Maximum for one kind of work.
-#define MAX_TEXTURES 2 // Maximum for one kind of work, without buffer textures.
-
 const char* hair_skip_reason_string(hair_skip_reason why)
 {
     static const char* const names[] = {
@@ -21,8 +18,15 @@ const char* hair_skip_reason_string(hair_skip_reason why)
 void hair_enter(hair_instance* hair)
 {
     HAIR_ASSERT(!hair->context->gl.profiler);
-    hair_gl_enter(&hair->context->gl);
+    hair_enter_unprofiled(hair);
     hair->context->gl.profiler = &hair->profiler;
+}
+
+void hair_enter_unprofiled(hair_instance* hair)
+{
+    HAIR_ASSERT(!hair->context->gl.owner);
+    hair_gl_enter(&hair->context->gl);
+    hair->context->gl.owner = &hair->memory;
 }
 
 struct hair_frame_requests* hair_current_requests(hair_instance* hair)
@@ -124,87 +128,6 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     }
 }
 
-// Memory ------------------------------------------------------------------------------------------
-
-// Return the bytes of an instance's buffers for one kind of work. Missing buffers are 0.
-static uint64_t buffer_bytes_of(const hair_instance* hair, hair_gl_category work)
-{
-    const struct hair_sim* sim = &hair->sim;
-    const struct hair_geometry* geometry = &hair->geometry;
-    const struct hair_lighting* lighting = &hair->lighting;
-    const struct hair_renderer* renderer = &hair->renderer;
-    const struct hair_fluid* air = &sim->wind_coupling.fluid;
-    const struct hair_gl* gl = &hair->context->gl;
-    const GLuint buffers[HAIR_GL_CATEGORIES][MAX_BUFFERS] = {
-        [HAIR_GL_CATEGORY_UNPACK_SCALP] = {sim->scalp_motion.scalp[0], sim->scalp_motion.scalp[1],
-                                           sim->scalp_motion.rest, sim->scalp_motion.params},
-        [HAIR_GL_CATEGORY_ROOT_TRANSFORMS] = {sim->scalp_motion.root_transform,
-                                              sim->scalp_motion.root_binding},
-        [HAIR_GL_CATEGORY_WIND] = {sim->wind_state.params, air->velocity[0].buffer, air->velocity[1].buffer,
-                                   air->velocity[2].buffer, air->wall_velocity.buffer,
-                                   air->face_fraction.buffer, air->rhs.buffer, air->pressure[0].buffer,
-                                   air->pressure[1].buffer, air->params, air->level_params, air->motion,
-                                   air->hair.grid.buffer, air->hair.wall_velocity.buffer,
-                                   air->hair.face_fraction.buffer, sim->wind_coupling.splat,
-                                   sim->wind_coupling.params},
-        [HAIR_GL_CATEGORY_HAIR_GRID] = {sim->hair_grid.params, sim->hair_grid.grid, sim->hair_grid.splat,
-                                        sim->hair_grid.rest_density, sim->hair_grid.acceleration},
-        [HAIR_GL_CATEGORY_ACTIVITY] = {sim->sleep.anchor, sim->sleep.activity, sim->sleep.readback,
-                                       sim->sleep.params},
-        [HAIR_GL_CATEGORY_DIAGNOSE] = {sim->diagnosis.energy, sim->diagnosis.energy_params,
-                                       sim->diagnosis.found, sim->diagnosis.motion_params},
-        [HAIR_GL_CATEGORY_SOLVE] = {sim->guide, sim->rest, sim->state, sim->solver_stats, sim->step, sim->rod,
-                                    sim->history, sim->material, sim->reduction, sim->bend, sim->pins.buffer,
-                                    sim->feedback.owner, sim->feedback.buffer[0], sim->feedback.buffer[1]},
-        [HAIR_GL_CATEGORY_SMOOTH] = {hair->geometry.smooth.buffer[0], hair->geometry.smooth.buffer[1],
-                                     hair->geometry.smooth.buffer[2]},
-        [HAIR_GL_CATEGORY_FIELD] = {hair->field.params, hair->field.work, sim->contacts.collider,
-                                    sim->contacts.cell},
-        [HAIR_GL_CATEGORY_HIT] = {geometry->follower_collision.hit, geometry->follower_collision.list},
-        [HAIR_GL_CATEGORY_REPAIR] = {geometry->follower_collision.repair},
-        [HAIR_GL_CATEGORY_EXPAND] = {geometry->vertex_cache.position, geometry->vertex_cache.tangent,
-                                     geometry->vertex_cache.shaded, geometry->history.buffer,
-                                     renderer->view_cache.buffer[0], renderer->view_cache.buffer[1],
-                                     renderer->view_cache.buffer[2]},
-        [HAIR_GL_CATEGORY_SELF_SHADOW] = {lighting->self_shadow.density, lighting->self_shadow.box,
-                                          lighting->self_shadow.nodes, lighting->self_shadow.light},
-        [HAIR_GL_CATEGORY_OCCLUSION] = {renderer->occlusion.params, renderer->occlusion.depth,
-                                        renderer->occlusion.box},
-        [HAIR_GL_CATEGORY_COMPACT_STRANDS] = {renderer->strand_list.start, renderer->strand_list.strand,
-                                              renderer->strand_list.command,
-                                              renderer->strand_list.indices[0].index,
-                                              renderer->strand_list.indices[1].index},
-        [HAIR_GL_CATEGORY_COLOR] = {geometry->follower, geometry->patch, geometry->params,
-                                    renderer->sorted_segments.bucket, renderer->sorted_segments.index,
-                                    geometry->uv, lighting->groom_color, renderer->raster.params,
-                                    renderer->raster.nearest, renderer->raster.tile},
-    };
-    HAIR_ASSERT((unsigned)work < HAIR_GL_CATEGORIES);
-    uint64_t bytes = 0;
-    for (int i = 0; i < MAX_BUFFERS; ++i) bytes += hair_gl_buffer_bytes(gl, buffers[work][i]);
-    return bytes;
-}
-
-// Return the bytes of an instance's textures for one kind of work. Missing textures are 0.
-static uint64_t texture_bytes_of(const hair_instance* hair, hair_gl_category work)
-{
-    const GLuint textures[HAIR_GL_CATEGORIES][MAX_TEXTURES] = {
-        [HAIR_GL_CATEGORY_WIND] = {hair->sim.wind_coupling.fluid.air, hair->sim.wind_state.gusts},
-        [HAIR_GL_CATEGORY_FIELD] = {hair->field.distance, hair->field.number},
-        [HAIR_GL_CATEGORY_HIT] = {hair->geometry.follower_collision.image},
-        [HAIR_GL_CATEGORY_COLOR] = {hair->lighting.fibres.texture},
-    };
-    uint64_t bytes = 0;
-    for (int i = 0; i < MAX_TEXTURES; ++i)
-        bytes += hair_gl_texture_bytes(&hair->context->gl, textures[work][i]);
-    return bytes;
-}
-
-static uint64_t bytes_of(const hair_instance* hair, hair_gl_category work)
-{
-    return buffer_bytes_of(hair, work) + texture_bytes_of(hair, work);
-}
-
 // The report --------------------------------------------------------------------------------------
 
 static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, float ms[HAIR_GL_CATEGORIES])
@@ -224,7 +147,7 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
     hair_report_row row = {.stage = hair_gl_category_label(work),
                            .runs = frame->runs[work],
                            .ms = ms,
-                           .bytes = bytes_of(hair, work)};
+                           .bytes = hair->memory.bytes[work]};
     HAIR_ASSERT(frame->number <= hair->profiler.number);
     HAIR_ASSERT(!row.runs || hair_gl_find(&hair->context->gl, frame->pass[work]));
     if (row.runs) row.pass = hair_gl_find(&hair->context->gl, frame->pass[work])->label;

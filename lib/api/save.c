@@ -27,7 +27,7 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     if (!bytes) return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL", hair->label);
     hair_result result = hair_check_current(context);
     if (result) return result;
-    hair_gl_enter(&context->gl);
+    hair_enter_unprofiled(hair);
     result = hair_sim_load(&hair->sim, bytes, size);
     if (!result) hair_smooth_invalidate(&hair->geometry.smooth);
     if (!result) hair_geometry_forget_history(&hair->geometry);

@@ -264,7 +264,7 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     if (result) return result;
     struct hair_draw_plan plan;
     if (view) make_plan(hair, &own, &plan);
-    hair_gl_enter(gl);
+    hair_enter_unprofiled(hair);
     hair_gl_begin_async(gl);
     result = hair_sim_ensure_programs(&hair->sim);
     if (!result && view) result = ensure_programs(hair, &plan);
@@ -299,7 +299,7 @@ static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t coun
 static hair_result read_followers(hair_instance* hair, uint32_t count, float* positions)
 {
     hair_vec4* vertices = NULL;
-    hair_gl_enter(&hair->context->gl);
+    hair_enter_unprofiled(hair);
     make_ready(hair);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
     hair_result result = update_follower_collision(hair);
@@ -313,7 +313,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 
 static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
 {
-    hair_gl_enter(&hair->context->gl);
+    hair_enter_unprofiled(hair);
     make_ready(hair);
     hair_gl_leave(&hair->context->gl);
     return read_buffer(hair, hair->geometry.smooth.buffer[0], count, 4, &hair->sim.head_at_last_step,
@@ -364,7 +364,7 @@ hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
     hair_result result = hair_check_current(hair->context);
     if (result) return result;
     hair_solver_stats own = hair_solver_stats_default();
-    hair_gl_enter(&hair->context->gl);
+    hair_enter_unprofiled(hair);
     result = hair_sim_solver_stats(&hair->sim, &own);
     hair_gl_leave(&hair->context->gl);
     if (result) return result;

@@ -54,7 +54,7 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
     struct hair_debug_params params = {.rotation = turn};
     struct hair_draw_params own;
     hair_result result = hair_gl_ensure_program(gl, HAIR_GL_AIR);
-    if (!result) result = hair_gl_uniform(gl, "hair shown", sizeof params, &buffer);
+    if (!result) result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_AIR, "hair shown", sizeof params, &buffer);
     if (result) return result;
     uint32_t arrows = write_arrows(box, wind, view, &params);
     hair_draw_write_params(renderer, head, view, &own);

@@ -85,7 +85,7 @@ hair_result hair_draw_colliders(struct hair_renderer* renderer, const struct hai
     if (result) return result;
     struct hair_debug_params* params = hair_alloc(&gl->host, 1, sizeof *params);
     if (!params) return hair_fail_memory(&gl->host, "the colliders to draw");
-    result = hair_gl_uniform(gl, "hair shown", sizeof *params, &buffer);
+    result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLLIDERS, "hair shown", sizeof *params, &buffer);
     if (!result) {
         struct hair_draw_params own;
         hair_draw_write_params(renderer, head, view, &own);

@@ -133,14 +133,16 @@ hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer, struct ha
         size_t room = hair_hiz_texels(columns, rows);
         hair_gl_free_buffer(gl, &occlusion->depth);
         occlusion->room = 0;
-        result = hair_gl_storage(gl, "hair Hi-Z", room * sizeof(float), NULL, &occlusion->depth);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_OCCLUSION, "hair Hi-Z", room * sizeof(float), NULL,
+                                 &occlusion->depth);
         if (!result) occlusion->room = room;
     }
     if (!result)
-        result = hair_gl_ensure_array(gl, "hair guide bounds", boxes * sizeof(hair_vec4), &occlusion->box, 0,
-                                      NULL);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_OCCLUSION, "hair guide bounds",
+                                      boxes * sizeof(hair_vec4), &occlusion->box, 0, NULL);
     if (!result && !occlusion->params)
-        result = hair_gl_uniform(gl, "hair occlusion", sizeof *params, &occlusion->params);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_OCCLUSION, "hair occlusion", sizeof *params,
+                                 &occlusion->params);
     return result;
 }
 

@@ -103,7 +103,8 @@ static hair_result ensure_room(struct hair_gl* gl, const char* label, size_t cou
     count = (count + count / 2 + 3) / 4 * 4;
     hair_gl_free_buffer(gl, buffer);
     *room = 0;
-    hair_result result = hair_gl_storage(gl, label, count * sizeof(uint32_t), NULL, buffer);
+    hair_result result =
+        hair_gl_storage(gl, HAIR_GL_CATEGORY_COLOR, label, count * sizeof(uint32_t), NULL, buffer);
     if (!result) *room = count;
     return result;
 }
@@ -135,7 +136,8 @@ hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "HAIR_RENDER_PATH_COMPUTE draws into pixels of up to %d samples, not of %u",
                          HAIR_RASTER_SAMPLES, params->samples);
-    if (!raster->params) result = hair_gl_uniform(gl, "hair raster", sizeof *params, &raster->params);
+    if (!raster->params)
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair raster", sizeof *params, &raster->params);
     if (!result) result = ensure_tiles(gl, raster, params->tiles);
     if (result) return result;
     return ensure_room(gl, "hair nearest", count_numbers(params, plan->draw), &raster->nearest,

@@ -8,8 +8,8 @@ static hair_result make_index(struct hair_renderer* renderer, size_t segments)
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     hair_gl_free_buffer(gl, &sorted_segments->index);
     sorted_segments->segments = 0;
-    hair_result result =
-        hair_gl_storage(gl, "hair sorted segments", 8 * segments, NULL, &sorted_segments->index);
+    hair_result result = hair_gl_storage(gl, HAIR_GL_CATEGORY_COLOR, "hair sorted segments", 8 * segments,
+                                         NULL, &sorted_segments->index);
     if (result) return result;
     if (!sorted_segments->vertex_array) gl->CreateVertexArrays(1, &sorted_segments->vertex_array);
     if (!sorted_segments->vertex_array)
@@ -26,8 +26,9 @@ hair_result hair_draw_ensure_sorted_segments(struct hair_renderer* renderer, str
     struct hair_gl* gl = renderer->gl;
     struct hair_sorted_segments* sorted_segments = &renderer->sorted_segments;
     size_t segments = (size_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
-    hair_result result = hair_gl_ensure_array(gl, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t),
-                                              &sorted_segments->bucket, 0, NULL);
+    hair_result result =
+        hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COLOR, "hair buckets", HAIR_SORT_BUCKETS * sizeof(uint32_t),
+                             &sorted_segments->bucket, 0, NULL);
     if (!result && sorted_segments->segments != segments) result = make_index(renderer, segments);
     return result;
 }

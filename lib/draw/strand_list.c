@@ -12,14 +12,16 @@ static hair_result make_lists(struct hair_renderer* renderer)
     struct hair_strand_list* own = &renderer->strand_list;
     if (!own->key) own->key = hair_alloc(&gl->host, 1, sizeof *own->key);
     if (!own->key) return hair_fail_memory(&gl->host, "the list of strands");
-    hair_result result = hair_gl_ensure_array(gl, "hair strand starts", geometry->patches * sizeof(uint32_t),
-                                              &own->start, 0, NULL);
+    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair strand starts",
+                                              geometry->patches * sizeof(uint32_t), &own->start, 0, NULL);
     if (!result)
-        result = hair_gl_ensure_array(gl, "hair strands", geometry->followers * sizeof(struct hair_strand),
-                                      &own->strand, GL_RGBA32UI, &own->strand_texture);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair strands",
+                                      geometry->followers * sizeof(struct hair_strand), &own->strand,
+                                      GL_RGBA32UI, &own->strand_texture);
     if (!result)
-        result = hair_gl_ensure_array(gl, "hair commands", HAIR_COMMANDS * sizeof(struct hair_draw_command),
-                                      &own->command, 0, NULL);
+        result =
+            hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair commands",
+                                 HAIR_COMMANDS * sizeof(struct hair_draw_command), &own->command, 0, NULL);
     return result;
 }
 
@@ -58,7 +60,8 @@ static hair_result ensure_indices(struct hair_renderer* renderer, int paired)
     size_t count;
     uint16_t* indices = write_indices(gl, segments, paired, &count);
     if (!indices) return hair_fail_memory(&gl->host, "the segments of strands");
-    hair_result result = hair_gl_buffer(gl, "hair segments", count * sizeof *indices, indices, &own->index);
+    hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COMPACT_STRANDS, "hair segments",
+                                        count * sizeof *indices, indices, &own->index);
     hair_free(&gl->host, indices);
     if (result) return result;
     if (!own->vertex_array) gl->CreateVertexArrays(1, &own->vertex_array);

@@ -33,8 +33,8 @@ static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t 
     HAIR_ASSERT(0 <= part && part < HAIR_VIEW_CACHE_PARTS);
     free_part(renderer, part);
     own->size[part] = size;
-    return hair_gl_ensure_array(renderer->gl, parts[part].label, size, &own->buffer[part], parts[part].format,
-                                &own->texture[part]);
+    return hair_gl_ensure_array(renderer->gl, HAIR_GL_CATEGORY_EXPAND, parts[part].label, size,
+                                &own->buffer[part], parts[part].format, &own->texture[part]);
 }
 
 hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct hair_draw_plan* plan)

@@ -46,11 +46,16 @@ static hair_result make(struct hair_collider_field* field)
     const struct hair_field_box* box = &field->box;
     uint32_t bricks = hair_field_bricks(box), size[3];
     for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
-    hair_result result = hair_gl_texture_3d(gl, "hair field", GL_R16F, size, GL_LINEAR, &field->distance);
+    hair_result result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field", GL_R16F, size,
+                                            GL_LINEAR, &field->distance);
     if (!result)
-        result = hair_gl_texture_3d(gl, "hair field collider", GL_R32UI, size, GL_NEAREST, &field->number);
-    if (!result) result = hair_gl_uniform(gl, "hair field", sizeof(struct hair_field_params), &field->params);
-    if (!result) result = hair_gl_uniform(gl, "hair field work", ALIGNMENT, &field->work);
+        result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field collider", GL_R32UI, size,
+                                    GL_NEAREST, &field->number);
+    if (!result)
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field", sizeof(struct hair_field_params),
+                                 &field->params);
+    if (!result)
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field work", ALIGNMENT, &field->work);
     if (!result)
         result =
             hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture);

@@ -31,8 +31,8 @@ static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
         if (pool->pooled[i].mesh) used += count_nodes(pool->pooled[i].mesh);
     size_t room = used + more + (used + more) / 2;
     if (room < MIN_ROOM) room = MIN_ROOM;
-    hair_result result =
-        hair_gl_storage(pool->gl, "hair collision meshes", room * sizeof(float), NULL, &buffer);
+    hair_result result = hair_gl_storage(pool->gl, HAIR_GL_NO_CATEGORY, "hair collision meshes",
+                                         room * sizeof(float), NULL, &buffer);
     if (result) return result;
     hair_gl_free_buffer_texture(pool->gl, &pool->texture);
     hair_gl_free_buffer(pool->gl, &pool->nodes);

@@ -2,31 +2,12 @@
 // success is checked by querying sizes.
 #include "lib/gl/gl.h"
 
-// Memory ------------------------------------------------------------------------------------------
+// Sizes -------------------------------------------------------------------------------------------
 
-// Check whether `size` more bytes for `label` stay within the memory limit.
-static hair_result ask(struct hair_gl* gl, const char* label, uint64_t size)
-{
-    const struct hair_gl_memory* memory = &gl->memory;
-    if (!memory->limit || (memory->bytes <= memory->limit && size <= memory->limit - memory->bytes))
-        return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
-                     "%s: %llu more bytes than the %llu in use would be beyond the limit of %llu", label,
-                     (unsigned long long)size, (unsigned long long)memory->bytes,
-                     (unsigned long long)memory->limit);
-}
-
-static void count(struct hair_gl* gl, uint64_t size)
-{
-    HAIR_ASSERT(gl->memory.bytes + size >= size);
-    gl->memory.bytes += size;
-    if (gl->memory.bytes > gl->memory.peak) gl->memory.peak = gl->memory.bytes;
-}
-
-uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer)
+static uint64_t buffer_bytes(const struct hair_gl* gl, GLuint buffer)
 {
     GLint64 size = 0;
-    if (buffer) gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
     return (uint64_t)size;
 }
 
@@ -43,10 +24,9 @@ static uint64_t texel_bytes(GLenum format)
     }
 }
 
-uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
+static uint64_t texture_bytes(const struct hair_gl* gl, GLuint texture)
 {
     GLint format = 0, size[3] = {0};
-    if (!texture) return 0;
     gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
     gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_WIDTH, &size[0]);
     gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_HEIGHT, &size[1]);
@@ -56,12 +36,13 @@ uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture)
 
 // Buffers -----------------------------------------------------------------------------------------
 
-hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
+hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                           const void* data, GLuint* out)
 {
     HAIR_ASSERT(label && !*out);
     GLuint buffer = 0;
     GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
-    hair_result result = ask(gl, label, (uint64_t)want);
+    hair_result result = hair_gl_memory_ask(gl, label, (uint64_t)want);
     if (result) return result;
     void* zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
     if (!data && !zeros) return hair_fail_memory(&gl->host, label);
@@ -78,28 +59,30 @@ hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, c
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want,
                          label);
     }
-    count(gl, (uint64_t)want);
+    hair_gl_memory_add(gl, category, false, buffer, (uint64_t)want);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     return HAIR_OK;
 }
 
-hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out)
+hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                            const void* data, GLuint* out)
 {
     GLint max = 0;
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
     if (size > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
                          size, max);
-    return hair_gl_buffer(gl, label, size, data, out);
+    return hair_gl_buffer(gl, category, label, size, data, out);
 }
 
-hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out)
+hair_result hair_gl_uniform(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                            GLuint* out)
 {
     HAIR_ASSERT(size > 0 && !*out);
     GLuint buffer = 0;
     GLint64 got = 0;
-    hair_result result = ask(gl, label, size);
+    hair_result result = hair_gl_memory_ask(gl, label, size);
     if (result) return result;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
@@ -110,7 +93,7 @@ hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, 
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
     }
-    count(gl, size);
+    hair_gl_memory_add(gl, category, false, buffer, size);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     return HAIR_OK;
@@ -126,26 +109,25 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
                            GLuint buffer)
 {
     HAIR_ASSERT(buffer && size > 0);
-    uint64_t was = hair_gl_buffer_bytes(gl, buffer), got;
-    hair_result result = size > was ? ask(gl, label, size - was) : HAIR_OK;
+    uint64_t was = buffer_bytes(gl, buffer), got;
+    hair_result result = size > was ? hair_gl_memory_ask(gl, label, size - was) : HAIR_OK;
     if (result) return result;
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
-    got = hair_gl_buffer_bytes(gl, buffer);
-    gl->memory.bytes -= was;
-    count(gl, got);
+    got = buffer_bytes(gl, buffer);
+    hair_gl_memory_resize(gl, buffer, got);
     if (got == size) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %zu bytes for %s", size, label);
 }
 
-hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
-                           const void** mapped)
+hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                           GLuint* out, const void** mapped)
 {
     HAIR_ASSERT(size > 0 && !*out && !*mapped);
     static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     GLuint buffer = 0;
     GLint64 got = 0;
     const void* at = NULL;
-    hair_result result = ask(gl, label, size);
+    hair_result result = hair_gl_memory_ask(gl, label, size);
     if (result) return result;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
@@ -157,7 +139,7 @@ hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, G
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver maps no %zu bytes for %s", size, label);
     }
-    count(gl, size);
+    hair_gl_memory_add(gl, category, false, buffer, size);
     gl->ObjectLabel(GL_BUFFER, buffer, -1, label);
     *out = buffer;
     *mapped = at;
@@ -170,7 +152,7 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
                                    GLuint* out)
 {
     HAIR_ASSERT(buffer && !*out);
-    uint64_t texels = hair_gl_buffer_bytes(gl, buffer) / texel_bytes(format);
+    uint64_t texels = buffer_bytes(gl, buffer) / texel_bytes(format);
     GLint max = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     if (texels > (uint64_t)max)
@@ -185,8 +167,8 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
     return HAIR_OK;
 }
 
-hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
-                               GLenum filter, GLuint* out)
+hair_result hair_gl_texture_3d(struct hair_gl* gl, hair_gl_category category, const char* label,
+                               GLenum format, const uint32_t size[3], GLenum filter, GLuint* out)
 {
     HAIR_ASSERT(size[0] > 0 && size[1] > 0 && size[2] > 0 && !*out);
     GLuint texture = 0;
@@ -197,7 +179,7 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
             return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
                              label, size[i], max);
     uint64_t bytes = texel_bytes(format) * size[0] * size[1] * size[2];
-    hair_result result = ask(gl, label, bytes);
+    hair_result result = hair_gl_memory_ask(gl, label, bytes);
     if (result) return result;
     gl->CreateTextures(GL_TEXTURE_3D, 1, &texture);
     if (texture) {
@@ -209,7 +191,7 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %u x %u x %u texels for %s",
                          size[0], size[1], size[2], label);
     }
-    count(gl, bytes);
+    hair_gl_memory_add(gl, category, true, texture, bytes);
     gl->TextureParameteri(texture, GL_TEXTURE_MIN_FILTER, (GLint)filter);
     gl->TextureParameteri(texture, GL_TEXTURE_MAG_FILTER, (GLint)filter);
     gl->TextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -220,22 +202,22 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum for
     return HAIR_OK;
 }
 
-hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
-                               uint32_t height, GLuint* out)
+hair_result hair_gl_texture_2d(struct hair_gl* gl, hair_gl_category category, const char* label,
+                               GLenum format, uint32_t width, uint32_t height, GLuint* out)
 {
     HAIR_ASSERT(width > 0 && height > 0 && !*out);
     GLuint texture = 0;
     uint64_t bytes = texel_bytes(format) * width * height;
-    hair_result result = ask(gl, label, bytes);
+    hair_result result = hair_gl_memory_ask(gl, label, bytes);
     if (result) return result;
     gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
     if (texture) gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
-    if (!texture || hair_gl_texture_bytes(gl, texture) != bytes) {
+    if (!texture || texture_bytes(gl, texture) != bytes) {
         if (texture) gl->DeleteTextures(1, &texture);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %u x %u texels for %s", width,
                          height, label);
     }
-    count(gl, bytes);
+    hair_gl_memory_add(gl, category, true, texture, bytes);
     gl->ObjectLabel(GL_TEXTURE, texture, -1, label);
     *out = texture;
     return HAIR_OK;
@@ -261,8 +243,7 @@ void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t 
 void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer)
 {
     if (!*buffer) return;
-    gl->memory.bytes -= hair_gl_buffer_bytes(gl, *buffer);
-    HAIR_ASSERT(gl->memory.bytes <= gl->memory.peak);
+    hair_gl_memory_remove(gl, false, *buffer);
     gl->DeleteBuffers(1, buffer);
     *buffer = 0;
 }
@@ -276,18 +257,17 @@ void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture)
 void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 {
     if (!*texture) return;
-    gl->memory.bytes -= hair_gl_texture_bytes(gl, *texture);
-    HAIR_ASSERT(gl->memory.bytes <= gl->memory.peak);
+    hair_gl_memory_remove(gl, true, *texture);
     gl->DeleteTextures(1, texture);
     *texture = 0;
 }
 
 // Arrays ------------------------------------------------------------------------------------------
 
-hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
-                                 GLenum format, GLuint* texture)
+hair_result hair_gl_ensure_array(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                 size_t size, GLuint* buffer, GLenum format, GLuint* texture)
 {
-    hair_result result = *buffer ? HAIR_OK : hair_gl_storage(gl, label, size, NULL, buffer);
+    hair_result result = *buffer ? HAIR_OK : hair_gl_storage(gl, category, label, size, NULL, buffer);
     if (result || !texture || *texture) return result;
     return hair_gl_buffer_texture(gl, label, format, *buffer, texture);
 }

@@ -60,7 +60,9 @@ hair_result hair_gl_find_driver_quirks(struct hair_gl* gl)
     hair_result result =
         hair_gl_link(gl, "gl/selftest", "draw/patch.vert gl/driver_quirks.tesc gl/driver_quirks.tese",
                      "captured", &program);
-    if (!result) result = hair_gl_buffer(gl, "self-test", count * sizeof *captured, NULL, &buffer);
+    if (!result)
+        result =
+            hair_gl_buffer(gl, HAIR_GL_NO_CATEGORY, "self-test", count * sizeof *captured, NULL, &buffer);
     if (!result) {
         framebuffer = hair_gl_blank_framebuffer(gl);
         gl->CreateTransformFeedbacks(1, &feedback);

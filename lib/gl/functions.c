@@ -117,6 +117,7 @@ void hair_gl_destroy(struct hair_gl* gl)
     hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
+    hair_free(&gl->host, gl->memory.allocations);
     hair_free(&gl->host, gl->glsl_dir);
     memset(gl, 0, sizeof *gl);
 }

@@ -27,7 +27,8 @@ enum hair_gl_feature {
 typedef enum hair_gl_category {
 #define CATEGORY(name, label) HAIR_GL_CATEGORY_##name,
 #include "lib/gl/passes.inl"
-    HAIR_GL_CATEGORIES
+    HAIR_GL_CATEGORIES,
+    HAIR_GL_NO_CATEGORY = HAIR_GL_CATEGORIES // Memory that no report counts.
 } hair_gl_category;
 
 // Identifier of a pass. It holds the row in the lowest bits, the size of the work groups, and a bit
@@ -96,9 +97,18 @@ struct hair_gl_shader {
 
 struct hair_gl_profiler;
 
+struct hair_gl_allocation;
+
 // Memory of buffers and textures, in bytes.
 struct hair_gl_memory {
     uint64_t bytes, peak, limit; // In use, peak, and limit. A limit of 0 allows any amount.
+    struct hair_gl_allocation* allocations; // Buffers and textures. Defined in memory.c.
+    uint32_t count, room;
+};
+
+// Memory of the buffers and textures of an instance by category, in bytes.
+struct hair_gl_owner {
+    uint64_t bytes[HAIR_GL_CATEGORIES];
 };
 
 struct hair_gl {
@@ -119,6 +129,7 @@ struct hair_gl {
     struct hair_gl_program** program; // Programs of all passes needed so far.
     uint32_t programs, room;
     struct hair_gl_profiler* profiler; // Profiler of the active instance. NULL disables it.
+    struct hair_gl_owner* owner; // Owner of what is created. NULL if it is no instance.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
     GLuint shadow_sampler;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
@@ -222,20 +233,36 @@ struct hair_gl_capture {
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
 
+// memory.c ----------------------------------------------------------------------------------------
+
+// Check whether `size` more bytes for `label` stay within the memory limit. Make room to record one
+// more object.
+hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size);
+// Record an object that gl->owner owns from now on. hair_gl_memory_ask() must have allowed it.
+void hair_gl_memory_add(struct hair_gl* gl, hair_gl_category category, bool is_texture, GLuint name,
+                        uint64_t size);
+// Record a new size of a buffer.
+void hair_gl_memory_resize(struct hair_gl* gl, GLuint buffer, uint64_t size);
+// Forget an object that is about to be deleted. Any owner may be current.
+void hair_gl_memory_remove(struct hair_gl* gl, bool is_texture, GLuint name);
+
 // buffer.c ----------------------------------------------------------------------------------------
 
 // Create a buffer of `size` bytes, at least 16, with `data`. NULL fills it with zeros. On failure
-// `*out` is unchanged.
-hair_result hair_gl_buffer(struct hair_gl* gl, const char* label, size_t size, const void* data, GLuint* out);
+// `*out` is unchanged. Reports of the current owner count the memory in `category`, here and in all
+// functions below.
+hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                           const void* data, GLuint* out);
 // Create a buffer that shaders read or write as storage. Fail if the driver's largest block is
 // smaller.
-hair_result hair_gl_storage(struct hair_gl* gl, const char* label, size_t size, const void* data,
-                            GLuint* out);
+hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                            const void* data, GLuint* out);
 
 // Create a uniform buffer, which is written whole before every dispatch or draw that reads it. Each
 // write allocates new memory, so that pending commands keep their values. One driver was observed
 // to write before an earlier dispatch had run.
-hair_result hair_gl_uniform(struct hair_gl* gl, const char* label, size_t size, GLuint* out);
+hair_result hair_gl_uniform(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                            GLuint* out);
 void hair_gl_write_uniform(struct hair_gl* gl, GLuint buffer, size_t size, const void* data);
 // Write a uniform buffer and change its size. On failure the size is undefined.
 hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, const void* data,
@@ -243,31 +270,28 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
 
 // Create a buffer that the GPU copies into and the application reads at `mapped` for the lifetime
 // of the buffer. A copy is visible once a fence after it is signalled.
-hair_result hair_gl_mapped(struct hair_gl* gl, const char* label, size_t size, GLuint* out,
-                           const void** mapped);
+hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                           GLuint* out, const void** mapped);
 
+// Create a texture over a buffer, without memory of its own.
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,
                                    GLuint* out);
 
 // Create a storage buffer unless it exists. Create its buffer texture too unless it exists or
 // `texture` is NULL.
-hair_result hair_gl_ensure_array(struct hair_gl* gl, const char* label, size_t size, GLuint* buffer,
-                                 GLenum format, GLuint* texture);
+hair_result hair_gl_ensure_array(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                 size_t size, GLuint* buffer, GLenum format, GLuint* texture);
 // Free a buffer and its buffer texture. NULL `texture` means that there is none.
 void hair_gl_free_array(struct hair_gl* gl, GLuint* buffer, GLuint* texture);
 
 // Create a 3D texture without mipmaps, with undefined contents and clamped edges. On failure `*out`
 // is unchanged.
-hair_result hair_gl_texture_3d(struct hair_gl* gl, const char* label, GLenum format, const uint32_t size[3],
-                               GLenum filter, GLuint* out);
-hair_result hair_gl_texture_2d(struct hair_gl* gl, const char* label, GLenum format, uint32_t width,
-                               uint32_t height, GLuint* out);
+hair_result hair_gl_texture_3d(struct hair_gl* gl, hair_gl_category category, const char* label,
+                               GLenum format, const uint32_t size[3], GLenum filter, GLuint* out);
+hair_result hair_gl_texture_2d(struct hair_gl* gl, hair_gl_category category, const char* label,
+                               GLenum format, uint32_t width, uint32_t height, GLuint* out);
 // Fill a texture with four floats per texel, whatever the application's pixel storage modes are.
 void hair_gl_fill_texture_3d(struct hair_gl* gl, GLuint texture, const uint32_t size[3], const void* texels);
-// Return the memory of an object in bytes, or 0 for the name 0. The memory of a buffer texture is
-// that of its buffer.
-uint64_t hair_gl_buffer_bytes(const struct hair_gl* gl, GLuint buffer);
-uint64_t hair_gl_texture_bytes(const struct hair_gl* gl, GLuint texture);
 void hair_gl_free_buffer(struct hair_gl* gl, GLuint* buffer);
 void hair_gl_free_buffer_texture(struct hair_gl* gl, GLuint* texture);
 // Free a 2D or 3D texture.

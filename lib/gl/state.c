@@ -108,6 +108,7 @@ static void unbind(struct hair_gl* gl)
 void hair_gl_leave(struct hair_gl* gl)
 {
     gl->profiler = NULL;
+    gl->owner = NULL;
     if (gl->state_policy == HAIR_GL_STATE_CLOBBER) {
         unbind(gl);
         return;

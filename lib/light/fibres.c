@@ -18,7 +18,8 @@ hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const ha
     if (!table) return hair_fail_memory(&gl->host, "the table of fibres");
     hair_result result = HAIR_OK;
     if (!fibres->texture)
-        result = hair_gl_texture_3d(gl, "hair fibres", GL_RGBA32F, size, GL_LINEAR, &fibres->texture);
+        result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_COLOR, "hair fibres", GL_RGBA32F, size, GL_LINEAR,
+                                    &fibres->texture);
     if (!result) {
         hair_fibre_fill(&params, table);
         hair_gl_fill_texture_3d(gl, fibres->texture, size, table);

@@ -7,8 +7,8 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
     lighting->gl = gl;
     if (!groom->colors) return HAIR_OK;
     size_t count = groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
-    hair_result result = hair_gl_buffer(gl, "hair colours", count * sizeof *groom->colors, groom->colors,
-                                        &lighting->groom_color);
+    hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair colours",
+                                        count * sizeof *groom->colors, groom->colors, &lighting->groom_color);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,
                                         &lighting->groom_color_texture);

@@ -31,11 +31,11 @@ static hair_result make_light(struct hair_lighting* lighting, const struct hair_
     own->numbers = numbers;
     own->each = each;
     size_t nodes = (size_t)HAIR_DENSITY_NODES * each;
-    hair_result result =
-        hair_gl_ensure_array(gl, "hair light of nodes", nodes * sizeof(float), &own->nodes, 0, NULL);
+    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light of nodes",
+                                              nodes * sizeof(float), &own->nodes, 0, NULL);
     if (result) return result;
-    return hair_gl_ensure_array(gl, "hair light", numbers * sizeof(uint32_t), &own->light, GL_R32UI,
-                                &own->texture);
+    return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair light", numbers * sizeof(uint32_t),
+                                &own->light, GL_R32UI, &own->texture);
 }
 
 static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl_pass pass)
@@ -47,10 +47,11 @@ static hair_result make(struct hair_lighting* lighting, const struct hair_geomet
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
-    hair_result result = hair_gl_ensure_array(gl, "hair density", HAIR_DENSITY_NODES * sizeof(uint32_t),
-                                              &own->density, 0, NULL);
+    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density",
+                                              HAIR_DENSITY_NODES * sizeof(uint32_t), &own->density, 0, NULL);
     if (!result)
-        result = hair_gl_ensure_array(gl, "hair density box", 6 * sizeof(uint32_t), &own->box, 0, NULL);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SELF_SHADOW, "hair density box",
+                                      6 * sizeof(uint32_t), &own->box, 0, NULL);
     return result ? result : make_light(lighting, geometry, each);
 }
 

@@ -83,7 +83,7 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
     if (size / texel > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
                          label, size / texel, max);
-    if (!*buffer) result = hair_gl_uniform(gl, label, 16, buffer);
+    if (!*buffer) result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, label, 16, buffer);
     if (!result && !*texture) result = hair_gl_buffer_texture(gl, label, format, *buffer, texture);
     return result ? result : hair_gl_resize(gl, label, size, data, *buffer);
 }

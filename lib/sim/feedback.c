@@ -14,8 +14,8 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
         HAIR_ASSERT(guides[g].first + guides[g].count <= sim->guide_vertices);
         for (uint32_t i = 0; i < guides[g].count; ++i) owners[guides[g].first + i] = g;
     }
-    hair_result result =
-        hair_gl_buffer(gl, "hair owners", sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
+    hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair owners",
+                                        sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
     hair_free(&gl->host, owners);
     return result ? result
                   : hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner,
@@ -30,7 +30,9 @@ hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* 
     hair_result result = make_owners(sim, guides);
     gl->CreateTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
     for (int i = 0; i < HAIR_FEEDBACK_STATES && !result; ++i) {
-        if (i != GUIDES) result = hair_gl_buffer(gl, "hair feedback", size, NULL, &feedback->buffer[i]);
+        if (i != GUIDES)
+            result =
+                hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair feedback", size, NULL, &feedback->buffer[i]);
         GLuint buffer = i == GUIDES ? sim->state : feedback->buffer[i];
         if (!result)
             result = hair_gl_buffer_texture(gl, "hair feedback", GL_RGBA32F, buffer, &feedback->texture[i]);

@@ -152,8 +152,9 @@ static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struc
 }
 
 // Upload the contributions of vertices in the grid's units. NULL for `volume` means 0.
-static hair_result upload_splats(struct hair_sim* sim, const struct hair_guide* guides, const double* mass,
-                                 const double* volume, GLuint* out)
+static hair_result upload_splats(struct hair_sim* sim, hair_gl_category category,
+                                 const struct hair_guide* guides, const double* mass, const double* volume,
+                                 GLuint* out)
 {
     const hair_host* host = &sim->gl->host;
     uint32_t vertices = sim->guide_vertices;
@@ -169,7 +170,8 @@ static hair_result upload_splats(struct hair_sim* sim, const struct hair_guide* 
     for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0, first = guides[g].first; i < guides[g].count; ++i)
             splat[first + i].first = first, splat[first + i].end = first + guides[g].count;
-    hair_result result = hair_gl_storage(sim->gl, "hair grid splat", vertices * sizeof *splat, splat, out);
+    hair_result result =
+        hair_gl_storage(sim->gl, category, "hair grid splat", vertices * sizeof *splat, splat, out);
     hair_free(host, splat);
     return result;
 }
@@ -188,10 +190,12 @@ static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides,
     HAIR_ASSERT(volume > 0);
     for (uint32_t n = 0; n < nodes && !result; ++n)
         rest_density[n] = (float)(fmax(layout->filled[n], 1) * (HAIR_GRID_UNITS / volume));
-    if (!result) result = upload_splats(sim, guides, layout->mass, layout->volume, &hair_grid->splat);
     if (!result)
-        result = hair_gl_storage(sim->gl, "hair grid rest density", nodes * sizeof *rest_density,
-                                 rest_density, &hair_grid->rest_density);
+        result = upload_splats(sim, HAIR_GL_CATEGORY_HAIR_GRID, guides, layout->mass, layout->volume,
+                               &hair_grid->splat);
+    if (!result)
+        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid rest density",
+                                 nodes * sizeof *rest_density, rest_density, &hair_grid->rest_density);
     hair_free(host, rest_density);
     return result;
 }
@@ -238,7 +242,7 @@ hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
     weigh(sim, guides, rest, mass);
     *metres = 0;
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += mass[i] / HAIR_GRID_UNITS;
-    hair_result result = upload_splats(sim, guides, mass, NULL, splat);
+    hair_result result = upload_splats(sim, HAIR_GL_CATEGORY_WIND, guides, mass, NULL, splat);
     hair_free(host, mass);
     return result;
 }
@@ -253,11 +257,13 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
     if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0);
     size_t grid = (size_t)grid_fours(hair_grid) * 4 * sizeof(int32_t);
     if (!result)
-        result = hair_gl_uniform(gl, "hair grid", sizeof(struct hair_grid_params), &hair_grid->params);
-    if (!result) result = hair_gl_storage(gl, "hair grid", grid, NULL, &hair_grid->grid);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", sizeof(struct hair_grid_params),
+                                 &hair_grid->params);
     if (!result)
-        result = hair_gl_storage(gl, "hair grid accelerations", sim->guide_vertices * sizeof(hair_vec4), NULL,
-                                 &hair_grid->acceleration);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", grid, NULL, &hair_grid->grid);
+    if (!result)
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid accelerations",
+                                 sim->guide_vertices * sizeof(hair_vec4), NULL, &hair_grid->acceleration);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair grid accelerations", GL_RGBA32F, hair_grid->acceleration,
                                         &hair_grid->texture);

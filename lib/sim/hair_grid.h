@@ -39,7 +39,8 @@ hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim);
 void hair_grid_free(struct hair_sim* sim);
 
 // Create the contributions of guide vertices to a grid of mass alone, a buffer of
-// hair_grid_splat[]. Set *metres to the length of guides per unit of mass, m.
+// hair_grid_splat[] that counts as memory of the wind. Set *metres to the length of guides per unit
+// of mass, m.
 hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres);
 
 // Return whether the grid is on and a block starts with the next substep.

@@ -189,7 +189,7 @@ hair_result hair_pins_write(struct hair_sim* sim)
     for (uint32_t i = 0; i < pins->count; ++i) held[i] = held_by(sim, i);
     size_t size = pins->count * sizeof *held;
     hair_result result = HAIR_OK;
-    if (!pins->buffer) result = hair_gl_uniform(gl, "hair pins", size, &pins->buffer);
+    if (!pins->buffer) result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair pins", size, &pins->buffer);
     if (!result) result = hair_gl_resize(gl, "hair pins", size, held, pins->buffer);
     if (!result && !pins->texture)
         result = hair_gl_buffer_texture(gl, "hair pins", GL_RGBA32F, pins->buffer, &pins->texture);

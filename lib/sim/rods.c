@@ -36,7 +36,8 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
     int no_system = sim->solver == HAIR_SOLVER_FOLLOW;
     for (uint32_t i = 0; i < sim->guides && !there && !no_system; ++i)
         there = rod[sim->rods->guides[i].first].factor.x > 0;
-    if (sim->by_thread || !there) return hair_gl_storage(sim->gl, "hair reduction", 0, NULL, buffer);
+    if (sim->by_thread || !there)
+        return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair reduction", 0, NULL, buffer);
     uint32_t max = hair_rods_rounds(sim->max_vertices), vertices = sim->guide_vertices;
     size_t count = (size_t)max * vertices;
     hair_vec4 *out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
@@ -47,7 +48,8 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
         HAIR_ASSERT(*rounds < max);
         count = (size_t)(*rounds + 1) * vertices;
         memset(out + count, 0, sizeof *out);
-        result = hair_gl_storage(sim->gl, "hair reduction", (count + 1) * sizeof *out, out, buffer);
+        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair reduction", (count + 1) * sizeof *out,
+                                 out, buffer);
     }
     hair_free(host, out);
     hair_free(host, last);
@@ -123,9 +125,10 @@ static hair_result create(struct hair_sim* sim, int struck)
     uint32_t rounds = 0;
     hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
     if (!result)
-        result = hair_gl_storage(sim->gl, "hair rods", sim->guide_vertices * sizeof *rod, rod, &buffer);
+        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods",
+                                 sim->guide_vertices * sizeof *rod, rod, &buffer);
     if (!result && mixed && !bend)
-        result = hair_gl_storage(sim->gl, "hair bend", bend_size(sim), NULL, &bend);
+        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &bend);
     if (result) {
         hair_gl_free_buffer(sim->gl, &reduction);
         hair_gl_free_buffer(sim->gl, &buffer);
@@ -154,11 +157,11 @@ static hair_result create(struct hair_sim* sim, int struck)
 static hair_result make_buffers(struct hair_sim* sim)
 {
     size_t vertices = sim->guide_vertices;
-    hair_result result =
-        hair_gl_storage(sim->gl, "hair history", vertices * sizeof(struct hair_history), NULL, &sim->history);
+    hair_result result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
+                                         vertices * sizeof(struct hair_history), NULL, &sim->history);
     if (!result)
-        result =
-            hair_gl_storage(sim->gl, "hair material", vertices * sizeof(hair_vec4), NULL, &sim->material);
+        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material",
+                                 vertices * sizeof(hair_vec4), NULL, &sim->material);
     return result;
 }
 

@@ -45,20 +45,22 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
     struct hair_root_transform* root_transforms = make_root_transforms(sim);
     size_t size = scalp_size(motion);
     if (!root_transforms) return hair_fail_memory(&gl->host, "the skinned scalp");
-    hair_result result = hair_gl_storage(gl, "hair root transforms", sim->guides * sizeof *root_transforms,
-                                         root_transforms, root_transform);
+    hair_result result =
+        hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root transforms",
+                        sim->guides * sizeof *root_transforms, root_transforms, root_transform);
     hair_free(&gl->host, root_transforms);
     if (!result)
-        result = hair_gl_storage(gl, "hair root bindings",
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
                                  motion->root_bindings->count * sizeof *motion->root_bindings->binding,
                                  motion->root_bindings->binding, &motion->root_binding);
     if (!result)
-        result =
-            hair_gl_storage(gl, "hair scalp at rest", size, motion->root_bindings->positions, &motion->rest);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
+                                 motion->root_bindings->positions, &motion->rest);
     for (int i = 0; i < 2 && !result; ++i)
-        result = hair_gl_uniform(gl, "hair scalp", size, &motion->scalp[i]);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size, &motion->scalp[i]);
     if (!result)
-        result = hair_gl_uniform(gl, "hair scalp params", sizeof(struct hair_scalp_params), &motion->params);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
+                                 sizeof(struct hair_scalp_params), &motion->params);
     if (!result)
         result =
             hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
@@ -100,7 +102,7 @@ hair_result hair_scalp_motion_make_rest(struct hair_sim* sim, GLuint* out)
 {
     struct hair_root_transform* root_transforms = make_root_transforms(sim);
     if (!root_transforms) return hair_fail_memory(&sim->gl->host, "the skinned scalp");
-    hair_result result = hair_gl_buffer(sim->gl, "hair root transforms",
+    hair_result result = hair_gl_buffer(sim->gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root transforms",
                                         sim->guides * sizeof *root_transforms, root_transforms, out);
     hair_free(&sim->gl->host, root_transforms);
     return result;

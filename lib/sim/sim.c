@@ -39,14 +39,15 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     size_t solver_stats =
         sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
-    HAIR_TRY(
-        hair_gl_storage(gl, "hair guides", sim->guides * sizeof *groom->guides, groom->guides, &sim->guide));
-    HAIR_TRY(
-        hair_gl_storage(gl, "hair rest", sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
-    HAIR_TRY(hair_gl_storage(gl, "hair state", state, NULL, &sim->state));
-    HAIR_TRY(
-        hair_gl_storage(gl, "hair solver stats", solver_stats * sizeof(uint32_t), NULL, &sim->solver_stats));
-    HAIR_TRY(hair_gl_uniform(gl, "hair step", sizeof(struct hair_step_params), &sim->step));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides", sim->guides * sizeof *groom->guides,
+                             groom->guides, &sim->guide));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
+                             sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, NULL, &sim->state));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats", solver_stats * sizeof(uint32_t),
+                             NULL, &sim->solver_stats));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair step", sizeof(struct hair_step_params),
+                             &sim->step));
     if (sim->solver == HAIR_SOLVER_REDBLACK)
         sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
     else

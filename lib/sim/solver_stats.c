@@ -65,10 +65,11 @@ hair_result hair_diagnosis_ensure(struct hair_sim* sim, int disturbed)
     if (!d->watches) return HAIR_OK;
     hair_result result = hair_gl_ensure_program(gl, energy_pass(sim));
     if (!result && !d->energy_params)
-        result = hair_gl_uniform(gl, "hair energy", sizeof(struct hair_energy_params), &d->energy_params);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energy",
+                                 sizeof(struct hair_energy_params), &d->energy_params);
     if (!result && !d->energy)
-        result =
-            hair_gl_storage(gl, "hair energies", sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energies",
+                                 sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
     return result;
 }
 
@@ -129,9 +130,11 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     struct hair_motion_params params = motion_params(sim);
     hair_result result = hair_gl_ensure_program(gl, HAIR_GL_MOTION_OF_GUIDES);
     if (!result && !d->motion_params)
-        result = hair_gl_uniform(gl, "hair motion", sizeof params, &d->motion_params);
+        result =
+            hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion", sizeof params, &d->motion_params);
     if (!result && !d->found)
-        result = hair_gl_storage(gl, "hair motion found", HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion found",
+                                 HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found);
     if (result) return result;
     hair_gl_write_uniform(gl, d->motion_params, sizeof params, &params);
     gl->ClearNamedBufferData(d->found, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);

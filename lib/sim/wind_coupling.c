@@ -59,8 +59,8 @@ static hair_result ensure_hair(struct hair_sim* sim)
     if (!result && wanted && !wind_coupling->splat)
         result = hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres);
     if (!result && wanted && !wind_coupling->params)
-        result = hair_gl_uniform(sim->gl, "hair grid of the fluid", sizeof(struct hair_grid_params),
-                                 &wind_coupling->params);
+        result = hair_gl_uniform(sim->gl, HAIR_GL_CATEGORY_WIND, "hair grid of the fluid",
+                                 sizeof(struct hair_grid_params), &wind_coupling->params);
     return result;
 }
 

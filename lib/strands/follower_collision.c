@@ -31,14 +31,15 @@ static hair_result make(struct hair_geometry* geometry)
     struct hair_gl* gl = geometry->gl;
     struct hair_follower_collision_state* own = &geometry->follower_collision;
     size_t count = geometry->followers;
-    hair_result result =
-        hair_gl_ensure_array(gl, "hair hits", count * sizeof(float), &own->hit, GL_R32F, &own->hit_texture);
+    hair_result result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_HIT, "hair hits", count * sizeof(float),
+                                              &own->hit, GL_R32F, &own->hit_texture);
     if (!result)
-        result =
-            hair_gl_ensure_array(gl, "hair hit list", (count + 2) * sizeof(uint32_t), &own->list, 0, NULL);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_HIT, "hair hit list",
+                                      (count + 2) * sizeof(uint32_t), &own->list, 0, NULL);
     if (!result && geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
-        result = hair_gl_ensure_array(gl, "hair repairs", count * HAIR_REPAIR_CONTROLS * 8, &own->repair,
-                                      GL_RGBA16F, &own->repair_texture);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_REPAIR, "hair repairs",
+                                      count * HAIR_REPAIR_CONTROLS * 8, &own->repair, GL_RGBA16F,
+                                      &own->repair_texture);
     if (!result && own->prepass) result = hair_geometry_ensure_prepass(geometry);
     return result ? result : hair_geometry_ensure_hit_programs(geometry);
 }

@@ -17,13 +17,15 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     HAIR_ASSERT(0 < geometry->max_isolines); // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     hair_result result = hair_smooth_create(&geometry->smooth, gl, sim);
     if (!result)
-        result = hair_gl_buffer(gl, "hair followers", geometry->followers * sizeof *groom->followers,
-                                groom->followers, &geometry->follower);
+        result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers",
+                                geometry->followers * sizeof *groom->followers, groom->followers,
+                                &geometry->follower);
     if (!result)
-        result = hair_gl_buffer(gl, "hair patches", geometry->patches * sizeof *groom->patches,
-                                groom->patches, &geometry->patch);
+        result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
+                                geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch);
     if (!result)
-        result = hair_gl_uniform(gl, "hair draw", sizeof(struct hair_draw_params), &geometry->params);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
+                                 &geometry->params);
     if (!result)
         result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, geometry->follower,
                                         &geometry->follower_texture);

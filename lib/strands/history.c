@@ -8,8 +8,9 @@ hair_result hair_geometry_ensure_history(struct hair_geometry* geometry)
 {
     size_t vertices = geometry->vertex_cache.vertices;
     HAIR_ASSERT(vertices > 0);
-    return hair_gl_ensure_array(geometry->gl, "hair vertex cache before", vertices * sizeof(hair_vec4),
-                                &geometry->history.buffer, GL_RGBA32F, &geometry->history.texture);
+    return hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache before",
+                                vertices * sizeof(hair_vec4), &geometry->history.buffer, GL_RGBA32F,
+                                &geometry->history.texture);
 }
 
 void hair_geometry_free_history(struct hair_geometry* geometry)

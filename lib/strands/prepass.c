@@ -14,8 +14,8 @@ hair_result hair_geometry_ensure_prepass(struct hair_geometry* geometry)
     GLsizei rows = (GLsizei)((geometry->followers + HAIR_HIT_COLUMNS - 1) / HAIR_HIT_COLUMNS);
     hair_result result = HAIR_OK;
     if (!follower_collision->image)
-        result = hair_gl_texture_2d(gl, "hair hits", GL_R32F, HAIR_HIT_COLUMNS, (uint32_t)rows,
-                                    &follower_collision->image);
+        result = hair_gl_texture_2d(gl, HAIR_GL_CATEGORY_HIT, "hair hits", GL_R32F, HAIR_HIT_COLUMNS,
+                                    (uint32_t)rows, &follower_collision->image);
     if (result) return result;
     if (!follower_collision->frame) {
         gl->CreateFramebuffers(1, &follower_collision->frame);

@@ -10,8 +10,8 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
     hair_result result = hair_gl_ensure_program(gl, smooth->pass);
     for (int i = 0; i < 3 && !result; ++i) {
-        result =
-            hair_gl_storage(gl, names[i], smooth->vertices * sizeof(hair_vec4), NULL, &smooth->buffer[i]);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SMOOTH, names[i], smooth->vertices * sizeof(hair_vec4),
+                                 NULL, &smooth->buffer[i]);
         if (!result)
             result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
     }

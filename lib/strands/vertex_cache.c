@@ -11,11 +11,12 @@ static hair_result make(struct hair_geometry* geometry)
     size_t vertices = hair_geometry_count_vertices(geometry);
     if (own->vertices == vertices) return HAIR_OK;
     hair_geometry_free_vertex_cache(geometry);
-    hair_result result = hair_gl_ensure_array(gl, "hair vertex cache", vertices * sizeof(hair_vec4),
-                                              &own->position, GL_RGBA32F, &own->position_texture);
+    hair_result result =
+        hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache", vertices * sizeof(hair_vec4),
+                             &own->position, GL_RGBA32F, &own->position_texture);
     if (!result)
-        result = hair_gl_ensure_array(gl, "hair vertex cache tangents", vertices * 8, &own->tangent,
-                                      GL_RGBA16, &own->tangent_texture);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache tangents", vertices * 8,
+                                      &own->tangent, GL_RGBA16, &own->tangent_texture);
     if (result)
         hair_geometry_free_vertex_cache(geometry);
     else
@@ -27,8 +28,9 @@ hair_result hair_geometry_ensure_shaded(struct hair_geometry* geometry)
 {
     struct hair_vertex_cache* own = &geometry->vertex_cache;
     HAIR_ASSERT(own->vertices > 0);
-    hair_result result = hair_gl_ensure_array(geometry->gl, "hair shaded", own->vertices * 8, &own->shaded,
-                                              GL_RGBA16F, &own->shaded_texture);
+    hair_result result =
+        hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_EXPAND, "hair shaded", own->vertices * 8,
+                             &own->shaded, GL_RGBA16F, &own->shaded_texture);
     if (result) hair_geometry_free_shaded(geometry);
     return result;
 }

@@ -50,7 +50,8 @@ static hair_result make_levels(struct hair_fluid* fluid)
                                          .relax = suitable(&fluid->desc)};
         memcpy(bytes + (size_t)i * HAIR_FLUID_ALIGNMENT, &level, sizeof level);
     }
-    hair_result result = hair_gl_uniform(fluid->gl, "hair fluid levels", sizeof bytes, &fluid->level_params);
+    hair_result result = hair_gl_uniform(fluid->gl, HAIR_GL_CATEGORY_WIND, "hair fluid levels", sizeof bytes,
+                                         &fluid->level_params);
     if (!result) hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
     return result;
 }
@@ -74,11 +75,16 @@ static hair_result make_all(struct hair_fluid* fluid)
     if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->rhs);
     for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1) && !result; ++i)
         result = hair_fluid_make_buffer(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
-    if (!result) result = hair_gl_uniform(gl, "hair fluid", sizeof(struct hair_fluid_params), &fluid->params);
     if (!result)
-        result = hair_gl_uniform(gl, "hair fluid motion", sizeof(struct hair_fluid_motion), &fluid->motion);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid", sizeof(struct hair_fluid_params),
+                                 &fluid->params);
+    if (!result)
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid motion",
+                                 sizeof(struct hair_fluid_motion), &fluid->motion);
     if (!result) result = make_levels(fluid);
-    return result ? result : hair_gl_texture_3d(gl, "hair air", GL_RGBA16F, size, GL_LINEAR, &fluid->air);
+    return result ? result
+                  : hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_WIND, "hair air", GL_RGBA16F, size, GL_LINEAR,
+                                       &fluid->air);
 }
 
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,

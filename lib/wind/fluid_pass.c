@@ -5,7 +5,8 @@ hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, 
                                    struct hair_fluid_buffer* out)
 {
     HAIR_ASSERT(count > 0 && !out->buffer && !out->texture);
-    hair_result result = hair_gl_storage(fluid->gl, label, count * 4, NULL, &out->buffer);
+    hair_result result =
+        hair_gl_storage(fluid->gl, HAIR_GL_CATEGORY_WIND, label, count * 4, NULL, &out->buffer);
     return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
 }
 

@@ -41,7 +41,8 @@ static hair_result ensure_gusts(struct hair_wind_state* state, struct hair_gl* g
     if (!wanted || state->gusts) return HAIR_OK;
     float* texels = hair_gusts_make(&gl->host, wind->turbulence.seed);
     if (!texels) return hair_fail_memory(&gl->host, "gusts");
-    hair_result result = hair_gl_texture_3d(gl, "hair gusts", GL_RGBA16F, size, GL_LINEAR, &state->gusts);
+    hair_result result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_WIND, "hair gusts", GL_RGBA16F, size,
+                                            GL_LINEAR, &state->gusts);
     if (!result) {
         static const GLenum wraps[3] = {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R};
         for (int i = 0; i < 3; ++i) gl->TextureParameteri(state->gusts, wraps[i], GL_REPEAT);
@@ -60,7 +61,8 @@ hair_result hair_wind_ensure(struct hair_wind_state* state, struct hair_gl* gl, 
     }
     hair_result result = ensure_gusts(state, gl, wind);
     if (!result && !state->params)
-        result = hair_gl_uniform(gl, "hair wind", sizeof(struct hair_wind_params), &state->params);
+        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair wind", sizeof(struct hair_wind_params),
+                                 &state->params);
     return result;
 }
 

@@ -205,7 +205,8 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     double worst = 0, square = 0;
     hair_test_ok(f->test, hair_set_look(f->hair, look));
     hair_gl_enter(gl);
-    hair_test_ok(f->test, hair_gl_storage(gl, "tangents", count * sizeof *got, NULL, &buffer));
+    hair_test_ok(f->test,
+                 hair_gl_storage(gl, HAIR_GL_NO_CATEGORY, "tangents", count * sizeof *got, NULL, &buffer));
     hair_geometry_write_params(geometry, &params);
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);

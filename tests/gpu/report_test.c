@@ -144,6 +144,49 @@ static void removed_features_free_their_memory(void** state)
     finish(&f);
 }
 
+// Check that reports of two instances count all memory of the context, by whichever call it was
+// created, and that destroying an instance leaves that of the other.
+static void reports_count_all_memory_of_each_instance(void** state)
+{
+    static const hair_render_path paths[] = {HAIR_RENDER_PATH_TESSELLATION, HAIR_RENDER_PATH_CACHED,
+                                             HAIR_RENDER_PATH_COMPUTE};
+    struct fixture f = start(state, NULL), other = {.test = f.test, .context = f.context};
+    hair_memory memory = hair_memory_default();
+    hair_desc of = hair_desc_default();
+    hair_groom* groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
+    hair_test_ok(f.test, hair_create(f.context, groom, &of, &other.hair));
+    hair_groom_destroy(groom);
+    hair_collider collider = hair_collider_default();
+    hair_physics physics = hair_physics_default();
+    hair_wind wind = hair_wind_default();
+    float positions[3];
+    uint32_t count;
+    collider.size[0] = 0.12f, physics.hair_hair.cohesion = 3, physics.sleep_threshold = 0.01f;
+    wind.model = HAIR_WIND_FLUID, wind.fluid.resolution = 16, wind.velocity[0] = 2;
+    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
+    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
+    hair_test_ok(f.test, hair_set_colliders(other.hair, &collider, 1, sizeof collider));
+    hair_test_ok(f.test, hair_read_positions(other.hair, HAIR_READ_FOLLOWERS, positions, 1, &count));
+    for (size_t i = 0; i < sizeof paths / sizeof *paths; ++i) {
+        f.view.render_path = paths[i];
+        run_frame(&f);
+        hair_test_ok(f.test, hair_step(other.hair, 1.0f / 60));
+        report(&other);
+        hair_test_ok(f.test, hair_get_memory(f.context, &memory));
+        assert_true(f.info.bytes > other.info.bytes && other.info.bytes > 0);
+        assert_true(f.info.bytes + other.info.bytes == memory.bytes);
+    }
+    assert_true(row_of(&f, "wind")->bytes > 0);
+    check(&other, "wind", HAIR_SKIP_REASON_NOT_WANTED, 0);
+    check(&other, "hit", HAIR_SKIP_REASON_NOT_CALLED, 1);
+    hair_destroy(other.hair);
+    report(&f);
+    hair_test_ok(f.test, hair_get_memory(f.context, &memory));
+    assert_true(f.info.bytes == memory.bytes);
+    finish(&f);
+}
+
 static void report_names_sleep_and_culling_as_reasons(void** state)
 {
     hair_physics physics = hair_physics_default();
@@ -231,6 +274,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(unused_features_run_no_stage_and_keep_no_memory),
         HAIR_TEST(removed_features_free_their_memory),
+        HAIR_TEST(reports_count_all_memory_of_each_instance),
         HAIR_TEST(report_names_sleep_and_culling_as_reasons),
         HAIR_TEST(report_does_not_wait_and_is_of_one_instance),
         HAIR_TEST(report_refuses_invalid_arguments),
