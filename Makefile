@@ -208,10 +208,10 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
-# Run as many tests at once as there are cores, the longest first. Most of a test's time is
-# single-threaded compilation of shaders.
-LONG := occlusion lengths compile golden lod instance rod_any rod_heap isolines hair_grid paths precompile \
-  rod_contact rod_pins examples body rod_shape contained rod_bodies air follower_collision
+# Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
+LONG := rod_stress lengths occlusion compile golden state save_hostile lod instance rod_any rod_heap isolines \
+  hair_grid paths precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained \
+  rod_bodies air
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(LONG) $(filter-out $(LONG),$(TESTS)) | grep -F -- '$(filter)' | \
