@@ -208,11 +208,15 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
-# Run as many tests at once as there are cores. Most of a test's time is single-threaded compilation
-# of shaders.
+# Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
+LONG := rod_stress lengths occlusion compile golden state save_hostile lod instance rod_any rod_heap isolines \
+  hair_grid paths precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained \
+  rod_bodies air
+LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
-	@rm -f $(B)/failed; printf '%s\n' $(TESTS) | grep -F -- '$(filter)' | \
-	  xargs -r -n 1 -P $(JOBS) sh -c 'said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; printf "== %s\n%s\n" "$$0" "$$said"'; \
+	@rm -f $(B)/failed; printf '%s\n' $(LONG) $(filter-out $(LONG),$(TESTS)) | grep -F -- '$(filter)' | \
+	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; \
+	    printf "== %s, %d s\n%s\n" "$$0" $$(($$(date +%s) - start)) "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
 glsl: ## Compile every shader offline, without a GPU
