@@ -14,7 +14,8 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     for (uint32_t i = 0; i < geometry->patches; ++i)
         if (groom->patches[i].count > geometry->max_isolines)
             geometry->max_isolines = groom->patches[i].count;
-    HAIR_ASSERT(0 < geometry->max_isolines); // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
+    // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
+    HAIR_ASSERT(0 < geometry->max_isolines);
     hair_result result = hair_smooth_create(&geometry->smooth, gl, sim);
     if (!result)
         result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers",
