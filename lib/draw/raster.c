@@ -149,8 +149,7 @@ void hair_draw_free_raster(struct hair_renderer* renderer)
     struct hair_raster* raster = &renderer->raster;
     hair_gl_free_buffer(renderer->gl, &raster->params);
     hair_gl_free_buffer(renderer->gl, &raster->nearest);
-    hair_gl_free_buffer_texture(renderer->gl, &raster->tile_texture);
-    hair_gl_free_buffer(renderer->gl, &raster->tile);
+    hair_gl_free_array(renderer->gl, &raster->tile, &raster->tile_texture);
     raster->room = raster->tile_room = 0;
 }
 

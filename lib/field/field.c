@@ -24,8 +24,7 @@ static void clear(struct hair_collider_field* field)
     hair_gl_free_texture(gl, &field->distance);
     hair_gl_free_texture(gl, &field->number);
     hair_gl_free_buffer(gl, &field->params);
-    hair_gl_free_buffer_texture(gl, &field->work_texture);
-    hair_gl_free_buffer(gl, &field->work);
+    hair_gl_free_array(gl, &field->work, &field->work_texture);
     hair_free(&gl->host, field->placed);
     hair_free(&gl->host, field->dirty);
     hair_free(&gl->host, field->brick_colliders);

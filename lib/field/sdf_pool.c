@@ -34,8 +34,7 @@ static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
     hair_result result = hair_gl_storage(pool->gl, HAIR_GL_NO_CATEGORY, "hair collision meshes",
                                          room * sizeof(float), NULL, &buffer);
     if (result) return result;
-    hair_gl_free_buffer_texture(pool->gl, &pool->texture);
-    hair_gl_free_buffer(pool->gl, &pool->nodes);
+    hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
     pool->nodes = buffer;
     pool->room = room;
     pool->used = 0;
@@ -68,8 +67,7 @@ static void free_if_empty(struct hair_sdf_pool* pool)
 {
     for (uint32_t i = 0; i < pool->count; ++i)
         if (pool->pooled[i].mesh) return;
-    hair_gl_free_buffer_texture(pool->gl, &pool->texture);
-    hair_gl_free_buffer(pool->gl, &pool->nodes);
+    hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
     hair_free(&pool->gl->host, pool->pooled);
     *pool = (struct hair_sdf_pool){.gl = pool->gl};
 }

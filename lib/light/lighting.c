@@ -7,12 +7,10 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
     lighting->gl = gl;
     if (!groom->colors) return HAIR_OK;
     size_t count = groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
-    hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair colours",
-                                        count * sizeof *groom->colors, groom->colors, &lighting->groom_color);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,
-                                        &lighting->groom_color_texture);
-    return result;
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair colours", count * sizeof *groom->colors,
+                            groom->colors, &lighting->groom_color));
+    return hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,
+                                  &lighting->groom_color_texture);
 }
 
 void hair_lighting_destroy(struct hair_lighting* lighting)
@@ -20,8 +18,7 @@ void hair_lighting_destroy(struct hair_lighting* lighting)
     if (!lighting->gl) return;
     hair_lighting_free_fibres(lighting);
     hair_lighting_free_self_shadow(lighting);
-    hair_gl_free_buffer_texture(lighting->gl, &lighting->groom_color_texture);
-    hair_gl_free_buffer(lighting->gl, &lighting->groom_color);
+    hair_gl_free_array(lighting->gl, &lighting->groom_color, &lighting->groom_color_texture);
 }
 
 // Write the parameters of fibre shading. The squared logarithm of a reflectance times 1 / d^2 is

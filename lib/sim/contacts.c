@@ -143,10 +143,8 @@ void hair_contacts_free(struct hair_sim* sim)
     struct hair_contacts* contacts = &sim->contacts;
     let_go(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
-    hair_gl_free_buffer_texture(sim->gl, &contacts->collider_texture);
-    hair_gl_free_buffer(sim->gl, &contacts->collider);
-    hair_gl_free_buffer_texture(sim->gl, &contacts->cell_texture);
-    hair_gl_free_buffer(sim->gl, &contacts->cell);
+    hair_gl_free_array(sim->gl, &contacts->collider, &contacts->collider_texture);
+    hair_gl_free_array(sim->gl, &contacts->cell, &contacts->cell_texture);
     hair_collider_grid_free(&sim->gl->host, &contacts->grid);
     *contacts = (struct hair_contacts){.sdf_pool = contacts->sdf_pool};
 }

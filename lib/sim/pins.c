@@ -153,8 +153,7 @@ hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolv
 void hair_pins_free(struct hair_sim* sim)
 {
     hair_pins_adopt(sim, NULL, 0);
-    hair_gl_free_buffer_texture(sim->gl, &sim->pins.texture);
-    hair_gl_free_buffer(sim->gl, &sim->pins.buffer);
+    hair_gl_free_array(sim->gl, &sim->pins.buffer, &sim->pins.texture);
 }
 
 static struct hair_held held_by(const struct hair_sim* sim, uint32_t i)

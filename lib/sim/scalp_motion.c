@@ -7,8 +7,7 @@
 static void free_buffers(struct hair_sim* sim)
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
-    hair_gl_free_buffer_texture(sim->gl, &motion->texture);
-    hair_gl_free_buffer(sim->gl, &motion->root_transform);
+    hair_gl_free_array(sim->gl, &motion->root_transform, &motion->texture);
     hair_gl_free_buffer(sim->gl, &motion->root_binding);
     hair_gl_free_buffer(sim->gl, &motion->rest);
     hair_gl_free_buffer(sim->gl, &motion->scalp[0]);

@@ -16,24 +16,17 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
             geometry->max_isolines = groom->patches[i].count;
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT(0 < geometry->max_isolines);
-    hair_result result = hair_smooth_create(&geometry->smooth, gl, sim);
-    if (!result)
-        result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers",
-                                geometry->followers * sizeof *groom->followers, groom->followers,
-                                &geometry->follower);
-    if (!result)
-        result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
-                                geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
-                                 &geometry->params);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, geometry->follower,
-                                        &geometry->follower_texture);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, geometry->patch,
-                                        &geometry->patch_texture);
-    return result;
+    HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, sim));
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers",
+                            geometry->followers * sizeof *groom->followers, groom->followers,
+                            &geometry->follower));
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
+                            geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
+                             &geometry->params));
+    HAIR_TRY(hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, geometry->follower,
+                                    &geometry->follower_texture));
+    return hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, geometry->patch, &geometry->patch_texture);
 }
 
 void hair_geometry_destroy(struct hair_geometry* geometry)
@@ -45,10 +38,8 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_geometry_free_uvs(geometry);
     hair_root_bindings_release(geometry->root_bindings);
     geometry->root_bindings = NULL;
-    hair_gl_free_buffer_texture(gl, &geometry->follower_texture);
-    hair_gl_free_buffer_texture(gl, &geometry->patch_texture);
-    hair_gl_free_buffer(gl, &geometry->follower);
-    hair_gl_free_buffer(gl, &geometry->patch);
+    hair_gl_free_array(gl, &geometry->follower, &geometry->follower_texture);
+    hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
 }

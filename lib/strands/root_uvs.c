@@ -22,6 +22,5 @@ hair_result hair_geometry_ensure_uvs(struct hair_geometry* geometry)
 
 void hair_geometry_free_uvs(struct hair_geometry* geometry)
 {
-    hair_gl_free_buffer_texture(geometry->gl, &geometry->uv_texture);
-    hair_gl_free_buffer(geometry->gl, &geometry->uv);
+    hair_gl_free_array(geometry->gl, &geometry->uv, &geometry->uv_texture);
 }

@@ -8,23 +8,18 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     smooth->vertices = sim->guides * sim->smooth_vertices;
     HAIR_ASSERT(smooth->vertices > 0 && sim->smooth_vertices <= HAIR_MAX_SMOOTH_VERTICES);
     smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
-    hair_result result = hair_gl_ensure_program(gl, smooth->pass);
-    for (int i = 0; i < 3 && !result; ++i) {
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_SMOOTH, names[i], smooth->vertices * sizeof(hair_vec4),
-                                 NULL, &smooth->buffer[i]);
-        if (!result)
-            result = hair_gl_buffer_texture(gl, names[i], GL_RGBA32F, smooth->buffer[i], &smooth->texture[i]);
-    }
-    return result;
+    HAIR_TRY(hair_gl_ensure_program(gl, smooth->pass));
+    for (int i = 0; i < 3; ++i)
+        HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SMOOTH, names[i],
+                                      smooth->vertices * sizeof(hair_vec4), &smooth->buffer[i], GL_RGBA32F,
+                                      &smooth->texture[i]));
+    return HAIR_OK;
 }
 
 void hair_smooth_destroy(struct hair_smooth* smooth)
 {
     if (!smooth->gl) return;
-    for (int i = 0; i < 3; ++i) {
-        hair_gl_free_buffer_texture(smooth->gl, &smooth->texture[i]);
-        hair_gl_free_buffer(smooth->gl, &smooth->buffer[i]);
-    }
+    for (int i = 0; i < 3; ++i) hair_gl_free_array(smooth->gl, &smooth->buffer[i], &smooth->texture[i]);
 }
 
 void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)

@@ -5,15 +5,13 @@ hair_result hair_fluid_make_buffer(struct hair_fluid* fluid, const char* label, 
                                    struct hair_fluid_buffer* out)
 {
     HAIR_ASSERT(count > 0 && !out->buffer && !out->texture);
-    hair_result result =
-        hair_gl_storage(fluid->gl, HAIR_GL_CATEGORY_WIND, label, count * 4, NULL, &out->buffer);
-    return result ? result : hair_gl_buffer_texture(fluid->gl, label, format, out->buffer, &out->texture);
+    return hair_gl_ensure_array(fluid->gl, HAIR_GL_CATEGORY_WIND, label, count * 4, &out->buffer, format,
+                                &out->texture);
 }
 
 void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* buffer)
 {
-    hair_gl_free_buffer_texture(fluid->gl, &buffer->texture);
-    hair_gl_free_buffer(fluid->gl, &buffer->buffer);
+    hair_gl_free_array(fluid->gl, &buffer->buffer, &buffer->texture);
 }
 
 static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
