@@ -262,11 +262,9 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
     if (!result)
         result = hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", grid, NULL, &hair_grid->grid);
     if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid accelerations",
-                                 sim->guide_vertices * sizeof(hair_vec4), NULL, &hair_grid->acceleration);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair grid accelerations", GL_RGBA32F, hair_grid->acceleration,
-                                        &hair_grid->texture);
+        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid accelerations",
+                                      sim->guide_vertices * sizeof(hair_vec4), &hair_grid->acceleration,
+                                      GL_RGBA32F, &hair_grid->texture);
     if (result) hair_grid_free(sim);
     return result;
 }
@@ -279,19 +277,16 @@ hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim)
 void hair_grid_free(struct hair_sim* sim)
 {
     struct hair_grid* hair_grid = &sim->hair_grid;
-    hair_gl_free_buffer_texture(sim->gl, &hair_grid->texture);
+    hair_gl_free_array(sim->gl, &hair_grid->acceleration, &hair_grid->texture);
     hair_gl_free_buffer(sim->gl, &hair_grid->params);
     hair_gl_free_buffer(sim->gl, &hair_grid->grid);
     hair_gl_free_buffer(sim->gl, &hair_grid->splat);
     hair_gl_free_buffer(sim->gl, &hair_grid->rest_density);
-    hair_gl_free_buffer(sim->gl, &hair_grid->acceleration);
 }
 
 static uint32_t block_length(const struct hair_sim* sim)
 {
-    HAIR_ASSERT(sim->substep > 0);
-    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
-    return substeps < 1 ? 1 : substeps;
+    return hair_sim_block_length(sim, BLOCK);
 }
 
 static void write_params(const struct hair_sim* sim, struct hair_grid_params* params)
@@ -318,22 +313,14 @@ static void write_params(const struct hair_sim* sim, struct hair_grid_params* pa
     };
 }
 
-// Return the number of substeps done in the current block. If substeps have become longer, the
-// block may be over already.
-static uint32_t done_in_block(const struct hair_sim* sim)
-{
-    uint32_t done = sim->hair_grid.substeps_done;
-    return done < block_length(sim) ? done : 0;
-}
-
 bool hair_grid_is_due(const struct hair_sim* sim)
 {
-    return hair_grid_is_on(sim) && done_in_block(sim) == 0;
+    return hair_grid_is_on(sim) && hair_grid_substeps_left(sim) == block_length(sim);
 }
 
 uint32_t hair_grid_substeps_left(const struct hair_sim* sim)
 {
-    return block_length(sim) - done_in_block(sim);
+    return hair_sim_block_left(sim->hair_grid.substeps_done, block_length(sim));
 }
 
 void hair_grid_reset(struct hair_sim* sim)

@@ -127,6 +127,12 @@ bool hair_sim_is_stiff(const struct hair_sim* sim);
 hair_gl_pass hair_sim_reset_pass(const struct hair_sim* sim, int skinned);
 // Return the pass that turns the guides with a teleported head.
 hair_gl_pass hair_sim_rotate_pass(const struct hair_sim* sim);
+// Return the number of substeps of a block that lasts `time` seconds, at least 1. The hair grid and
+// the fluid are updated once per block.
+uint32_t hair_sim_block_length(const struct hair_sim* sim, double time);
+// Return the number of substeps left of a block of `length`, `done` of which are done. If substeps
+// have become longer, the block may be over already. The result is then `length`.
+uint32_t hair_sim_block_left(uint32_t done, uint32_t length);
 // Return whether roots move with a skinned scalp.
 bool hair_scalp_motion_is_on(const struct hair_sim* sim);
 // Bind the scalp motion for the passes that read it.

@@ -60,6 +60,18 @@ hair_gl_pass hair_sim_rotate_pass(const struct hair_sim* sim)
     return hair_sim_is_mixed(sim) ? pass | HAIR_GL_WITH(MIXED) : pass;
 }
 
+uint32_t hair_sim_block_length(const struct hair_sim* sim, double time)
+{
+    HAIR_ASSERT(sim->substep > 0);
+    uint32_t substeps = (uint32_t)(time / sim->substep + 0.5);
+    return substeps < 1 ? 1 : substeps;
+}
+
+uint32_t hair_sim_block_left(uint32_t done, uint32_t length)
+{
+    return done < length ? length - done : length;
+}
+
 bool hair_scalp_motion_is_on(const struct hair_sim* sim)
 {
     return sim->scalp_motion.root_transform != 0;

@@ -104,9 +104,7 @@ void hair_wind_coupling_reset(struct hair_sim* sim)
 
 static uint32_t block_length(const struct hair_sim* sim)
 {
-    HAIR_ASSERT(sim->substep > 0);
-    uint32_t substeps = (uint32_t)(BLOCK / sim->substep + 0.5);
-    return substeps < 1 ? 1 : substeps;
+    return hair_sim_block_length(sim, BLOCK);
 }
 
 // Gather the mass and momentum of hair in the fluid's box.
@@ -147,22 +145,14 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
     };
 }
 
-// Return the number of substeps done in the current block. If substeps have become longer, the
-// block may be over already.
-static uint32_t done_in_block(const struct hair_sim* sim)
-{
-    uint32_t done = sim->wind_coupling.substeps_done;
-    return done < block_length(sim) ? done : 0;
-}
-
 bool hair_wind_coupling_is_due(const struct hair_sim* sim)
 {
-    return hair_wind_coupling_is_on(sim) && done_in_block(sim) == 0;
+    return hair_wind_coupling_is_on(sim) && hair_wind_coupling_substeps_left(sim) == block_length(sim);
 }
 
 uint32_t hair_wind_coupling_substeps_left(const struct hair_sim* sim)
 {
-    return block_length(sim) - done_in_block(sim);
+    return hair_sim_block_left(sim->wind_coupling.substeps_done, block_length(sim));
 }
 
 void hair_wind_coupling_update(struct hair_sim* sim, double dt)
