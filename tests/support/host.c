@@ -39,3 +39,14 @@ void hair_test_host_init(struct hair_test_host* host)
     memset(host, 0, sizeof *host);
     host->host = (hair_host){take, give_back, listen, host};
 }
+
+int hair_test_host_setup(void** state)
+{
+    hair_test_host_init(*state);
+    return 0;
+}
+
+int hair_test_host_teardown(void** state)
+{
+    return ((const struct hair_test_host*)*state)->blocks ? -1 : 0;
+}

@@ -17,4 +17,12 @@ struct hair_test_host {
 // Initialise a host. Its address must not change while it is in use.
 void hair_test_host_init(struct hair_test_host* host);
 
+// Initialise the host that *state points to. Setup of a test.
+int hair_test_host_setup(void** state);
+// Fail if blocks of the host that *state points to are not freed. Teardown of a test.
+int hair_test_host_teardown(void** state);
+// Make a test of cmocka with a host, which tests of a program may share.
+#define HAIR_TEST_WITH_HOST(function, host)                                                                  \
+    cmocka_unit_test_prestate_setup_teardown(function, hair_test_host_setup, hair_test_host_teardown, host)
+
 #endif

@@ -13,19 +13,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 static const struct {
     struct hair_test_file (*make)(void);
     size_t header; // Bytes. 0 means the whole file.
@@ -373,7 +360,7 @@ static void randomly_changed_files_are_refused_or_read(void** state)
     assert_true(accepted > 2000);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

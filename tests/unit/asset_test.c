@@ -12,19 +12,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 static hair_asset* read_with(const hair_import* import, struct hair_test_file file)
 {
     hair_asset* asset = NULL;
@@ -407,7 +394,7 @@ static void degenerate_strands_of_a_real_haircut_are_repaired(void** state)
     hair_asset_free(asset);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

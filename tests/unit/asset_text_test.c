@@ -15,19 +15,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 static hair_asset* read_text(const char* text)
 {
     hair_import import = hair_test_import();
@@ -264,7 +251,7 @@ static void numbers_are_parsed_equally_in_any_locale(void** state)
     setlocale(LC_ALL, "C");
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

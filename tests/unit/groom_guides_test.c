@@ -12,19 +12,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 static hair_groom* make(const hair_groom_desc* desc)
 {
     hair_groom* groom = NULL;
@@ -395,7 +382,7 @@ static void folded_strands_become_valid_guides(void** state)
     hair_test_strands_free(&strands);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 // Evaluate a strand whose vertices are bunched: all except the tip at the root, all except the root
 // at the tip, or in pairs.

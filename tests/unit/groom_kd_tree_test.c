@@ -12,19 +12,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 #define COUNT 500
 
 // Scatter points on a grid of `steps` per axis. With few steps, many points coincide.
@@ -152,7 +139,7 @@ static void widest_axis_is_that_of_the_largest_extent(void** state)
     assert_int_equal(hair_kd_widest_axis(point_set, others, 2), 2);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

@@ -11,19 +11,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 #define SIDE 0.2f // Metres. The scalp's texture coordinates are x / SIDE and z / SIDE.
 #define CELLS 5
 #define VERTICES ((CELLS + 1) * (CELLS + 1))
@@ -356,7 +343,7 @@ static void refused_allocations_of_maps_leak_nothing(void** state)
     }
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, start, finish)
+#define TEST(function) HAIR_TEST_WITH_HOST(function, &test)
 
 int main(void)
 {

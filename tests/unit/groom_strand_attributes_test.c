@@ -14,19 +14,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 // Make a groom. A strand's red at the root is its x coordinate, and its green at the tip is its z
 // coordinate.
 static hair_groom* make(struct hair_test_strands* strands, hair_groom_desc* desc, float* colors, float* radii)
@@ -136,7 +123,7 @@ static void invalid_attributes_are_named(void** state)
     hair_test_strands_free(&strands);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

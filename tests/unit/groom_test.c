@@ -14,19 +14,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 static hair_groom* make(const hair_groom_desc* desc)
 {
     hair_groom* groom = NULL;
@@ -393,7 +380,7 @@ static void built_in_haircuts_become_grooms(void** state)
     }
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

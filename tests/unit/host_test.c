@@ -8,19 +8,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return (int)test.blocks;
-}
-
 static void memory_is_zero_and_aligned(void** state)
 {
     (void)state;
@@ -125,7 +112,7 @@ static void every_result_has_a_string(void** state)
     assert_int_equal(hair_version(), HAIR_VERSION);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, start, finish)
+#define TEST(function) HAIR_TEST_WITH_HOST(function, &test)
 
 int main(void)
 {

@@ -18,19 +18,6 @@ static hair_import defaults(void)
     return (hair_import){.scale = 1, .keep_fraction = 1, .seed = 1};
 }
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 // Make straight strands along x with segments of 1 cm. Strand i is at z = i.
 static struct hair_strands make(uint32_t count, uint32_t each)
 {
@@ -500,7 +487,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     assert_true(failures >= 3);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {

@@ -16,19 +16,6 @@
 
 static struct hair_test_host test;
 
-static int start(void** state)
-{
-    (void)state;
-    hair_test_host_init(&test);
-    return 0;
-}
-
-static int finish(void** state)
-{
-    (void)state;
-    return test.blocks ? -1 : 0;
-}
-
 struct cut {
     hair_asset* asset;
     hair_asset_info info;
@@ -497,7 +484,7 @@ static void refused_allocations_of_a_style_are_errors(void** state)
     }
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, start, finish)
+#define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {
