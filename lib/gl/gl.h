@@ -90,7 +90,7 @@ struct hair_gl_shader {
     char* label;
     char* text;
     int pixels; // Nonzero if it shades pixels instead of vertices.
-    uint32_t program_generation; // Value of hair_gl.made at compilation.
+    uint32_t program_generation; // Value of hair_gl.program_generation at compilation.
     struct hair_gl_user_program* programs;
     uint32_t count, room;
 };

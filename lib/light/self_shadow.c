@@ -43,7 +43,8 @@ static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl
     return geometry->follower_collision.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
 }
 
-static hair_result make(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t each)
+static hair_result ensure_buffers(struct hair_lighting* lighting, const struct hair_geometry* geometry,
+                                  uint32_t each)
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
@@ -98,7 +99,7 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     HAIR_ASSERT(params->light_values > 0);
     hair_result result = hair_geometry_ensure_vertex_cache(geometry, params->drawn_only ? params : NULL);
-    if (!result) result = make(lighting, geometry, params->light_values);
+    if (!result) result = ensure_buffers(lighting, geometry, params->light_values);
     if (result) return result;
     hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
     hair_geometry_bind(geometry);

@@ -5,7 +5,6 @@
 // Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
 // colliders.
 #define FASTEST 5.0f
-#define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 #define FARTHEST 1e4f // m. FARTHEST of glsl/sim/rod.glsl.
 // Maximum iterations of sphere tracing in a list on a software rasteriser. See rounds_of_list() in
 // loop_budget.c.
@@ -15,7 +14,7 @@ static struct hair_collider_grid_desc describe(const struct hair_sim* sim, doubl
 {
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->head_at_last_step);
     float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
-    float far = LOOSE * sim->reach;
+    float far = HAIR_SIM_LOOSE * sim->reach;
     // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
     int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim);
     return (struct hair_collider_grid_desc){

@@ -61,14 +61,14 @@ static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* r
 // doubling at a time, so that the drawn hair does not leap.
 static uint32_t find_substep_scale(const struct hair_sim* sim)
 {
-    uint32_t longer = 1;
+    uint32_t substep_scale = 1;
     float rate = sim->physics.substep_rate;
     if (sim->unseen >= UNSEEN) rate = fminf(rate, sim->physics.offscreen_substep_rate);
     HAIR_ASSERT(rate > 0);
-    while (2 * (float)longer * rate <= 1) longer *= 2;
-    if (sim->substep_scale && longer < sim->substep_scale) return sim->substep_scale / 2;
-    if (sim->substep_scale && longer > sim->substep_scale) return sim->substep_scale * 2;
-    return longer;
+    while (2 * (float)substep_scale * rate <= 1) substep_scale *= 2;
+    if (sim->substep_scale && substep_scale < sim->substep_scale) return sim->substep_scale / 2;
+    if (sim->substep_scale && substep_scale > sim->substep_scale) return sim->substep_scale * 2;
+    return substep_scale;
 }
 
 // Return whether the mixed scheme solves the guides.
@@ -99,7 +99,7 @@ static void hold(struct hair_sim* sim)
 }
 
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
-static hair_result create(struct hair_sim* sim, int struck)
+static hair_result create(struct hair_sim* sim, int had_contact)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_rods* rods = sim->rods;
@@ -112,10 +112,10 @@ static hair_result create(struct hair_sim* sim, int struck)
         substep = hair_rods_substep(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
                                     sim->solver, mixed);
         // Impacts can destabilise explicit bending that is near its limit.
-        if (struck && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
+        if (had_contact && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
-    uint32_t longer = find_substep_scale(sim);
-    if (longer > 1) substep = fmax(substep, fmin(substep * longer, LONGEST));
+    uint32_t substep_scale = find_substep_scale(sim);
+    if (substep_scale > 1) substep = fmax(substep, fmin(substep * substep_scale, LONGEST));
     HAIR_ASSERT(substep > 0);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
@@ -143,10 +143,10 @@ static hair_result create(struct hair_sim* sim, int struck)
         sim->rounds = rounds;
         rods->made_for = sim->physics;
         rods->report.softened = softened;
-        rods->struck = struck;
+        rods->had_contact = had_contact;
         rods->pinned = sim->pins.vertex_hash;
-        rods->longer = longer;
-        sim->substep_scale = longer;
+        rods->substep_scale = substep_scale;
+        sim->substep_scale = substep_scale;
         rods->stiff = is_stiff(sim, rod);
         sim->substep = substep;
     }
@@ -184,15 +184,16 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
 }
 
 // Return whether the presence of colliders has changed the accurate solver's own substep.
-static bool is_first_contact(const struct hair_sim* sim, int struck)
+static bool is_first_contact(const struct hair_sim* sim, int had_contact)
 {
-    return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 && struck != sim->rods->struck;
+    return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 &&
+           had_contact != sim->rods->had_contact;
 }
 
 bool hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
-    if (!rods || rods->longer == find_substep_scale(sim)) return false;
+    if (!rods || rods->substep_scale == find_substep_scale(sim)) return false;
     return sim->pins.vertex_hash == rods->pinned &&
            !is_first_contact(sim, sim->had_contact || hair_sim_contacts(sim) > 0) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);
@@ -202,11 +203,11 @@ hair_result hair_sim_rebuild_rods(struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods) return HAIR_OK;
-    int struck = sim->had_contact || hair_sim_contacts(sim) > 0;
-    int other = rods->longer != find_substep_scale(sim) || is_first_contact(sim, struck) ||
+    int had_contact = sim->had_contact || hair_sim_contacts(sim) > 0;
+    int other = rods->substep_scale != find_substep_scale(sim) || is_first_contact(sim, had_contact) ||
                 sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
-    hair_result result = other ? create(sim, struck) : HAIR_OK;
-    if (!result) sim->had_contact = struck;
+    hair_result result = other ? create(sim, had_contact) : HAIR_OK;
+    if (!result) sim->had_contact = had_contact;
     return result;
 }
 

@@ -20,6 +20,7 @@
 
 #include <stdbool.h>
 
+#define HAIR_SIM_LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 #define HAIR_CONTACT_SLACK 0.1f // Maximum of half the way of a vertex in a substep, m.
 
 // Collision data of instances with collision meshes or with more than HAIR_FEW_COLLIDERS colliders.
@@ -45,9 +46,10 @@ struct hair_rods {
     int held; // 1 if `borne` is up to date for `borne_for`.
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
-    int struck; // Value of sim->had_contact that the rods were made for.
+    int had_contact; // Value of sim->had_contact that the rods were made for.
     uint32_t pinned; // Value of sim->pins.vertex_hash that the rods were made for.
-    uint32_t longer; // Multiple of the solver's own substep length that the rods were made for.
+    // Multiple of the solver's own substep length that the rods were made for.
+    uint32_t substep_scale;
 };
 
 struct hair_sim {

@@ -29,7 +29,6 @@
 #define FRACTION 0.5f
 // Fraction of hair_physics.sleep_threshold that motion of the head may have.
 #define HEAD_FRACTION 0.25f
-#define LOOSE 1.05f // Multiple of the reach that stretched hair may have.
 // Distance from the hair beyond which a collider has no effect, without the margin, m.
 #define AROUND ((float)HAIR_CONTACT_FIT + HAIR_CONTACT_SLACK)
 #define MAX_GROUPS 256
@@ -89,8 +88,8 @@ static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const
         for (int k = 0; k < 3; ++k) at[i].position[k] = (double)ends[i]->position[k];
     }
     hair_vec3 away = hair_pose_offset(&at[0], &sim->head), way = hair_pose_offset(&at[1], &at[0]);
-    float max =
-        LOOSE * sim->reach + AROUND + sim->physics.collision.margin + radius + 0.5f * hair_length(way);
+    float max = HAIR_SIM_LOOSE * sim->reach + AROUND + sim->physics.collision.margin + radius +
+                0.5f * hair_length(way);
     hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
     int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_scalp_motion_is_on(sim);
     return !bound || !(hair_length(mid) > max);
@@ -131,7 +130,7 @@ bool hair_sleep_is_disturbed(const struct hair_sim* sim)
     if (sim->colliders.changed && sim->wind_state.params &&
         sim->colliders.current.count + sim->colliders.previous.count > 0)
         return true;
-    float far = distance_between(&sleep->head, &sim->head, LOOSE * sim->reach);
+    float far = distance_between(&sleep->head, &sim->head, HAIR_SIM_LOOSE * sim->reach);
     return !(far <= HEAD_FRACTION * sim->physics.sleep_threshold) || has_collider_near(sim);
 }
 
@@ -174,7 +173,7 @@ hair_result hair_sleep_create(struct hair_sim* sim)
     return result;
 }
 
-static void look(struct hair_sim* sim)
+static void request_measurement(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
@@ -250,20 +249,20 @@ static void use_answer(struct hair_sim* sim)
     sleep->now = (struct hair_activity){0, 0};
 }
 
-static bool looks_after(const struct hair_sim* sim, double dt)
+static bool is_due(const struct hair_sim* sim, double dt)
 {
     return sim->physics.sleep_threshold > 0 && sim->sleep.quiet_time + dt >= sim->sleep.due;
 }
 
 hair_result hair_sleep_ensure(struct hair_sim* sim, int disturbed, double dt)
 {
-    return !disturbed && looks_after(sim, dt) ? hair_sleep_create(sim) : HAIR_OK;
+    return !disturbed && is_due(sim, dt) ? hair_sleep_create(sim) : HAIR_OK;
 }
 
 void hair_sleep_submit_query(struct hair_sim* sim, int disturbed, double dt)
 {
     struct hair_sleep* sleep = &sim->sleep;
-    int samples = looks_after(sim, dt);
+    bool due = is_due(sim, dt);
     if (disturbed) {
         reset_quiet_time(sim);
         return;
@@ -275,9 +274,9 @@ void hair_sleep_submit_query(struct hair_sim* sim, int disturbed, double dt)
         read_answer(sim, 0);
         if (sleep->known) use_answer(sim);
     }
-    if (!samples || sleep->waits || sleep->asleep) return;
+    if (!due || sleep->waits || sleep->asleep) return;
     sleep->parity = 1 - sleep->parity;
-    look(sim);
+    request_measurement(sim);
 }
 
 bool hair_sleep_through(const struct hair_sim* sim)

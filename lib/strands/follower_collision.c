@@ -26,7 +26,7 @@ hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
     return result;
 }
 
-static hair_result make(struct hair_geometry* geometry)
+static hair_result ensure_buffers(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_follower_collision_state* own = &geometry->follower_collision;
@@ -98,7 +98,7 @@ hair_result hair_geometry_update_follower_collision(struct hair_geometry* geomet
     follower_collision->active = field != NULL;
     follower_collision->field = field;
     if (field) {
-        hair_result result = make(geometry);
+        hair_result result = ensure_buffers(geometry);
         if (result) return result;
         run(geometry, field, margin);
     }
