@@ -380,6 +380,33 @@ static void scalp_from_a_buffer_equals_scalp_from_memory(void** state)
     drop(&memory), drop(&buffer);
 }
 
+// Check that steps queued without waiting for the GPU equal steps with a wait after each. NVIDIA's
+// driver let a new scalp overtake dispatches that had yet to read an earlier one.
+static void scalps_of_queued_steps_do_not_overtake_each_other(void** state)
+{
+    struct hair_test* test = *state;
+    static struct seen waited, queued;
+    for (int kind = 0; kind < 2; ++kind) {
+        struct skinned s[2] = {make(test, HAIR_SOLVER_DIRECT), make(test, HAIR_SOLVER_DIRECT)};
+        for (int waits = 0; waits < 2; ++waits)
+            for (int frame = 1; frame <= 8; ++frame) {
+                bulge(&s[waits], STEP * (float)frame);
+                struct given given = put_in_buffer(&s[waits], 0, 12);
+                if (kind == 0)
+                    give(test, &s[waits]);
+                else
+                    hair_test_ok(test, hair_set_scalp_buffer(s[waits].hair, given.buffer, 0, 12, NULL));
+                glDeleteBuffers(1, &given.buffer);
+                hair_test_ok(test, hair_step(s[waits].hair, STEP));
+                if (waits) glFinish();
+            }
+        look(test, &s[0], HAIR_READ_FOLLOWERS, &queued);
+        look(test, &s[1], HAIR_READ_FOLLOWERS, &waited);
+        assert_memory_equal(queued.at, waited.at, 12 * waited.count);
+        drop(&s[0]), drop(&s[1]);
+    }
+}
+
 // Check a scalp that is passed in a moving space, far away or near. The head sees no difference.
 static void scalp_far_from_the_origin_moves_hair_equally(void** state)
 {
@@ -594,6 +621,7 @@ int main(void)
         HAIR_TEST(scalp_far_from_the_head_meets_colliders_there),
         HAIR_TEST(stretched_scalp_takes_every_root_along),
         HAIR_TEST(scalp_from_a_buffer_equals_scalp_from_memory),
+        HAIR_TEST(scalps_of_queued_steps_do_not_overtake_each_other),
         HAIR_TEST(scalp_far_from_the_origin_moves_hair_equally),
         HAIR_TEST(scalp_buffer_of_any_bytes_keeps_hair_finite),
         HAIR_TEST(invalid_scalp_is_refused_by_name_value_and_range),
