@@ -25,6 +25,53 @@ LOCAL(float, hinge_along);
 #endif
 #define MAX_STEPS 8u
 
+#define TOO_LONG 0.01   // Relative error of length at which a method has failed.
+#define MIN_GRANT 6e-8  // Fraction of the guide's length, the rounding of its positions.
+#define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
+
+bool loose, broken; // Results of measure().
+
+#ifdef HAIR_COLLIDERS
+// Return whether a slow guide in contact has an error of length above SLOW_GRANT of a displacement.
+// The error that a Newton step leaves differs between substeps, so that a span between the root and
+// a sticking vertex would tremble. Guides with a vertex whose displacement hides the errors that
+// `tolerance` permits are not slow.
+bool trembles(float tolerance)
+{
+    bool is_rough = false, is_fast = false, touches = false;
+    FOR_VERTICES(guide_count) {
+        if (i < guide_count) {
+            float grant = SLOW_GRANT * length(local(displacement) - root_moved);
+            is_rough = is_rough || (i + 1u < guide_count && bits_of(local(excess)) >
+                                    floatBitsToUint(max(grant, MIN_GRANT * guide_length)));
+            is_fast  = is_fast || grant > tolerance * local(rest_length) && i + 1u < guide_count;
+            touches  = touches || local(touch).w != FREE;
+        }
+    }
+    bvec2 found = group_any(bvec2(is_rough, is_fast));
+    return found.x && !found.y && group_any(bvec2(touches, false)).x;
+}
+#else
+#define trembles(tolerance) false
+#endif
+
+// Compute unit edges. Set `broken` if a method has failed. From the first step on, set `loose` if
+// the error of a length exceeds what the relative `tolerance` permits, or makes the guide tremble.
+void measure(float tolerance, uint steps)
+{
+    bool is_loose = false, is_broken = false;
+    find_edges();
+    FOR_VERTICES(guide_count - 1u) {
+        if (i + 1u < guide_count) {
+            is_loose  = is_loose || bits_of(local(excess)) > floatBitsToUint(tolerance * local(rest_length));
+            is_broken = is_broken || bits_of(local(excess)) > floatBitsToUint(TOO_LONG * local(rest_length));
+        }
+    }
+    bvec2 found = group_any(bvec2(is_loose, is_broken));
+    broken = found.y;
+    loose  = found.x || (steps > 0u && trembles(tolerance));
+}
+
 // Turn the solution with J M^-1 J^T into that with J A^-1 J^T. Add b^2 times the effect of K along
 // the strand, a tridiagonal product. The sum is exact for a straight strand, and nearly so for
 // others (as for fluids, Cahouet and Chabard 1988).
@@ -124,7 +171,7 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
             follow_leader();
             if (n == (COLLIDERS ? 1u : 0u)) return true;
         } else {
-            measure(tolerance);
+            measure(tolerance, n);
             // Do at least one step. Skipped errors would add up over substeps, and then leave at
             // once with a jerk.
             if ((n > 0u && !loose) || n == MAX_STEPS || !has_rounds()) return !broken;

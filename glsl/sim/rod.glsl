@@ -42,7 +42,6 @@ vec4 turn_then;  // Rotation of the head in the previous substep.
 vec4 scalp;      // Frame that clamps the first segment.
 vec3 clamp_way, clamp_at_rest; // Direction of the clamp, and the same direction in groom space.
 bool root_is_free;
-bool loose, broken; // Results of measure().
 
 vec3 rest_from_root(uint i)
 {
@@ -73,7 +72,6 @@ uint bits_of(float v) { return floatBitsToUint(v) & 0x7fffffffu; }
 
 // Limit of a distance from the head's origin, and of a displacement in a substep, in metres.
 #define FARTHEST 1e4
-#define TOO_LONG 0.01 // Relative error of length at which a method has failed.
 
 // Vector from vertex i to the next at the start of the substep. Only work groups of several guides
 // store it. They have few registers, so that some of their values are in memory. Other programs
@@ -99,38 +97,6 @@ void find_edges()
         PUT(edge, to / l);
         local(excess) = l - local(rest_length);
     }
-}
-
-#define MIN_GRANT 6e-8  // Fraction of the guide's length, the rounding of its positions.
-#define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
-
-// Return the permitted error of length of segment i, by the relative `tolerance`. In contact, slow
-// vertices get a smaller error. The error that a Newton step leaves differs between substeps, so
-// that a span between the root and a sticking vertex would tremble.
-float granted_error(uint i, float tolerance)
-{
-    float grant = tolerance * local(rest_length);
-#ifdef HAIR_COLLIDERS
-    grant = clamp(SLOW_GRANT * length(local(displacement) - root_moved), MIN_GRANT * guide_length, grant);
-#endif
-    return grant;
-}
-
-// Compute unit edges. Set `loose` if the error of a length exceeds what the relative `tolerance`
-// permits. Set `broken` if a method has failed.
-void measure(float tolerance)
-{
-    bool is_loose = false, is_broken = false;
-    find_edges();
-    FOR_VERTICES(guide_count - 1u) {
-        if (i + 1u < guide_count) {
-            is_loose  = is_loose || bits_of(local(excess)) > floatBitsToUint(granted_error(i, tolerance));
-            is_broken = is_broken || bits_of(local(excess)) > floatBitsToUint(TOO_LONG * local(rest_length));
-        }
-    }
-    bvec2 found = group_any(bvec2(is_loose, is_broken));
-    loose  = found.x;
-    broken = found.y;
 }
 
 void count_in(uint what)
