@@ -2,19 +2,16 @@
 // the application, and freed when they are no longer needed. Their size stays within a limit.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/passes.h"
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 #include "tests/support/trace.h"
 
-enum { SIZE = 48, KEPT = 32, FLIPS = 60 };
+enum { SIZE = 48, VALUES = 4 * SIZE * SIZE, KEPT = 32, FLIPS = 60 };
 
 // The application's cache, in memory --------------------------------------------------------------
 
@@ -64,13 +61,6 @@ static void empty(struct cache* cache)
 
 // Hair --------------------------------------------------------------------------------------------
 
-struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-};
-
 static hair_context* make_context(struct hair_test* test, struct cache* cache)
 {
     hair_context* context = NULL;
@@ -83,7 +73,7 @@ static hair_context* make_context(struct hair_test* test, struct cache* cache)
     return context;
 }
 
-static hair_result create(struct fixture* f, hair_instance** out)
+static hair_result create(struct hair_test_scene* f, hair_instance** out)
 {
     hair_desc desc = hair_desc_default();
     hair_physics physics = hair_physics_default();
@@ -95,43 +85,34 @@ static hair_result create(struct fixture* f, hair_instance** out)
     return result;
 }
 
-static struct fixture start(struct hair_test* test, struct cache* cache)
+static struct hair_test_scene start(struct hair_test* test, struct cache* cache)
 {
-    struct fixture f = {.test = test};
+    struct hair_test_scene f = hair_test_scene_make(test, NULL);
     f.context = make_context(test, cache);
     hair_test_ok(test, create(&f, &f.hair));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     return f;
 }
 
-static void finish(struct fixture* f)
-{
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_context_destroy(f->context);
-}
-
 static hair_view view_of(hair_render_path path)
 {
     hair_view view = hair_view_default();
     view.render_path = path;
-    view.projection[0] = view.projection[5] = view.projection[10] = 3;
+    hair_test_set_orthographic(&view, 3, 3, 0);
     return view;
 }
 
-static void draw(struct fixture* f, const hair_view* view, float* pixels)
+static void draw(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&f->frame, pixels);
+    hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
 }
 
 // Programs ----------------------------------------------------------------------------------------
 
 static void programs_are_compiled_on_first_use(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = {.test = *state};
+    static float pixels[VALUES];
+    struct hair_test_scene f = hair_test_scene_make(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
     const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
     f.context = make_context(f.test, NULL);
@@ -152,7 +133,7 @@ static void programs_are_compiled_on_first_use(void** state)
     view.pass = HAIR_PASS_COLLIDERS;
     draw(&f, &view, pixels);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 7);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static int has_binaries(void)
@@ -172,14 +153,14 @@ static double now_ms(void)
 
 static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
 {
-    static float pixels[2][4 * SIZE * SIZE];
+    static float pixels[2][VALUES];
     struct cache cache = {0};
     uint32_t puts = 0;
     if (!has_binaries()) return;
     for (int run = 0; run < 2; ++run) {
         hair_test_trace_clear();
         double begin = now_ms();
-        struct fixture f = start(*state, &cache);
+        struct hair_test_scene f = start(*state, &cache);
         hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
@@ -190,7 +171,7 @@ static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
         if (!run) puts = cache.puts;
         assert_int_equal(cache.puts, puts);
         assert_int_equal(cache.count, puts);
-        finish(&f);
+        hair_test_scene_free(&f);
     }
     assert_true(puts >= 5); // Four programs and the self-test.
     assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
@@ -260,14 +241,14 @@ static void a_cache_without_both_functions_is_refused(void** state)
 
 // Memory ------------------------------------------------------------------------------------------
 
-static hair_memory memory_of(struct fixture* f)
+static hair_memory memory_of(struct hair_test_scene* f)
 {
     hair_memory memory = hair_memory_default();
     hair_test_ok(f->test, hair_get_memory(f->context, &memory));
     return memory;
 }
 
-static uint64_t reported(struct fixture* f)
+static uint64_t reported(struct hair_test_scene* f)
 {
     hair_report_info info = hair_report_info_default();
     uint32_t count;
@@ -278,8 +259,8 @@ static uint64_t reported(struct fixture* f)
 // Check that everything an instance can have is counted once, and freed.
 static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
+    static float pixels[VALUES];
+    struct hair_test_scene f = start(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_collider collider = hair_collider_default();
     hair_wind wind = hair_wind_default();
@@ -320,13 +301,13 @@ static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
     hair_destroy(f.hair);
     f.hair = NULL;
     assert_int_equal(memory_of(&f).bytes, 0);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void memory_over_the_limit_is_refused_and_changes_nothing(void** state)
 {
-    static float pixels[2][4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
+    static float pixels[2][VALUES];
+    struct hair_test_scene f = start(*state, NULL);
     hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_instance* other = NULL;
     draw(&f, &plain, pixels[0]);
@@ -349,14 +330,14 @@ static void memory_over_the_limit_is_refused_and_changes_nothing(void** state)
     assert_true(memory_of(&f).bytes > used);
     assert_int_equal(hair_get_memory(NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_set_memory_limit(NULL, 0), HAIR_ERROR_ARGUMENT);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Compare the pictures before, meanwhile and after, on every render path.
 static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
 {
-    static float pixels[2][4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
+    static float pixels[2][VALUES];
+    struct hair_test_scene f = start(*state, NULL);
     hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
     look.shading.model = HAIR_SHADING_LINES;
@@ -384,20 +365,17 @@ static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
             look.shading.model = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
         }
         // Equally distant fragments of segments are blended in any order.
-        double max = 0;
-        for (int i = 0; i < 4 * SIZE * SIZE; ++i)
-            max = fmax(max, fabs((double)pixels[0][i] - (double)pixels[1][i]));
-        assert_true(max <= (kind == 1 ? 0.05 : 0));
+        assert_true(hair_test_max_difference(pixels[0], pixels[1], VALUES) <= (kind == 1 ? 0.05f : 0));
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check a depth pass after colour. It draws the vertices that the colour pass wrote, and does not
 // keep their shaded colours.
 static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
+    static float pixels[VALUES];
+    struct hair_test_scene f = start(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
     look.shading.model = HAIR_SHADING_LINES;
@@ -414,7 +392,7 @@ static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
         if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &view));
     }
     assert_int_equal(memory_of(&f).bytes, min);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

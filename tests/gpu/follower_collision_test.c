@@ -1,57 +1,22 @@
 // follower_collision_test.c - followers that hit colliders are found and pushed out as in the
 // double-precision reference. Without colliders in reach, nothing runs.
 #include "tests/support/passes.h"
+#include "tests/support/scene.h"
 #include "tests/support/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/reference/reference.h"
-#include "tests/support/handmade.h"
-
 #define STATES 1024
 #define COLLIDERS 3
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     hair_look look;
     struct hair_reference_sample* samples;
     hair_collider colliders[COLLIDERS];
 };
-
-static void smooth(struct fixture* f)
-{
-    static struct hair_state vertices[STATES];
-    uint32_t random = 99, each = 2 * f->groom->max_vertices - 1;
-    struct hair_gl* gl = &f->test->context->gl;
-    struct hair_step_params params = {.smooth_vertices = each,
-                                      .rotation_before = {0, 0, 0, 1},
-                                      .rotation_after = {0, 0, 0, 1},
-                                      .rotation_now = {0, 0, 0, 1}};
-    hair_test_scatter(f->groom, 0.001f, 0, &random, vertices);
-    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
-    glFinish();
-    glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *vertices,
-                         vertices);
-    hair_gl_enter(gl);
-    hair_smooth_run(&f->hair->geometry.smooth, &f->hair->sim);
-    hair_gl_leave(gl);
-    f->samples = calloc(each * f->groom->info.guide_count, sizeof *f->samples);
-    for (uint32_t g = 0; g < f->groom->info.guide_count; ++g) {
-        static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide* guide = &f->groom->guides[g];
-        for (uint32_t i = 0; i < guide->count; ++i) {
-            hair_vec4 p = vertices[guide->first + i].position;
-            in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
-        }
-        hair_reference_smooth((struct hair_reference_guide){guide, f->groom->rest + guide->first, &params},
-                              in_double, f->samples + g * each);
-    }
-}
 
 static hair_collider collider_of(hair_shape shape, const float position[3], const float rotation[4],
                                  float radius)
@@ -70,38 +35,38 @@ static hair_collider collider_of(hair_shape shape, const float position[3], cons
 // on the ball, and followers do not resemble hair.
 static struct fixture start(void** state, int alone)
 {
-    struct fixture f = {.test = *state, .look = hair_look_default()};
+    struct fixture f = {.scene = hair_test_scene_make(*state, NULL), .look = hair_look_default()};
     hair_desc desc = hair_desc_default();
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.fewest = 5, wanted.max = 30, wanted.guides = 26, wanted.followers = 400;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
+    f.scene.groom = hair_test_groom(&f.scene.test->host.host, wanted);
     for (uint32_t n = 0; n < wanted.followers && alone; ++n)
-        f.groom->followers[n].guide1 = f.groom->followers[n].guide2 = f.groom->followers[n].guide0;
+        f.scene.groom->followers[n].guide1 = f.scene.groom->followers[n].guide2 =
+            f.scene.groom->followers[n].guide0;
     desc.field_voxel = 0.001f; // The minimum.
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    smooth(&f);
+    hair_test_ok(f.scene.test, hair_create(f.scene.test->context, f.scene.groom, &desc, &f.scene.hair));
+    f.samples = hair_test_scene_scatter(&f.scene);
     f.colliders[0] = collider_of(HAIR_SHAPE_SPHERE, (float[3]){0.15f, 0, 0}, (float[4]){0, 0, 0, 1}, 0.05f);
     f.colliders[1] = collider_of(HAIR_SHAPE_CAPSULE, (float[3]){-0.05f, 0.12f, 0.05f},
                                  (float[4]){0.6f, 0, 0, 0.8f}, 0.03f);
     f.colliders[2] =
         collider_of(HAIR_SHAPE_SPHERE, (float[3]){0, -0.1f, 0.14f}, (float[4]){0, 0, 0, 1}, 0.06f);
-    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
     return f;
 }
 
 static void finish(struct fixture* f)
 {
     free(f->samples);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
 }
 
 // Find the follower's point at t in [0, 1].
 static void find_point(const struct fixture* f, uint32_t number, double t,
                        const struct hair_reference_repair* repair, struct hair_reference_point* out)
 {
-    hair_reference_follower(&f->groom->followers[number], &f->look, 2 * f->groom->max_vertices - 1,
-                            f->samples, t, repair, out);
+    hair_reference_follower(&f->scene.groom->followers[number], &f->look,
+                            2 * f->scene.groom->max_vertices - 1, f->samples, t, repair, out);
 }
 
 static double distance_to(const hair_collider* collider, const double p[3])
@@ -136,18 +101,19 @@ static double distance_to_all(const struct fixture* f, const double p[3])
 
 static float* read_followers(struct fixture* f, hair_follower_collision collision)
 {
-    uint32_t count = f->groom->info.follower_count * (f->look.strand.segments + 1), there;
+    uint32_t count = f->scene.groom->info.follower_count * (f->look.strand.segments + 1), there;
     float* vertices = malloc(3 * sizeof *vertices * count);
     f->look.followers.collision = collision;
-    hair_test_ok(f->test, hair_set_look(f->hair, &f->look));
-    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, &f->look));
+    hair_test_ok(f->scene.test,
+                 hair_read_positions(f->scene.hair, HAIR_READ_FOLLOWERS, vertices, count, &there));
     assert_int_equal(there, count);
     return vertices;
 }
 
 static void read_buffer(struct fixture* f, GLuint buffer, size_t each, void* out)
 {
-    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(f->groom->info.follower_count * each), out);
+    glGetNamedBufferSubData(buffer, 0, (GLsizeiptr)(f->scene.groom->info.follower_count * each), out);
 }
 
 // Return the index of the first vertex inside a collider. `nearest` is the minimum distance from
@@ -174,8 +140,8 @@ static void hit_is_the_first_vertex_inside_a_collider(void** state)
         uint32_t found = 0, doubtful = 0;
         f.look.strand.segments = segments[i];
         free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
-        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+        for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) {
             double nearest;
             uint32_t expected = find_hit(&f, n, &nearest);
             if (nearest < FIELD) {
@@ -202,30 +168,30 @@ static void hit_by_work_group_equals_hit_by_thread(void** state)
     static const uint32_t segments[] = {1, 31, 32, 33, 100, 256};
     static float hits[400], others[400];
     struct fixture f = start(state, 0);
-    int software = f.test->context->gl.software;
-    uint32_t runs = hair_test_runs_of(&f.test->context->gl, "strands/hit_group");
+    int software = f.scene.test->context->gl.software;
+    uint32_t runs = hair_test_runs_of(&f.scene.test->context->gl, "strands/hit_group");
     for (size_t i = 0; i < 2 * sizeof segments / sizeof *segments; ++i) {
         uint32_t differ = 0;
         hair_follower_collision collision =
             i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
         f.look.strand.segments = segments[i / 2];
         float* before = read_followers(&f, collision);
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
-        f.test->context->gl.software = !software;
-        f.hair->geometry.follower_collision.valid = 0; // Forces another search.
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+        f.scene.test->context->gl.software = !software;
+        f.scene.hair->geometry.follower_collision.valid = 0; // Forces another search.
         float* after = read_followers(&f, collision);
-        f.test->context->gl.software = software;
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *others, others);
-        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
+        f.scene.test->context->gl.software = software;
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *others, others);
+        for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) differ += hits[n] != others[n];
         assert_in_range(differ, 0, 1); // Rounding decides where a vertex is on the surface.
         if (!differ)
             assert_memory_equal(before, after,
-                                3 * sizeof *after * f.groom->info.follower_count *
+                                3 * sizeof *after * f.scene.groom->info.follower_count *
                                     (f.look.strand.segments + 1));
         free(before);
         free(after);
     }
-    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit_group"),
+    assert_int_equal(hair_test_runs_of(&f.scene.test->context->gl, "strands/hit_group"),
                      runs + 2 * sizeof segments / sizeof *segments);
     finish(&f);
 }
@@ -237,30 +203,30 @@ static void hit_by_prepass_equals_hit_by_compute(void** state)
     static const uint32_t segments[] = {1, 31, 64, 100};
     static float hits[400], others[400];
     struct fixture f = start(state, 0);
-    hair_instance* compute = f.hair;
+    hair_instance* compute = f.scene.hair;
     hair_desc desc = hair_desc_default();
     hair_instance* prepass = NULL;
     desc.field_voxel = 0.001f;
     desc.hit_method = HAIR_HIT_METHOD_PREPASS;
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &prepass));
-    f.hair = prepass;
+    hair_test_ok(f.scene.test, hair_create(f.scene.test->context, f.scene.groom, &desc, &prepass));
+    f.scene.hair = prepass;
     free(f.samples);
-    smooth(&f);
-    hair_test_ok(f.test, hair_set_colliders(prepass, f.colliders, COLLIDERS, sizeof *f.colliders));
+    f.samples = hair_test_scene_scatter(&f.scene);
+    hair_test_ok(f.scene.test, hair_set_colliders(prepass, f.colliders, COLLIDERS, sizeof *f.colliders));
     for (int i = 0; i < 8; ++i) {
         uint32_t differ = 0;
         hair_follower_collision collision =
             i % 2 ? HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE : HAIR_FOLLOWER_COLLISION_PUSH_OUT;
         f.look.strand.segments = segments[i / 2];
-        f.hair = compute;
+        f.scene.hair = compute;
         free(read_followers(&f, collision));
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
-        f.hair = prepass;
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+        f.scene.hair = prepass;
         free(read_followers(&f, collision));
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *others, others);
-        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) differ += hits[n] != others[n];
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *others, others);
+        for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) differ += hits[n] != others[n];
         print_message("    %u segments: %u of %u differ\n", f.look.strand.segments, differ,
-                      f.groom->info.follower_count);
+                      f.scene.groom->info.follower_count);
         assert_in_range(differ, 0, 1);
     }
     hair_destroy(compute);
@@ -284,11 +250,11 @@ static void follower_beyond_its_hit_follows_a_single_guide(void** state)
     float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE);
     static float hits[400];
     uint32_t switched = 0;
-    read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
-    for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+    read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+    for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) {
         int hit = (double)hits[n] < HAIR_NO_HIT;
         // The other followers have nothing to switch.
-        assert_true(!hit || f.groom->followers[n].multi > 0);
+        assert_true(!hit || f.scene.groom->followers[n].multi > 0);
         switched += hit;
         for (uint32_t k = 0; k <= f.look.strand.segments; ++k) {
             struct hair_reference_repair repair;
@@ -318,9 +284,9 @@ static void push_out_curve_is_a_spline(void** state)
     for (size_t i = 0; i < sizeof segments / sizeof *segments; ++i) {
         f.look.strand.segments = segments[i];
         float* vertices = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
-        read_buffer(&f, f.hair->geometry.follower_collision.hit, sizeof *hits, hits);
-        read_buffer(&f, f.hair->geometry.follower_collision.repair, sizeof *halves, halves);
-        for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.hit, sizeof *hits, hits);
+        read_buffer(&f, f.scene.hair->geometry.follower_collision.repair, sizeof *halves, halves);
+        for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) {
             int hit = (double)hits[n] < HAIR_NO_HIT;
             double controls[HAIR_REPAIR_CONTROLS][4];
             for (int c = 0; c < HAIR_REPAIR_CONTROLS; ++c)
@@ -364,7 +330,7 @@ static void pushed_out_followers_are_outside_and_keep_their_length(void** state)
     float* after = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     uint32_t inside = 0, left = 0;
     double deepest = 0, longest = 0;
-    for (uint32_t n = 0; n < f.groom->info.follower_count; ++n) {
+    for (uint32_t n = 0; n < f.scene.groom->info.follower_count; ++n) {
         const float* p = before + (size_t)n * (f.look.strand.segments + 1) * 3;
         double root[3] = {(double)p[0], (double)p[1], (double)p[2]};
         struct strand a = measure(&f, before, n), b = measure(&f, after, n);
@@ -398,9 +364,10 @@ static void small_collider_motion_moves_followers_little(void** state)
     float* freely = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
     for (int frame = 0; frame < 60; ++frame) {
         f.colliders[0].position[0] = 0.25f - 0.002f * (float)frame;
-        hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+        hair_test_ok(f.scene.test,
+                     hair_set_colliders(f.scene.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
         float* now = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
-        for (size_t i = 0; before && i < each * f.groom->info.follower_count; ++i) {
+        for (size_t i = 0; before && i < each * f.scene.groom->info.follower_count; ++i) {
             double square = 0;
             if (measure(&f, freely, (uint32_t)(i / each)).deepest > 0.01) continue;
             for (size_t k = 3 * i; k < 3 * i + 3; ++k) square += pow((double)now[k] - (double)before[k], 2);
@@ -419,21 +386,22 @@ static void small_collider_motion_moves_followers_little(void** state)
 static void follower_collision_costs_nothing_out_of_reach(void** state)
 {
     struct fixture f = start(state, 0);
-    uint32_t hits = hair_test_runs_of(&f.test->context->gl, "strands/hit"),
-             repairs = hair_test_runs_of(&f.test->context->gl, "repair");
+    uint32_t hits = hair_test_runs_of(&f.scene.test->context->gl, "strands/hit"),
+             repairs = hair_test_runs_of(&f.scene.test->context->gl, "repair");
     float* without = read_followers(&f, HAIR_FOLLOWER_COLLISION_NONE);
-    hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, 0));
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, NULL, 0, 0));
     float* none = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     for (int i = 0; i < COLLIDERS; ++i) f.colliders[i].position[1] += 3;
-    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
     float* far = read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
-    size_t size = 3 * sizeof *far * f.groom->info.follower_count * (f.look.strand.segments + 1);
+    size_t size = 3 * sizeof *far * f.scene.groom->info.follower_count * (f.look.strand.segments + 1);
     assert_memory_equal(none, without, size);
     assert_memory_equal(far, without, size);
-    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit"), hits);
-    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "repair"), repairs);
-    assert_int_equal(f.hair->geometry.follower_collision.hit + f.hair->geometry.follower_collision.repair +
-                         f.hair->geometry.follower_collision.list,
+    assert_int_equal(hair_test_runs_of(&f.scene.test->context->gl, "strands/hit"), hits);
+    assert_int_equal(hair_test_runs_of(&f.scene.test->context->gl, "repair"), repairs);
+    assert_int_equal(f.scene.hair->geometry.follower_collision.hit +
+                         f.scene.hair->geometry.follower_collision.repair +
+                         f.scene.hair->geometry.follower_collision.list,
                      0);
     free(far);
     free(none);
@@ -446,15 +414,15 @@ static void follower_collision_runs_once_per_pose(void** state)
 {
     struct fixture f = start(state, 0);
     free(read_followers(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT));
-    uint32_t count, hits = hair_test_runs_of(&f.test->context->gl, "strands/hit");
+    uint32_t count, hits = hair_test_runs_of(&f.scene.test->context->gl, "strands/hit");
     float some[3];
     for (int i = 0; i < 3; ++i)
-        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
-    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit"), hits);
-    hair_test_ok(f.test, hair_step(f.hair, 0.01f));
+        hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    assert_int_equal(hair_test_runs_of(&f.scene.test->context->gl, "strands/hit"), hits);
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 0.01f));
     for (int i = 0; i < 3; ++i)
-        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
-    assert_int_equal(hair_test_runs_of(&f.test->context->gl, "strands/hit"), hits + 1);
+        hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, HAIR_READ_FOLLOWERS, some, 1, &count));
+    assert_int_equal(hair_test_runs_of(&f.scene.test->context->gl, "strands/hit"), hits + 1);
     finish(&f);
 }
 

@@ -1,15 +1,13 @@
 // instance_test.c - one head of hair as an application uses it: reset, teleported, far away, beside
 // others.
+#include "tests/support/scene.h"
 #include "tests/support/support.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 #include "tests/support/ways.h"
 
 #define MAX 4096
@@ -295,12 +293,8 @@ static void draw(struct hair_test* test, hair_instance* hair, const struct hair_
     hair_view view = hair_view_default();
     view.primitive = HAIR_PRIMITIVE_LINES; // Ribbons are much narrower than these pixels.
     // The view is 0.8 m wide around the head, along -z.
-    view.projection[0] = view.projection[5] = 2.5f;
-    view.projection[10] = -0.5f;
-    view.projection[13] = -0.3f;
-    hair_test_frame_clear(frame);
-    hair_test_ok(test, hair_draw(hair, &view));
-    hair_test_frame_read(frame, pixels);
+    hair_test_set_orthographic(&view, 2.5f, -0.5f, -0.3f);
+    hair_test_draw_in(frame, test, hair, &view, pixels);
 }
 
 #define SIDE 64

@@ -1,24 +1,19 @@
 // redblack_test.c - the solver on the GPU moves every guide as the double-precision reference does.
 #include "tests/support/passes.h"
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "tests/reference/reference.h"
-#include "tests/support/handmade.h"
 
 #define STATES 4096 // Maximum number of guide vertices in a test.
 
 // A groom and a state. The parameters switch every part of the solver on or off.
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     struct hair_step_params params;
     struct hair_state state[STATES];
     uint32_t random;
@@ -37,20 +32,19 @@ static hair_vec4 vec4_of_quat(hair_quat q)
 
 static void scatter(struct fixture* f, float away, float moved)
 {
-    hair_test_scatter(f->groom, away, moved, &f->random, f->state);
+    hair_test_scatter(f->scene.groom, away, moved, &f->random, f->state);
 }
 
 // Start with all of the solver switched off. Only pinned vertices move.
 static struct fixture start_with(void** state, struct hair_test_handmade wanted)
 {
-    struct fixture f = {.test = *state, .random = 12345};
+    struct fixture f = {.scene = hair_test_scene_make(*state, NULL), .random = 12345};
     hair_desc desc = hair_desc_default();
     desc.solver = HAIR_SOLVER_REDBLACK;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
+    hair_test_scene_add(&f.scene, &wanted, &desc);
     f.params.gravity.w = 1.0f / 120;
     f.params.substeps = 1;
-    f.params.guides = f.groom->info.guide_count;
+    f.params.guides = f.scene.groom->info.guide_count;
     for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
         f.params.substep[i] =
             (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1) / HAIR_STEP_SUBSTEPS}};
@@ -69,12 +63,6 @@ static struct fixture start_up_to(void** state, uint32_t max)
 static struct fixture start(void** state)
 {
     return start_up_to(state, 64);
-}
-
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
 }
 
 static void move_head(struct fixture* f)
@@ -138,23 +126,23 @@ static double tolerance(const struct fixture* f)
 
 static void run_pass(struct fixture* f, hair_gl_pass pass)
 {
-    struct hair_gl* gl = &f->test->context->gl;
-    size_t size = f->groom->info.guide_vertex_count * sizeof *f->state;
-    hair_test_ok(f->test, hair_gl_ensure_program(gl, pass));
+    struct hair_gl* gl = &f->scene.test->context->gl;
+    size_t size = f->scene.groom->info.guide_vertex_count * sizeof *f->state;
+    hair_test_ok(f->scene.test, hair_gl_ensure_program(gl, pass));
     // One driver loses data that is written to a buffer while a dispatch writes the buffer.
     glFinish();
-    glNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
-    glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
+    glNamedBufferSubData(f->scene.hair->sim.state, 0, (GLsizeiptr)size, f->state);
+    glNamedBufferSubData(f->scene.hair->sim.step, 0, sizeof f->params, &f->params);
     hair_gl_enter(gl);
-    hair_sim_bind(&f->hair->sim);
+    hair_sim_bind(&f->scene.hair->sim);
     hair_gl_run(gl, pass, f->params.guides);
     hair_gl_leave(gl);
-    glGetNamedBufferSubData(f->hair->sim.state, 0, (GLsizeiptr)size, f->state);
+    glGetNamedBufferSubData(f->scene.hair->sim.state, 0, (GLsizeiptr)size, f->state);
 }
 
 static void run(struct fixture* f)
 {
-    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK, f->groom->max_vertices));
+    run_pass(f, hair_gl_pass_for(HAIR_GL_REDBLACK, f->scene.groom->max_vertices));
 }
 
 static double largest(const hair_vec4* a, const double* b)
@@ -173,13 +161,13 @@ static struct hair_reference_vertex in_double(const struct hair_state* state)
 static void compare(struct fixture* f, const char* what)
 {
     static struct hair_reference_vertex expected[STATES];
-    uint32_t vertices = f->groom->info.guide_vertex_count;
+    uint32_t vertices = f->scene.groom->info.guide_vertex_count;
     double limit = tolerance(f), worst = 0, moved = 0;
     for (uint32_t i = 0; i < vertices; ++i) expected[i] = in_double(&f->state[i]);
     for (uint32_t g = 0; g < f->params.guides; ++g) {
-        const struct hair_guide* guide = &f->groom->guides[g];
+        const struct hair_guide* guide = &f->scene.groom->guides[g];
         hair_reference_redblack(
-            (struct hair_reference_guide){guide, f->groom->rest + guide->first, &f->params},
+            (struct hair_reference_guide){guide, f->scene.groom->rest + guide->first, &f->params},
             expected + guide->first);
     }
     for (uint32_t i = 0; i < vertices; ++i)
@@ -209,7 +197,7 @@ static void integration_equals_the_reference(void** state)
     f.params.shape_frequency_tip = 3;
     move_head(&f);
     compare(&f, "integrate");
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void angular_forces_equal_the_reference(void** state)
@@ -218,7 +206,7 @@ static void angular_forces_equal_the_reference(void** state)
     f.params.angular = 5000;
     scatter(&f, 0.002f, 0);
     compare(&f, "angular");
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void distance_constraints_equal_the_reference(void** state)
@@ -230,7 +218,7 @@ static void distance_constraints_equal_the_reference(void** state)
     f.params.iterations = 20;
     scatter(&f, 0.002f, 0);
     compare(&f, "20 iterations");
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 // Compare angular constraints. In the rest pose the distance constraints have nothing to do. The
@@ -238,14 +226,16 @@ static void distance_constraints_equal_the_reference(void** state)
 static void angular_constraints_equal_the_reference(void** state)
 {
     struct fixture f = start(state);
-    for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) f.groom->rest[i].direction.w *= 1.1f;
-    glNamedBufferSubData(f.hair->sim.rest, 0, f.groom->info.guide_vertex_count * sizeof *f.groom->rest,
-                         f.groom->rest);
+    for (uint32_t i = 0; i < f.scene.groom->info.guide_vertex_count; ++i)
+        f.scene.groom->rest[i].direction.w *= 1.1f;
+    glNamedBufferSubData(f.scene.hair->sim.rest, 0,
+                         f.scene.groom->info.guide_vertex_count * sizeof *f.scene.groom->rest,
+                         f.scene.groom->rest);
     f.params.bend = 0.5f;
     f.params.iterations = 1;
     scatter(&f, 0, 0);
     compare(&f, "bend");
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void collisions_equal_the_reference(void** state)
@@ -255,7 +245,7 @@ static void collisions_equal_the_reference(void** state)
     put_colliders(&f);
     scatter(&f, 0, 0);
     compare(&f, "collide");
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void vertices_end_outside_of_colliders(void** state)
@@ -266,11 +256,11 @@ static void vertices_end_outside_of_colliders(void** state)
     f.params.substeps = 5;
     run(&f);
     for (uint32_t g = 0; g < f.params.guides; ++g)
-        for (uint32_t i = 2; i < f.groom->guides[g].count; ++i) {
-            hair_vec4 p = f.state[f.groom->guides[g].first + i].position;
+        for (uint32_t i = 2; i < f.scene.groom->guides[g].count; ++i) {
+            hair_vec4 p = f.state[f.scene.groom->guides[g].first + i].position;
             assert_true(hair_length(hair_v3(p.x, p.y, p.z)) > 0.091f - 1e-6f);
         }
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void one_to_five_substeps_equal_the_reference(void** state)
@@ -282,7 +272,7 @@ static void one_to_five_substeps_equal_the_reference(void** state)
         char what[32];
         snprintf(what, sizeof what, "%u substeps", substeps);
         compare(&f, what);
-        finish(&f);
+        hair_test_scene_free(&f.scene);
     }
 }
 
@@ -310,7 +300,7 @@ static void stages_switched_off_or_alone_equal_the_reference(void** state)
         snprintf(what, sizeof what, "without %c%c%c%c%c", off & 1 ? 'a' : '-', off & 2 ? 'b' : '-',
                  off & 4 ? 'c' : '-', off & 8 ? 'p' : '-', off & 16 ? 'i' : '-');
         compare(&f, what);
-        finish(&f);
+        hair_test_scene_free(&f.scene);
     }
 }
 
@@ -325,11 +315,11 @@ static void hair_step_with_all_inputs_equals_the_reference(void** state)
     physics.redblack.angular_hz = 1.5f;
     physics.redblack.bend = 0.15f, physics.redblack.iterations = 19, physics.collision.margin = 0.002f,
     physics.gravity[0] = 1;
-    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
+    hair_test_ok(f.scene.test, hair_set_physics(f.scene.hair, &physics));
     hair_collider collider = {HAIR_SHAPE_CAPSULE, {0.1f, 0.25f, 0}, {0, 0, (float)sin(0.4), (float)cos(0.4)},
                               {0.05f, 0.1f},      .scale = 1,       .friction = 1};
-    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-    hair_test_ok(f.test, hair_reset(f.hair));
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, &collider, 1, sizeof collider));
+    hair_test_ok(f.scene.test, hair_reset(f.scene.hair));
     double angle = 0.3, to[3] = {0.04, -0.01, 0.02};
     float transform[16] = {(float)cos(angle),
                            0,
@@ -347,11 +337,11 @@ static void hair_step_with_all_inputs_equals_the_reference(void** state)
                            (float)to[1],
                            (float)to[2],
                            1};
-    hair_test_ok(f.test, hair_set_transform(f.hair, transform));
+    hair_test_ok(f.scene.test, hair_set_transform(f.scene.hair, transform));
     hair_collider there = collider;
     there.position[1] += 0.03f;
-    hair_test_ok(f.test, hair_set_colliders(f.hair, &there, 1, sizeof there));
-    hair_test_ok(f.test, hair_step(f.hair, 4.0f / 120));
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, &there, 1, sizeof there));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 4.0f / 120));
 
     struct hair_step_params* p = &f.params;
     double dt = (double)(float)(1.0 / 120), tau = 6.283185307179586;
@@ -381,19 +371,20 @@ static void hair_step_with_all_inputs_equals_the_reference(void** state)
     static float got[3 * STATES];
     uint32_t count;
     scatter(&f, 0, 0);
-    for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) expected[i] = in_double(&f.state[i]);
+    for (uint32_t i = 0; i < f.scene.groom->info.guide_vertex_count; ++i)
+        expected[i] = in_double(&f.state[i]);
     for (uint32_t g = 0; g < p->guides; ++g) {
-        const struct hair_guide* guide = &f.groom->guides[g];
-        hair_reference_redblack((struct hair_reference_guide){guide, f.groom->rest + guide->first, p},
+        const struct hair_guide* guide = &f.scene.groom->guides[g];
+        hair_reference_redblack((struct hair_reference_guide){guide, f.scene.groom->rest + guide->first, p},
                                 expected + guide->first);
     }
-    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_GUIDES, got, STATES, &count));
-    assert_int_equal(count, f.groom->info.guide_vertex_count);
+    hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, HAIR_READ_GUIDES, got, STATES, &count));
+    assert_int_equal(count, f.scene.groom->info.guide_vertex_count);
     for (uint32_t i = 0; i < count; ++i)
         for (int k = 0; k < 3; ++k)
             hair_test_near("guide vertex", i, got[3 * i + k], expected[i].position[k] + to[k],
                            2 * tolerance(&f));
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void guides_move_equally_in_a_larger_work_group(void** state)
@@ -407,9 +398,9 @@ static void guides_move_equally_in_a_larger_work_group(void** state)
         scatter(&f, 0.002f, 0.001f);
         run_pass(&f, HAIR_GL_REDBLACK | HAIR_GL_SIZE(larger));
         if (!larger) memcpy(smallest, f.state, sizeof smallest);
-        assert_memory_equal(smallest, f.state, f.groom->info.guide_vertex_count * sizeof *smallest);
+        assert_memory_equal(smallest, f.state, f.scene.groom->info.guide_vertex_count * sizeof *smallest);
     }
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 // Compare one to ten guides with these numbers of vertices, each time with a longer guide among
@@ -429,7 +420,7 @@ static void guides_of_2_to_256_vertices_equal_the_reference(void** state)
         char what[32];
         snprintf(what, sizeof what, "up to %u vertices", max);
         compare(&f, what);
-        finish(&f);
+        hair_test_scene_free(&f.scene);
     }
 }
 
@@ -444,15 +435,15 @@ static void a_guide_of_two_vertices_is_rigid(void** state)
     f.params.substeps = 4;
     run(&f);
     hair_vec4 turn = f.params.substep[3].rotation;
-    for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) {
-        hair_vec4 rest = f.groom->rest[i].position, p = f.state[i].position;
+    for (uint32_t i = 0; i < f.scene.groom->info.guide_vertex_count; ++i) {
+        hair_vec4 rest = f.scene.groom->rest[i].position, p = f.state[i].position;
         hair_vec3 aim =
             hair_rotate((hair_quat){turn.x, turn.y, turn.z, turn.w}, hair_v3(rest.x, rest.y, rest.z));
         hair_test_near("x", i, p.x, aim.x, 1e-7);
         hair_test_near("y", i, p.y, aim.y, 1e-7);
         hair_test_near("z", i, p.z, aim.z, 1e-7);
     }
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 // Check a strand that is not finite. All its vertices return to the rest pose in one substep, and
@@ -471,18 +462,18 @@ static void only_nonfinite_strands_are_reset(void** state)
 
         f.random = 12345;
         scatter(&f, 0.002f, 0.001f);
-        struct hair_guide broken = f.groom->guides[17];
+        struct hair_guide broken = f.scene.groom->guides[17];
         if (n % 2)
             f.state[broken.first + 9].displacement.y = bad[n];
         else
             f.state[broken.first + 9].position.z = bad[n];
         run(&f);
-        for (uint32_t i = 0; i < f.groom->info.guide_vertex_count; ++i) {
+        for (uint32_t i = 0; i < f.scene.groom->info.guide_vertex_count; ++i) {
             if (i < broken.first || i >= broken.first + broken.count) {
                 assert_memory_equal(&f.state[i], &sound[i], sizeof sound[i]);
                 continue;
             }
-            hair_vec4 q = f.params.substep[0].rotation, p = f.groom->rest[i].position;
+            hair_vec4 q = f.params.substep[0].rotation, p = f.scene.groom->rest[i].position;
             hair_vec3 rest = hair_rotate((hair_quat){q.x, q.y, q.z, q.w}, hair_v3(p.x, p.y, p.z));
             hair_test_near("x", i, f.state[i].position.x, rest.x, 1e-6);
             hair_test_near("y", i, f.state[i].position.y, rest.y, 1e-6);
@@ -490,7 +481,7 @@ static void only_nonfinite_strands_are_reset(void** state)
             assert_memory_equal(&f.state[i].displacement, &f.params.substep[0].displacement,
                                 3 * sizeof(float));
         }
-        finish(&f);
+        hair_test_scene_free(&f.scene);
     }
 }
 
