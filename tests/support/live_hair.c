@@ -64,6 +64,19 @@ static void write_matrix(const struct hair_reference_rod_pose* pose, float out[1
     out[15] = 1;
 }
 
+struct hair_test_strands hair_test_straight_and_curl(void)
+{
+    struct hair_test_strands s = hair_test_strands_make(2, 24);
+    hair_test_add_straight(&s, 16, hair_v3(0.1f, 0, 0), hair_v3(0.6f, -1, 0), 0.12f);
+    for (uint32_t i = 0; i < 24; ++i) {
+        float t = (float)i / 23;
+        hair_store3(s.positions + 3 * (size_t)s.vertex_count++,
+                    hair_v3(-0.1f + 0.015f * (1 - cosf(8 * t)), -0.2f * t, 0.015f * sinf(8 * t)));
+    }
+    s.vertices[s.count++] = 24;
+    return s;
+}
+
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head, double dt)
 {
     float transform[16];

@@ -36,6 +36,9 @@ struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, h
 void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices, hair_vec3 root,
                             hair_vec3 way, float length);
 
+// Return a straight strand and a curl, which their rest strain supports.
+struct hair_test_strands hair_test_straight_and_curl(void);
+
 // Step. The head is at `head` at the end of the step. NULL keeps it in place.
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head,
                        double dt);

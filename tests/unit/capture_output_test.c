@@ -1,5 +1,5 @@
-// capture_output_test.c - what hair-capture writes, as its users run it: hashes, pictures, videos and
-// statistics. Output that fails leaves no file behind, and keeps an old one.
+// capture_output_test.c - output of hair-capture: hashes, pictures, videos and statistics. Output
+// that fails leaves no file behind, and keeps an old one.
 #define _XOPEN_SOURCE 700
 #include "tests/support/shell.h"
 

@@ -1,5 +1,5 @@
-// style_scalp_test.c - the scalp of built-in haircuts: one sheet of triangles on the promised skull,
-// with evenly spread roots.
+// style_scalp_test.c - the scalp of built-in haircuts: one sheet of triangles on the promised
+// skull, with evenly spread roots.
 #include "lib/groom/style_body.h"
 #include "lib/groom/style_grow.h"
 #include "tests/support/host.h"
