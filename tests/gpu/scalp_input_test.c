@@ -1,5 +1,5 @@
-// scalp_input_test.c - a skinned scalp as the library receives it: from memory or in a buffer of any
-// bytes, with invalid values refused. Runs with a scalp can be saved.
+// scalp_input_test.c - a skinned scalp as the library receives it: from memory or in a buffer of
+// any bytes, with invalid values refused. Runs with a scalp can be saved.
 #include "tests/support/skinned.h"
 
 #include <math.h>
@@ -48,11 +48,11 @@ static void scalp_from_a_buffer_equals_scalp_from_memory(void** state)
         glDeleteBuffers(1, &given.buffer); // The library has read the buffer.
         hair_test_ok(test, hair_step(memory.hair, STEP));
         hair_test_ok(test, hair_step(buffer.hair, STEP));
-        hair_test_skinned_read(test, &memory, HAIR_READ_GUIDES, &a);
-        hair_test_skinned_read(test, &buffer, HAIR_READ_GUIDES, &b);
+        hair_test_read_points(test, memory.hair, HAIR_READ_GUIDES, &a);
+        hair_test_read_points(test, buffer.hair, HAIR_READ_GUIDES, &b);
         assert_memory_equal(a.at, b.at, 12 * a.count);
-        hair_test_skinned_read(test, &memory, HAIR_READ_FOLLOWERS, &a);
-        hair_test_skinned_read(test, &buffer, HAIR_READ_FOLLOWERS, &b);
+        hair_test_read_points(test, memory.hair, HAIR_READ_FOLLOWERS, &a);
+        hair_test_read_points(test, buffer.hair, HAIR_READ_FOLLOWERS, &b);
         assert_memory_equal(a.at, b.at, 12 * a.count);
     }
     hair_destroy(memory.hair), hair_destroy(buffer.hair);
@@ -81,13 +81,13 @@ static void scalp_buffer_of_any_bytes_keeps_hair_finite(void** state)
             struct given given = put_in_buffer(&s, 0, 12);
             hair_test_ok(test, hair_set_scalp_buffer(s.hair, given.buffer, given.offset, given.stride, NULL));
             glDeleteBuffers(1, &given.buffer);
-            if (frame == 9) hair_test_skinned_read(test, &s, HAIR_READ_GUIDES, &before);
+            if (frame == 9) hair_test_read_points(test, s.hair, HAIR_READ_GUIDES, &before);
             hair_test_ok(test, hair_step(s.hair, STEP));
-            hair_test_skinned_read(test, &s, HAIR_READ_GUIDES, &seen);
-            hair_test_skinned_read(test, &s, HAIR_READ_FOLLOWERS, &seen);
+            hair_test_read_points(test, s.hair, HAIR_READ_GUIDES, &seen);
+            hair_test_read_points(test, s.hair, HAIR_READ_FOLLOWERS, &seen);
             if (frame == 6) hair_test_ok(test, hair_reset(s.hair));
         }
-        hair_test_skinned_read(test, &s, HAIR_READ_GUIDES, &seen);
+        hair_test_read_points(test, s.hair, HAIR_READ_GUIDES, &seen);
         for (uint32_t k = 0; k < HAIR_TEST_SCALP_GUIDES;
              ++k) // The root is still where the last good scalp had it.
             assert_true(hair_distance(hair_load3(seen.at + 30 * k), hair_load3(before.at + 30 * k)) < 0.03f);
@@ -195,19 +195,19 @@ static void saved_run_with_a_scalp_continues_bit_for_bit(void** state)
         struct hair_test_points* to = k ? again : straight;
         if (k) hair_test_ok(test, hair_load(in->hair, bytes, size));
         hair_test_ok(test, hair_step(in->hair, STEP));
-        hair_test_skinned_read(test, in, HAIR_READ_FOLLOWERS, &to[0]);
+        hair_test_read_points(test, in->hair, HAIR_READ_FOLLOWERS, &to[0]);
         run(test, in, 8, 11);
-        hair_test_skinned_read(test, in, HAIR_READ_GUIDES, &to[1]);
+        hair_test_read_points(test, in->hair, HAIR_READ_GUIDES, &to[1]);
         for (int i = 0; i < 2 && k; ++i)
             assert_memory_equal(again[i].at, straight[i].at, 12 * again[i].count);
         hair_destroy(other.hair);
     }
     // A state saved before there was a scalp has a scalp at rest.
     hair_test_ok(test, hair_load(s.hair, plain, plain_size));
-    hair_test_skinned_read(test, &s, HAIR_READ_FOLLOWERS, &straight[0]);
+    hair_test_read_points(test, s.hair, HAIR_READ_FOLLOWERS, &straight[0]);
     struct hair_test_skinned fresh =
         hair_test_skinned_make(test, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO);
-    hair_test_skinned_read(test, &fresh, HAIR_READ_FOLLOWERS, &again[0]);
+    hair_test_read_points(test, fresh.hair, HAIR_READ_FOLLOWERS, &again[0]);
     assert_true(hair_test_points_distance(&straight[0], &again[0]) < 1e-6);
     hair_destroy(fresh.hair), hair_destroy(s.hair);
     free(bytes), free(plain);
@@ -224,7 +224,7 @@ static void skinned_scalp_changes_no_opengl_state(void** state)
     hair_test_glstate_read(&before);
     hair_test_ok(test, hair_set_scalp_buffer(s.hair, in.buffer, 0, 12, NULL));
     hair_test_ok(test, hair_step(s.hair, STEP));
-    hair_test_skinned_read(test, &s, HAIR_READ_FOLLOWERS, &seen);
+    hair_test_read_points(test, s.hair, HAIR_READ_FOLLOWERS, &seen);
     hair_test_glstate_read(&after);
     size_t other = hair_test_glstate_differ(&before, &after, 0);
     if (other < before.count) fail_msg("%s has changed", before.values[other].name);

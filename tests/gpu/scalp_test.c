@@ -55,16 +55,16 @@ static void rigidly_moved_scalp_equals_a_moved_head(void** state)
             hair_test_skinned_set(test, &scalp);
             hair_test_ok(test, hair_step(head.hair, dt));
             hair_test_ok(test, hair_step(scalp.hair, dt));
-            hair_test_skinned_read(test, &head, HAIR_READ_FOLLOWERS, &a);
-            hair_test_skinned_read(test, &scalp, HAIR_READ_FOLLOWERS, &b);
+            hair_test_read_points(test, head.hair, HAIR_READ_FOLLOWERS, &a);
+            hair_test_read_points(test, scalp.hair, HAIR_READ_FOLLOWERS, &b);
             max = fmax(max, hair_test_points_distance(&a, &b));
             for (uint32_t k = 0; k < HAIR_TEST_SCALP_FOLLOWERS; ++k)
                 apart[0] =
                     fmax(apart[0],
                          (double)hair_distance(hair_load3(a.at + 3 * k * (HAIR_TEST_SCALP_SEGMENTS + 1)),
                                                hair_load3(b.at + 3 * k * (HAIR_TEST_SCALP_SEGMENTS + 1))));
-            hair_test_skinned_read(test, &head, HAIR_READ_GUIDES, &a);
-            hair_test_skinned_read(test, &scalp, HAIR_READ_GUIDES, &b);
+            hair_test_read_points(test, head.hair, HAIR_READ_GUIDES, &a);
+            hair_test_read_points(test, scalp.hair, HAIR_READ_GUIDES, &b);
             apart[1] = fmax(apart[1], hair_test_points_distance(&a, &b));
             if (frame == 1) continue;
             went = fmax(went, (double)hair_distance(hair_load3(a.at), hair_v3(0, 0, 0)));
@@ -110,8 +110,8 @@ static void rigid_scalp_equals_a_head_when_substeps_change(void** state)
             hair_test_ok(test, hair_step(s->hair, dt));
         }
         for (int i = 0; i < 2; ++i) {
-            hair_test_skinned_read(test, &head, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &a);
-            hair_test_skinned_read(test, &scalp, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &b);
+            hair_test_read_points(test, head.hair, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &a);
+            hair_test_read_points(test, scalp.hair, i ? HAIR_READ_SMOOTH : HAIR_READ_GUIDES, &b);
             max[i] = fmax(max[i], hair_test_points_distance(&a, &b));
         }
     }
@@ -152,8 +152,8 @@ static void scalp_at_rest_in_a_moving_head_changes_nothing(void** state)
             hair_test_ok(test, hair_set_transform(s->hair, m));
             if (i) hair_test_ok(test, hair_set_scalp(s->hair, s->rest, HAIR_TEST_SCALP_VERTICES, 12, m));
             hair_test_ok(test, hair_step(s->hair, STEP));
-            hair_test_skinned_read(test, s, HAIR_READ_GUIDES, i ? &b : &a);
-            hair_test_skinned_read(test, s, HAIR_READ_FOLLOWERS, i ? &d : &c);
+            hair_test_read_points(test, s->hair, HAIR_READ_GUIDES, i ? &b : &a);
+            hair_test_read_points(test, s->hair, HAIR_READ_FOLLOWERS, i ? &d : &c);
         }
         max[0] = fmax(max[0], hair_test_points_distance(&a, &b)),
         max[1] = fmax(max[1], hair_test_points_distance(&c, &d));
@@ -195,9 +195,9 @@ static void scalp_far_from_the_head_meets_colliders_there(void** state)
         hair_test_ok(test, hair_step(far.hair, STEP));
         hair_test_ok(test, hair_step(none.hair, STEP));
     }
-    hair_test_skinned_read(test, &near, HAIR_READ_GUIDES, &a);
-    hair_test_skinned_read(test, &far, HAIR_READ_GUIDES, &b);
-    hair_test_skinned_read(test, &none, HAIR_READ_GUIDES, &free);
+    hair_test_read_points(test, near.hair, HAIR_READ_GUIDES, &a);
+    hair_test_read_points(test, far.hair, HAIR_READ_GUIDES, &b);
+    hair_test_read_points(test, none.hair, HAIR_READ_GUIDES, &free);
     for (uint32_t i = 0; i < b.count; ++i) b.at[3 * i] -= 4;
     print_message("    within %.2g mm of hair near the head, which colliders move by %.2g mm\n",
                   hair_test_points_distance(&a, &b) * 1e3, hair_test_points_distance(&a, &free) * 1e3);
@@ -218,12 +218,12 @@ static void stretched_scalp_takes_every_root_along(void** state)
     for (int redblack = 0; redblack < 2; ++redblack) {
         struct hair_test_skinned s = hair_test_skinned_make(
             test, redblack ? HAIR_SOLVER_REDBLACK : HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO);
-        for (int i = 0; i < 3; ++i) hair_test_skinned_read(test, &s, (hair_read_source)i, &rest[i]);
+        for (int i = 0; i < 3; ++i) hair_test_read_points(test, s.hair, (hair_read_source)i, &rest[i]);
         stretch(&s, 1.1f, s.positions);
         hair_test_skinned_set(test, &s);
         hair_test_ok(test, hair_reset(s.hair));
         for (int stepped = 0; stepped < 2; ++stepped) {
-            for (int i = 0; i < 3; ++i) hair_test_skinned_read(test, &s, (hair_read_source)i, &now[i]);
+            for (int i = 0; i < 3; ++i) hair_test_read_points(test, s.hair, (hair_read_source)i, &now[i]);
             const uint32_t each[3] = {10, 2 * 9 + 1, HAIR_TEST_SCALP_SEGMENTS + 1};
             for (int i = 0; i < 3; ++i)
                 for (uint32_t k = 0; k < now[i].count / each[i]; ++k)
@@ -269,8 +269,8 @@ static void scalp_far_from_the_origin_moves_hair_equally(void** state)
         hair_test_ok(test, hair_step(near.hair, STEP));
         hair_test_ok(test, hair_step(far.hair, STEP));
     }
-    hair_test_skinned_read(test, &near, HAIR_READ_FOLLOWERS, &a);
-    hair_test_skinned_read(test, &far, HAIR_READ_FOLLOWERS, &b);
+    hair_test_read_points(test, near.hair, HAIR_READ_FOLLOWERS, &a);
+    hair_test_read_points(test, far.hair, HAIR_READ_FOLLOWERS, &b);
     // Moves positions back to the other instance. Floats at 5 km are spaced by 0.5 mm.
     for (uint32_t i = 0; i < b.count; ++i) {
         hair_vec3 p = hair_sub(hair_load3(b.at + 3 * i), hair_v3(away[12], away[13], away[14]));

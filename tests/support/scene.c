@@ -122,6 +122,23 @@ void hair_test_draw_ids(const struct hair_test* test, hair_instance* hair, const
     hair_test_frame_free(&frame);
 }
 
+void hair_test_read_points(const struct hair_test* test, hair_instance* hair, hair_read_source source,
+                           struct hair_test_points* out)
+{
+    hair_test_ok(test, hair_read_positions(hair, source, out->at, HAIR_TEST_POINTS, &out->count));
+    assert_in_range(out->count, 1, HAIR_TEST_POINTS);
+    for (uint32_t i = 0; i < 3 * out->count; ++i) assert_true(isfinite(out->at[i]));
+}
+
+double hair_test_points_distance(const struct hair_test_points* a, const struct hair_test_points* b)
+{
+    double max = 0;
+    assert_int_equal(a->count, b->count);
+    for (uint32_t i = 0; i < a->count; ++i)
+        max = fmax(max, (double)hair_distance(hair_load3(a->at + 3 * i), hair_load3(b->at + 3 * i)));
+    return max;
+}
+
 double hair_test_mean_alpha(const float* pixels, size_t count)
 {
     double sum = 0;

@@ -56,6 +56,20 @@ void hair_test_draw_in(const struct hair_test_frame* frame, const struct hair_te
 void hair_test_draw_ids(const struct hair_test* test, hair_instance* hair, const hair_view* view,
                         GLsizei side, uint32_t* ids);
 
+#define HAIR_TEST_POINTS 8192
+
+// Vertices of strands.
+struct hair_test_points {
+    float at[3 * HAIR_TEST_POINTS];
+    uint32_t count;
+};
+
+// Read vertices, which must be finite.
+void hair_test_read_points(const struct hair_test* test, hair_instance* hair, hair_read_source source,
+                           struct hair_test_points* out);
+// Return the maximum distance of two vertices of the same index, m.
+double hair_test_points_distance(const struct hair_test_points* a, const struct hair_test_points* b);
+
 // Return the mean of the fourth of every four numbers.
 double hair_test_mean_alpha(const float* pixels, size_t count);
 // Return the maximum difference of two numbers of the same index.

@@ -58,23 +58,6 @@ void hair_test_skinned_set(struct hair_test* test, struct hair_test_skinned* s)
     hair_test_ok(test, hair_set_scalp(s->hair, s->positions, HAIR_TEST_SCALP_VERTICES, 12, NULL));
 }
 
-void hair_test_skinned_read(struct hair_test* test, const struct hair_test_skinned* s, hair_read_source what,
-                            struct hair_test_points* seen)
-{
-    hair_test_ok(test, hair_read_positions(s->hair, what, seen->at, HAIR_TEST_POINTS, &seen->count));
-    assert_in_range(seen->count, 1, HAIR_TEST_POINTS);
-    for (uint32_t i = 0; i < 3 * seen->count; ++i) assert_true(isfinite(seen->at[i]));
-}
-
-double hair_test_points_distance(const struct hair_test_points* a, const struct hair_test_points* b)
-{
-    double max = 0;
-    assert_int_equal(a->count, b->count);
-    for (uint32_t i = 0; i < a->count; ++i)
-        max = fmax(max, (double)hair_distance(hair_load3(a->at + 3 * i), hair_load3(b->at + 3 * i)));
-    return max;
-}
-
 void hair_test_skinned_bulge(struct hair_test_skinned* s, float time)
 {
     for (int i = 0; i < HAIR_TEST_SCALP_VERTICES; ++i) {

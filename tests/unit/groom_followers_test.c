@@ -13,18 +13,6 @@
 
 static struct hair_test_host test;
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
-static hair_vec3 xyz(hair_vec4 v)
-{
-    return hair_v3(v.x, v.y, v.z);
-}
-
 // Followers of full strands -----------------------------------------------------------------------
 
 // Evaluate a straight strand. Roots are in a square of 10 cm, and directions vary over it.
@@ -108,7 +96,7 @@ static struct fit fit_strands(const char* name, const struct hair_test_strands* 
 {
     hair_groom_desc desc = hair_test_groom_desc(&test, strands);
     desc.guide_count = guides;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     struct fit fit = measure_fit(groom, strands);
     printf("%-8s %5u strands of %3u guides: rms error %.3f %% of the length, worst strand %.2f %%; copies of "
            "guides: "
@@ -175,14 +163,14 @@ static void guides_follow_themselves_without_an_offset(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(500);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     uint32_t own = 0;
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
         assert_true(follower->multi == 0 && follower->weight1 == 0 && follower->weight2 == 0);
-        if (hair_length(xyz(follower->offset[0])) > 0) continue;
+        if (hair_length(hair_test_xyz(follower->offset[0])) > 0) continue;
         ++own;
-        for (int k = 0; k < 4; ++k) assert_true(hair_length(xyz(follower->offset[k])) == 0);
+        for (int k = 0; k < 4; ++k) assert_true(hair_length(hair_test_xyz(follower->offset[k])) == 0);
         assert_true(follower->length_ratio == 1);
     }
     assert_int_equal(own, groom->info.guide_count);
@@ -210,7 +198,7 @@ static void a_follower_is_as_long_as_its_strand(void** state)
     desc.strand_vertices = vertices;
     desc.strand_count = 3;
     desc.guide_count = 1;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     for (uint32_t i = 0; i < 3; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
         hair_vec3 root = hair_test_single(groom, follower, 0);
@@ -230,14 +218,14 @@ static void groom_without_followers_draws_each_guide(void** state)
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 0;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     bool drawn[100] = {false};
     assert_int_equal(groom->info.follower_count, 100);
     for (uint32_t i = 0; i < 100; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
         assert_false(drawn[follower->guide0]);
         drawn[follower->guide0] = true;
-        for (int k = 0; k < 4; ++k) assert_true(hair_length(xyz(follower->offset[k])) == 0);
+        for (int k = 0; k < 4; ++k) assert_true(hair_length(hair_test_xyz(follower->offset[k])) == 0);
         assert_true(follower->length_ratio == 1 && follower->multi == 0);
     }
     hair_groom_destroy(groom);
@@ -252,15 +240,15 @@ static void followers_surround_their_guides_within_the_clump_radius(void** state
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5050;
     desc.clump_radius = 0.004f;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     uint32_t own[100] = {0}, inner = 0, side[4] = {0};
     for (uint32_t i = 0; i < 5050; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        hair_vec3 offset = xyz(follower->offset[0]);
+        hair_vec3 offset = hair_test_xyz(follower->offset[0]);
         ++own[follower->guide0];
         assert_true(offset.y == 0);
         assert_true(hair_length(offset) <= 0.004f);
-        assert_true(hair_length(xyz(follower->offset[3])) <= 0.5f * hair_length(offset));
+        assert_true(hair_length(hair_test_xyz(follower->offset[3])) <= 0.5f * hair_length(offset));
         assert_true(follower->length_ratio >= 0.6f && follower->length_ratio <= 1);
         assert_true(follower->multi == 0);
         inner += hair_length(offset) < 0.002f;

@@ -14,21 +14,9 @@
 
 static struct hair_test_host test;
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
-static hair_vec3 xyz(hair_vec4 v)
-{
-    return hair_v3(v.x, v.y, v.z);
-}
-
 static hair_vec3 root_of(const hair_groom* groom, uint32_t guide)
 {
-    return xyz(groom->rest[groom->guides[guide].first].position);
+    return hair_test_xyz(groom->rest[groom->guides[guide].first].position);
 }
 
 // Followers on a scalp ----------------------------------------------------------------------------
@@ -97,13 +85,13 @@ static void grown_roots_lie_on_the_scalp_by_either_interpolation(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, upright);
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     assert_rooted(groom);
     hair_groom_destroy(groom);
     free_grown(&grown);
 
     grown = prepare(9, 4, 4000, sparse);
-    groom = make(&grown.desc);
+    groom = hair_test_groom_of(&grown.desc);
     assert_rooted(groom);
     hair_groom_destroy(groom);
     free_grown(&grown);
@@ -113,7 +101,7 @@ static void followers_blend_corner_guides_by_barycentric_weight(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, upright);
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     uint32_t first = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
@@ -136,7 +124,7 @@ static void followers_use_surrounding_guides_when_corners_have_none(void** state
 {
     (void)state;
     struct grown grown = prepare(9, 4, 4000, sparse);
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     uint32_t inside = 0, surrounded = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
@@ -158,7 +146,7 @@ static void grown_roots_are_spread_without_clumps_or_gaps(void** state)
 {
     (void)state;
     struct grown grown = prepare(8, 8, 40000, upright);
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     static uint32_t count[1600];
     memset(count, 0, sizeof count);
     for (uint32_t i = 0; i < 40000; ++i) {
@@ -183,7 +171,7 @@ static void followers_are_not_blended_across_a_parting(void** state)
 {
     (void)state;
     struct grown grown = prepare(6, 6, 4000, parted);
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     uint32_t apart = 0;
     for (uint32_t i = 0; i < 4000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
@@ -204,7 +192,7 @@ static void followers_grow_only_where_density_is_not_zero(void** state)
     float density[25] = {0}; // The densities of columns are 0, 0, 1/2, 1 and 1.
     for (int i = 0; i < 25; ++i) density[i] = fminf(fmaxf(0.5f * (float)(i % 5) - 0.5f, 0), 1);
     grown.desc.scalp_density = density;
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     assert_int_equal(groom->info.follower_count, 4000);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
@@ -227,7 +215,7 @@ static void triangles_of_different_density_share_no_patch(void** state)
     float density[441];
     for (int i = 0; i < 441; ++i) density[i] = i % 21 < 10 ? 0.25f : 0.75f;
     grown.desc.scalp_density = density;
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
         struct hair_patch patch = groom->patches[i];
         for (uint32_t j = 0; j < patch.count; ++j) {
@@ -258,7 +246,7 @@ static void scalp_is_scaled_and_rotated_like_strands(void** state)
     import.scale = 0.01f;
     import.up = HAIR_UP_Z;
     grown.desc.import = &import;
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     assert_float_equal(groom->info.upper[1], 0.1, 1e-6);
     assert_rooted(groom);
     hair_groom_destroy(groom);
@@ -271,7 +259,7 @@ static void one_guide_or_two_are_enough_for_a_scalp(void** state)
     struct grown grown = prepare(3, 1, 500, sparse);
     for (uint32_t guides = 1; guides <= 2; ++guides) {
         grown.desc.strand_count = guides;
-        hair_groom* groom = make(&grown.desc);
+        hair_groom* groom = hair_test_groom_of(&grown.desc);
         assert_rooted(groom);
         for (uint32_t i = 0; i < 500; ++i) {
             float w1 = groom->followers[i].weight1, w2 = groom->followers[i].weight2;

@@ -11,18 +11,6 @@
 
 static struct hair_test_host test;
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
-static hair_vec3 xyz(hair_vec4 v)
-{
-    return hair_v3(v.x, v.y, v.z);
-}
-
 static hair_quat frame_of(const struct hair_guide* guide)
 {
     hair_vec4 q = guide->root_frame;
@@ -31,7 +19,7 @@ static hair_quat frame_of(const struct hair_guide* guide)
 
 static hair_vec3 vertex(const hair_groom* groom, uint32_t guide, uint32_t i)
 {
-    return xyz(groom->rest[groom->guides[guide].first + i].position);
+    return hair_test_xyz(groom->rest[groom->guides[guide].first + i].position);
 }
 
 // Evaluate a curl of 2 turns, offset by the strand's number.
@@ -61,7 +49,7 @@ static void guide_keeps_its_vertices_between_4_and_guide_vertices(void** state)
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
         desc.strand_set = HAIR_STRAND_SET_GUIDES;
         desc.guide_vertices = asked[k];
-        hair_groom* groom = make(&desc);
+        hair_groom* groom = hair_test_groom_of(&desc);
         uint32_t first = 0, max = 0;
         for (uint32_t i = 0; i < 8; ++i) {
             uint32_t kept = given[i] < 4 ? 4 : given[i];
@@ -102,7 +90,7 @@ static void guide_keeps_the_length_of_its_strand(void** state)
     hair_test_strands_add(&strands, 200, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     assert_float_equal(groom->guides[0].arc_length / length_of(strands.positions, 3), 1, 1e-6);
     assert_float_equal(groom->guides[1].arc_length / length_of(strands.positions + 9, 32), 1, 1e-6);
 
@@ -123,7 +111,7 @@ static void every_root_frame_is_a_rotation_of_y_onto_the_first_segment(void** st
     for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     for (uint32_t i = 0; i < 1000; ++i) {
         hair_quat q = frame_of(&groom->guides[i]);
         hair_vec3 along =
@@ -145,7 +133,7 @@ static void root_frames_vary_as_smoothly_as_the_roots(void** state)
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 5, hedgehog, &count);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     for (uint32_t i = 0; i < 2000; ++i)
         for (uint32_t j = 0; j < i; ++j) {
             hair_quat a = frame_of(&groom->guides[i]), b = frame_of(&groom->guides[j]);
@@ -172,18 +160,18 @@ static void guide_is_rebuilt_from_lengths_and_directions(void** state)
     for (uint32_t i = 0; i < 20; ++i) hair_test_strands_add(&strands, 3 + 3 * i, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     for (uint32_t i = 0; i < 20; ++i) {
         const struct hair_rest* rest = groom->rest + groom->guides[i].first;
         hair_quat frame = frame_of(&groom->guides[i]);
-        hair_vec3 at = xyz(rest[0].position), before = hair_rotate(frame, hair_v3(0, 1, 0));
+        hair_vec3 at = hair_test_xyz(rest[0].position), before = hair_rotate(frame, hair_v3(0, 1, 0));
         for (uint32_t j = 0; j + 1 < groom->guides[i].count; ++j) {
-            hair_vec3 to = hair_rotate(frame, xyz(rest[j].direction));
-            assert_float_equal(hair_length(xyz(rest[j].direction)), 1, 1e-6);
+            hair_vec3 to = hair_rotate(frame, hair_test_xyz(rest[j].direction));
+            assert_float_equal(hair_length(hair_test_xyz(rest[j].direction)), 1, 1e-6);
             frame = hair_quat_multiply(hair_quat_between(before, to), frame);
             at = hair_add(at, hair_scale(to, rest[j].position.w));
             before = to;
-            assert_true(hair_distance(at, xyz(rest[j + 1].position)) < 5e-6f);
+            assert_true(hair_distance(at, hair_test_xyz(rest[j + 1].position)) < 5e-6f);
             assert_float_equal(fabsf(same_turn(frame, rest[j].frame)), 1, 1e-6);
         }
         assert_memory_equal(&rest[groom->guides[i].count - 1].frame, &rest[groom->guides[i].count - 2].frame,
@@ -199,7 +187,7 @@ static void rest_distances_are_those_between_vertices(void** state)
     struct hair_test_strands strands = hair_test_strands_make(1, 20);
     hair_test_strands_add(&strands, 20, curl, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     const struct hair_rest* rest = groom->rest;
     for (uint32_t i = 0; i < 20; ++i) {
         float one = i < 19 ? hair_distance(vertex(groom, 0, i), vertex(groom, 0, i + 1)) : 0;
@@ -207,8 +195,8 @@ static void rest_distances_are_those_between_vertices(void** state)
         assert_float_equal(rest[i].position.w, one, 0);
         assert_float_equal(rest[i].direction.w, two, 0);
     }
-    assert_true(hair_distance(xyz(rest[0].direction), hair_v3(0, 1, 0)) == 0);
-    assert_true(hair_distance(xyz(rest[19].direction), hair_v3(0, 1, 0)) == 0);
+    assert_true(hair_distance(hair_test_xyz(rest[0].direction), hair_v3(0, 1, 0)) == 0);
+    assert_true(hair_distance(hair_test_xyz(rest[19].direction), hair_v3(0, 1, 0)) == 0);
     hair_groom_destroy(groom);
     hair_test_strands_free(&strands);
 }
@@ -230,7 +218,7 @@ static void folded_strands_become_valid_guides(void** state)
     for (uint32_t guide_vertices = 2; guide_vertices <= HAIR_MAX_GUIDE_VERTICES; ++guide_vertices) {
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
         desc.guide_vertices = guide_vertices;
-        hair_groom* groom = make(&desc);
+        hair_groom* groom = hair_test_groom_of(&desc);
         for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
             const struct hair_guide* guide = &groom->guides[i];
             assert_in_range(guide->count, guide_vertices < 4 ? guide_vertices : 4, guide_vertices);
@@ -266,7 +254,7 @@ static void guide_vertices_are_distinct_and_end_at_the_tip(void** state)
     for (int k = 0; k < 3; ++k) hair_test_strands_add(&strands, 24, bunch, &last);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     for (uint32_t g = 0; g < 3; ++g) {
         float mean = groom->guides[g].arc_length / last;
         assert_int_equal(groom->guides[g].count, 24);

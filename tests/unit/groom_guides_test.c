@@ -11,21 +11,9 @@
 
 static struct hair_test_host test;
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
-static hair_vec3 xyz(hair_vec4 v)
-{
-    return hair_v3(v.x, v.y, v.z);
-}
-
 static hair_vec3 vertex(const hair_groom* groom, uint32_t guide, uint32_t i)
 {
-    return xyz(groom->rest[groom->guides[guide].first + i].position);
+    return hair_test_xyz(groom->rest[groom->guides[guide].first + i].position);
 }
 
 // Evaluate a straight strand that points away from a sphere, with roots all over the sphere.
@@ -43,7 +31,7 @@ static void strands_given_as_guides_are_the_guides_in_their_order(void** state)
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.guide_count = 10;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     assert_int_equal(groom->info.guide_count, 100);
     const float* p = strands.positions;
     for (uint32_t i = 0; i < 100; p += 3 * strands.vertices[i++])
@@ -63,7 +51,7 @@ static void guide_count_is_the_requested_or_one_in_ten(void** state)
         struct hair_test_strands strands = hair_test_fur(cases[i].strands);
         hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
         desc.guide_count = cases[i].asked;
-        hair_groom* groom = make(&desc);
+        hair_groom* groom = hair_test_groom_of(&desc);
         assert_int_equal(groom->info.guide_count, cases[i].given);
         hair_groom_destroy(groom);
         hair_test_strands_free(&strands);
@@ -85,7 +73,7 @@ static void a_few_strands_of_another_shape_get_guides_of_their_own(void** state)
     for (int i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 8, few_stand, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.guide_count = 20;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     uint32_t standing = 0, hanging = 0;
     for (uint32_t i = 0; i < 20; ++i) *(vertex(groom, i, 7).y > 0 ? &standing : &hanging) += 1;
     assert_in_range(standing, 1, 4);
@@ -106,7 +94,7 @@ static void guides_lie_more_evenly_than_by_chance(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(10000);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     double sum = 0;
     for (uint32_t i = 0; i < 10000; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
@@ -137,7 +125,7 @@ static void guides_are_selected_where_strands_differ(void** state)
     for (int i = 0; i < 4000; ++i) hair_test_strands_add(&strands, 4, wide_and_narrow, NULL);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.guide_count = 230;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     uint32_t narrow = 0;
     for (uint32_t i = 0; i < 230; ++i) narrow += vertex(groom, i, 0).x < 0.1f;
     assert_in_range(narrow, 5, 20);
@@ -158,7 +146,7 @@ static void identical_strands_are_divided_among_guides(void** state)
     strands.count = 300;
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.guide_count = 100;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     assert_int_equal(groom->info.guide_count, 100);
     assert_int_equal(groom->info.follower_count, 300);
     uint32_t drawn = 0;
