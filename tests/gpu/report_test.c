@@ -123,7 +123,7 @@ static void removed_features_free_their_memory(void** state)
     check(&f, "hit", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "repair", HAIR_SKIP_REASON_NONE, 1);
     check(&f, "hair_grid", HAIR_SKIP_REASON_NONE, 1);
-    print_message("    %llu bytes, with a collider and a crowd %llu\n", (unsigned long long)before,
+    print_message("    %llu bytes, with a collider and a hair-hair grid %llu\n", (unsigned long long)before,
                   (unsigned long long)f.info.bytes);
     physics.hair_hair.cohesion = 0;
     hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, NULL, 0, sizeof collider));
