@@ -12,6 +12,7 @@ static void free_buffers(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &motion->rest);
     hair_gl_free_buffer(sim->gl, &motion->scalp[0]);
     hair_gl_free_buffer(sim->gl, &motion->scalp[1]);
+    hair_gl_free_buffer(sim->gl, &motion->upload);
     hair_gl_free_buffer(sim->gl, &motion->params);
 }
 
@@ -56,7 +57,11 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
         result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
                                  motion->root_bindings->positions, &motion->rest);
     for (int i = 0; i < 2 && !result; ++i)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size, &motion->scalp[i]);
+        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size,
+                                 motion->root_bindings->positions, &motion->scalp[i]);
+    if (!result)
+        result =
+            hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp upload", size, &motion->upload);
     if (!result)
         result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
                                  sizeof(struct hair_scalp_params), &motion->params);
@@ -66,13 +71,23 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
     return result;
 }
 
+// Write scalp[which]. The GPU copies the positions from another buffer, because writes of the CPU
+// overtake dispatches that still read a storage buffer. NVIDIA's driver was observed to let them.
+static void write_scalp(struct hair_sim* sim, int which, const float* positions)
+{
+    struct hair_scalp_motion* motion = &sim->scalp_motion;
+    size_t size = scalp_size(motion);
+    hair_gl_write_uniform(sim->gl, motion->upload, size, positions);
+    sim->gl->CopyNamedBufferSubData(motion->upload, motion->scalp[which], 0, 0, (GLsizeiptr)size);
+}
+
 static void rest_scalp(struct hair_sim* sim)
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     motion->rotation = (hair_vec4){0, 0, 0, 1};
     motion->offset = (hair_vec4){0, 0, 0, 0};
     motion->changed = 0;
-    hair_gl_write_uniform(sim->gl, motion->scalp[0], scalp_size(motion), motion->root_bindings->positions);
+    write_scalp(sim, 0, motion->root_bindings->positions);
 }
 
 hair_result hair_scalp_motion_create(struct hair_sim* sim)
@@ -118,7 +133,7 @@ void hair_scalp_motion_set(struct hair_sim* sim, const float* positions, const s
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     HAIR_ASSERT(hair_scalp_motion_is_on(sim) && positions);
-    hair_gl_write_uniform(sim->gl, motion->scalp[1], scalp_size(motion), positions);
+    write_scalp(sim, 1, positions);
     motion->space = *space;
     motion->changed = 1;
 }
@@ -149,7 +164,6 @@ void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t of
                 size);
     GLintptr at = (GLintptr)offset;
     GLsizeiptr whole = (GLsizeiptr)size;
-    hair_gl_write_uniform(gl, motion->scalp[1], scalp_size(motion), NULL);
     bind(sim, motion->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
     // Shaders of the application may have written the buffer.

@@ -17,6 +17,7 @@ struct hair_scalp_motion {
     // Buffers, as in shared.h. scalp[0] is the scalp of the last step, and scalp[1] that of the
     // next.
     GLuint root_transform, root_binding, rest, scalp[2], params;
+    GLuint upload; // Buffer from which the GPU copies positions that the application passes.
     GLuint texture; // Texture of `root_transform`.
     struct hair_pose space; // Pose in the world of the space of scalp[1].
     int changed; // 1 if a scalp has been set since the last step.

@@ -58,6 +58,35 @@ static void scalp_from_a_buffer_equals_scalp_from_memory(void** state)
     hair_destroy(memory.hair), hair_destroy(buffer.hair);
 }
 
+// Check that steps queued without waiting for the GPU equal steps with a wait after each. NVIDIA's
+// driver let a new scalp overtake dispatches that had yet to read an earlier one.
+static void scalps_of_queued_steps_do_not_overtake_each_other(void** state)
+{
+    struct hair_test* test = *state;
+    static struct hair_test_points waited, queued;
+    for (int kind = 0; kind < 2; ++kind) {
+        struct hair_test_skinned s[2] = {
+            hair_test_skinned_make(test, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO),
+            hair_test_skinned_make(test, HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO)};
+        for (int waits = 0; waits < 2; ++waits)
+            for (int frame = 1; frame <= 8; ++frame) {
+                hair_test_skinned_bulge(&s[waits], STEP * (float)frame);
+                struct given given = put_in_buffer(&s[waits], 0, 12);
+                if (kind == 0)
+                    hair_test_skinned_set(test, &s[waits]);
+                else
+                    hair_test_ok(test, hair_set_scalp_buffer(s[waits].hair, given.buffer, 0, 12, NULL));
+                glDeleteBuffers(1, &given.buffer);
+                hair_test_ok(test, hair_step(s[waits].hair, STEP));
+                if (waits) glFinish();
+            }
+        hair_test_read_points(test, s[0].hair, HAIR_READ_FOLLOWERS, &queued);
+        hair_test_read_points(test, s[1].hair, HAIR_READ_FOLLOWERS, &waited);
+        assert_memory_equal(queued.at, waited.at, 12 * waited.count);
+        hair_destroy(s[0].hair), hair_destroy(s[1].hair);
+    }
+}
+
 // Check scalps that are not finite or degenerate. Hair on them stays where it is relative to the
 // head, and the rest continues.
 static void scalp_buffer_of_any_bytes_keeps_hair_finite(void** state)
@@ -237,6 +266,7 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(scalp_from_a_buffer_equals_scalp_from_memory),
+        HAIR_TEST(scalps_of_queued_steps_do_not_overtake_each_other),
         HAIR_TEST(scalp_buffer_of_any_bytes_keeps_hair_finite),
         HAIR_TEST(invalid_scalp_is_refused_by_name_value_and_range),
         HAIR_TEST(groom_without_a_scalp_refuses_skinning),
