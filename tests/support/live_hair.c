@@ -195,6 +195,19 @@ double hair_test_depth(const struct hair_test_living* living, const hair_collide
     return max;
 }
 
+void hair_test_check_slide(struct hair_test_living* living, const hair_collider* slope, double friction)
+{
+    double a = 9.81 * (sin(0.4) - friction * cos(0.4)), far = fmax(a, 0) * 0.125;
+    hair_test_read_guides(living);
+    double before = (double)hair_test_at(living, 0, 10).x;
+    hair_test_set_colliders(living, slope, 1);
+    hair_test_wait(living, 30);
+    hair_test_read_guides(living);
+    double slid = (before - (double)hair_test_at(living, 0, 10).x) / cos(0.4);
+    print_message("    friction %g: slides %.4f m of %.4f m\n", friction, slid, far);
+    hair_test_near("slid", 0, slid, far, 0.02 * far + 1e-4);
+}
+
 hair_solver_stats hair_test_solver_stats(struct hair_test_living* living)
 {
     hair_solver_stats solver_stats = hair_solver_stats_default();

@@ -68,6 +68,10 @@ void hair_test_set_colliders(struct hair_test_living* living, const hair_collide
 // fixed to the scalp do not count.
 double hair_test_depth(const struct hair_test_living* living, const hair_collider* collider);
 
+// Check that the first guide slides down a slope of 0.4 rad about z by Coulomb's law, for half a
+// second. `friction` is the product of both coefficients.
+void hair_test_check_slide(struct hair_test_living* living, const hair_collider* slope, double friction);
+
 hair_solver_stats hair_test_solver_stats(struct hair_test_living* living);
 // Check that no guide's substep was repeated and none was reset.
 void hair_test_healthy(struct hair_test_living* living);

@@ -1,60 +1,11 @@
 // reference_strand_test.c - the reference of drawn strands: transported frames, smoothed guides and
 // followers agree with closed forms.
-#include "tests/support/support.h"
+#include "tests/support/reference_guide.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "tests/reference/reference.h"
-
 #define PI 3.141592653589793
-#define MAX HAIR_MAX_GUIDE_VERTICES
-
-// A guide of `count` vertices with links of length `link`, straight down from `root`.
-struct fixture {
-    struct hair_guide guide;
-    struct hair_rest rest[MAX];
-    struct hair_step_params params;
-    struct hair_reference_vertex state[MAX];
-};
-
-static struct hair_reference_guide whole(const struct fixture* f)
-{
-    return (struct hair_reference_guide){&f->guide, f->rest, &f->params};
-}
-
-static struct fixture straight_down(uint32_t count, float link)
-{
-    struct fixture f = {// The root frame is half a turn about x, so y points down.
-                        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
-    for (uint32_t i = 0; i < count; ++i) {
-        f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
-        f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
-        f.state[i].position[1] = (double)(-link * (float)i);
-    }
-    f.params.keep = 1;
-    f.params.iterations = 1;
-    f.params.substeps = 1;
-    f.params.guides = 1;
-    f.params.gravity.w = 0.01f;
-    f.params.rotation_before = f.params.rotation_after = f.params.rotation_now = (hair_vec4){0, 0, 0, 1};
-    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
-        f.params.substep[i] = (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1)}};
-    return f;
-}
-
-static double distance(const double* a, const double* b)
-{
-    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-static void near3(const char* what, const double* a, double x, double y, double z, double tolerance)
-{
-    hair_test_near(what, 0, a[0], x, tolerance);
-    hair_test_near(what, 1, a[1], y, tolerance);
-    hair_test_near(what, 2, a[2], z, tolerance);
-}
 
 // Compute rotate(q, v) for unit q, by the matrix of q.
 static void rotate(const double q[4], const double v[3], double out[3])
@@ -84,8 +35,8 @@ static void a_frame_carried_around_a_circle_comes_back(void** state)
         double y[3], z[3];
         rotate(frames + 4 * i, (double[]){0, 1, 0}, y);
         rotate(frames + 4 * i, (double[]){0, 0, 1}, z);
-        near3("y", y, directions[3 * i], directions[3 * i + 1], 0, 1e-13);
-        near3("z", z, 0, 0, 1, 1e-13);
+        hair_test_near3("y", y, directions[3 * i], directions[3 * i + 1], 0, 1e-13);
+        hair_test_near3("z", z, 0, 0, 1, 1e-13);
     }
 }
 
@@ -97,7 +48,7 @@ static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state
     double directions[] = {0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0}, frames[16], root[4] = {0, 0, 0, 1}, x[3];
     hair_reference_frames(4, directions, root, frames);
     rotate(frames + 12, (double[]){1, 0, 0}, x);
-    near3("x", x, 0, 0, -1, 1e-14);
+    hair_test_near3("x", x, 0, 0, -1, 1e-14);
 }
 
 // Check a parabola p(s) = c0 + c1 s + c2 s^2 at uneven s. Its slopes are exact, so that the cubic
@@ -133,7 +84,7 @@ static void hermite_reproduces_parabolas_exactly(void** state)
 static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(33, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(33, 0.01f);
     double a = 0.15;
     for (int i = 0; i < 33; ++i) {
         f.state[i].position[0] = cos(a * i);
@@ -143,18 +94,19 @@ static void a_smoothed_circle_is_round_to_fourth_order(void** state)
     struct hair_reference_sample samples[65];
     f.params.smooth_vertices = 65;
     f.params.alpha = 1;
-    hair_reference_smooth(whole(&f), f.state, samples);
+    hair_reference_smooth(hair_test_guide_whole(&f), f.state, samples);
     for (int k = 0; k < 65; ++k) {
         hair_test_near("to root", k, samples[k].to_root, 32 * 2 * sin(a / 2) * k / 64, 1e-12);
         hair_test_near("stretch", k, samples[k].stretch, 0.25, 1e-6);
         double radius = k % 2 ? cos(a / 2) + sin(a / 2) * sin(a) / 4 : 1;
-        double from = distance(samples[k].position, (double[]){0, 0, 0});
+        double from = hair_test_distance3(samples[k].position, (double[]){0, 0, 0});
         if (k != 1 && k != 63)
             hair_test_near("radius", k, from, radius, 1e-12); // The ends have no neighbours.
-        hair_test_near("tangent", k, distance(samples[k].tangent, (double[]){0, 0, 0}), 1, 1e-14);
+        hair_test_near("tangent", k, hair_test_distance3(samples[k].tangent, (double[]){0, 0, 0}), 1, 1e-14);
         double y[3];
         rotate(samples[k].frame, (double[]){0, 1, 0}, y);
-        near3("frame", y, samples[k].tangent[0], samples[k].tangent[1], samples[k].tangent[2], 1e-13);
+        hair_test_near3("frame", y, samples[k].tangent[0], samples[k].tangent[1], samples[k].tangent[2],
+                        1e-13);
     }
 }
 
@@ -163,13 +115,13 @@ static void a_smoothed_circle_is_round_to_fourth_order(void** state)
 static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     struct hair_reference_sample samples[7];
     f.params.smooth_vertices = 7;
     f.params.alpha = 0.25f;
     f.params.last_displacement.x = 1;
     for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // Relative to the head: 0.2.
-    hair_reference_smooth(whole(&f), f.state, samples);
+    hair_reference_smooth(hair_test_guide_whole(&f), f.state, samples);
     for (int k = 0; k < 7; ++k) hair_test_near("x", k, samples[k].position[0], -0.2 * 0.75, 1e-15);
 }
 
@@ -188,49 +140,49 @@ static hair_look plain_look(float radius)
 static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     struct hair_reference_sample samples[7];
     struct hair_reference_point point;
     f.params.smooth_vertices = 7;
     hair_look look = plain_look(0.5f);
     look.strand.taper = hair_curve_line(1, 0.5f);
-    hair_reference_smooth(whole(&f), f.state, samples);
+    hair_reference_smooth(hair_test_guide_whole(&f), f.state, samples);
     struct hair_follower follower = {.length_ratio = 1,
                                      .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
     hair_reference_follower(&follower, &look, 7, samples, 0.5, NULL, &point);
     // In the middle, each inner control point has a weight of 3/8. Half a turn about x keeps x and
     // inverts z.
-    near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
+    hair_test_near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
     hair_test_near("radius", 0, point.radius, 0.5 * 2 * 0.75, 1e-7);
     follower.length_ratio = 1.5f; // Extrapolated straight beyond the tip.
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
+    hair_test_near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
 }
 
 // Check a follower of three straight parallel guides. It is their weighted mean, until it clumps.
 static void a_follower_between_guides_is_their_mean(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     struct hair_reference_sample samples[21];
     struct hair_reference_point point;
     f.params.smooth_vertices = 7;
     for (int guide = 0; guide < 3; ++guide) {
         for (int i = 0; i < 4; ++i) f.state[i].position[0] = guide == 1;
         for (int i = 0; i < 4; ++i) f.state[i].position[2] = guide == 2;
-        hair_reference_smooth(whole(&f), f.state, samples + 7 * guide);
+        hair_reference_smooth(hair_test_guide_whole(&f), f.state, samples + 7 * guide);
     }
     hair_look look = plain_look(1);
     struct hair_follower follower = {
         .guide1 = 1, .guide2 = 2, .weight1 = 0.5f, .weight2 = 0.25f, .length_ratio = 1, .multi = 1};
     follower.offset[0].w = 1;
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
+    hair_test_near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
     look.clump.weight = hair_curve_line(0, 1);
     hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
+    hair_test_near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
     hair_reference_follower(&follower, &look, 7, samples, 0, NULL, &point);
-    near3("root", point.position, 0.5, 0, 0.25, 1e-9);
+    hair_test_near3("root", point.position, 0.5, 0, 0.25, 1e-9);
 }
 
 int main(void)

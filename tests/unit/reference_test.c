@@ -1,70 +1,20 @@
 // reference_test.c - the double-precision reference of motion agrees with values worked out by
 // hand.
-#include "tests/support/support.h"
+#include "tests/support/reference_guide.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "tests/reference/reference.h"
-
-#define MAX HAIR_MAX_GUIDE_VERTICES
-
-// A guide of `count` vertices with links of length `link`, straight down from `root`.
-struct fixture {
-    struct hair_guide guide;
-    struct hair_rest rest[MAX];
-    struct hair_step_params params;
-    struct hair_reference_vertex state[MAX];
-};
-
-static struct hair_reference_guide whole(const struct fixture* f)
-{
-    return (struct hair_reference_guide){&f->guide, f->rest, &f->params};
-}
-
-static struct fixture straight_down(uint32_t count, float link)
-{
-    struct fixture f = {// The root frame is half a turn about x, so y points down.
-                        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
-    for (uint32_t i = 0; i < count; ++i) {
-        f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
-        f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
-        f.state[i].position[1] = (double)(-link * (float)i);
-    }
-    f.params.keep = 1;
-    f.params.iterations = 1;
-    f.params.substeps = 1;
-    f.params.guides = 1;
-    f.params.gravity.w = 0.01f;
-    f.params.rotation_before = f.params.rotation_after = f.params.rotation_now = (hair_vec4){0, 0, 0, 1};
-    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
-        f.params.substep[i] = (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1)}};
-    return f;
-}
-
-static double distance(const double* a, const double* b)
-{
-    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-static void near3(const char* what, const double* a, double x, double y, double z, double tolerance)
-{
-    hair_test_near(what, 0, a[0], x, tolerance);
-    hair_test_near(what, 1, a[1], y, tolerance);
-    hair_test_near(what, 2, a[2], z, tolerance);
-}
 
 // Check free fall. Without damping or constraints, Verlet is exact for constant acceleration. After
 // n substeps from rest, a vertex has fallen g dt^2 n (n + 1) / 2.
 static void free_vertex_falls_by_verlet(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(5, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(5, 0.01f);
     f.params.gravity.y = -10;
-    double dt = (double)f.params.gravity.w, p[3 * MAX];
+    double dt = (double)f.params.gravity.w, p[3 * HAIR_MAX_GUIDE_VERTICES];
     for (int n = 1; n <= 50; ++n) {
-        hair_reference_integrate(whole(&f), 0, f.state, p);
+        hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
         for (uint32_t i = 2; i < 5; ++i)
             for (int k = 0; k < 3; ++k) {
                 f.state[i].displacement[k] = p[3 * i + k] - f.state[i].position[k];
@@ -72,7 +22,7 @@ static void free_vertex_falls_by_verlet(void** state)
             }
         hair_test_near("fallen", n, f.state[4].position[1] + 4 * (double)0.01f,
                        -10 * dt * dt * n * (n + 1) / 2, 1e-12);
-        near3("pinned", p + 3, 0, (double)-0.01f, 0, 0);
+        hair_test_near3("pinned", p + 3, 0, (double)-0.01f, 0, 0);
     }
 }
 
@@ -81,12 +31,12 @@ static void free_vertex_falls_by_verlet(void** state)
 static void damped_motion_goes_as_far_as_its_series(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.keep = 0.75f;
-    double p[3 * MAX];
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
     f.state[3].displacement[0] = 0.004;
     for (int n = 1; n <= 20; ++n) {
-        hair_reference_integrate(whole(&f), 0, f.state, p);
+        hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
         f.state[3].displacement[0] = p[9] - f.state[3].position[0];
         f.state[3].position[0] = p[9];
         hair_test_near("gone", n, p[9], 0.003 * (1 - pow(0.75, n)) / 0.25, 1e-15);
@@ -98,12 +48,12 @@ static void damped_motion_goes_as_far_as_its_series(void** state)
 static void a_free_vertex_does_not_follow_the_head(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.substep[0].displacement = (hair_vec4){0.25f, 0, -0.5f, 1};
-    double p[3 * MAX];
-    hair_reference_integrate(whole(&f), 0, f.state, p);
-    near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
-    near3("pinned", p, 0, 0, 0, 0);
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
+    hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
+    hair_test_near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
+    hair_test_near3("pinned", p, 0, 0, 0, 0);
 }
 
 // Check an implicit spring. It converges to its target, and goes half way if frequency times dt is
@@ -111,53 +61,54 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
 static void pull_goes_half_way_when_frequency_times_dt_is_1(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.gravity.w = 0.125f;
     f.params.shape_frequency_root = f.params.shape_frequency_tip = 8;
     f.state[3].position[0] = 0.5;
-    double p[3 * MAX];
-    hair_reference_integrate(whole(&f), 0, f.state, p);
-    near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
+    hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
+    hair_test_near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
 }
 
 static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(5, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(5, 0.01f);
     double p[3 * 5] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.02, 0.01, 0.05, -0.01, 0.04, 0.1, 0.2, 0.3};
     double middle[3];
     for (int k = 0; k < 3; ++k) middle[k] = (p[6 + k] + p[9 + k]) / 2;
-    hair_reference_distance(whole(&f), 0, p);
-    hair_test_near("length", 0, distance(p + 6, p + 9), (double)0.01f, 1e-16);
-    near3("middle", (double[]){(p[6] + p[9]) / 2, (p[7] + p[10]) / 2, (p[8] + p[11]) / 2}, middle[0],
-          middle[1], middle[2], 1e-16);
-    near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
+    hair_reference_distance(hair_test_guide_whole(&f), 0, p);
+    hair_test_near("length", 0, hair_test_distance3(p + 6, p + 9), (double)0.01f, 1e-16);
+    hair_test_near3("middle", (double[]){(p[6] + p[9]) / 2, (p[7] + p[10]) / 2, (p[8] + p[11]) / 2},
+                    middle[0], middle[1], middle[2], 1e-16);
+    hair_test_near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
 }
 
 static void link_with_a_pinned_end_moves_only_the_free_end(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     double p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
-    hair_reference_distance(whole(&f), 1, p);
-    near3("pinned", p + 3, 0, -0.01, 0, 0);
+    hair_reference_distance(hair_test_guide_whole(&f), 1, p);
+    hair_test_near3("pinned", p + 3, 0, -0.01, 0, 0);
     // The direction is (3, -4) / 5.
-    near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16);
-    hair_reference_distance(whole(&f), 0, p);
-    near3("pinned", p + 3, 0, -0.01, 0, 0);
+    hair_test_near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16);
+    hair_reference_distance(hair_test_guide_whole(&f), 0, p);
+    hair_test_near3("pinned", p + 3, 0, -0.01, 0, 0);
 }
 
 static void bend_removes_its_fraction_of_the_error(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(8, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(8, 0.01f);
     double p[3 * 8] = {0};
     f.params.bend = 0.25f;
     for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // Half as long as at rest.
     double rest = (double)(2 * 0.01f), wrong = rest - 0.01;
-    hair_reference_bend(whole(&f), 1, p); // The pairs are (2,4) and (3,5). (6,8) does not exist.
-    hair_test_near("length", 2, distance(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
-    hair_test_near("length", 3, distance(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
+    hair_reference_bend(hair_test_guide_whole(&f), 1,
+                        p); // The pairs are (2,4) and (3,5). (6,8) does not exist.
+    hair_test_near("length", 2, hair_test_distance3(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
+    hair_test_near("length", 3, hair_test_distance3(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
     hair_test_near("root", 0, p[3], 0, 0);
     hair_test_near("tip", 0, p[19], -0.03, 1e-16);
 }
@@ -165,26 +116,26 @@ static void bend_removes_its_fraction_of_the_error(void** state)
 static void vertex_in_a_capsule_leaves_by_the_shortest_way(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.colliders = 1;
     f.params.collision_margin = 0.25f;
     f.params.collider[0] =
         (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
     f.params.substep[0].displacement.w = 0.5f; // Half way, so the axis is at x = 4.
     double p[3 * 4] = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
-    hair_reference_collide(whole(&f), 0, p);
-    near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
-    near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
+    hair_reference_collide(hair_test_guide_whole(&f), 0, p);
+    hair_test_near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
+    hair_test_near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
     double outside[3 * 4] = {0, 0, 0, 0, 0, 0, 5.3, 1, 0, 4, 3.3, 0};
-    hair_reference_collide(whole(&f), 0, outside);
-    near3("outside", outside + 6, 5.3, 1, 0, 0);
+    hair_reference_collide(hair_test_guide_whole(&f), 0, outside);
+    hair_test_near3("outside", outside + 6, 5.3, 1, 0, 0);
 }
 
 // Check a bent guide in its rest pose, rotated with its head. The force must correct nothing.
 static void angular_force_is_zero_in_the_rest_pose(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(9, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(9, 0.01f);
     double p[3 * 9] = {0};
     for (int i = 0; i < 8; ++i) {
         double angle = 0.3 * i, to[3] = {sin(angle) * cos(0.2 * i), -cos(angle), sin(angle) * sin(0.2 * i)};
@@ -204,20 +155,21 @@ static void angular_force_is_zero_in_the_rest_pose(void** state)
     }
     double moved[3 * 9];
     memcpy(moved, turned, sizeof moved);
-    hair_reference_angular(whole(&f), 0, moved);
+    hair_reference_angular(hair_test_guide_whole(&f), 0, moved);
     // The rest positions are floats.
     for (int i = 0; i < 9; ++i)
-        near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
+        hair_test_near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
 }
 
 // Compute what the angular force does to the free coordinates when one of them is moved.
-static void angular_moves_of(struct fixture* f, const double* bent, int coordinate, double by, double out[21])
+static void angular_moves_of(struct hair_test_guide* f, const double* bent, int coordinate, double by,
+                             double out[21])
 {
     double moved[27], from[27];
     memcpy(from, bent, sizeof from);
     from[6 + coordinate] += by;
     memcpy(moved, from, sizeof moved);
-    hair_reference_angular(whole(f), 0, moved);
+    hair_reference_angular(hair_test_guide_whole(f), 0, moved);
     for (int k = 0; k < 21; ++k) out[k] = moved[6 + k] - from[6 + k];
 }
 
@@ -226,7 +178,7 @@ static void angular_moves_of(struct fixture* f, const double* bent, int coordina
 static void the_angular_force_has_a_potential(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(9, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(9, 0.01f);
     double p[27] = {0}, ahead[21], behind[21], jacobian[21][21], largest = 0;
     f.params.angular = 2500;
     for (int i = 1; i < 9; ++i) {

@@ -2,9 +2,7 @@
 // skull, with evenly spread roots.
 #include "lib/groom/style_body.h"
 #include "lib/groom/style_grow.h"
-#include "tests/support/host.h"
-
-#include <hair/hair_asset.h>
+#include "tests/support/cut.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,37 +12,6 @@
 
 static struct hair_test_host test;
 
-struct cut {
-    hair_asset* asset;
-    hair_asset_info info;
-    uint32_t each; // Vertices of a guide.
-};
-
-static struct cut cut_with(hair_style style, uint32_t guides, float length, uint32_t seed)
-{
-    hair_style_desc desc = hair_style_desc_default();
-    desc.host = &test.host;
-    desc.style = style;
-    desc.guide_count = guides;
-    desc.length = length;
-    desc.seed = seed;
-    struct cut cut = {NULL, hair_asset_info_default(), 0};
-    assert_int_equal(hair_asset_generate(&desc, &cut.asset), HAIR_OK);
-    assert_int_equal(hair_asset_describe(cut.asset, &cut.info), HAIR_OK);
-    cut.each = cut.info.strand_vertices[0];
-    return cut;
-}
-
-static struct cut cut_style(hair_style style)
-{
-    return cut_with(style, 166, 1, 1);
-}
-
-static hair_vec3 scalp_vertex(const struct cut* cut, uint32_t i)
-{
-    return hair_load3(cut->info.scalp_positions + 3 * (size_t)i);
-}
-
 // Scalp -------------------------------------------------------------------------------------------
 
 static float corner_angle(hair_vec3 at, hair_vec3 a, hair_vec3 b)
@@ -53,12 +20,12 @@ static float corner_angle(hair_vec3 at, hair_vec3 a, hair_vec3 b)
     return acosf(hair_dot(p, q) / (hair_length(p) * hair_length(q))) * 57.29578f;
 }
 
-static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
+static void assert_triangles_are_fat_and_face_outwards(const struct hair_test_cut* cut)
 {
     for (uint32_t i = 0; i < cut->info.scalp_triangle_count; ++i) {
         const uint32_t* corner = cut->info.scalp_triangles + 3 * i;
-        hair_vec3 p[3] = {scalp_vertex(cut, corner[0]), scalp_vertex(cut, corner[1]),
-                          scalp_vertex(cut, corner[2])};
+        hair_vec3 p[3] = {hair_test_cut_scalp(cut, corner[0]), hair_test_cut_scalp(cut, corner[1]),
+                          hair_test_cut_scalp(cut, corner[2])};
         hair_vec3 normal = hair_cross(hair_sub(p[1], p[0]), hair_sub(p[2], p[0]));
         assert_true(hair_dot(normal, hair_skull_normal(p[0])) > 0);
         for (int k = 0; k < 3; ++k) assert_true(corner_angle(p[k], p[(k + 1) % 3], p[(k + 2) % 3]) > 20);
@@ -67,7 +34,7 @@ static void assert_triangles_are_fat_and_face_outwards(const struct cut* cut)
 
 // Check Euler and Poincare: vertices - edges + triangles is 1 for a sheet without holes. An edge
 // has at most one triangle on either side.
-static void assert_is_one_sheet(const struct cut* cut)
+static void assert_is_one_sheet(const struct hair_test_cut* cut)
 {
     uint32_t count = cut->info.scalp_vertex_count, edges = 0, vertices = 0;
     unsigned char* way = calloc((size_t)count * count, 1);
@@ -95,7 +62,8 @@ static void the_scalp_is_one_sheet_of_fat_triangles(void** state)
             for (uint32_t style = 0; style <= HAIR_STYLE_CURLY;
                  // An afro has the ponytail's scalp.
                  ++style) {
-                struct cut cut = cut_with((hair_style)style, counts[i], 0.1f, seed);
+                struct hair_test_cut cut =
+                    hair_test_cut_with(&test, (hair_style)style, counts[i], 0.1f, seed);
                 assert_int_equal(cut.info.scalp_vertex_count, counts[i]);
                 assert_is_one_sheet(&cut);
                 assert_triangles_are_fat_and_face_outwards(&cut);
@@ -115,13 +83,13 @@ static float height_above_skull(hair_vec3 p)
 static void roots_lie_on_the_promised_skull(void** state)
 {
     (void)state;
-    struct cut cut = cut_style(HAIR_STYLE_LONG);
+    struct hair_test_cut cut = hair_test_cut_style(&test, HAIR_STYLE_LONG);
     float sum = 0, n = (float)cut.info.scalp_triangle_count;
     for (uint32_t i = 0; i < cut.info.scalp_triangle_count; ++i) {
         hair_vec3 middle = {0, 0, 0};
         for (uint32_t k = 0; k < 3; ++k)
-            middle = hair_add(middle,
-                              hair_scale(scalp_vertex(&cut, cut.info.scalp_triangles[3 * i + k]), 1.0f / 3));
+            middle = hair_add(
+                middle, hair_scale(hair_test_cut_scalp(&cut, cut.info.scalp_triangles[3 * i + k]), 1.0f / 3));
         float height = height_above_skull(middle);
         assert_true(fabsf(height) < 6e-4f);
         sum += height / n;
@@ -129,7 +97,7 @@ static void roots_lie_on_the_promised_skull(void** state)
     print_message("    middles of triangles on average %.3f mm above it\n", 1e3 * (double)sum);
     assert_true(fabsf(sum) < 1e-4f);
     for (uint32_t i = 0; i < cut.info.scalp_vertex_count; ++i) {
-        hair_vec3 p = scalp_vertex(&cut, i);
+        hair_vec3 p = hair_test_cut_scalp(&cut, i);
         assert_true(height_above_skull(p) > 0 && height_above_skull(p) < 1e-3f);
         // The face and the area below the nape are bare.
         assert_false(p.z > 0.06f && p.y < 1.66f);
@@ -144,14 +112,15 @@ static void roots_are_spread_evenly(void** state)
     (void)state;
     const uint32_t counts[] = {40, 166, 1000};
     for (uint32_t i = 0; i < 3; ++i) {
-        struct cut cut = cut_with(HAIR_STYLE_AFRO, counts[i], 1, 1);
+        struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_AFRO, counts[i], 1, 1);
         uint32_t n = cut.info.scalp_vertex_count;
         float sum = 0, min = INFINITY, max = 0;
         for (uint32_t a = 0; a < n; ++a) {
             float nearest = INFINITY;
             for (uint32_t b = 0; b < n; ++b)
                 if (a != b)
-                    nearest = fminf(nearest, hair_distance(scalp_vertex(&cut, a), scalp_vertex(&cut, b)));
+                    nearest = fminf(
+                        nearest, hair_distance(hair_test_cut_scalp(&cut, a), hair_test_cut_scalp(&cut, b)));
             sum += nearest;
             min = fminf(min, nearest);
             max = fmaxf(max, nearest);
@@ -166,10 +135,10 @@ static void no_triangle_lies_across_the_parting(void** state)
 {
     (void)state;
     const struct hair_parting parting = hair_style_parting(HAIR_STYLE_LONG);
-    struct cut cut = cut_style(HAIR_STYLE_LONG);
+    struct hair_test_cut cut = hair_test_cut_style(&test, HAIR_STYLE_LONG);
     for (uint32_t i = 0; i < 3 * cut.info.scalp_triangle_count; ++i) {
-        hair_vec3 a = scalp_vertex(&cut, cut.info.scalp_triangles[i]);
-        hair_vec3 b = scalp_vertex(&cut, cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1]);
+        hair_vec3 a = hair_test_cut_scalp(&cut, cut.info.scalp_triangles[i]);
+        hair_vec3 b = hair_test_cut_scalp(&cut, cut.info.scalp_triangles[i % 3 == 2 ? i - 2 : i + 1]);
         if (a.z < -0.03f || b.z < -0.03f || a.y < 1.66f || b.y < 1.66f) continue;
         assert_true((a.x > hair_parting_x(parting, a.z)) == (b.x > hair_parting_x(parting, b.z)));
     }
