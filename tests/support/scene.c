@@ -1,5 +1,5 @@
-// scene.c - hair to draw, with the frame, view and lights that a test draws it with, and reports of
-// its draws.
+// scene.c - hair to draw, with its context, frame and view, draws that are read, and reports of
+// draws.
 #include "tests/support/scene.h"
 
 #include <math.h>

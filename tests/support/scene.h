@@ -1,5 +1,5 @@
-// scene.h - hair to draw, with the frame, view and lights that a test draws it with, and reports of
-// its draws.
+// scene.h - hair to draw, with its context, frame and view, draws that are read, and reports of
+// draws.
 #ifndef HAIR_TESTS_SUPPORT_SCENE_H
 #define HAIR_TESTS_SUPPORT_SCENE_H
 
