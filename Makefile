@@ -209,9 +209,10 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
-LONG := rod_stress lengths occlusion compile golden state save_hostile lod instance rod_any rod_heap isolines \
-  hair_grid paths precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained \
-  rod_bodies air
+LONG := bench rod_limits rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
+  capture_output bench_cases gallery state save_hostile rod_any rod_heap isolines hair_grid paths \
+  precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
+  instance_far air
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
 	@rm -f $(B)/failed; printf '%s\n' $(LONG) $(filter-out $(LONG),$(TESTS)) | grep -F -- '$(filter)' | \

@@ -1,7 +1,7 @@
 // gallery.inl - Contents of `make gallery`, as rows of pictures. hair-capture makes each picture
 // with the arguments beside its caption. Paths are relative to the folder that make runs in.
 ROW("Followers and colliders: a ball comes into hair that follows three guides at once")
-PICTURE("Guides collide; no follower does (followers.collision=none)",
+PICTURE("Guides collide, and followers do not (followers.collision=none)",
         "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=none")
 PICTURE("Single strand below the first vertex inside (followers.collision=single_guide)",
         "tools/scenes/ball.json --show hair,head,colliders --set followers.collision=single_guide")
@@ -23,13 +23,12 @@ ROW("Colliders from a Bullet world")
 PICTURE("Objects of a Bullet world: hull, meshes, height field, compound",
         "tools/scenes/bullet.json --show hair,head,colliders")
 
-ROW("Wind as a fluid around the head, whose gusts travel through it; of its air, blue is lee and red faster "
-    "than the wind")
+ROW("Wind as a fluid around the head, with gusts; air slower than the wind is blue, and faster air is red")
 PICTURE("Wind of 3 m/s from the left", "--scene wind --frames 24:25")
 PICTURE("A fifth of a second later", "--scene wind --frames 30:31")
-PICTURE("Its air (--show wind)", "--scene wind --show head,wind --frames 24:25")
+PICTURE("The air (--show wind)", "--scene wind --show head,wind --frames 24:25")
 PICTURE("A fifth of a second later", "--scene wind --show head,wind --frames 30:31")
-PICTURE("What a lock feels of it: drag=0.1", "--scene wind --set drag=0.1 --frames 24:25")
+PICTURE("The wind on a lock: drag=0.1", "--scene wind --set drag=0.1 --frames 24:25")
 
 ROW("Three ways to make followers of the same guides")
 PICTURE("Single strand: offsets from one guide (clump.interpolation=single)",
@@ -41,7 +40,7 @@ PICTURE("Both, by a curve from root to tip (the default)", "--scene demo")
 ROW("Random variation")
 PICTURE("None", "--scene demo --set strays.tip_fraction=0 --set strays.fraction=0")
 PICTURE("30 % stray near their tips, 10 % all along (the default)", "--scene demo")
-PICTURE("Every strand kinks as well (look=frizzy)", "--scene demo --set look=frizzy")
+PICTURE("Every strand has frizz too (look=frizzy)", "--scene demo --set look=frizzy")
 
 ROW("Looks of one haircut")
 PICTURE("look=straight", "--scene demo --set look=straight")
@@ -73,7 +72,7 @@ PICTURE("color=gray", "--scene demo --set color=gray")
 PICTURE("color=white", "--scene demo --set color=white")
 PICTURE("color=blue", "--scene demo --set color=blue")
 
-ROW("Variety: what chance, water, dye and light make of one colour")
+ROW("Variety of one colour by chance, water, dye and light")
 PICTURE("Wet (wetness=1): darker, glossier, in strings", "--scene demo --set wetness=1 --set preset=wet")
 PICTURE("Streaks in locks, dark at the roots",
         "--scene demo --set color.streaks=0.25 --set color.root_darkening=0.6")
@@ -88,38 +87,38 @@ PICTURE("Dyed tips: a ramp of eight colours",
 PICTURE("Lines with a highlight that glitters (shading.sparkle=1)",
         "--scene demo --set shading.model=lines --set shading.sparkle=1")
 
-ROW("Shading of the host's own, and ours in it")
-PICTURE("Ours, changed towards the tips (--shader frost.glsl)",
+ROW("Shading by the application, which calls the built-in shading")
+PICTURE("Built-in shading, changed towards the tips (--shader frost.glsl)",
         "--scene demo --shader tools/scenes/frost.glsl")
 PICTURE("Locks by number, darker from root to tip (--shader strands.glsl)",
         "--scene demo --shader tools/scenes/strands.glsl")
 
-ROW("Thin strands: one sample a pixel, four, and one that shows shares")
+ROW("Thin strands: one sample a pixel, four, and one blended by coverage")
 PICTURE("Opaque, one sample a pixel", "tools/scenes/far.json --samples 1 --supersample 1")
 PICTURE("Opaque, four samples", "tools/scenes/far.json --supersample 1")
-PICTURE("Shares of pixels, sorted and blended (coverage=alpha), one sample",
+PICTURE("Fractions of pixels, sorted and blended (coverage=alpha), one sample",
         "tools/scenes/far.json --samples 1 --supersample 1 --set coverage=alpha")
-PICTURE("Opaque, 64 samples, as all pictures of this sheet", "tools/scenes/far.json")
+PICTURE("Opaque, 64 samples, like all pictures of this sheet", "tools/scenes/far.json")
 
-ROW("Level of detail: fewer strands, as much wider, of fewer segments")
+ROW("Level of detail: fewer and wider strands of fewer segments")
 PICTURE("Full level of detail", "tools/scenes/far.json")
-PICTURE("A lower one: 15 % of the strands, half the segments",
+PICTURE("Lower level: 15 % of the strands, half the segments",
         "tools/scenes/far.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set "
         "lod.segment_fraction=0.5")
-PICTURE("The lower one, zoomed in",
+PICTURE("Lower level, zoomed in",
         "tools/scenes/near.json --set lod=on --set lod.per_patch=0 --set lod.strand_fraction=0.15 --set "
         "lod.segment_fraction=0.5")
-PICTURE("Full, zoomed in; and so as well by lod=on, which goes by how large it appears",
+PICTURE("Full, zoomed in; lod=on selects the level by the size in the picture",
         "tools/scenes/near.json --set lod=on")
 
-ROW("Light that hair leaves to itself, with a lamp behind it")
+ROW("Self-shadow, with a lamp behind the hair")
 PICTURE("By depth behind a shadow map (self_shadow.method=depth)",
         "--scene demo --set self_shadow.method=depth")
-PICTURE("By its strands: along them, and through a grid of density (self_shadow.method=strands)",
+PICTURE("By strands: along them, and through a density grid (self_shadow.method=strands)",
         "--scene demo")
 PICTURE("The same on blond hair", "--scene demo --set color=blond")
 
 ROW("Lights")
-PICTURE("One from far away, a blue point behind, a red spot beside it, all with shadows; surroundings",
+PICTURE("A distant light, a blue point light, a red spotlight, all with shadows; ambient light",
         "tools/scenes/lights.json")
 PICTURE("The same on blond hair", "tools/scenes/lights.json --set color=blond")

@@ -1,10 +1,8 @@
 // air_draw_test.c - wind drawn by hair_draw: arrows whose length and colour show the speed.
-#include "tests/support/frame.h"
 #include "tests/support/live_hair.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
-
-#include "lib/api/api.h"
 
 #define SIDE 500 // Pixels. An arrow is three pixels wide.
 #define SPEED 2.0f
@@ -29,7 +27,7 @@ static struct hair_test_living start(void** state)
 static void look(struct hair_test_living* living, hair_slice slice, struct picture* out)
 {
     const struct hair_field_box* box = &living->hair->field.box;
-    struct hair_test_frame frame;
+    const struct hair_test_scene scene = {.test = living->test, .hair = living->hair};
     hair_view view = hair_view_default();
     double brick = HAIR_BRICK * (double)box->voxel;
     const double lower[3] = {(double)box->lower.x, (double)box->lower.y, (double)box->lower.z};
@@ -42,10 +40,7 @@ static void look(struct hair_test_living* living, hair_slice slice, struct pictu
         view.projection[4 * axes[row] + row] = (float)(2 / (1.5 * length));
         view.projection[12 + row] = (float)(-2 * middle / (1.5 * length));
     }
-    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
-    hair_test_ok(living->test, hair_draw(living->hair, &view));
-    hair_test_frame_read(&frame, out->color);
-    hair_test_frame_free(&frame);
+    hair_test_draw(&scene, &view, SIDE, SIDE, 0, out->color, NULL);
 }
 
 struct seen {

@@ -1,15 +1,11 @@
 // body_test.c - opaque geometry blocks the light on its way to hair. Tests cover both self-shadow
 // methods, all shadings, every light, and maps with and without perspective. Programs without
 // opaque geometry have no code for it.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 
 #define SIZE 256
 #define TEXELS 64
@@ -18,12 +14,8 @@
 #define BIAS 0.004f
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     hair_shader* shader;
-    struct hair_test_frame frame;
-    hair_view view;
     hair_light light[4];
     GLuint map[4], open;
     float pixels[4 * SIZE * SIZE];
@@ -62,21 +54,16 @@ static struct fixture* start(void** state)
 {
     struct fixture* f = calloc(1, sizeof *f);
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    f->test = *state;
-    f->view = hair_view_default();
     wanted.followers = 160;
     look.strand.segments = 8, look.strand.radius = 0.002f;
-    desc.look = &look;
-    f->groom = hair_test_groom(&f->test->host.host, wanted);
-    hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
-    hair_test_frame_make(&f->frame, SIZE, SIZE, GL_RGBA32F, 0);
-    look_down(f->view.projection);
+    f->scene = hair_test_scene_of(*state, &wanted, &look);
+    hair_test_frame_make(&f->scene.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    look_down(f->scene.view.projection);
     f->open = make_map(1);
     for (int i = 0; i < 4; ++i) {
         f->map[i] = make_map(1);
-        f->view.ambient[i % 3] = 0;
+        f->scene.view.ambient[i % 3] = 0;
         f->light[i] = hair_light_default();
         f->light[i].direction[0] = f->light[i].direction[1] = 0, f->light[i].direction[2] = 1;
         f->light[i].opaque_bias = BIAS;
@@ -91,9 +78,7 @@ static void finish(struct fixture* f)
     hair_shader_destroy(f->shader);
     glDeleteTextures(4, f->map);
     glDeleteTextures(1, &f->open);
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
     free(f);
 }
 
@@ -102,24 +87,22 @@ static void shade_by(struct fixture* f, const char* glsl)
     hair_shader_desc desc = hair_shader_desc_default();
     desc.glsl = glsl;
     desc.at = HAIR_SHADE_PIXELS;
-    hair_test_ok(f->test, hair_shader_create(f->test->context, &desc, &f->shader));
-    f->view.shader = f->shader;
+    hair_test_ok(f->scene.test, hair_shader_create(f->scene.test->context, &desc, &f->shader));
+    f->scene.view.shader = f->shader;
 }
 
 static void set_look(struct fixture* f, hair_self_shadow shadow, hair_shading shading)
 {
-    hair_look look = f->hair->geometry.look;
+    hair_look look = f->scene.hair->geometry.look;
     look.self_shadow.method = shadow, look.shading.model = shading;
-    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, &look));
 }
 
 static void draw(struct fixture* f, uint32_t lights)
 {
-    f->view.lights = f->light;
-    f->view.light_count = lights;
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
-    hair_test_frame_read(&f->frame, f->pixels);
+    f->scene.view.lights = f->light;
+    f->scene.view.light_count = lights;
+    hair_test_draw_in(&f->scene.frame, f->scene.test, f->scene.hair, &f->scene.view, f->pixels);
 }
 
 // Fill the columns of texels in [from, to).
@@ -287,7 +270,7 @@ static void opaque_shadow_maps_may_be_in_perspective(void** state)
 static uint32_t count_passes(const struct fixture* f, const char* words)
 {
     hair_timing timing[128];
-    uint32_t count = hair_get_timings(f->test->context, timing, 128), found = 0;
+    uint32_t count = hair_get_timings(f->scene.test->context, timing, 128), found = 0;
     for (uint32_t i = 0; i < count && i < 128; ++i) found += strstr(timing[i].pass, words) != NULL;
     return found;
 }
@@ -297,16 +280,16 @@ static void programs_have_no_opaque_shadows_without_a_map(void** state)
     struct fixture* f = start(state);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
     uint32_t known = count_passes(f, "opaque_shadows");
-    f->view.render_path = HAIR_RENDER_PATH_CACHED;
+    f->scene.view.render_path = HAIR_RENDER_PATH_CACHED;
     draw(f, 1);
-    hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
+    hair_test_ok(f->scene.test, hair_get_memory(f->scene.test->context, &before));
     assert_int_equal(count_passes(f, "opaque_shadows"), known);
     f->light[0].opaque_shadow_map = f->map[0];
     draw(f, 1);
     assert_int_equal(count_passes(f, "opaque_shadows"), known + 1);
-    hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
+    hair_test_ok(f->scene.test, hair_get_memory(f->scene.test->context, &after));
     assert_int_equal(before.bytes, after.bytes);
-    f->view.pass = HAIR_PASS_DEPTH; // This pass has no light.
+    f->scene.view.pass = HAIR_PASS_DEPTH; // This pass has no light.
     draw(f, 1);
     assert_int_equal(count_passes(f, "opaque_shadows"), known + 1);
     finish(f);
@@ -351,17 +334,17 @@ static void texture_that_is_no_shadow_map_is_refused(void** state)
 {
     struct fixture* f = start(state);
     float* m = f->light[0].shadow_matrix;
-    f->view.lights = f->light;
+    f->scene.view.lights = f->light;
     f->light[0].opaque_shadow_map = 4711;
-    hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f->scene.test, hair_draw(f->scene.hair, &f->scene.view), HAIR_ERROR_ARGUMENT,
                       "hair_view.lights[0].opaque_shadow_map is 4711, not a 2D texture");
     f->light[0].opaque_shadow_map = f->map[0];
     f->light[0].opaque_bias = 2;
-    hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f->scene.test, hair_draw(f->scene.hair, &f->scene.view), HAIR_ERROR_ARGUMENT,
                       "hair_light.opaque_bias is 2, not in [0, 1]");
     f->light[0].opaque_bias = 0;
     look_from_lamp(&f->light[0]);
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &f->scene.view));
     for (int i = 0; i < 3; ++i) {
         float was = m[i == 0 ? 10 : i == 1 ? 2 : 14];
         m[i == 0   ? 10
@@ -369,12 +352,13 @@ static void texture_that_is_no_shadow_map_is_refused(void** state)
                    : 14] = i == 0   ? 0.5f
                            : i == 1 ? 0.3f
                                     : 2; // Against the light, oblique, and reversed.
-        hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT,
+        hair_test_refused(f->scene.test, hair_draw(f->scene.hair, &f->scene.view), HAIR_ERROR_ARGUMENT,
                           "lights[0].shadow_matrix is neither orthographic nor in perspective");
         m[i == 0 ? 10 : i == 1 ? 2 : 14] = was;
     }
     f->light[0].kind = HAIR_LIGHT_DIRECTIONAL;
-    hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT, "not orthographic");
+    hair_test_refused(f->scene.test, hair_draw(f->scene.hair, &f->scene.view), HAIR_ERROR_ARGUMENT,
+                      "not orthographic");
     finish(f);
 }
 

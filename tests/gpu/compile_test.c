@@ -1,20 +1,16 @@
-// compile_test.c - programs, buffers and textures are made when they are first needed, cached by
-// the application, and freed when they are no longer needed. Their size stays within a limit.
+// compile_test.c - programs are compiled when they are first needed, and kept in the cache of the
+// application.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/passes.h"
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 #include "tests/support/trace.h"
 
-enum { SIZE = 48, KEPT = 32, FLIPS = 60 };
+enum { SIZE = 48, VALUES = 4 * SIZE * SIZE, KEPT = 32, FLIPS = 60 };
 
 // The application's cache, in memory --------------------------------------------------------------
 
@@ -64,13 +60,6 @@ static void empty(struct cache* cache)
 
 // Hair --------------------------------------------------------------------------------------------
 
-struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-};
-
 static hair_context* make_context(struct hair_test* test, struct cache* cache)
 {
     hair_context* context = NULL;
@@ -83,7 +72,7 @@ static hair_context* make_context(struct hair_test* test, struct cache* cache)
     return context;
 }
 
-static hair_result create(struct fixture* f, hair_instance** out)
+static hair_result create(struct hair_test_scene* f, hair_instance** out)
 {
     hair_desc desc = hair_desc_default();
     hair_physics physics = hair_physics_default();
@@ -95,43 +84,34 @@ static hair_result create(struct fixture* f, hair_instance** out)
     return result;
 }
 
-static struct fixture start(struct hair_test* test, struct cache* cache)
+static struct hair_test_scene start(struct hair_test* test, struct cache* cache)
 {
-    struct fixture f = {.test = test};
+    struct hair_test_scene f = hair_test_scene_make(test, NULL);
     f.context = make_context(test, cache);
     hair_test_ok(test, create(&f, &f.hair));
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     return f;
 }
 
-static void finish(struct fixture* f)
-{
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_context_destroy(f->context);
-}
-
 static hair_view view_of(hair_render_path path)
 {
     hair_view view = hair_view_default();
     view.render_path = path;
-    view.projection[0] = view.projection[5] = view.projection[10] = 3;
+    hair_test_set_orthographic(&view, 3, 3, 0);
     return view;
 }
 
-static void draw(struct fixture* f, const hair_view* view, float* pixels)
+static void draw(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&f->frame, pixels);
+    hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
 }
 
 // Programs ----------------------------------------------------------------------------------------
 
 static void programs_are_compiled_on_first_use(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = {.test = *state};
+    static float pixels[VALUES];
+    struct hair_test_scene f = hair_test_scene_make(*state, NULL);
     hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
     const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
     f.context = make_context(f.test, NULL);
@@ -152,7 +132,7 @@ static void programs_are_compiled_on_first_use(void** state)
     view.pass = HAIR_PASS_COLLIDERS;
     draw(&f, &view, pixels);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 7);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static int has_binaries(void)
@@ -172,14 +152,14 @@ static double now_ms(void)
 
 static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
 {
-    static float pixels[2][4 * SIZE * SIZE];
+    static float pixels[2][VALUES];
     struct cache cache = {0};
     uint32_t puts = 0;
     if (!has_binaries()) return;
     for (int run = 0; run < 2; ++run) {
         hair_test_trace_clear();
         double begin = now_ms();
-        struct fixture f = start(*state, &cache);
+        struct hair_test_scene f = start(*state, &cache);
         hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
@@ -190,7 +170,7 @@ static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
         if (!run) puts = cache.puts;
         assert_int_equal(cache.puts, puts);
         assert_int_equal(cache.count, puts);
-        finish(&f);
+        hair_test_scene_free(&f);
     }
     assert_true(puts >= 5); // Four programs and the self-test.
     assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
@@ -258,165 +238,6 @@ static void a_cache_without_both_functions_is_refused(void** state)
                       "hair_cache.get is NULL");
 }
 
-// Memory ------------------------------------------------------------------------------------------
-
-static hair_memory memory_of(struct fixture* f)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(f->test, hair_get_memory(f->context, &memory));
-    return memory;
-}
-
-static uint64_t reported(struct fixture* f)
-{
-    hair_report_info info = hair_report_info_default();
-    uint32_t count;
-    hair_test_ok(f->test, hair_report(f->hair, false, &info, NULL, 0, 0, &count));
-    return info.bytes;
-}
-
-// Check that everything an instance can have is counted once, and freed.
-static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
-{
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
-    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_collider collider = hair_collider_default();
-    hair_wind wind = hair_wind_default();
-    hair_physics physics = hair_physics_default();
-    hair_pin pin = hair_pin_default();
-    hair_lod lod = hair_lod_default();
-    uint64_t plain, all;
-    hair_test_ok(f.test, hair_step(f.hair, 0.02f));
-    assert_int_equal(memory_of(&f).bytes, reported(&f));
-    plain = memory_of(&f).bytes;
-    collider.size[0] = 0.05f, collider.position[1] = -0.1f;
-    wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.turbulence.intensity = 0.2f,
-    wind.fluid.resolution = 16;
-    physics.hair_hair.cohesion = physics.hair_hair.pressure_stiffness = 1;
-    pin.position[0] = 0.1f;
-    hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-    hair_test_ok(f.test, hair_set_wind(f.hair, &wind));
-    hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
-    hair_test_ok(f.test, hair_set_pins(f.hair, &pin, 1, sizeof pin));
-    for (int i = 0; i < 3; ++i) {
-        collider.position[0] += 0.01f;
-        hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
-        hair_test_ok(f.test, hair_step(f.hair, 0.02f));
-        view.pass = i == 1 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
-        view.coverage = i == 2 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
-        view.render_path = i == 0 ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED;
-        draw(&f, &view, pixels);
-        view.lod = i == 0 ? &lod : NULL;
-        if (view.lod) draw(&f, &view, pixels);
-        view.lod = NULL;
-        assert_int_equal(memory_of(&f).bytes, reported(&f));
-    }
-    all = memory_of(&f).bytes;
-    print_message("    %llu bytes, %llu with all that there is\n", (unsigned long long)plain,
-                  (unsigned long long)all);
-    assert_true(all > 4 * plain);
-    assert_true(memory_of(&f).peak >= all);
-    hair_destroy(f.hair);
-    f.hair = NULL;
-    assert_int_equal(memory_of(&f).bytes, 0);
-    finish(&f);
-}
-
-static void memory_over_the_limit_is_refused_and_changes_nothing(void** state)
-{
-    static float pixels[2][4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
-    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_instance* other = NULL;
-    draw(&f, &plain, pixels[0]);
-    uint64_t bytes = memory_of(&f).bytes, used = bytes;
-    hair_test_ok(f.test, hair_set_memory_limit(f.context, bytes + 1000));
-    assert_int_equal(memory_of(&f).limit, bytes + 1000);
-    hair_test_refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_MEMORY,
-                      "in use would be beyond the limit of");
-    hair_test_refused(f.test, create(&f, &other), HAIR_ERROR_MEMORY, "in use would be beyond the limit of");
-    assert_null(other);
-    assert_true(memory_of(&f).bytes <= bytes + 1000);
-    hair_test_ok(f.test, hair_step(f.hair, 0.05f)); // The instance has all that it needs.
-    hair_test_ok(f.test, hair_reset(f.hair));
-    draw(&f, &plain, pixels[1]);
-    assert_memory_equal(pixels[0], pixels[1], sizeof pixels[0]);
-    hair_test_ok(f.test, hair_set_memory_limit(f.context, 0));
-    hair_test_ok(f.test, hair_draw(f.hair, &view));
-    hair_test_ok(f.test, create(&f, &other));
-    hair_destroy(other);
-    assert_true(memory_of(&f).bytes > used);
-    assert_int_equal(hair_get_memory(NULL, NULL), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_set_memory_limit(NULL, 0), HAIR_ERROR_ARGUMENT);
-    finish(&f);
-}
-
-// Compare the pictures before, meanwhile and after, on every render path.
-static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
-{
-    static float pixels[2][4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
-    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_look look = f.hair->geometry.look;
-    look.shading.model = HAIR_SHADING_LINES;
-    hair_test_ok(f.test, hair_set_look(f.hair, &look));
-    draw(&f, &plain, pixels[0]);
-    uint64_t min = memory_of(&f).bytes;
-    for (int kind = 0; kind < 4; ++kind) {
-        view.pass = kind == 2 ? HAIR_PASS_MOTION : HAIR_PASS_COLOR;
-        view.coverage = kind == 1 ? HAIR_COVERAGE_ALPHA : HAIR_COVERAGE_MSAA;
-        look.shading.model = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
-        for (int turn = 0; turn < 2; ++turn) {
-            hair_test_ok(f.test, hair_reset(f.hair));
-            hair_test_ok(f.test, hair_set_look(f.hair, &look));
-            draw(&f, &view, pixels[turn]);
-            assert_true(memory_of(&f).bytes > min);
-            look.shading.model = HAIR_SHADING_LINES;
-            hair_test_ok(f.test, hair_set_look(f.hair, &look));
-            for (int i = 0; i < 250; ++i) {
-                hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
-                // The memory is not freed at once.
-                if (i == 100) assert_true(memory_of(&f).bytes > min);
-                if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &plain));
-            }
-            assert_int_equal(memory_of(&f).bytes, min);
-            look.shading.model = kind == 3 ? HAIR_SHADING_FIBRES : HAIR_SHADING_LINES;
-        }
-        // Equally distant fragments of segments are blended in any order.
-        double max = 0;
-        for (int i = 0; i < 4 * SIZE * SIZE; ++i)
-            max = fmax(max, fabs((double)pixels[0][i] - (double)pixels[1][i]));
-        assert_true(max <= (kind == 1 ? 0.05 : 0));
-    }
-    finish(&f);
-}
-
-// Check a depth pass after colour. It draws the vertices that the colour pass wrote, and does not
-// keep their shaded colours.
-static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
-{
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = start(*state, NULL);
-    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
-    hair_look look = f.hair->geometry.look;
-    look.shading.model = HAIR_SHADING_LINES;
-    hair_test_ok(f.test, hair_set_look(f.hair, &look));
-    view.pass = HAIR_PASS_DEPTH;
-    draw(&f, &view, pixels);
-    uint64_t min = memory_of(&f).bytes;
-    view.pass = HAIR_PASS_COLOR;
-    draw(&f, &view, pixels);
-    assert_true(memory_of(&f).bytes > min);
-    view.pass = HAIR_PASS_DEPTH;
-    for (int i = 0; i < 250; ++i) {
-        hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
-        if (i % 50 == 0) hair_test_ok(f.test, hair_draw(f.hair, &view));
-    }
-    assert_int_equal(memory_of(&f).bytes, min);
-    finish(&f);
-}
-
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -425,10 +246,6 @@ int main(void)
         HAIR_TEST(cached_programs_are_not_recompiled_and_draw_the_same),
         HAIR_TEST(damaged_cache_entries_are_recompiled_and_replaced),
         HAIR_TEST(a_cache_without_both_functions_is_refused),
-        HAIR_TEST(memory_is_the_sum_of_instances_and_is_all_freed),
-        HAIR_TEST(memory_over_the_limit_is_refused_and_changes_nothing),
-        HAIR_TEST(unused_view_memory_is_freed_and_made_again_on_use),
-        HAIR_TEST(cached_vertices_stay_for_depth_when_colors_are_freed),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -1,59 +1,27 @@
 // cull_test.c - hair out of view is not drawn, existing strand lists are not made again, and
 // nothing waits for the GPU.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 #include "tests/support/trace.h"
 
-enum { SIZE = 48, MAX = 4096 };
+enum { SIZE = 48, VALUES = 4 * SIZE * SIZE, MAX = 4096 };
 
-struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-};
-
-static hair_instance* make(struct hair_test* test, hair_context* context)
+static struct hair_test_scene start(void** state)
 {
-    struct hair_test_handmade wanted = hair_test_handmade_default();
+    struct hair_test_scene f = hair_test_scene_make(*state, hair_test_trace_proc);
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
-    hair_instance* hair = NULL;
     look.strand.segments = 12;
     look.strand.radius = 1e-3f;
     look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
-    hair_groom* groom = hair_test_groom(&test->host.host, wanted);
-    hair_test_ok(test, hair_create(context, groom, &desc, &hair));
-    hair_groom_destroy(groom);
-    return hair;
-}
-
-static struct fixture start(void** state)
-{
-    struct fixture f = {.test = *state};
-    hair_context_desc desc = hair_context_desc_default();
-    desc.host = &f.test->host.host;
-    desc.get_proc = hair_test_trace_proc;
-    desc.timings = true;
-    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
-    f.hair = make(f.test, f.context);
+    hair_test_scene_add(&f, NULL, &desc);
     hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
     return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_context_destroy(f->context);
 }
 
 // Make a view matrix from `eye`, looking along `way`.
@@ -112,7 +80,7 @@ static int is_inside(const hair_view* view, const float at[3], int zero_to_one)
 static void only_hair_out_of_view_is_culled(void** state)
 {
     static float at[3 * MAX];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     uint32_t random = 3, count, unseen = 0, culled = 0, wrong = 0;
     hair_view view = hair_view_default();
     const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
@@ -142,12 +110,12 @@ static void only_hair_out_of_view_is_culled(void** state)
     print_message("    of 800 views %u show no vertex, %u of which are not drawn\n", unseen, culled);
     assert_int_equal(wrong, 0);
     assert_true(culled > unseen / 2);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void depth_clamp_disables_near_and_far_culling(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     for (int clamps = 0; clamps < 2; ++clamps) {
         look_along(hair_v3(0, 0, 9), hair_v3(0, 0, -1), view.view);
@@ -158,13 +126,13 @@ static void depth_clamp_disables_near_and_far_culling(void** state)
         assert_true((hair_test_trace_count("glDraw") > 0) == clamps);
     }
     glDisable(GL_DEPTH_CLAMP);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check that hair that may be anywhere is drawn.
 static void hair_with_free_roots_is_never_view_culled(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     hair_physics physics = hair_physics_default();
     look_along(hair_v3(0, 0, 2), hair_v3(0, 0, 1), view.view);
@@ -174,28 +142,19 @@ static void hair_with_free_roots_is_never_view_culled(void** state)
     hair_test_trace_clear();
     hair_test_ok(f.test, hair_draw(f.hair, &view));
     assert_true(hair_test_trace_count("glDraw") > 0);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
-static void read(struct fixture* f, const hair_view* view, float* pixels)
+static void read(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&f->frame, pixels);
-}
-
-static float differ(const float* a, const float* b)
-{
-    float max = 0;
-    for (int i = 0; i < 4 * SIZE * SIZE; ++i) max = fmaxf(max, fabsf(a[i] - b[i]));
-    return max;
+    hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
 }
 
 // Compare the picture with one for which everything is computed anew.
 static void strand_list_is_reused_while_nothing_changes(void** state)
 {
-    static float kept[4 * SIZE * SIZE], anew[4 * SIZE * SIZE];
-    struct fixture f = start(state);
+    static float kept[VALUES], anew[VALUES];
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     hair_lod lod = hair_lod_default();
     hair_look look = f.hair->geometry.look;
@@ -217,30 +176,23 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
         if (f.hair->renderer.strand_list.key) f.hair->renderer.strand_list.key->program_generation = 0;
         ++f.hair->geometry.follower_collision.generation;
         read(&f, &view, anew);
-        assert_true(differ(kept, anew) == 0);
+        assert_true(hair_test_max_difference(kept, anew, VALUES) == 0);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
-static uint32_t count_primitives(struct fixture* f, const hair_view* view, float* pixels)
+static uint32_t count_primitives(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
-    GLuint query = 0, count = 0;
-    glGenQueries(1, &query);
-    hair_test_frame_clear(&f->frame);
-    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    glEndQuery(GL_PRIMITIVES_GENERATED);
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
-    glDeleteQueries(1, &query);
-    hair_test_frame_read(&f->frame, pixels);
-    return count;
+    GLuint query = hair_test_count_begin();
+    read(f, view, pixels);
+    return hair_test_count_end(query);
 }
 
 // Check close views with every kind of projection. With free roots no patch may be left out.
 static void culled_patches_do_not_change_the_picture(void** state)
 {
-    static float some[4 * SIZE * SIZE], all[4 * SIZE * SIZE];
-    struct fixture f = start(state);
+    static float some[VALUES], all[VALUES];
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     hair_physics physics = hair_physics_default(), lets_go = physics;
     uint32_t random = 7, drawn[2] = {0, 0};
@@ -259,15 +211,15 @@ static void culled_patches_do_not_change_the_picture(void** state)
         drawn[0] += count_primitives(&f, &view, some);
         hair_test_ok(f.test, hair_set_physics(f.hair, &lets_go));
         drawn[1] += count_primitives(&f, &view, all);
-        assert_true(differ(some, all) == 0);
+        assert_true(hair_test_max_difference(some, all, VALUES) == 0);
     }
     print_message("    %u primitives of %u\n", drawn[0], drawn[1]);
     // Strands are as long as all of the hair is wide, so few patches are out of view.
     assert_true(drawn[0] < drawn[1]);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
-static hair_memory memory_of(struct fixture* f)
+static hair_memory memory_of(struct hair_test_scene* f)
 {
     hair_memory memory = hair_memory_default();
     hair_test_ok(f->test, hair_get_memory(f->context, &memory));
@@ -278,8 +230,8 @@ static hair_memory memory_of(struct fixture* f)
 // map makes the library bind a texture and a sampler.
 static void lights_cost_nothing_when_there_are_none(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
-    struct fixture f = start(state);
+    static float pixels[VALUES];
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     hair_light light = hair_light_default();
     GLuint shadow = 0;
@@ -308,13 +260,13 @@ static void lights_cost_nothing_when_there_are_none(void** state)
     assert_int_equal(samplers[0], samplers[2] - 1);
     assert_true(bytes[0] == bytes[1] && bytes[1] == bytes[2]);
     glDeleteTextures(1, &shadow);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check frames of a step and a draw, with colliders in reach of followers and all passes timed.
 static void frames_do_not_wait_for_the_gpu(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_view view = hair_view_default();
     hair_collider collider = hair_collider_default();
     uint32_t looked = 0;
@@ -338,7 +290,7 @@ static void frames_do_not_wait_for_the_gpu(void** state)
         looked += hair_test_trace_count("glClientWaitSync");
     }
     assert_true(looked > 0); // Guides were examined until they rested.
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -1,40 +1,19 @@
 // draw_test.c - the framebuffer after hair_draw: colour and depth agree, and ribbons have their
 // true width.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
-
 #define SIDE 128
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
-static struct fixture start(void** state, float radius)
+static struct hair_test_scene start(void** state, float radius)
 {
-    struct fixture f = {.test = *state};
-    hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     look.strand.radius = radius;
     look.strand.taper = hair_curve_line(1, 1);
-    desc.look = &look;
-    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    return hair_test_scene_of(*state, NULL, &look);
 }
 
 // Make a view of 1 m around the head, along -z.
@@ -43,28 +22,20 @@ static hair_view view_of(hair_pass pass, hair_primitive primitive)
     hair_view view = hair_view_default();
     view.pass = pass;
     view.primitive = primitive;
-    view.projection[0] = view.projection[5] = 2;
-    view.projection[10] = -0.5f;
-    view.projection[13] = -0.2f;
+    hair_test_set_orthographic(&view, 2, -0.5f, -0.2f);
     return view;
 }
 
-// Read pixels and depths of one draw.
-static void draw(struct fixture* f, const hair_view* view, GLsizei side, GLsizei samples, float* pixels,
-                 float* depths)
+static void draw(const struct hair_test_scene* f, const hair_view* view, GLsizei side, GLsizei samples,
+                 float* pixels, float* depths)
 {
-    struct hair_test_frame frame;
-    hair_test_frame_make(&frame, side, side, GL_RGBA32F, samples);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&frame, pixels);
-    if (depths) hair_test_frame_read_depth(&frame, depths);
-    hair_test_frame_free(&frame);
+    hair_test_draw(f, view, side, side, samples, pixels, depths);
 }
 
 static void colour_and_depth_passes_leave_the_same_depth(void** state)
 {
     static float pixels[4 * SIDE * SIDE], none[4 * SIDE * SIDE], depths[2][SIDE * SIDE];
-    struct fixture f = start(state, 0.002f);
+    struct hair_test_scene f = start(state, 0.002f);
     for (int primitive = 0; primitive < 2; ++primitive) {
         hair_view color = view_of(HAIR_PASS_COLOR, (hair_primitive)primitive);
         hair_view depth = view_of(HAIR_PASS_DEPTH, (hair_primitive)primitive);
@@ -80,14 +51,12 @@ static void colour_and_depth_passes_leave_the_same_depth(void** state)
         }
         assert_true(covered > 150);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static double coverage(const float* pixels, GLsizei side)
 {
-    double sum = 0;
-    for (GLsizei i = 0; i < side * side; ++i) sum += (double)pixels[4 * i + 3];
-    return sum / side / side;
+    return hair_test_mean_alpha(pixels, (size_t)(4 * side * side));
 }
 
 // Check that four samples per pixel cover the same area as sixteen pixels in its place. Ribbons of
@@ -95,7 +64,7 @@ static double coverage(const float* pixels, GLsizei side)
 static void multisampling_and_supersampling_see_the_same_width(void** state)
 {
     static float pixels[4 * SIDE * SIDE], fine[16 * 4 * SIDE * SIDE];
-    struct fixture f = start(state, 0.002f);
+    struct hair_test_scene f = start(state, 0.002f);
     hair_view view = view_of(HAIR_PASS_COLOR, HAIR_PRIMITIVE_RIBBONS);
     draw(&f, &view, SIDE, 4, pixels, NULL);
     draw(&f, &view, 4 * SIDE, 0, fine, NULL);
@@ -103,7 +72,7 @@ static void multisampling_and_supersampling_see_the_same_width(void** state)
     print_message("    covered: %.5f with 4 samples, %.5f in small pixels\n", coarse, true_one);
     assert_true(true_one > 0.01);
     hair_test_near("coverage", 0, coarse, true_one, 0.03 * true_one);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void a_wider_strand_covers_more(void** state)
@@ -111,11 +80,11 @@ static void a_wider_strand_covers_more(void** state)
     static float pixels[4 * SIDE * SIDE];
     double covered[2];
     for (int wide = 0; wide < 2; ++wide) {
-        struct fixture f = start(state, wide ? 0.004f : 0.0005f);
+        struct hair_test_scene f = start(state, wide ? 0.004f : 0.0005f);
         hair_view view = view_of(HAIR_PASS_COLOR, HAIR_PRIMITIVE_RIBBONS);
         draw(&f, &view, SIDE, 4, pixels, NULL);
         covered[wide] = coverage(pixels, SIDE);
-        finish(&f);
+        hair_test_scene_free(&f);
     }
     assert_true(covered[1] > 2 * covered[0]);
 }
@@ -125,22 +94,17 @@ static void a_wider_strand_covers_more(void** state)
 static void guides_are_colored_by_their_stretch(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
-    struct fixture f = start(state, 0.001f);
+    struct hair_test_scene f = start(state, 0.001f);
     hair_view view = view_of(HAIR_PASS_GUIDES, HAIR_PRIMITIVE_RIBBONS);
     for (int stretched = 0; stretched < 2; ++stretched) {
         if (stretched) {
-            struct hair_gl* gl = &f.test->context->gl;
             size_t count = f.groom->info.guide_vertex_count;
             struct hair_state* vertices = calloc(count, sizeof *vertices);
             for (size_t i = 0; i < count; ++i) {
                 hair_vec4 p = f.groom->rest[i].position;
                 vertices[i].position = (hair_vec4){1.1f * p.x, 1.1f * p.y, 1.1f * p.z, 0};
             }
-            glFinish();
-            glNamedBufferSubData(f.hair->sim.state, 0, (GLsizeiptr)(count * sizeof *vertices), vertices);
-            hair_gl_enter(gl);
-            hair_smooth_run(&f.hair->geometry.smooth, &f.hair->sim);
-            hair_gl_leave(gl);
+            hair_test_scene_set_state(&f, vertices);
             free(vertices);
         }
         draw(&f, &view, SIDE, 0, pixels, NULL);
@@ -154,7 +118,7 @@ static void guides_are_colored_by_their_stretch(void** state)
         }
         assert_true(drawn > 50);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -1,22 +1,15 @@
 // expand_test.c - followers that are read back agree with the double-precision reference.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/base/math.h"
 #include "lib/strands/geometry.h"
-#include "tests/reference/reference.h"
-#include "tests/support/handmade.h"
-
-#define STATES 1024
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     struct hair_reference_sample* samples;
     double longest; // Length of the longest guide, in metres.
 };
@@ -24,48 +17,21 @@ struct fixture {
 // Create a hair with scattered guides, and smooth them on the GPU and by the reference.
 static struct fixture start(void** state)
 {
-    static struct hair_state vertices[STATES];
-    struct fixture f = {.test = *state};
-    hair_desc desc = hair_desc_default();
+    struct fixture f = {.longest = 0};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    uint32_t random = 99;
     wanted.fewest = 5, wanted.max = 30, wanted.guides = 26, wanted.followers = 200;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    hair_test_scatter(f.groom, 0.001f, 0, &random, vertices);
-    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
-    glFinish();
-    glNamedBufferSubData(f.hair->sim.state, 0, f.groom->info.guide_vertex_count * sizeof *vertices, vertices);
-    struct hair_gl* gl = &f.test->context->gl;
-    hair_gl_enter(gl);
-    hair_smooth_run(&f.hair->geometry.smooth, &f.hair->sim);
-    hair_gl_leave(gl);
-
-    uint32_t each = 2 * f.groom->max_vertices - 1;
-    struct hair_step_params params = {.smooth_vertices = each,
-                                      .rotation_before = {0, 0, 0, 1},
-                                      .rotation_after = {0, 0, 0, 1},
-                                      .rotation_now = {0, 0, 0, 1}};
-    f.samples = calloc(each * wanted.guides, sizeof *f.samples);
-    for (uint32_t g = 0; g < wanted.guides; ++g) {
-        static struct hair_reference_vertex in_double[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide* guide = &f.groom->guides[g];
-        for (uint32_t i = 0; i < guide->count; ++i) {
-            hair_vec4 p = vertices[guide->first + i].position;
-            in_double[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {0}};
-        }
-        hair_reference_smooth((struct hair_reference_guide){guide, f.groom->rest + guide->first, &params},
-                              in_double, f.samples + g * each);
-        f.longest = fmax(f.longest, f.samples[(g + 1) * each - 1].to_root);
-    }
+    f.scene = hair_test_scene_of(*state, &wanted, NULL);
+    f.samples = hair_test_scene_scatter(&f.scene);
+    uint32_t each = 2 * f.scene.groom->max_vertices - 1;
+    for (uint32_t g = 1; g <= wanted.guides; ++g)
+        f.longest = fmax(f.longest, f.samples[g * each - 1].to_root);
     return f;
 }
 
 static void finish(struct fixture* f)
 {
     free(f->samples);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
 }
 
 // A sample is exact to 6 sqrt(20) 2^-24 m, and its frame to 8 / 5 mm of the same error
@@ -76,19 +42,19 @@ static void finish(struct fixture* f)
 
 static void compare(struct fixture* f, const hair_look* look)
 {
-    struct hair_gl* gl = &f->test->context->gl;
+    struct hair_gl* gl = &f->scene.test->context->gl;
     hair_vec4* vertices = NULL;
     double worst = 0;
-    hair_test_ok(f->test, hair_set_look(f->hair, look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, look));
     hair_gl_enter(gl);
-    hair_result result = hair_geometry_read_vertex_cache(&f->hair->geometry, &vertices);
+    hair_result result = hair_geometry_read_vertex_cache(&f->scene.hair->geometry, &vertices);
     hair_gl_leave(gl);
-    hair_test_ok(f->test, result);
-    for (uint32_t i = 0; i < f->groom->info.follower_count * (look->strand.segments + 1); ++i) {
+    hair_test_ok(f->scene.test, result);
+    for (uint32_t i = 0; i < f->scene.groom->info.follower_count * (look->strand.segments + 1); ++i) {
         struct hair_reference_point expected;
         double t = (double)(i % (look->strand.segments + 1)) / look->strand.segments;
-        hair_reference_follower(&f->groom->followers[i / (look->strand.segments + 1)], look,
-                                2 * f->groom->max_vertices - 1, f->samples, t, NULL, &expected);
+        hair_reference_follower(&f->scene.groom->followers[i / (look->strand.segments + 1)], look,
+                                2 * f->scene.groom->max_vertices - 1, f->samples, t, NULL, &expected);
         hair_test_near("x", i, vertices[i].x, expected.position[0], TOLERANCE);
         hair_test_near("y", i, vertices[i].y, expected.position[1], TOLERANCE);
         hair_test_near("z", i, vertices[i].z, expected.position[2], TOLERANCE);
@@ -98,7 +64,7 @@ static void compare(struct fixture* f, const hair_look* look)
     print_message("    %u segments: off by up to %.2g m of %.2g m\n", look->strand.segments, worst,
                   TOLERANCE);
     assert_true(worst < 1e-5 * f->longest);
-    hair_free(&f->test->host.host, vertices);
+    hair_free(&f->scene.test->host.host, vertices);
 }
 
 static void followers_equal_the_reference(void** state)
@@ -184,28 +150,28 @@ static GLuint link_tangents(const struct fixture* f)
         "}\n";
     struct hair_gl_source source;
     GLint linked = 0;
-    assert_int_equal(hair_gl_read_source(&f->test->host.host, NULL, "strands/evaluate.glsl", "", &source),
-                     HAIR_OK);
+    assert_int_equal(
+        hair_gl_read_source(&f->scene.test->host.host, NULL, "strands/evaluate.glsl", "", &source), HAIR_OK);
     const char* text[] = {"#version 450 core\n#define HAIR_STYLED 1\n", source.text, main};
     GLuint program = glCreateShaderProgramv(GL_COMPUTE_SHADER, 3, text);
     glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    hair_free(&f->test->host.host, source.text);
+    hair_free(&f->scene.test->host.host, source.text);
     assert_true(linked);
     return program;
 }
 
 static void compare_tangents(struct fixture* f, const hair_look* look, GLuint program)
 {
-    struct hair_geometry* geometry = &f->hair->geometry;
+    struct hair_geometry* geometry = &f->scene.hair->geometry;
     struct hair_gl* gl = geometry->gl;
     GLuint buffer = 0;
-    uint32_t count = f->groom->info.follower_count * (look->strand.segments + 1);
+    uint32_t count = f->scene.groom->info.follower_count * (look->strand.segments + 1);
     hair_vec4* got = malloc(count * sizeof *got);
     struct hair_draw_params params;
     double worst = 0, square = 0;
-    hair_test_ok(f->test, hair_set_look(f->hair, look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, look));
     hair_gl_enter(gl);
-    hair_test_ok(f->test,
+    hair_test_ok(f->scene.test,
                  hair_gl_storage(gl, HAIR_GL_NO_CATEGORY, "tangents", count * sizeof *got, NULL, &buffer));
     hair_geometry_write_params(geometry, &params);
     hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
@@ -219,9 +185,10 @@ static void compare_tangents(struct fixture* f, const hair_look* look, GLuint pr
     hair_gl_free_buffer(gl, &buffer);
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_reference_point expected;
-        hair_reference_follower(
-            &f->groom->followers[i / (look->strand.segments + 1)], look, 2 * f->groom->max_vertices - 1,
-            f->samples, (double)(i % (look->strand.segments + 1)) / look->strand.segments, NULL, &expected);
+        hair_reference_follower(&f->scene.groom->followers[i / (look->strand.segments + 1)], look,
+                                2 * f->scene.groom->max_vertices - 1, f->samples,
+                                (double)(i % (look->strand.segments + 1)) / look->strand.segments, NULL,
+                                &expected);
         double off[3] = {(double)got[i].x - expected.tangent[0], (double)got[i].y - expected.tangent[1],
                          (double)got[i].z - expected.tangent[2]};
         for (int k = 0; k < 3; ++k) {
@@ -255,15 +222,15 @@ static void positions_are_read_in_world_space(void** state)
     struct fixture f = start(state);
     hair_look look = hair_look_default();
     look.strand.segments = 3;
-    uint32_t count = f.groom->info.follower_count * 4, there;
+    uint32_t count = f.scene.groom->info.follower_count * 4, there;
     float* near = malloc(3 * sizeof *near * count);
     float* far = malloc(3 * sizeof *far * count);
-    hair_test_ok(f.test, hair_set_look(f.hair, &look));
-    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, near, count, &there));
+    hair_test_ok(f.scene.test, hair_set_look(f.scene.hair, &look));
+    hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, HAIR_READ_FOLLOWERS, near, count, &there));
     assert_int_equal(there, count);
     float away[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1000, -2000, 500, 1};
-    hair_test_ok(f.test, hair_teleport(f.hair, away));
-    hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, far, count, &there));
+    hair_test_ok(f.scene.test, hair_teleport(f.scene.hair, away));
+    hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, HAIR_READ_FOLLOWERS, far, count, &there));
     for (uint32_t i = 0; i < 3 * count; ++i)
         hair_test_near("coordinate", i, far[i] - (double)away[12 + i % 3], near[i], 2000.0 / 16777216);
     free(near);
@@ -278,9 +245,9 @@ static void read_positions_writes_at_most_the_capacity(void** state)
     for (int i = 0; i < 3; ++i) {
         float some[3 * 8];
         uint32_t all, count;
-        hair_test_ok(f.test, hair_read_positions(f.hair, whats[i], NULL, 0, &all));
+        hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, whats[i], NULL, 0, &all));
         memset(some, 0xff, sizeof some);
-        hair_test_ok(f.test, hair_read_positions(f.hair, whats[i], some, 7, &count));
+        hair_test_ok(f.scene.test, hair_read_positions(f.scene.hair, whats[i], some, 7, &count));
         assert_int_equal(all, count);
         assert_true(all > 8);
         for (int k = 0; k < 24; ++k) assert_true(isnan(some[k]) == (k >= 21));

@@ -1,7 +1,7 @@
 // failures_test.c - OpenGL that is missing or too old, and shaders that are broken. The library
 // returns the right code and logs one message. Afterwards it works.
 #define _POSIX_C_SOURCE 200809L
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,35 +9,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "lib/api/api.h"
-#include "tests/support/handmade.h"
 #include "tests/support/shell.h"
 #include "tests/support/ways.h"
 
 #define refused hair_test_refused
 
-static hair_instance* make(struct hair_test* test, hair_groom** groom)
-{
-    hair_instance* hair = NULL;
-    hair_desc desc = hair_desc_default();
-    *groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_test_ok(test, hair_create(test->context, *groom, &desc, &hair));
-    return hair;
-}
-
-static void drop(hair_instance* hair, hair_groom* groom)
-{
-    hair_destroy(hair);
-    hair_groom_destroy(groom);
-}
-
 // Missing OpenGL ----------------------------------------------------------------------------------
 
 static void calls_without_a_current_context_are_opengl_errors(void** state)
 {
-    struct hair_test* test = *state;
-    hair_groom* groom;
-    hair_instance* hair = make(test, &groom);
+    struct hair_test_scene f = hair_test_scene_of(*state, NULL, NULL);
     hair_instance* other;
     hair_desc desc = hair_desc_default();
     hair_view view = hair_view_default();
@@ -49,25 +30,25 @@ static void calls_without_a_current_context_are_opengl_errors(void** state)
     hair_solver_stats solver_stats = hair_solver_stats_default();
     hair_field_info field = hair_field_info_default();
     const char* words = "no OpenGL context is current";
-    of.host = &test->host.host;
+    of.host = &f.test->host.host;
     of.get_proc = hair_egl_get_proc;
     hair_egl_make_current(NULL);
-    refused(test, hair_context_create(&of, &context), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_context_reload(test->context), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_create(test->context, groom, &desc, &other), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_step(hair, 0.1f), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_reset(hair), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_teleport(hair, desc.transform), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_save(hair, NULL, 0, &size), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_load(hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_draw(hair, &view), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_read_positions(hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL,
+    refused(f.test, hair_context_create(&of, &context), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_context_reload(f.test->context), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_create(f.test->context, f.groom, &desc, &other), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_step(f.hair, 0.1f), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_reset(f.hair), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_teleport(f.hair, desc.transform), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_save(f.hair, NULL, 0, &size), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_load(f.hair, positions, sizeof positions), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_read_positions(f.hair, HAIR_READ_GUIDES, positions, 1, &count), HAIR_ERROR_OPENGL,
             words);
-    refused(test, hair_get_solver_stats(hair, &solver_stats), HAIR_ERROR_OPENGL, words);
-    refused(test, hair_get_field(hair, &field), HAIR_ERROR_OPENGL, words);
-    hair_egl_make_current(test->egl);
-    hair_test_ok(test, hair_step(hair, 0.1f));
-    drop(hair, groom);
+    refused(f.test, hair_get_solver_stats(f.hair, &solver_stats), HAIR_ERROR_OPENGL, words);
+    refused(f.test, hair_get_field(f.hair, &field), HAIR_ERROR_OPENGL, words);
+    hair_egl_make_current(f.test->egl);
+    hair_test_ok(f.test, hair_step(f.hair, 0.1f));
+    hair_test_scene_free(&f);
 }
 
 static void* all_but_one(const char* name, void* user)
@@ -210,7 +191,8 @@ static void solver_with_a_broken_shader_is_an_opengl_error(void** state)
         a_reload_finds_it(test, &b);
         if (b.desc.solver != HAIR_SOLVER_REDBLACK) hair_step_finds_it(test, &b);
         mend_shader(&b);
-        drop(b.hair, b.groom);
+        hair_destroy(b.hair);
+        hair_groom_destroy(b.groom);
         hair_context_destroy(b.context);
     }
 }

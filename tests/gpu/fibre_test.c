@@ -122,7 +122,7 @@ static void scattering_is_reciprocal(void** state)
         light_everywhere(*state, &fibre, tilts[t], found);
         for (int i = 0; i < EYES; ++i) {
             assert_true(found[i][2] >= 0);
-            hair_test_near("share by which both differ", (size_t)i, (double)found[i][1], 0, 0.02);
+            hair_test_near("fraction by which both differ", (size_t)i, (double)found[i][1], 0, 0.02);
         }
     }
 }

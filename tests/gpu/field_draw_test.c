@@ -1,23 +1,16 @@
 // field_draw_test.c - colliders and a slice of the field as drawn by hair_draw.
 #include "tests/support/fields.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 
 #define SIDE 96
 #define COLLIDERS 3
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-    hair_desc desc;
+    struct hair_test_scene scene;
     hair_collider colliders[COLLIDERS];
-    hair_view view;
     float pixels[4 * SIDE * SIDE], depths[SIDE * SIDE];
 };
 
@@ -37,50 +30,37 @@ static void start(void** state)
          .friction = 1},
         {HAIR_SHAPE_SPHERE, {0.2f, 0.22f, -0.9f}, {0, 0, 0, 1}, {0.02f}, .scale = 1, .friction = 1},
     };
-    f = (struct fixture){.test = *state, .desc = hair_desc_default(), .view = hair_view_default()};
+    hair_desc desc = hair_desc_default();
+    f.scene = hair_test_scene_make(*state, NULL);
     memcpy(f.colliders, colliders, sizeof colliders);
-    f.desc.field_voxel = 0.004f;
-    f.desc.transform[0] = f.desc.transform[10] = -1;
-    f.desc.transform[12] = 0.2f;
-    f.desc.transform[14] = -1;
-    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &f.desc, &f.hair));
-    hair_test_ok(f.test, hair_set_colliders(f.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
-    hair_test_ok(f.test, hair_step(f.hair, 0.01f));
-    f.view.pass = HAIR_PASS_COLLIDERS;
-    f.view.projection[0] = f.view.projection[5] = 3;
-    f.view.projection[8] = 0.6f; // Centres the colliders in the picture.
-    f.view.projection[9] = 0.3f;
-    f.view.projection[10] = -1.2f / 0.8f;
-    f.view.projection[11] = -1;
-    f.view.projection[14] = -2 * 0.4f * 2 / 1.6f;
-    f.view.projection[15] = 0;
-}
-
-static void finish(void)
-{
-    hair_destroy(f.hair);
-    hair_groom_destroy(f.groom);
+    desc.field_voxel = 0.004f;
+    desc.transform[0] = desc.transform[10] = -1;
+    desc.transform[12] = 0.2f;
+    desc.transform[14] = -1;
+    hair_test_scene_add(&f.scene, NULL, &desc);
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, f.colliders, COLLIDERS, sizeof *f.colliders));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 0.01f));
+    f.scene.view.pass = HAIR_PASS_COLLIDERS;
+    f.scene.view.projection[0] = f.scene.view.projection[5] = 3;
+    f.scene.view.projection[8] = 0.6f; // Centres the colliders in the picture.
+    f.scene.view.projection[9] = 0.3f;
+    f.scene.view.projection[10] = -1.2f / 0.8f;
+    f.scene.view.projection[11] = -1;
+    f.scene.view.projection[14] = -2 * 0.4f * 2 / 1.6f;
+    f.scene.view.projection[15] = 0;
 }
 
 static void draw(void)
 {
-    struct hair_test_frame frame;
-    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
-    glEnable(GL_DEPTH_TEST);
-    hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-    glDisable(GL_DEPTH_TEST);
-    hair_test_frame_read(&frame, f.pixels);
-    hair_test_frame_read_depth(&frame, f.depths);
-    hair_test_frame_free(&frame);
+    hair_test_draw(&f.scene, &f.scene.view, SIDE, SIDE, 0, f.pixels, f.depths);
 }
 
 // Find the point of the world at a distance of 1 along -z that the centre of a pixel shows.
 static void find_ray(int i, double way[3])
 {
     double x = (i % SIDE + 0.5) / SIDE * 2 - 1, y = (i / SIDE + 0.5) / SIDE * 2 - 1;
-    way[0] = (x + (double)f.view.projection[8]) / (double)f.view.projection[0];
-    way[1] = (y + (double)f.view.projection[9]) / (double)f.view.projection[5];
+    way[0] = (x + (double)f.scene.view.projection[8]) / (double)f.scene.view.projection[0];
+    way[1] = (y + (double)f.scene.view.projection[9]) / (double)f.scene.view.projection[5];
     way[2] = -1;
 }
 
@@ -104,7 +84,7 @@ static double march(const double way[3], double from, double* meets)
 
 static double depth_at(double z)
 {
-    double clip = (double)f.view.projection[10] * z + (double)f.view.projection[14];
+    double clip = (double)f.scene.view.projection[10] * z + (double)f.scene.view.projection[14];
     return 0.5 + 0.5 * clip / -z;
 }
 
@@ -125,7 +105,7 @@ static void colliders_are_drawn_at_their_place_with_depth(void** state)
         for (int c = 0; c < 3; ++c) assert_true(f.pixels[4 * i + c] > 0 && isfinite(f.pixels[4 * i + c]));
     }
     assert_true(covered > 300);
-    finish();
+    hair_test_scene_free(&f.scene);
 }
 
 // Check a slice at z = 0 of the head, which is z = -1 of the world. Everything nearer to the eye is
@@ -134,10 +114,10 @@ static void field_slice_is_red_inside_and_blue_outside(void** state)
 {
     start(state);
     hair_field_info info = hair_field_info_default();
-    hair_test_ok(f.test, hair_get_field(f.hair, &info));
-    const double height = (double)f.hair->field.box.lower.z, length = (double)info.voxel * info.size[2];
-    f.view.slice = HAIR_SLICE_Z;
-    f.view.slice_at = (float)(-height / length);
+    hair_test_ok(f.scene.test, hair_get_field(f.scene.hair, &info));
+    const double height = (double)f.scene.hair->field.box.lower.z, length = (double)info.voxel * info.size[2];
+    f.scene.view.slice = HAIR_SLICE_Z;
+    f.scene.view.slice_at = (float)(-height / length);
     draw();
     int inside = 0, outside = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
@@ -157,29 +137,29 @@ static void field_slice_is_red_inside_and_blue_outside(void** state)
     // Nothing remains of the ball before the slice.
     for (int i = 0; i < SIDE * SIDE; ++i)
         if (f.depths[i] < 1) assert_true((double)f.depths[i] > depth_at(-1) - 1e-4);
-    finish();
+    hair_test_scene_free(&f.scene);
 }
 
 static void field_and_picture_are_empty_without_colliders(void** state)
 {
     start(state);
-    hair_test_ok(f.test, hair_set_colliders(f.hair, NULL, 0, sizeof *f.colliders));
-    f.view.slice = HAIR_SLICE_X;
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, NULL, 0, sizeof *f.colliders));
+    f.scene.view.slice = HAIR_SLICE_X;
     draw();
     for (int i = 0; i < SIDE * SIDE; ++i) assert_true(f.depths[i] == 1 && f.pixels[4 * i] == 0);
-    assert_int_equal(f.hair->field.distance, 0);
-    finish();
+    assert_int_equal(f.scene.hair->field.distance, 0);
+    hair_test_scene_free(&f.scene);
 }
 
 static void field_is_absent_without_a_slice(void** state)
 {
     start(state);
     draw();
-    assert_int_equal(f.hair->field.distance, 0);
-    f.view.slice = HAIR_SLICE_Y;
+    assert_int_equal(f.scene.hair->field.distance, 0);
+    f.scene.view.slice = HAIR_SLICE_Y;
     draw();
-    assert_true(f.hair->field.distance != 0);
-    finish();
+    assert_true(f.scene.hair->field.distance != 0);
+    hair_test_scene_free(&f.scene);
 }
 
 int main(void)

@@ -19,7 +19,7 @@ struct fixture {
     struct hair_test* test;
     hair_groom* groom;
     struct hair_collider_field field;
-    hair_collision_mesh* forms[2]; // A ball of 0.1 m and a box.
+    hair_collision_mesh* meshes[2]; // A ball of 0.1 m and a box.
     hair_collider colliders[COLLIDERS];
     uint32_t random;
 };
@@ -45,14 +45,14 @@ static void begin(struct hair_test* test, struct fixture* out)
     static const float half[] = {0.05f, 0.08f, 0.03f};
     *out = (struct fixture){.test = test, .random = 3};
     out->groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    out->forms[0] = mesh_of(test, hair_test_ball_mesh(0.1f, 24, 48));
-    out->forms[1] = mesh_of(test, hair_test_box_mesh(half));
+    out->meshes[0] = mesh_of(test, hair_test_ball_mesh(0.1f, 24, 48));
+    out->meshes[1] = mesh_of(test, hair_test_box_mesh(half));
     hair_field_create(&out->field, &test->context->sdf_pool, out->groom, VOXEL);
     for (int i = 0; i < COLLIDERS; ++i) {
         out->colliders[i] = hair_test_any_collider(&out->field.box, &head, 0.1f, &out->random);
         if (i % 2) continue;
         out->colliders[i].shape = HAIR_SHAPE_MESH;
-        out->colliders[i].mesh = out->forms[i / 2 % 2];
+        out->colliders[i].mesh = out->meshes[i / 2 % 2];
         out->colliders[i].scale = 0.6f + 0.3f * (float)i;
     }
 }
@@ -62,8 +62,8 @@ static void end(struct fixture* f)
     hair_field_destroy(&f->field);
     assert_null(f->test->context->sdf_pool.pooled);
     assert_int_equal(f->test->context->sdf_pool.nodes, 0);
-    hair_collision_mesh_destroy(f->forms[0]);
-    hair_collision_mesh_destroy(f->forms[1]);
+    hair_collision_mesh_destroy(f->meshes[0]);
+    hair_collision_mesh_destroy(f->meshes[1]);
     hair_groom_destroy(f->groom);
 }
 
@@ -117,7 +117,7 @@ static void mesh_of_a_ball_equals_a_sphere(void** state)
     begin(*state, &f);
     hair_collider ball = f.colliders[0], sphere = f.colliders[0];
     struct hair_test_field read;
-    ball.mesh = f.forms[0];
+    ball.mesh = f.meshes[0];
     sphere.shape = HAIR_SHAPE_SPHERE;
     sphere.size[0] = 0.1f * ball.scale;
     double voxel = (double)f.field.box.voxel, max = 0;
@@ -151,7 +151,7 @@ static void mesh_is_uploaded_once_for_all_instances(void** state)
     hair_field_destroy(&other);
     assert_int_equal(collision_meshes->pooled[0].users + collision_meshes->pooled[1].users, 3);
     // The first mesh is released, and another takes its place.
-    for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[1];
+    for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.meshes[1];
     update(&f);
     assert_int_equal(collision_meshes->pooled[0].users + collision_meshes->pooled[1].users, 3);
     assert_true(!collision_meshes->pooled[0].mesh || !collision_meshes->pooled[1].mesh);
@@ -166,13 +166,13 @@ static void meshes_that_come_and_go_reuse_their_memory(void** state)
     begin(*state, &f);
     size_t max = 0;
     for (int round = 0; round < 40; ++round) {
-        for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.forms[round % 2];
+        for (int i = 0; i < COLLIDERS; i += 2) f.colliders[i].mesh = f.meshes[round % 2];
         update(&f);
         max = f.test->context->sdf_pool.room > max ? f.test->context->sdf_pool.room : max;
     }
     size_t nodes = 0;
     for (int i = 0; i < 2; ++i)
-        nodes += (size_t)f.forms[i]->size[0] * f.forms[i]->size[1] * f.forms[i]->size[2];
+        nodes += (size_t)f.meshes[i]->size[0] * f.meshes[i]->size[1] * f.meshes[i]->size[2];
     assert_true(max <= 3 * nodes + 65536);
     check_voxels(&f);
     end(&f);
@@ -183,8 +183,8 @@ static void mesh_stays_alive_while_a_field_uses_it(void** state)
     struct fixture f;
     begin(*state, &f);
     update(&f);
-    hair_collision_mesh_destroy(f.forms[0]);
-    f.forms[0] = NULL;
+    hair_collision_mesh_destroy(f.meshes[0]);
+    f.meshes[0] = NULL;
     f.colliders[1].position[1] += 0.03f;
     update(&f);
     check_voxels(&f);

@@ -80,7 +80,7 @@ static void face_fractions_equal_the_uncovered_area(void** state)
         double expected = hair_reference_open(axis, at, from_ball, middle);
         // The error of the field is the rounding of half floats and the chord of 5 mm. Together
         // they are at most 1/40 of a cell, all along a face.
-        hair_test_near("share", i, open[i], expected, 0.1);
+        hair_test_near("openness", i, open[i], expected, 0.1);
         max = fmax(max, fabs(open[i] - expected));
     }
     print_message("    off by at most %.4f\n", max);
@@ -95,7 +95,7 @@ static void coarse_face_fractions_are_means_of_four(void** state)
     double *fine = hair_test_fluid_open(&f, 0), *coarse = hair_test_fluid_open(&f, 1);
     double* expected = calloc(3 * cubed(CELLS / 2 + 1), sizeof *expected);
     hair_reference_coarsen(CELLS, fine, expected);
-    check("share", coarse, expected, 3 * cubed(CELLS / 2 + 1), 0.51 / 1023);
+    check("openness", coarse, expected, 3 * cubed(CELLS / 2 + 1), 0.51 / 1023);
     free(fine), free(coarse), free(expected);
     hair_test_fluid_end(&f);
 }

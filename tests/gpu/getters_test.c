@@ -1,29 +1,14 @@
 // getters_test.c - physics, look, wind and transform of an instance are returned as they were set.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/handmade.h"
-
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
-static struct fixture begin(struct hair_test* test, const hair_desc* desc)
+static struct hair_test_scene begin(struct hair_test* test, const hair_desc* desc)
 {
-    struct fixture f = {test, hair_test_groom(&test->host.host, hair_test_handmade_default()), NULL};
-    hair_test_ok(test, hair_create(test->context, f.groom, desc, &f.hair));
+    struct hair_test_scene f = hair_test_scene_make(test, NULL);
+    hair_test_scene_add(&f, NULL, desc);
     return f;
-}
-
-static void end(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
 }
 
 // Set every number between its default and its maximum. Enums and switches get their maximum.
@@ -58,7 +43,7 @@ static void physics_are_those_that_were_set(void** state)
     hair_desc desc = hair_desc_default();
     first.damping = 7;
     desc.physics = &first;
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     hair_test_ok(f.test, hair_get_physics(f.hair, &got));
     check_same(&first, &got, hair_schema_of_hair_physics());
     vary(&second, hair_schema_of_hair_physics());
@@ -68,7 +53,7 @@ static void physics_are_those_that_were_set(void** state)
     hair_test_forgive(f.test);
     hair_test_ok(f.test, hair_get_physics(f.hair, &got));
     check_same(&second, &got, hair_schema_of_hair_physics());
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check a wet look too. The library draws other numbers than the application has set.
@@ -78,7 +63,7 @@ static void the_look_is_the_one_that_was_set(void** state)
     hair_desc desc = hair_desc_default();
     first.wetness = 1;
     desc.look = &first;
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     hair_test_ok(f.test, hair_get_look(f.hair, &got));
     check_same(&first, &got, hair_schema_of_hair_look());
     assert_true(f.hair->geometry.look.strays.fraction < got.strays.fraction);
@@ -89,7 +74,7 @@ static void the_look_is_the_one_that_was_set(void** state)
     hair_test_ok(f.test, hair_set_look(f.hair, &got));
     hair_test_ok(f.test, hair_get_look(f.hair, &got));
     check_same(&second, &got, hair_schema_of_hair_look());
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
 static void the_wind_and_its_sources_are_those_that_were_set(void** state)
@@ -97,7 +82,7 @@ static void the_wind_and_its_sources_are_those_that_were_set(void** state)
     hair_wind usual = hair_wind_default(), wind = usual, got = usual;
     hair_wind_source sources[4];
     hair_desc desc = hair_desc_default();
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     hair_test_ok(f.test, hair_get_wind(f.hair, &got));
     check_same(&usual, &got, hair_schema_of_hair_wind());
     assert_null(got.sources);
@@ -119,10 +104,10 @@ static void the_wind_and_its_sources_are_those_that_were_set(void** state)
     hair_test_ok(f.test, hair_set_wind(f.hair, NULL));
     hair_test_ok(f.test, hair_get_wind(f.hair, &got));
     check_same(&usual, &got, hair_schema_of_hair_wind());
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
-static void check_transform(struct fixture* f, const float expected[16])
+static void check_transform(struct hair_test_scene* f, const float expected[16])
 {
     float got[16];
     hair_test_ok(f->test, hair_get_transform(f->hair, got));
@@ -139,13 +124,13 @@ static void the_transform_is_that_of_the_last_call_that_sets_it(void** state)
                                 {1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 1e6f, 0.1f, -3, 1},
                                 {c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, -1, 0, 7e-3f, 1}};
     memcpy(desc.transform, poses[0], sizeof desc.transform);
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     check_transform(&f, poses[0]);
     hair_test_ok(f.test, hair_set_transform(f.hair, poses[1]));
     check_transform(&f, poses[1]);
     hair_test_ok(f.test, hair_teleport(f.hair, poses[2]));
     check_transform(&f, poses[2]);
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check that nothing beyond the end of an older caller's struct is written, and that its header
@@ -153,7 +138,7 @@ static void the_transform_is_that_of_the_last_call_that_sets_it(void** state)
 static void an_older_caller_gets_the_members_that_it_knows(void** state)
 {
     hair_desc desc = hair_desc_default();
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     hair_physics physics = hair_physics_default(), untouched;
     memset(&physics, 0x55, sizeof physics);
     physics.header = (hair_struct_header){offsetof(hair_physics, fiber), 200};
@@ -163,7 +148,7 @@ static void an_older_caller_gets_the_members_that_it_knows(void** state)
     assert_int_equal(physics.header.version, 200);
     assert_true(physics.damping == 4 && physics.drag == 0.1f);
     assert_memory_equal(&physics.fiber, &untouched.fiber, sizeof physics - offsetof(hair_physics, fiber));
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
 static void a_struct_that_no_default_function_filled_in_is_refused(void** state)
@@ -171,7 +156,7 @@ static void a_struct_that_no_default_function_filled_in_is_refused(void** state)
     static const hair_struct_header wrong[] = {{0, 0},  {7, HAIR_VERSION}, {5000, HAIR_VERSION},
                                                {64, 0}, {64, 199},         {64, HAIR_VERSION + 10000}};
     hair_desc desc = hair_desc_default();
-    struct fixture f = begin(*state, &desc);
+    struct hair_test_scene f = begin(*state, &desc);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         hair_physics physics = hair_physics_default();
         hair_look look = hair_look_default();
@@ -183,7 +168,7 @@ static void a_struct_that_no_default_function_filled_in_is_refused(void** state)
         hair_test_refused(f.test, hair_get_wind(f.hair, &wind), HAIR_ERROR_VERSION, "hair_wind");
         assert_true(physics.damping == 0.625f && look.wetness == 0.625f && wind.shelter == 0.625f);
     }
-    end(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

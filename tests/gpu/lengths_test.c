@@ -180,12 +180,7 @@ static void only_one_work_group_size_runs(void** state)
 {
     struct hair_test* test = *state;
     for (size_t n = 0; n < WAYS; ++n) {
-        hair_context* context = NULL;
-        hair_context_desc of = hair_context_desc_default();
-        of.host = &test->host.host;
-        of.get_proc = hair_egl_get_proc;
-        of.timings = true;
-        hair_test_ok(test, hair_context_create(&of, &context));
+        hair_context* context = hair_test_context(test, hair_egl_get_proc);
         check_sizes(state, context, ways[n]);
         hair_context_destroy(context);
     }

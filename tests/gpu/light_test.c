@@ -1,61 +1,39 @@
 // light_test.c - lights of a view: they add up, weaken with distance, end at their limits, and
 // always give finite pixels.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
-
 #define SIZE 48
 #define VALUES (4 * SIZE * SIZE)
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-    hair_view view;
+    struct hair_test_scene scene;
     hair_light light[16];
 };
 
 static struct fixture start(void** state, hair_shading shading)
 {
-    struct fixture f = {.test = *state, .view = hair_view_default()};
-    struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
+    struct fixture f;
     hair_look look = hair_look_default();
     look.shading.model = shading, look.strand.segments = 8, look.strand.radius = 0.002f;
     look.shading.roughness[0] = look.shading.roughness[1] = 0.05f; // These are the sharpest lobes.
-    desc.look = &look;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    f.scene = hair_test_scene_of(*state, NULL, &look);
+    hair_test_frame_make(&f.scene.frame, SIZE, SIZE, GL_RGBA32F, 0);
     // The view looks straight down -z at a square of 0.6 m.
-    f.view.projection[0] = f.view.projection[5] = 1 / 0.3f;
-    f.view.projection[10] = -1;
+    hair_test_set_orthographic(&f.scene.view, 1 / 0.3f, -1, 0);
     for (int i = 0; i < 16; ++i) f.light[i] = hair_light_default();
-    f.view.light_count = 0;
-    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0;
+    for (int i = 0; i < 3; ++i) f.scene.view.ambient[i] = 0;
     return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
 }
 
 static void draw(struct fixture* f, uint32_t lights, float pixels[VALUES])
 {
-    f->view.lights = f->light;
-    f->view.light_count = lights;
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
-    hair_test_frame_read(&f->frame, pixels);
+    f->scene.view.lights = f->light;
+    f->scene.view.light_count = lights;
+    hair_test_draw_in(&f->scene.frame, f->scene.test, f->scene.hair, &f->scene.view, pixels);
 }
 
 static double sum_of(const float pixels[VALUES])
@@ -69,13 +47,12 @@ static void hair_without_light_is_black_but_drawn(void** state)
 {
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     static float pixels[VALUES];
-    double covered = 0;
     draw(&f, 0, pixels);
-    for (int i = 3; i < VALUES; i += 4) covered += (double)pixels[i];
+    double covered = SIZE * SIZE * hair_test_mean_alpha(pixels, VALUES);
     print_message("    %g pixels\n", covered);
     assert_true(covered > 20);
     assert_true(sum_of(pixels) == 0);
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void light_of_several_lights_is_their_sum(void** state)
@@ -101,7 +78,7 @@ static void light_of_several_lights_is_their_sum(void** state)
             double sum = (double)alone[0][i] + (double)alone[1][i] + (double)alone[2][i];
             hair_test_near("light", (size_t)i, (double)together[i], sum, 1e-4 * (1 + sum));
         }
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void point_light_falls_with_the_square_of_distance(void** state)
@@ -122,7 +99,7 @@ static void point_light_falls_with_the_square_of_distance(void** state)
     f.light[0].range = 999;
     draw(&f, 1, lamp);
     hair_test_near("beyond its range", 0, sum_of(lamp), 0, 0);
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 static void spot_light_shines_only_into_its_cone(void** state)
@@ -152,7 +129,7 @@ static void spot_light_shines_only_into_its_cone(void** state)
         }
     }
     assert_true(inside > 5 && outside > 5);
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 // Check spherical harmonics. A uniform sky equals harmonics of order 0. A sky that is brighter
@@ -162,10 +139,11 @@ static void sky_equals_its_spherical_harmonics(void** state)
     struct fixture f = start(state, HAIR_SHADING_FIBRES);
     float sky[27] = {0};
     static float even[VALUES], pixels[VALUES];
-    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 2;
+    for (int i = 0; i < 3; ++i) f.scene.view.ambient[i] = 2;
     draw(&f, 0, even);
-    for (int i = 0; i < 3; ++i) f.view.ambient[i] = 0, sky[i] = 2 / 0.886227f; // Pi times 0.282095.
-    f.view.sky = sky;
+    // The divisor is pi times 0.282095.
+    for (int i = 0; i < 3; ++i) f.scene.view.ambient[i] = 0, sky[i] = 2 / 0.886227f;
+    f.scene.view.sky = sky;
     draw(&f, 0, pixels);
     hair_test_near("an even sky", 0, sum_of(pixels) / sum_of(even), 1, 1e-5);
     sky[8] = sky[0] / 2; // Along z, towards the eye, which sees the surfaces that face it.
@@ -175,7 +153,7 @@ static void sky_equals_its_spherical_harmonics(void** state)
     double more = 0.5 * 3.14159265 / 4 * 1.023328 / 0.886227;
     print_message("    %.4f times as bright\n", sum_of(pixels) / sum_of(even));
     assert_true(sum_of(pixels) / sum_of(even) > 1 && sum_of(pixels) / sum_of(even) < 1 + more + 1e-4);
-    finish(&f);
+    hair_test_scene_free(&f.scene);
 }
 
 // Check the brightest lights, on vertices of strands and infinitely far, in nearly undefined
@@ -187,7 +165,8 @@ static void colors_are_finite_half_floats_under_any_light(void** state)
         static float pixels[VALUES], vertices[3 * 4096];
         uint32_t count;
         float sky[27];
-        hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
+        hair_test_ok(f.scene.test,
+                     hair_read_positions(f.scene.hair, HAIR_READ_FOLLOWERS, vertices, 4096, &count));
         for (int i = 0; i < 16; ++i) {
             f.light[i].kind = (hair_light_kind)(i % 3);
             memcpy(f.light[i].position, vertices + 3 * (37 * i % 4096), 3 * sizeof(float));
@@ -197,12 +176,12 @@ static void colors_are_finite_half_floats_under_any_light(void** state)
         }
         f.light[13].position[0] = 1e9f, f.light[10].direction[2] = 1e6f, f.light[5].range = 1e-6f;
         for (int i = 0; i < 27; ++i) sky[i] = i % 2 ? 1e6f : -1e6f;
-        f.view.sky = sky;
+        f.scene.view.sky = sky;
         draw(&f, 16, pixels);
         for (int i = 0; i < VALUES; ++i)
             if (!(pixels[i] >= 0 && pixels[i] <= 65504)) fail_msg("value %d is %g", i, (double)pixels[i]);
         assert_true(sum_of(pixels) > 1e5);
-        finish(&f);
+        hair_test_scene_free(&f.scene);
     }
 }
 

@@ -12,17 +12,6 @@
 
 #define MAX 4096
 
-// Count the OpenGL objects that exist, by trying all names.
-static uint32_t count_objects(void)
-{
-    uint32_t count = 0;
-    for (GLuint name = 1; name < 8192; ++name)
-        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
-                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
-                 glIsTransformFeedback(name) + glIsQuery(name);
-    return count;
-}
-
 static void live_once(struct hair_test* test, const hair_groom* groom, int way, int reads)
 {
     static float positions[3 * MAX];
@@ -56,33 +45,22 @@ static void two_hundred_instances_leave_no_memory(void** state)
     for (int way = 0; way < HAIR_TEST_WAYS; ++way) {
         // Programs are compiled when they are first needed, and stay.
         live_once(test, groom, way, 1);
-        uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
+        uint32_t objects = hair_test_count_objects(), blocks = hair_test_blocks(test);
         for (int life = 0; life < 200 / HAIR_TEST_WAYS + 1; ++life)
             live_once(test, groom, way, life % 10 == 0);
-        assert_int_equal(count_objects(), objects);
+        assert_int_equal(hair_test_count_objects(), objects);
         assert_int_equal(hair_test_blocks(test), blocks);
     }
     hair_test_frame_free(&frame);
     hair_groom_destroy(groom);
 }
 
-static hair_context* make_context(struct hair_test* test)
-{
-    hair_context* context = NULL;
-    hair_context_desc desc = hair_context_desc_default();
-    desc.host = &test->host.host;
-    desc.get_proc = hair_egl_get_proc;
-    desc.timings = true;
-    hair_test_ok(test, hair_context_create(&desc, &context));
-    return context;
-}
-
 static void destroyed_context_leaves_no_memory(void** state)
 {
     struct hair_test* test = *state;
-    uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
+    uint32_t objects = hair_test_count_objects(), blocks = hair_test_blocks(test);
     for (int life = 0; life < 5; ++life) {
-        hair_context* context = make_context(test);
+        hair_context* context = hair_test_context(test, hair_egl_get_proc);
         hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
         hair_instance* hair = NULL;
         hair_desc of = hair_desc_default();
@@ -93,14 +71,14 @@ static void destroyed_context_leaves_no_memory(void** state)
         hair_context_destroy(context);
         hair_groom_destroy(groom);
     }
-    assert_int_equal(count_objects(), objects);
+    assert_int_equal(hair_test_count_objects(), objects);
     assert_int_equal(hair_test_blocks(test), blocks);
 }
 
 static void timings_count_runs_of_every_pass(void** state)
 {
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_egl_get_proc);
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_instance* hair = NULL;
     hair_desc of = hair_test_way(0);
@@ -156,7 +134,7 @@ static void guides_are_smoothed_on_first_use_after_a_step(void** state)
 {
     static float often[3 * MAX], once[3 * MAX];
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_egl_get_proc);
     hair_groom* groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
     hair_desc of = hair_test_way(1);
     hair_instance *a = NULL, *b = NULL;
@@ -215,7 +193,7 @@ static void check_compiled(struct hair_test* test, int way)
     static const hair_gl_pass rows[HAIR_TEST_WAYS] = {
         HAIR_GL_DIRECT, HAIR_GL_DIRECT | THREAD, HAIR_GL_ACCURATE, HAIR_GL_ACCURATE | THREAD,
         HAIR_GL_FOLLOW, HAIR_GL_FOLLOW | THREAD, HAIR_GL_REDBLACK};
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_egl_get_proc);
     hair_collider collider = {HAIR_SHAPE_SPHERE, {0, 0, 0},  {0, 0, 0, 1},
                               {0.05f, 0},        .scale = 1, .friction = 1};
     hair_physics limp = hair_physics_default();

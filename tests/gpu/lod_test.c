@@ -1,13 +1,11 @@
 // lod_test.c - less is drawn of hair that is small or out of view, and the picture does not change
 // visibly.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
 #include "tests/support/haircut.h"
 
 // Tools are not linked into tests.
@@ -16,24 +14,12 @@
 
 enum { SIDE = 128, PIXELS = SIDE * SIDE, TURNS = 3 };
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
 // Make a built-in haircut of few strands, each as wide as several.
-static struct fixture start(void** state, hair_style style, uint32_t followers, float radius)
+static struct hair_test_scene start(void** state, hair_style style, uint32_t followers, float radius)
 {
-    struct fixture f = {.test = *state};
+    struct hair_test_scene f = hair_test_scene_make(*state, NULL);
     f.hair = hair_test_wear(f.test, style, followers, radius, &f.groom);
     return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
 }
 
 // Make a view of the head at a distance, from the front or `turn` radians from it. The picture is
@@ -52,9 +38,7 @@ static hair_view view_from(float distance, float turn)
             view.view[12 + i] -= rows[i][k] * target[k];
         }
     }
-    view.projection[0] = view.projection[5] = 4; // 28 degrees.
-    view.projection[10] = -1, view.projection[14] = -0.02f;
-    view.projection[11] = -1, view.projection[15] = 0;
+    hair_test_set_perspective(&view, 4, 1); // 28 degrees.
     return view;
 }
 
@@ -63,26 +47,21 @@ struct picture {
     uint64_t primitives; // Triangles, two per segment.
 };
 
-static void draw(struct fixture* f, const hair_view* view, const hair_view* before, struct picture* out)
+static void draw(struct hair_test_scene* f, const hair_view* view, const hair_view* before,
+                 struct picture* out)
 {
     struct hair_test_frame frame;
-    GLuint query;
-    GLuint64 count = 0;
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 4);
     if (before) hair_test_ok(f->test, hair_draw(f->hair, before));
-    glCreateQueries(GL_PRIMITIVES_GENERATED, 1, &query);
-    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+    GLuint query = hair_test_count_begin();
     hair_test_ok(f->test, hair_draw(f->hair, view));
-    glEndQuery(GL_PRIMITIVES_GENERATED);
-    glGetQueryObjectui64v(query, GL_QUERY_RESULT, &count);
-    glDeleteQueries(1, &query);
+    out->primitives = hair_test_count_end(query);
     hair_test_frame_read(&frame, out->pixels);
     hair_test_frame_free(&frame);
-    out->primitives = count;
 }
 
 // Return the area that strands of one uniform colour cover, in pixels.
-static double coverage_of(struct fixture* f, float distance, const hair_lod* lod)
+static double coverage_of(struct hair_test_scene* f, float distance, const hair_lod* lod)
 {
     static struct picture picture;
     double sum = 0;
@@ -90,15 +69,15 @@ static double coverage_of(struct fixture* f, float distance, const hair_lod* lod
         hair_view view = view_from(distance, 2.0f * (float)turn);
         view.lod = lod;
         draw(f, &view, NULL, &picture);
-        for (int i = 0; i < PIXELS; ++i) sum += (double)picture.pixels[4 * i + 3];
+        sum += hair_test_mean_alpha(picture.pixels, 4 * PIXELS);
     }
-    return sum / (TURNS * PIXELS);
+    return sum / TURNS;
 }
 
 static void fewer_strands_cover_as_much_as_all(void** state)
 {
     for (hair_style style = HAIR_STYLE_LONG; style < HAIR_STYLE_COUNT; ++style) {
-        struct fixture f = start(state, style, 18000, 1.5e-4f);
+        struct hair_test_scene f = start(state, style, 18000, 1.5e-4f);
         hair_lod lod = hair_lod_default();
         double full = coverage_of(&f, 1.4f, NULL);
         assert_true(full > 0.03);
@@ -111,7 +90,7 @@ static void fewer_strands_cover_as_much_as_all(void** state)
                           100.0 * (double)fractions[k], covered / full);
             hair_test_near("coverage", (size_t)k, covered / full, 1, 0.02);
         }
-        finish(&f);
+        hair_test_scene_free(&f);
     }
 }
 
@@ -154,7 +133,7 @@ static void level_of_detail_changes_smoothly_with_distance(void** state)
 {
     enum { FRAMES = 300, EVERY = 10 };
     static struct picture full[2], low[2];
-    struct fixture f = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
+    struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 1500, 1e-3f);
     hair_lod lod = hair_lod_default();
     double max = -1, far = 0;
     uint64_t first = 0;
@@ -175,14 +154,14 @@ static void level_of_detail_changes_smoothly_with_distance(void** state)
     assert_true(max <= 0.005);
     assert_true(10 * low[1].primitives <= first);
     assert_true(far <= 0.03);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check both sides of a change in the number of segments or strands. The pictures differ by little.
 static void strands_and_segments_are_reduced_without_popping(void** state)
 {
     static struct picture picture[2];
-    struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
     hair_view view = view_from(1.2f, 0);
     hair_lod lod = hair_lod_default();
     view.lod = &lod;
@@ -202,7 +181,7 @@ static void strands_and_segments_are_reduced_without_popping(void** state)
                           sum / (4 * PIXELS));
             assert_true(sum / (4 * PIXELS) < 1e-4);
         }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check pushing followers out at a distance. A displacement of one pixel starts the effect, and a
@@ -213,7 +192,7 @@ static void push_out_fades_without_popping(void** state)
     static struct picture picture[4];
     // Sizes of 5 mm in the picture.
     static const float pixels[4] = {0.99999f, 1.00001f, 1.99999f, 2.00001f};
-    struct fixture f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
+    struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 600, 2e-3f);
     hair_view view = view_from(0.9f, 0.5f);
     hair_lod lod = hair_lod_default();
     hair_collider collider = hair_collider_default();
@@ -243,7 +222,7 @@ static void push_out_fades_without_popping(void** state)
                       (double)pixels[i + 1], sum);
         assert_true(i == 1 ? sum > 1e-3 : sum < 1e-4);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static int differ(const struct picture* a, const struct picture* b)
@@ -268,7 +247,7 @@ static void only_patches_out_of_view_are_missing(void** state)
     static struct picture full, plain, culled;
     hair_physics held = hair_physics_default(), lets_go = held;
     lets_go.root = HAIR_ROOT_FREE;
-    struct fixture f = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
+    struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 2000, 1e-3f);
     hair_lod lod = only_culling();
     uint64_t all = 0, left = 0, undetailed = 0;
     for (int i = -8; i <= 8; ++i) {
@@ -304,14 +283,14 @@ static void only_patches_out_of_view_are_missing(void** state)
     hair_test_ok(f.test, hair_set_physics(f.hair, &physics));
     draw(&f, &away, NULL, &culled);
     assert_int_equal(culled.primitives, full.primitives);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Draw the head in front as a collider. The picture then must not miss the strands behind.
 static void hair_behind_the_head_is_not_drawn(void** state)
 {
     static struct picture full, culled;
-    struct fixture f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
+    struct hair_test_scene f = start(state, HAIR_STYLE_SHORT, 6000, 3e-4f);
     hair_lod lod = only_culling();
     hair_collider collider = hair_collider_default();
     hair_vec4 head_sphere = f.groom->head_sphere;
@@ -338,7 +317,7 @@ static void hair_behind_the_head_is_not_drawn(void** state)
         if (left < min) min = left;
     }
     assert_true(min < 0.85); // In the view from behind, nothing is occluded.
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

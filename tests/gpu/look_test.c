@@ -1,42 +1,24 @@
 // look_test.c - followers do what the look specifies: fractions, radii and lengths. Disabled
 // settings change no bit.
 #include "tests/support/passes.h"
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/strands/geometry.h"
-#include "tests/support/handmade.h"
 
 #define FOLLOWERS 4000
 #define SEGMENTS 40u
 #define EACH (SEGMENTS + 1)
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
 // Create straight guides. Offsets by the look are then perpendicular to a line.
-static struct fixture start(void** state)
+static struct hair_test_scene start(void** state)
 {
-    struct fixture f = {.test = *state};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
     wanted.turn = 0, wanted.followers = FOLLOWERS, wanted.each = 64;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    return hair_test_scene_of(*state, &wanted, NULL);
 }
 
 static hair_look plain_look(void)
@@ -47,7 +29,7 @@ static hair_look plain_look(void)
     return look;
 }
 
-static float* read_with(struct fixture* f, const hair_look* look)
+static float* read_with(struct hair_test_scene* f, const hair_look* look)
 {
     uint32_t count = FOLLOWERS * EACH, there;
     float* positions = malloc(3 * sizeof *positions * count);
@@ -78,7 +60,7 @@ static double fraction_moved(const float* a, const float* b, size_t first, size_
 
 static void stray_fraction_is_the_fraction_of_strays(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
     look.strays.tip_fraction = 0.3f;
@@ -99,13 +81,13 @@ static void stray_fraction_is_the_fraction_of_strays(void** state)
     hair_test_near("all", 0, fraction_moved(plain, all, 0, SEGMENTS), 1, 0);
     hair_test_near("roots", 0, fraction_moved(plain, all, 0, 0), 0, 0);
     free(plain), free(tips), free(whole), free(all);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check the radius of curls all along the strand. Therefore the tip gets no nearer to the root.
 static void curls_are_their_radius_away_from_the_strand(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
     look.curl.radius = 0.004f;
@@ -119,12 +101,12 @@ static void curls_are_their_radius_away_from_the_strand(void** state)
     float* rooted = read_with(&f, &look);
     hair_test_near("roots", 0, fraction_moved(plain, rooted, 0, 0), 0, 0);
     free(plain), free(curled), free(rooted);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void strands_have_the_length_of_the_look(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     float* whole = read_with(&f, &look);
@@ -152,12 +134,12 @@ static void strands_have_the_length_of_the_look(void** state)
     // Lengths are uniformly distributed from 0.2 to 1.
     hair_test_near("thinned", 0, mean, 0.6, 0.03);
     free(whole), free(half), free(thinned);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void follower_without_offset_is_its_guide(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     look.clump.width = hair_curve_line(0, 0);
@@ -178,12 +160,12 @@ static void follower_without_offset_is_its_guide(void** state)
             }
         }
     free(positions), free(smooth);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void interpolation_modes_are_the_ends_of_the_blend(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     for (int single = 0; single < 2; ++single) {
         look.clump.interpolation = single ? HAIR_INTERPOLATION_SINGLE : HAIR_INTERPOLATION_MULTI;
@@ -194,12 +176,12 @@ static void interpolation_modes_are_the_ends_of_the_blend(void** state)
         assert_memory_equal(pure, mixed, 3 * sizeof *pure * FOLLOWERS * EACH);
         free(pure), free(mixed);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void disabled_look_has_no_effect_and_no_program(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look(), off = look;
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
@@ -227,12 +209,12 @@ static void disabled_look_has_no_effect_and_no_program(void** state)
     assert_memory_not_equal(plain, same, size);
     assert_true(hair_test_runs_of(&f.test->context->gl, "_styled") == styled + 1);
     free(plain), free(same);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void invalid_looks_are_refused_by_name(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_look look = plain_look();
     look.strand.taper.at[3] = NAN;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
@@ -245,7 +227,7 @@ static void invalid_looks_are_refused_by_name(void** state)
     look.curl.profile_x[15] = 1.5f;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
                       "hair_look.curl.profile_x[15] is 1.5");
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -1,50 +1,40 @@
 // motion_test.c - velocities on the screen. They agree with the strands for moving hair and a
 // moving camera, at every level of detail, and through teleports and resets. Jitter moves pictures,
 // and not velocities.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 
 #define SIDE 96
 #define SEGMENTS 16u
 #define ROUNDED 1e-4 // Pixels. Two programs compute the previous and the present position.
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     uint32_t count; // Vertices of all followers.
     float *now, *before;
 };
 
 static struct fixture start(void** state)
 {
-    struct fixture f = {.test = *state};
-    hair_desc desc = hair_desc_default();
+    struct fixture f;
     hair_look look = hair_look_default();
     look.strand.radius = 0.003f;
     look.strand.segments = SEGMENTS;
     look.curl.radius = 0.003f;
-    desc.look = &look;
-    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
-    f.count = f.groom->info.follower_count * (SEGMENTS + 1);
+    f.scene = hair_test_scene_of(*state, NULL, &look);
+    f.count = f.scene.groom->info.follower_count * (SEGMENTS + 1);
     f.now = malloc(3 * sizeof(float) * f.count);
     f.before = malloc(3 * sizeof(float) * f.count);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
     return f;
 }
 
 static void finish(struct fixture* f)
 {
     free(f->now), free(f->before);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
 }
 
 static void set_matrix(float m[16], float x, float y, float z)
@@ -76,7 +66,8 @@ static void read_now(struct fixture* f)
     float* swap = f->before;
     f->before = f->now;
     f->now = swap;
-    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, f->now, f->count, &count));
+    hair_test_ok(f->scene.test,
+                 hair_read_positions(f->scene.hair, HAIR_READ_FOLLOWERS, f->now, f->count, &count));
     assert_int_equal(count, f->count);
 }
 
@@ -85,38 +76,19 @@ struct picture {
     uint32_t id[4 * SIDE * SIDE];
 };
 
-static void draw(struct fixture* f, const hair_view* view, struct picture* out)
+static void draw(const struct fixture* f, const hair_view* view, struct picture* out)
 {
-    GLuint framebuffer[2], target[4];
-    static const float far_away = 1, none[4] = {9, 9, 9, 9};
-    static const GLuint nothing[4] = {0};
-    glCreateFramebuffers(2, framebuffer);
-    glCreateRenderbuffers(4, target);
-    glEnable(GL_DEPTH_TEST);
-    glViewport(0, 0, SIDE, SIDE);
+    static const float none[4] = {9, 9, 9, 9};
+    struct hair_test_frame frame;
     hair_view own = *view;
-    for (int i = 0; i < 2; ++i) {
-        glNamedRenderbufferStorage(target[2 * i], i ? GL_RGBA32UI : GL_RGBA32F, SIDE, SIDE);
-        glNamedRenderbufferStorage(target[2 * i + 1], GL_DEPTH_COMPONENT32F, SIDE, SIDE);
-        glNamedFramebufferRenderbuffer(framebuffer[i], GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target[2 * i]);
-        glNamedFramebufferRenderbuffer(framebuffer[i], GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER,
-                                       target[2 * i + 1]);
-        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer[i]);
-        if (i)
-            glClearNamedFramebufferuiv(framebuffer[i], GL_COLOR, 0, nothing);
-        else
-            glClearNamedFramebufferfv(framebuffer[i], GL_COLOR, 0, none);
-        glClearNamedFramebufferfv(framebuffer[i], GL_DEPTH, 0, &far_away);
-        own.pass = i ? HAIR_PASS_ID : HAIR_PASS_MOTION;
-        own.render_path = HAIR_RENDER_PATH_CACHED;
-        hair_test_ok(f->test, hair_draw(f->hair, &own));
-        if (i)
-            glReadPixels(0, 0, SIDE, SIDE, GL_RGBA_INTEGER, GL_UNSIGNED_INT, out->id);
-        else
-            glReadPixels(0, 0, SIDE, SIDE, GL_RGBA, GL_FLOAT, out->motion);
-    }
-    glDeleteFramebuffers(2, framebuffer);
-    glDeleteRenderbuffers(4, target);
+    own.render_path = HAIR_RENDER_PATH_CACHED;
+    own.pass = HAIR_PASS_MOTION;
+    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
+    glClearNamedFramebufferfv(frame.framebuffer, GL_COLOR, 0, none);
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &own));
+    hair_test_frame_read(&frame, out->motion);
+    hair_test_frame_free(&frame);
+    hair_test_draw_ids(f->scene.test, f->scene.hair, &own, SIDE, out->id);
 }
 
 static void project(const float view[16], const float projection[16], const double p[3], double out[2])
@@ -177,8 +149,8 @@ static void step(struct fixture* f, float x)
 {
     float transform[16];
     set_matrix(transform, x, 0, 0);
-    hair_test_ok(f->test, hair_set_transform(f->hair, transform));
-    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    hair_test_ok(f->scene.test, hair_set_transform(f->scene.hair, transform));
+    hair_test_ok(f->scene.test, hair_step(f->scene.hair, 1.0f / 60));
     read_now(f);
 }
 
@@ -208,7 +180,7 @@ static void motion_vectors_include_strands_and_camera(void** state)
     shadow.render_path = HAIR_RENDER_PATH_CACHED;
     for (int i = 0; i < 2; ++i) {
         step(&f, 0.02f + 0.01f * (float)i);
-        hair_test_ok(f.test, hair_draw(f.hair, &shadow));
+        hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &shadow));
     }
     hair_test_frame_free(&frame);
     draw(&f, &view, &picture);
@@ -281,7 +253,7 @@ static void motion_vectors_ignore_teleports_and_restart_at_resets(void** state)
     draw(&f, &view, &picture);
     step(&f, 0.01f);
     draw(&f, &view, &picture);
-    hair_test_ok(f.test, hair_teleport(f.hair, far));
+    hair_test_ok(f.scene.test, hair_teleport(f.scene.hair, far));
     read_now(&f);
     // The eye moves with the head, so its view does not change.
     static const float seen[16] = {0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 200.01f, -3, -500.8f, 1};
@@ -301,7 +273,7 @@ static void motion_vectors_ignore_teleports_and_restart_at_resets(void** state)
     }
     print_message("    teleported: %u pixels, up to %.5f pixels a frame\n", covered, max);
     assert_true(covered > 200 && max < 0.01);
-    hair_test_ok(f.test, hair_reset(f.hair));
+    hair_test_ok(f.scene.test, hair_reset(f.scene.hair));
     draw(&f, &view, &picture);
     for (int i = 0; i < SIDE * SIDE; ++i)
         if (picture.motion[4 * i + 3] != 9)
@@ -317,12 +289,8 @@ static void jitter_moves_the_picture_but_no_motion_vector(void** state)
     struct fixture f = start(state);
     hair_view view = view_of(HAIR_PASS_COLOR, 0);
     for (int i = 0; i < 2; ++i) {
-        struct hair_test_frame frame;
-        hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
         view.jitter[0] = (float)(3 * i), view.jitter[1] = (float)(-2 * i);
-        hair_test_ok(f.test, hair_draw(f.hair, &view));
-        hair_test_frame_read(&frame, pixels[i]);
-        hair_test_frame_free(&frame);
+        hair_test_draw(&f.scene, &view, SIDE, SIDE, 0, pixels[i], NULL);
     }
     uint32_t covered = 0, other = 0;
     for (int y = 2; y < SIDE; ++y)
@@ -356,13 +324,13 @@ static void history_is_not_kept_without_motion_vectors(void** state)
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 3; ++i) {
         view.render_path = (hair_render_path)i;
-        hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-        hair_test_ok(f.test, hair_draw(f.hair, &view));
+        hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
+        hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &view));
     }
-    assert_int_equal(f.hair->geometry.history.buffer, 0);
+    assert_int_equal(f.scene.hair->geometry.history.buffer, 0);
     view.pass = HAIR_PASS_MOTION;
-    hair_test_ok(f.test, hair_draw(f.hair, &view));
-    assert_int_not_equal(f.hair->geometry.history.buffer, 0);
+    hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &view));
+    assert_int_not_equal(f.scene.hair->geometry.history.buffer, 0);
     hair_test_frame_free(&frame);
     finish(&f);
 }

@@ -1,7 +1,7 @@
 // occluder_depth_test.c - wrong and hostile textures and matrices of the application. Each gives an
 // error that names the field, or a picture. None gives an OpenGL error or a number that is not
 // finite.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <float.h>
 #include <math.h>
@@ -9,17 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
-
 #define SIZE 32
 
 struct fixture {
-    struct hair_test* test;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-    hair_view view;
+    struct hair_test_scene scene;
     GLuint depth;
 };
 
@@ -39,15 +32,9 @@ static GLuint make_texture(GLenum target, GLenum format, GLsizei size)
 static struct fixture start(void** state)
 {
     static const float near_by = 0.01f;
-    struct fixture f = {.test = *state, .view = hair_view_default()};
-    struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
-    hair_groom* groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, groom, &desc, &f.hair));
-    hair_groom_destroy(groom);
-    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
-    f.view.projection[0] = f.view.projection[5] = 2;
-    f.view.projection[10] = -2;
+    struct fixture f = {.scene = hair_test_scene_of(*state, NULL, NULL)};
+    hair_test_frame_make(&f.scene.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    hair_test_set_orthographic(&f.scene.view, 2, -2, 0);
     f.depth = make_texture(GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, SIZE);
     glClearTexImage(f.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &near_by);
     return f;
@@ -56,17 +43,14 @@ static struct fixture start(void** state)
 static void finish(struct fixture* f)
 {
     glDeleteTextures(1, &f->depth);
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
+    hair_test_scene_free(&f->scene);
 }
 
 static uint32_t draw(struct fixture* f)
 {
     static float pixels[4 * SIZE * SIZE];
     uint32_t drawn = 0;
-    hair_test_frame_clear(&f->frame);
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
-    hair_test_frame_read(&f->frame, pixels);
+    hair_test_draw_in(&f->scene.frame, f->scene.test, f->scene.hair, &f->scene.view, pixels);
     for (int i = 0; i < 4 * SIZE * SIZE; ++i) {
         assert_true(pixels[i] >= 0 && pixels[i] <= 65504);
         drawn += pixels[i] > 0;
@@ -79,14 +63,15 @@ static void refuse(struct fixture* f, GLuint texture)
     static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_ID, HAIR_PASS_OPACITY};
     char words[128];
     snprintf(words, sizeof words, "hair_view.occluder_depth is %u, not a 2D texture of depth", texture);
-    f->view.occluder_depth = texture;
+    f->scene.view.occluder_depth = texture;
     for (int i = 0; i < 4; ++i) {
-        f->view.pass = passes[i];
-        hair_test_refused(f->test, hair_draw(f->hair, &f->view), HAIR_ERROR_ARGUMENT, words);
+        f->scene.view.pass = passes[i];
+        hair_test_refused(f->scene.test, hair_draw(f->scene.hair, &f->scene.view), HAIR_ERROR_ARGUMENT,
+                          words);
     }
-    f->view.pass = HAIR_PASS_GUIDES; // Occlusion culling does not apply to guides.
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
-    f->view.pass = HAIR_PASS_COLOR;
+    f->scene.view.pass = HAIR_PASS_GUIDES; // Occlusion culling does not apply to guides.
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &f->scene.view));
+    f->scene.view.pass = HAIR_PASS_COLOR;
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
@@ -120,8 +105,8 @@ static void occluder_that_is_no_depth_texture_is_refused(void** state)
     glDeleteTextures(1, &texture);
     refuse(&f, 4711);
     refuse(&f, UINT32_MAX);
-    refuse(&f, f.hair->geometry.patch_texture); // A buffer texture, which is the library's own.
-    f.view.occluder_depth = 0;
+    refuse(&f, f.scene.hair->geometry.patch_texture); // A buffer texture of the library.
+    f.scene.view.occluder_depth = 0;
     assert_true(draw(&f) > 0);
     finish(&f);
 }
@@ -133,22 +118,22 @@ static void occluder_depth_may_have_any_depth_format(void** state)
     struct fixture f = start(state);
     for (int i = 0; i < 6; ++i) {
         GLuint frame;
-        f.view.occluder_depth = make_texture(GL_TEXTURE_2D, formats[i], SIZE);
-        glTextureParameteri(f.view.occluder_depth, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        f.scene.view.occluder_depth = make_texture(GL_TEXTURE_2D, formats[i], SIZE);
+        glTextureParameteri(f.scene.view.occluder_depth, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         glCreateFramebuffers(1, &frame);
         glNamedFramebufferTexture(frame, i < 4 ? GL_DEPTH_ATTACHMENT : GL_DEPTH_STENCIL_ATTACHMENT,
-                                  f.view.occluder_depth, 0);
+                                  f.scene.view.occluder_depth, 0);
         for (int hides = 0; hides < 2; ++hides) {
             float depth = hides ? 0.01f : 0.99f;
             glClearNamedFramebufferfv(frame, GL_DEPTH, 0, &depth);
             assert_int_equal(draw(&f) == 0, hides);
         }
         if (i >= 4) {
-            glTextureParameteri(f.view.occluder_depth, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
-            refuse(&f, f.view.occluder_depth);
+            glTextureParameteri(f.scene.view.occluder_depth, GL_DEPTH_STENCIL_TEXTURE_MODE, GL_STENCIL_INDEX);
+            refuse(&f, f.scene.view.occluder_depth);
         }
         glDeleteFramebuffers(1, &frame);
-        glDeleteTextures(1, &f.view.occluder_depth);
+        glDeleteTextures(1, &f.scene.view.occluder_depth);
     }
     finish(&f);
 }
@@ -166,10 +151,10 @@ static void occluder_matrix_may_have_any_finite_values(void** state)
         {[0] = FLT_MIN, [3] = -FLT_MAX, [5] = FLT_MAX, [10] = FLT_MIN, [15] = FLT_MAX},
     };
     struct fixture f = start(state);
-    f.view.occluder_depth = f.depth;
+    f.scene.view.occluder_depth = f.depth;
     assert_int_equal(draw(&f), 0);
     for (size_t i = 0; i < sizeof odd / sizeof *odd; ++i) {
-        memcpy(f.view.occluder_matrix, odd[i], sizeof odd[i]);
+        memcpy(f.scene.view.occluder_matrix, odd[i], sizeof odd[i]);
         assert_true(draw(&f) > 0 || i >= 2);
     }
     finish(&f);
@@ -181,11 +166,11 @@ static void occluder_matrix_that_is_not_finite_is_refused(void** state)
     for (int i = 0; i < 16; ++i) {
         char words[64];
         snprintf(words, sizeof words, "hair_view.occluder_matrix[%d] is", i);
-        f.view.occluder_matrix[i] = i % 2 ? NAN : -INFINITY;
-        hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, words);
-        f.view.occluder_matrix[i] = 0;
+        f.scene.view.occluder_matrix[i] = i % 2 ? NAN : -INFINITY;
+        hair_test_refused(f.scene.test, hair_draw(f.scene.hair, &f.scene.view), HAIR_ERROR_ARGUMENT, words);
+        f.scene.view.occluder_matrix[i] = 0;
     }
-    hair_test_ok(f.test, hair_draw(f.hair, &f.view));
+    hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &f.scene.view));
     finish(&f);
 }
 
@@ -193,17 +178,18 @@ static void buffer_textures_are_refused_for_lights_and_colors(void** state)
 {
     struct fixture f = start(state);
     hair_light light = hair_light_default();
-    hair_test_ok(f.test, hair_draw(f.hair, &f.view));
-    GLuint buffer = f.hair->geometry.patch_texture;
-    f.view.lights = &light;
+    hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &f.scene.view));
+    GLuint buffer = f.scene.hair->geometry.patch_texture;
+    f.scene.view.lights = &light;
     light.opaque_shadow_map = buffer;
-    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.scene.test, hair_draw(f.scene.hair, &f.scene.view), HAIR_ERROR_ARGUMENT,
                       "lights[0].opaque_shadow_map is");
     light.opaque_shadow_map = 0, light.hair_shadow_map = buffer;
-    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.scene.test, hair_draw(f.scene.hair, &f.scene.view), HAIR_ERROR_ARGUMENT,
                       "lights[0].hair_shadow_map is");
-    light.hair_shadow_map = 0, f.view.color_texture = buffer;
-    hair_test_refused(f.test, hair_draw(f.hair, &f.view), HAIR_ERROR_ARGUMENT, "hair_view.color_texture is");
+    light.hair_shadow_map = 0, f.scene.view.color_texture = buffer;
+    hair_test_refused(f.scene.test, hair_draw(f.scene.hair, &f.scene.view), HAIR_ERROR_ARGUMENT,
+                      "hair_view.color_texture is");
     assert_int_equal(glGetError(), GL_NO_ERROR);
     finish(&f);
 }

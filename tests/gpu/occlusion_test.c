@@ -1,19 +1,18 @@
 // occlusion_test.c - occlusion culling. Strands behind the application's depth are not drawn, and
 // the picture is the same with every render path and projection. Without a depth texture, culling
 // neither runs nor uses memory.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <hair/hair_asset.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
 #include "tests/support/haircut.h"
 #include "tests/support/trace.h"
 
 #define SIZE 96
+#define VALUES (4 * SIZE * SIZE)
 #define AWAY 1.2f // Distance of the eye from the middle of the hair, in metres.
 
 // Kind of projection. REVERSED has an infinite far plane. RANGED reverses depth by glDepthRange,
@@ -21,13 +20,8 @@
 enum kind { PERSPECTIVE, ORTHOGRAPHIC, REVERSED, RANGED, KINDS };
 
 struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_groom* groom;
-    hair_instance* hair;
-    struct hair_test_frame frame;
+    struct hair_test_scene scene;
     GLuint depth; // The frame's depth, which the view passes to the library.
-    hair_view view;
     enum kind kind;
 };
 
@@ -44,8 +38,8 @@ static void make_hair(struct fixture* f)
     look.shading.model = HAIR_SHADING_LINES;
     desc.look = &look;
     memcpy(desc.transform, head, sizeof head);
-    f->groom = hair_test_haircut(f->test, &style, 3000);
-    hair_test_ok(f->test, hair_create(f->context, f->groom, &desc, &f->hair));
+    f->scene.groom = hair_test_haircut(f->scene.test, &style, 3000);
+    hair_test_ok(f->scene.test, hair_create(f->scene.context, f->scene.groom, &desc, &f->scene.hair));
 }
 
 static void make_depth(struct fixture* f, GLsizei width, GLsizei height)
@@ -64,7 +58,7 @@ static void set_kind(struct fixture* f, enum kind kind)
         {g, 0, 0, 0, 0, g, 0, 0, 0, 0, 0, -1, 0, 0, n, 0},
         {g, 0, 0, 0, 0, g, 0, 0, 0, 0, (far + n) / (n - far), -1, 0, 0, 2 * far * n / (n - far), 0}};
     f->kind = kind;
-    memcpy(f->view.projection, kinds[kind], sizeof kinds[kind]);
+    memcpy(f->scene.view.projection, kinds[kind], sizeof kinds[kind]);
     glClipControl(kind == RANGED ? GL_UPPER_LEFT : GL_LOWER_LEFT,
                   kind == REVERSED ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glDepthFunc(kind >= REVERSED ? GL_GREATER : GL_LESS);
@@ -75,26 +69,22 @@ static void look_from(struct fixture* f, float turn, float up)
 {
     float s = sinf(turn), c = cosf(turn);
     const float target[3] = {5, 6 + 1.5f + up, -7}, rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
-    memset(f->view.view, 0, sizeof f->view.view);
-    f->view.view[14] = -AWAY, f->view.view[15] = 1;
+    memset(f->scene.view.view, 0, sizeof f->scene.view.view);
+    f->scene.view.view[14] = -AWAY, f->scene.view.view[15] = 1;
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
-            f->view.view[4 * k + i] = rows[i][k];
-            f->view.view[12 + i] -= rows[i][k] * target[k];
+            f->scene.view.view[4 * k + i] = rows[i][k];
+            f->scene.view.view[12 + i] -= rows[i][k] * target[k];
         }
 }
 
 static struct fixture start(void** state)
 {
-    struct fixture f = {.test = *state, .view = hair_view_default()};
-    hair_context_desc desc = hair_context_desc_default();
-    desc.host = &f.test->host.host;
-    desc.get_proc = hair_test_trace_proc;
-    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
+    struct fixture f = {.scene = hair_test_scene_make(*state, hair_test_trace_proc)};
     make_hair(&f);
-    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    hair_test_frame_make(&f.scene.frame, SIZE, SIZE, GL_RGBA32F, 0);
     make_depth(&f, SIZE, SIZE);
-    glNamedFramebufferTexture(f.frame.framebuffer, GL_DEPTH_ATTACHMENT, f.depth, 0);
+    glNamedFramebufferTexture(f.scene.frame.framebuffer, GL_DEPTH_ATTACHMENT, f.depth, 0);
     set_kind(&f, PERSPECTIVE);
     look_from(&f, 0, 0);
     return f;
@@ -104,16 +94,13 @@ static void finish(struct fixture* f)
 {
     set_kind(f, PERSPECTIVE);
     glDeleteTextures(1, &f->depth);
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
-    hair_context_destroy(f->context);
+    hair_test_scene_free(&f->scene);
 }
 
 // Return the depth of a point at distance `away`.
 static float depth_at(const struct fixture* f, float away)
 {
-    const float* m = f->view.projection;
+    const float* m = f->scene.view.projection;
     float z = (m[14] - m[10] * away) / (m[15] - m[11] * away);
     if (f->kind == REVERSED) return z;
     return f->kind == RANGED ? 0.5f - 0.5f * z : 0.5f + 0.5f * z;
@@ -123,7 +110,7 @@ static void clear(const struct fixture* f)
 {
     static const float black[4] = {0, 0, 0, 0};
     float far_away = f->kind >= REVERSED ? 0 : 1;
-    glClearNamedFramebufferfv(f->frame.framebuffer, GL_COLOR, 0, black);
+    glClearNamedFramebufferfv(f->scene.frame.framebuffer, GL_COLOR, 0, black);
     glClearTexImage(f->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
 }
 
@@ -136,24 +123,20 @@ static void put_wall(const struct fixture* f, const int at[4], float away)
 // Draw into a depth texture that contains the wall. Return the number of primitives.
 static uint32_t draw(const struct fixture* f, int lends, const int at[4], float away, float* pixels)
 {
-    hair_view view = f->view;
-    GLuint query = 0, count = 0;
-    glGenQueries(1, &query);
+    hair_view view = f->scene.view;
     clear(f);
     put_wall(f, at, away);
     view.occluder_depth = lends ? f->depth : 0;
-    glBeginQuery(GL_PRIMITIVES_GENERATED, query);
-    hair_test_ok(f->test, hair_draw(f->hair, &view));
-    glEndQuery(GL_PRIMITIVES_GENERATED);
-    glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
-    glDeleteQueries(1, &query);
-    hair_test_frame_read(&f->frame, pixels);
+    GLuint query = hair_test_count_begin();
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &view));
+    uint32_t count = hair_test_count_end(query);
+    hair_test_frame_read(&f->scene.frame, pixels);
     return count;
 }
 
 static uint32_t read_hidden(const struct fixture* f, uint32_t hidden[])
 {
-    const struct hair_geometry* of = &f->hair->geometry;
+    const struct hair_geometry* of = &f->scene.hair->geometry;
     struct hair_patch* patches = calloc(of->patches, sizeof *patches);
     uint32_t count = 0;
     glGetNamedBufferSubData(of->patch, 0, (GLsizeiptr)(of->patches * sizeof *patches), patches);
@@ -167,9 +150,7 @@ static uint32_t read_hidden(const struct fixture* f, uint32_t hidden[])
 
 static float differ(const float* a, const float* b)
 {
-    float max = 0;
-    for (int i = 0; i < 4 * SIZE * SIZE; ++i) max = fmaxf(max, fabsf(a[i] - b[i]));
-    return max;
+    return hair_test_max_difference(a, b, VALUES);
 }
 
 static float sum(const float* pixels)
@@ -183,15 +164,15 @@ static float sum(const float* pixels)
 // half of the picture culls a part.
 static void occluded_patches_are_culled_without_changing_the_picture(void** state)
 {
-    static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
+    static float kept[VALUES], some[VALUES];
     static const int places[3][4] = {{0, 0, SIZE, SIZE}, {0, 0, SIZE, SIZE}, {0, 0, SIZE / 2, SIZE}};
     static const float away[3] = {4, 0.3f, 0.3f};
     struct fixture f = start(state);
-    uint32_t patches = f.hair->geometry.patches;
+    uint32_t patches = f.scene.hair->geometry.patches;
     for (int i = 0; i < KINDS * 3 * 3; ++i) {
         int where = i % 3;
         set_kind(&f, (enum kind)(i / 9));
-        f.view.render_path = (hair_render_path)(i / 3 % 3);
+        f.scene.view.render_path = (hair_render_path)(i / 3 % 3);
         uint32_t all = draw(&f, 0, places[where], away[where], kept);
         uint32_t primitive = draw(&f, 1, places[where], away[where], some), hidden = read_hidden(&f, NULL);
         if (differ(kept, some) > 0) fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
@@ -215,22 +196,22 @@ static void move(struct fixture* f, float turn, int collider)
     memcpy(at, head, sizeof at);
     at[0] = at[10] = c, at[2] = -s, at[8] = s;
     ball.size[0] = 0.08f, ball.position[0] = 5.12f, ball.position[1] = 7.5f, ball.position[2] = -7;
-    hair_test_ok(f->test, hair_set_colliders(f->hair, &ball, (uint32_t)collider, sizeof ball));
-    hair_test_ok(f->test, hair_set_transform(f->hair, at));
-    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 30));
+    hair_test_ok(f->scene.test, hair_set_colliders(f->scene.hair, &ball, (uint32_t)collider, sizeof ball));
+    hair_test_ok(f->scene.test, hair_set_transform(f->scene.hair, at));
+    hair_test_ok(f->scene.test, hair_step(f->scene.hair, 1.0f / 30));
 }
 
 // Check that culling removes no visible strand, with all settings that affect the position and
 // width of strands.
 static void visible_strands_are_not_occlusion_culled(void** state)
 {
-    static float kept[4 * SIZE * SIZE], some[4 * SIZE * SIZE];
+    static float kept[VALUES], some[VALUES];
     struct fixture f = start(state);
     hair_lod lod = hair_lod_default();
-    hair_look look = f.hair->geometry.look, curls = look;
+    hair_look look = f.scene.hair->geometry.look, curls = look;
     uint32_t random = 5, hidden = 0, drawn = 0;
     lod.strand_pixels = 6;
-    hair_test_ok(f.test, hair_look_apply_preset(&curls, HAIR_LOOK_WAVY));
+    hair_test_ok(f.scene.test, hair_look_apply_preset(&curls, HAIR_LOOK_WAVY));
     curls.strand.segments = 12;
     for (int i = 0; i < 96; ++i) {
         float number[6];
@@ -239,23 +220,23 @@ static void visible_strands_are_not_occlusion_culled(void** state)
         const int at[4] = {x, y, (int)((float)(SIZE - x) * (0.5f + 0.5f * number[2])), SIZE - y};
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 6.28f * number[3], 0.4f * number[4] - 0.2f);
-        f.view.render_path = (hair_render_path)(i % 3);
-        f.view.primitive = i % 5 ? HAIR_PRIMITIVE_RIBBONS : HAIR_PRIMITIVE_LINES;
-        f.view.coverage = i % 7 ? HAIR_COVERAGE_MSAA : HAIR_COVERAGE_ALPHA;
-        f.view.lod = i % 2 ? &lod : NULL;
-        f.view.jitter[0] = i % 11 ? 0 : 0.4f;
-        if (i % 8 == 0) hair_test_ok(f.test, hair_set_look(f.hair, i % 16 ? &curls : &look));
+        f.scene.view.render_path = (hair_render_path)(i % 3);
+        f.scene.view.primitive = i % 5 ? HAIR_PRIMITIVE_RIBBONS : HAIR_PRIMITIVE_LINES;
+        f.scene.view.coverage = i % 7 ? HAIR_COVERAGE_MSAA : HAIR_COVERAGE_ALPHA;
+        f.scene.view.lod = i % 2 ? &lod : NULL;
+        f.scene.view.jitter[0] = i % 11 ? 0 : 0.4f;
+        if (i % 8 == 0) hair_test_ok(f.scene.test, hair_set_look(f.scene.hair, i % 16 ? &curls : &look));
         move(&f, 0.3f * sinf((float)i), i % 24 > 12);
         draw(&f, 0, at, 0.5f + 0.5f * number[5], kept);
         draw(&f, 1, at, 0.5f + 0.5f * number[5], some);
         uint32_t now = read_hidden(&f, NULL);
         // Equally distant fragments may be blended in either order, and the order differs between
         // pictures. Differences of 0.09 have been observed.
-        float max = hair_draw_uses_analytic_coverage(&f.view) ? 0.12f : 0;
+        float max = hair_draw_uses_analytic_coverage(&f.scene.view) ? 0.12f : 0;
         if (differ(kept, some) > max)
             fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
         hidden += now;
-        drawn += f.hair->geometry.patches - now;
+        drawn += f.scene.hair->geometry.patches - now;
     }
     print_message("    %u patches are hidden and %u are not\n", hidden, drawn);
     assert_true(hidden > drawn / 10);
@@ -267,7 +248,7 @@ static void occluder_depth_may_have_any_size(void** state)
 {
     static const GLsizei sizes[][2] = {{1, 1}, {7, 3}, {8, 8}, {33, 300}, {1000, 700}};
     struct fixture f = start(state);
-    static float pixels[4 * SIZE * SIZE];
+    static float pixels[VALUES];
     GLuint kept = f.depth;
     f.depth = 0;
     for (int i = 0; i < 5; ++i) {
@@ -275,13 +256,13 @@ static void occluder_depth_may_have_any_size(void** state)
         const int all[4] = {0, 0, w, h}, left[4] = {0, 0, w / 2, h};
         make_depth(&f, w, h);
         draw(&f, 1, all, 0.3f, pixels);
-        assert_int_equal(read_hidden(&f, NULL), f.hair->geometry.patches);
+        assert_int_equal(read_hidden(&f, NULL), f.scene.hair->geometry.patches);
         draw(&f, 1, all, 4, pixels);
         assert_int_equal(read_hidden(&f, NULL), 0);
         // These texels are 24 mm or larger, and the Hi-Z test reads eight of them as one.
         if (w < SIZE) continue;
         draw(&f, 1, left, 0.3f, pixels);
-        assert_in_range(read_hidden(&f, NULL), 1, f.hair->geometry.patches - 1);
+        assert_in_range(read_hidden(&f, NULL), 1, f.scene.hair->geometry.patches - 1);
     }
     glDeleteTextures(1, &f.depth);
     f.depth = kept;
@@ -291,48 +272,41 @@ static void occluder_depth_may_have_any_size(void** state)
 // Check the depth of another view. It culls the same patches as in its own view, from any eye.
 static void occluder_depth_may_be_of_another_view(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
+    static float pixels[VALUES];
     static uint32_t before[1024], now[1024];
     const int left[4] = {0, 0, SIZE / 2, SIZE};
     struct fixture f = start(state);
     float given[16];
-    assert_in_range(f.hair->geometry.patches, 2, 1024);
+    assert_in_range(f.scene.hair->geometry.patches, 2, 1024);
     for (int i = 0; i < 2 * KINDS; ++i) {
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 0, 0);
-        memset(f.view.occluder_matrix, 0, sizeof f.view.occluder_matrix);
+        memset(f.scene.view.occluder_matrix, 0, sizeof f.scene.view.occluder_matrix);
         draw(&f, 1, left, 0.3f, pixels);
         uint32_t count = read_hidden(&f, before);
-        assert_in_range(count, 1, f.hair->geometry.patches - 1);
-        hair_mat4_multiply(f.view.projection, f.view.view, given);
-        memcpy(f.view.occluder_matrix, given, sizeof given);
+        assert_in_range(count, 1, f.scene.hair->geometry.patches - 1);
+        hair_mat4_multiply(f.scene.view.projection, f.scene.view.view, given);
+        memcpy(f.scene.view.occluder_matrix, given, sizeof given);
         look_from(&f, i < KINDS ? 0.4f : 0.9f, 0.05f);
         draw(&f, 1, left, 0.3f, pixels);
         assert_int_equal(read_hidden(&f, now), count);
-        assert_memory_equal(before, now, f.hair->geometry.patches * sizeof *now);
+        assert_memory_equal(before, now, f.scene.hair->geometry.patches * sizeof *now);
     }
     finish(&f);
 }
 
 static hair_report_row report(const struct fixture* f)
 {
-    hair_report_info info = hair_report_info_default();
-    hair_report_row rows[64], none = {0};
-    uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
-    for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].stage, "occlusion") == 0) return rows[i];
-    fail_msg("there is no row occlusion");
-    return none;
+    return hair_test_report_row(f->scene.test, f->scene.hair, "occlusion");
 }
 
 // Check also that the memory is freed when the depth texture is gone.
 static void occlusion_culling_costs_nothing_without_depth(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
+    static float pixels[VALUES];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
-    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
     draw(&f, 0, all, 0.3f, pixels);
     assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
     assert_int_equal(report(&f).bytes, 0);
@@ -348,7 +322,7 @@ static void occlusion_culling_costs_nothing_without_depth(void** state)
     assert_int_equal(report(&f).skip_reason, HAIR_SKIP_REASON_NONE);
     assert_true(report(&f).bytes > 0);
     for (int i = 0; i < 250; ++i) {
-        hair_test_ok(f.test, hair_step(f.hair, 1e-4f));
+        hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1e-4f));
         if (i % 50 == 49) draw(&f, 0, all, 0.3f, pixels);
     }
     draw(&f, 0, all, 0.3f, pixels);
@@ -360,16 +334,16 @@ static void occlusion_culling_costs_nothing_without_depth(void** state)
 // Check a depth texture whose picture does not show the hair. It culls nothing.
 static void depth_that_cannot_hide_hair_runs_no_culling_pass(void** state)
 {
-    static float pixels[4 * SIZE * SIZE];
+    static float pixels[VALUES];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
-    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
     draw(&f, 0, all, 4, pixels); // Guides are smoothed by this draw.
     // The first picture is beside the hair. In the second, the depth function tells no near from
     // far.
     for (int i = 0; i < 2; ++i) {
-        hair_mat4_multiply(f.view.projection, f.view.view, f.view.occluder_matrix);
-        f.view.occluder_matrix[12] += i == 0 ? 20 : 0;
+        hair_mat4_multiply(f.scene.view.projection, f.scene.view.view, f.scene.view.occluder_matrix);
+        f.scene.view.occluder_matrix[12] += i == 0 ? 20 : 0;
         glDepthFunc(i == 0 ? GL_LESS : GL_ALWAYS);
         hair_test_trace_clear();
         assert_true(draw(&f, 1, all, 0.3f, pixels) > 0);
@@ -382,10 +356,10 @@ static void depth_that_cannot_hide_hair_runs_no_culling_pass(void** state)
 // Check that strand lists made behind a wall are not used for a view past the wall.
 static void occluded_patches_reappear_when_uncovered(void** state)
 {
-    static float kept[4 * SIZE * SIZE], now[4 * SIZE * SIZE];
+    static float kept[VALUES], now[VALUES];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
-    f.view.render_path = HAIR_RENDER_PATH_INSTANCED;
+    f.scene.view.render_path = HAIR_RENDER_PATH_INSTANCED;
     draw(&f, 0, all, 4, kept);
     for (int i = 0; i < 6; ++i) {
         draw(&f, i % 3 < 2, all, i % 3 ? 4 : 0.3f, now);

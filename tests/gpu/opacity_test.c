@@ -1,26 +1,20 @@
 // opacity_test.c - the opacity map of hair for a light. It agrees with counted rays for any size of
 // texels, width of strands, level of detail and render path. Only hair before the first opaque
 // surface counts. The application's state is kept.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "tests/reference/self_shadow.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 
 #define HALF 0.2f // Half of the side of the visible square, in metres.
 #define RAYS 4096
 #define MAX 1024 // Maximum number of texels per side.
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-    hair_view view;
+    struct hair_test_scene scene;
     struct hair_reference_rays rays;
     GLuint framebuffer, opacity, depth;
     GLsizei texels;
@@ -31,19 +25,13 @@ static struct fixture* start(void** state, uint32_t followers, float radius)
 {
     struct fixture* f = calloc(1, sizeof *f);
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     wanted.followers = followers;
     wanted.guides = 40;
-    f->test = *state;
-    f->view = hair_view_default();
     look.strand.segments = 12, look.strand.radius = radius;
-    desc.look = &look;
-    f->groom = hair_test_groom(&f->test->host.host, wanted);
-    f->view.pass = HAIR_PASS_OPACITY;
-    f->view.projection[0] = f->view.projection[5] = 1 / HALF;
-    f->view.projection[10] = -1;
-    hair_test_ok(f->test, hair_create(f->test->context, f->groom, &desc, &f->hair));
+    f->scene = hair_test_scene_of(*state, &wanted, &look);
+    f->scene.view.pass = HAIR_PASS_OPACITY;
+    hair_test_set_orthographic(&f->scene.view, 1 / HALF, -1, 0);
     glCreateFramebuffers(1, &f->framebuffer);
     return f;
 }
@@ -54,8 +42,7 @@ static void finish(struct fixture* f)
     glDeleteTextures(1, &f->opacity);
     glDeleteTextures(1, &f->depth);
     free(f->rays.stopped);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
     free(f);
 }
 
@@ -84,19 +71,20 @@ static void draw(struct fixture* f, float bodies)
     glClearTexImage(f->depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
     glClearTexSubImage(f->depth, 0, 0, 0, 0, f->texels / 2, f->texels, 1, GL_DEPTH_COMPONENT, GL_FLOAT,
                        &bodies);
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &f->scene.view));
     glGetTextureImage(f->opacity, 0, GL_RED, GL_FLOAT, sizeof f->pixels, f->pixels);
 }
 
 // Count the rays that meet strands at z >= `behind`.
 static void count_rays(struct fixture* f, double behind)
 {
-    uint32_t each = f->hair->geometry.look.strand.segments + 1, count = f->hair->geometry.followers * each;
-    f->view.render_path = HAIR_RENDER_PATH_CACHED; // Stores vertices and radii in a buffer.
+    uint32_t each = f->scene.hair->geometry.look.strand.segments + 1,
+             count = f->scene.hair->geometry.followers * each;
+    f->scene.view.render_path = HAIR_RENDER_PATH_CACHED; // Stores vertices and radii in a buffer.
     make_map(f, 16);
     draw(f, 1);
     hair_vec4* vertices = malloc(count * sizeof *vertices);
-    glGetNamedBufferSubData(f->hair->geometry.vertex_cache.position, 0,
+    glGetNamedBufferSubData(f->scene.hair->geometry.vertex_cache.position, 0,
                             (GLsizeiptr)(count * sizeof *vertices), vertices);
     free(f->rays.stopped);
     f->rays = (struct hair_reference_rays){.lower = {-(double)HALF, -(double)HALF},
@@ -176,10 +164,10 @@ static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
         for (int k = 0; k < 4; ++k) {
             static const float fractions[] = {1, 0.5f, 0.2f, 0.1f};
             part.strand_fraction = fractions[k], part.segment_fraction = k ? 0.5f : 1.0f;
-            f->view.render_path = (hair_render_path)path;
-            f->view.lod = k ? &part : NULL;
+            f->scene.view.render_path = (hair_render_path)path;
+            f->scene.view.lod = k ? &part : NULL;
             // The pass draws ribbons with both settings.
-            f->view.primitive = k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
+            f->scene.view.primitive = k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;
             draw(f, 1);
             struct found found = compare(f);
             double error = found.mean / found.expected - 1;
@@ -189,7 +177,7 @@ static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
             if (!path && !k) all = found.mean;
             if (!k) hair_test_near("path", (size_t)path, found.mean, all, 1e-4 * all);
         }
-    f->view.opacity = 0.25f, f->view.lod = NULL;
+    f->scene.view.opacity = 0.25f, f->scene.view.lod = NULL;
     draw(f, 1);
     double weak = compare(f).mean;
     // A single strand has a quarter of the opacity. Two strands have a little less than twice that.
@@ -242,16 +230,9 @@ static void opacity_pass_keeps_blending_and_depth(void** state)
     finish(f);
 }
 
-static const hair_report_row* find_row(struct fixture* f, const char* work)
+static hair_report_row find_row(const struct fixture* f, const char* work)
 {
-    static hair_report_row rows[64];
-    hair_report_info info = hair_report_info_default();
-    uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
-    for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].stage, work) == 0) return &rows[i];
-    fail_msg("there is no row %s", work);
-    return rows;
+    return hair_test_report_row(f->scene.test, f->scene.hair, work);
 }
 
 static void opacity_is_reported_and_costs_nothing_unused(void** state)
@@ -259,22 +240,22 @@ static void opacity_is_reported_and_costs_nothing_unused(void** state)
     struct fixture* f = start(state, 64, 1e-3f);
     hair_memory before = hair_memory_default(), after = hair_memory_default();
     make_map(f, 64);
-    f->view.pass = HAIR_PASS_DEPTH;
-    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    f->scene.view.pass = HAIR_PASS_DEPTH;
+    hair_test_ok(f->scene.test, hair_step(f->scene.hair, 1.0f / 60));
     draw(f, 1);
-    assert_int_equal(find_row(f, "opacity")->runs, 0);
-    assert_int_equal(find_row(f, "opacity")->skip_reason, HAIR_SKIP_REASON_NOT_CALLED);
-    hair_test_ok(f->test, hair_get_memory(f->test->context, &before));
-    f->view.pass = HAIR_PASS_OPACITY;
+    assert_int_equal(find_row(f, "opacity").runs, 0);
+    assert_int_equal(find_row(f, "opacity").skip_reason, HAIR_SKIP_REASON_NOT_CALLED);
+    hair_test_ok(f->scene.test, hair_get_memory(f->scene.test->context, &before));
+    f->scene.view.pass = HAIR_PASS_OPACITY;
     draw(f, 1);
-    assert_int_equal(find_row(f, "opacity")->runs, 1);
-    assert_int_equal(find_row(f, "depth")->runs, 1);
-    hair_test_ok(f->test, hair_get_memory(f->test->context, &after));
+    assert_int_equal(find_row(f, "opacity").runs, 1);
+    assert_int_equal(find_row(f, "depth").runs, 1);
+    hair_test_ok(f->scene.test, hair_get_memory(f->scene.test->context, &after));
     assert_int_equal(before.bytes, after.bytes);
-    f->view.view[12] = 9;
-    hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    f->scene.view.view[12] = 9;
+    hair_test_ok(f->scene.test, hair_step(f->scene.hair, 1.0f / 60));
     draw(f, 1);
-    assert_int_equal(find_row(f, "opacity")->skip_reason, HAIR_SKIP_REASON_OUT_OF_VIEW);
+    assert_int_equal(find_row(f, "opacity").skip_reason, HAIR_SKIP_REASON_OUT_OF_VIEW);
     finish(f);
 }
 

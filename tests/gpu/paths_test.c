@@ -1,12 +1,10 @@
 // paths_test.c - all render paths draw hair alike, and HAIR_RENDER_PATH_AUTO selects a path that is
 // known to be fast.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
 #include "tests/support/haircut.h"
 
 // Tools are not linked into tests.
@@ -17,16 +15,10 @@ enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_RENDER_PATH_AUTO };
 
 static const char* const names[PATHS] = {"tessellated", "instanced", "draw/cached", "resolve_tiles"};
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
 // Make few strands, each as wide as several. `curly` adds curls, and a ball that many strands hit.
-static struct fixture start(void** state, int curly)
+static struct hair_test_scene start(void** state, int curly)
 {
-    struct fixture f = {.test = *state};
+    struct hair_test_scene f = hair_test_scene_make(*state, NULL);
     hair_style_desc of = hair_style_desc_default();
     hair_desc how = hair_desc_default();
     hair_look look = hair_look_default();
@@ -45,21 +37,13 @@ static struct fixture start(void** state, int curly)
     return f;
 }
 
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
-}
-
 // Make a view from the front of the head, 0.8 m away.
 static hair_view front(hair_render_path path, hair_primitive primitive)
 {
     hair_view view = hair_view_default();
     view.render_path = path, view.primitive = primitive;
     view.view[13] = -1.6f, view.view[14] = -0.8f;
-    view.projection[0] = view.projection[5] = 3;
-    view.projection[10] = -1, view.projection[14] = -0.02f;
-    view.projection[11] = -1, view.projection[15] = 0;
+    hair_test_set_perspective(&view, 3, 1);
     return view;
 }
 
@@ -69,13 +53,6 @@ struct picture {
 };
 
 // Read ten times the difference of depth from the far plane.
-static hair_render_path path_of(const struct hair_renderer* renderer, const hair_view* view)
-{
-    struct hair_draw_plan plan;
-    hair_draw_make_plan(renderer, view, NULL, &plan);
-    return plan.path;
-}
-
 static void read_depths(const struct hair_test_frame* frame, float* pixels)
 {
     static float depths[PIXELS];
@@ -83,7 +60,7 @@ static void read_depths(const struct hair_test_frame* frame, float* pixels)
     for (int i = 0; i < 4 * PIXELS; ++i) pixels[i] = 10 * (1 - depths[i / 4]);
 }
 
-static void draw(struct fixture* f, const hair_view* view, struct picture* out)
+static void draw(struct hair_test_scene* f, const hair_view* view, struct picture* out)
 {
     int shows = view->pass == HAIR_PASS_COLOR;
     struct hair_test_frame frame;
@@ -105,15 +82,10 @@ static void draw(struct fixture* f, const hair_view* view, struct picture* out)
 }
 
 // Return the name of the pass that drew colour in this frame.
-static const char* drawn_by(struct fixture* f)
+static const char* drawn_by(const struct hair_test_scene* f)
 {
-    hair_report_info info = hair_report_info_default();
-    hair_report_row rows[64];
-    uint32_t count;
-    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
-    for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].stage, "color") == 0 && rows[i].pass) return rows[i].pass;
-    return "";
+    const char* pass = hair_test_report_row(f->test, f->hair, "color").pass;
+    return pass ? pass : "";
 }
 
 // Return the expected name of the pass. The path by compute draws no lines. With levels of detail,
@@ -125,7 +97,7 @@ static const char* name_of(hair_render_path path, const hair_view* view)
     return path == HAIR_RENDER_PATH_CACHED && view->lod ? "view_cached" : names[path];
 }
 
-static uint32_t count_hits(struct fixture* f)
+static uint32_t count_hits(struct hair_test_scene* f)
 {
     uint32_t count = 0;
     float* hits = malloc(f->hair->geometry.followers * sizeof *hits);
@@ -139,7 +111,7 @@ static uint32_t count_hits(struct fixture* f)
 static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
-    struct fixture f = start(state, 1);
+    struct hair_test_scene f = start(state, 1);
     for (hair_primitive primitive = HAIR_PRIMITIVE_RIBBONS; primitive <= HAIR_PRIMITIVE_LINES; ++primitive) {
         for (hair_render_path path = 0; (int)path < PATHS; ++path) {
             struct hair_image_error error;
@@ -156,7 +128,7 @@ static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
         }
         assert_true(count_hits(&f) > 100);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Compare paths with levels of detail. Their vertices are written for each view, into the buffers
@@ -164,7 +136,7 @@ static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
 static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
 {
     static struct picture picture[PATHS];
-    struct fixture f = start(state, 1);
+    struct hair_test_scene f = start(state, 1);
     hair_lod lods[3] = {hair_lod_default(), hair_lod_default(), hair_lod_default()};
     lods[0].strand_fraction = 0.37f, lods[0].segment_fraction = 0.3f, lods[0].per_patch = false;
     lods[1].strand_fraction = 0.1f, lods[1].per_patch = false;
@@ -185,7 +157,7 @@ static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
                           view.primitive ? "lines" : "ribbons", i % 3, shown ? "" : ", depth", error.flip);
             assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
         }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Compare colours of the groom, red on one side of the head and green on the other, by all paths. A
@@ -193,7 +165,7 @@ static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
 static void groom_colors_are_drawn_by_all_paths(void** state)
 {
     static struct picture picture[PATHS + 2];
-    struct fixture f = start(state, 0);
+    struct hair_test_scene f = start(state, 0);
     hair_look look = f.hair->geometry.look;
     uint32_t count = f.groom->info.follower_count;
     hair_view view = front(HAIR_RENDER_PATH_TESSELLATION, HAIR_PRIMITIVE_RIBBONS);
@@ -225,40 +197,40 @@ static void groom_colors_are_drawn_by_all_paths(void** state)
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
     draw(&f, &view, &picture[PATHS + 1]);
     assert_memory_equal(picture[PATHS].pixels, picture[PATHS + 1].pixels, sizeof picture[0].pixels);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void auto_uses_the_path_of_the_table_and_reports_it(void** state)
 {
     static struct picture own, same;
-    struct fixture f = start(state, 0);
+    struct hair_test_scene f = start(state, 0);
     hair_lod lod = hair_lod_default();
     for (int i = 0; i < 4; ++i) {
         hair_view view = front(HAIR_RENDER_PATH_AUTO, (hair_primitive)(i % 2));
         view.lod = i / 2 ? &lod : NULL;
-        hair_render_path taken = path_of(&f.hair->renderer, &view);
+        hair_render_path taken = hair_test_path_of(&f.hair->renderer, &view);
         draw(&f, &view, &own);
         assert_non_null(strstr(drawn_by(&f), name_of(taken, &view)));
         view.render_path = taken;
         draw(&f, &view, &same);
         assert_memory_equal(own.pixels, same.pixels, sizeof own.pixels);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check that a fast path is not selected if it needs too much memory.
 static void auto_does_not_cache_more_than_fits(void** state)
 {
-    struct fixture f = start(state, 0);
+    struct hair_test_scene f = start(state, 0);
     hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
     struct hair_geometry geometry = f.hair->geometry;
     struct hair_renderer many = f.hair->renderer;
     geometry.followers = 4000000;
     many.geometry = &geometry;
-    assert_int_not_equal(path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_not_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
     view.render_path = HAIR_RENDER_PATH_CACHED;
-    assert_int_equal(path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
-    finish(&f);
+    assert_int_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -1,34 +1,21 @@
 // precompile_test.c - programs that a frame runs are compiled before it, in the driver's threads or
 // one per call.
 #include "tests/support/passes.h"
-
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
+#include "tests/support/scene.h"
 
 #define MAX_CALLS 200
 
 struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_groom* groom;
-    hair_instance* hair;
-    struct hair_test_frame frame;
+    struct hair_test_scene scene;
     GLuint depth; // A depth texture for views.
 };
 
 static struct fixture start(struct hair_test* test)
 {
-    struct fixture f = {.test = test};
-    hair_context_desc context = hair_context_desc_default();
-    hair_desc desc = hair_desc_default();
-    context.host = &test->host.host;
-    context.get_proc = hair_egl_get_proc;
-    hair_test_ok(test, hair_context_create(&context, &f.context));
-    f.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
-    hair_test_ok(test, hair_create(f.context, f.groom, &desc, &f.hair));
-    hair_test_frame_make(&f.frame, 32, 32, GL_RGBA8, 0);
-    const float far_away = 1;
+    static const float far_away = 1;
+    struct fixture f = {hair_test_scene_make(test, hair_egl_get_proc), 0};
+    hair_test_scene_add(&f.scene, NULL, NULL);
+    hair_test_frame_make(&f.scene.frame, 32, 32, GL_RGBA8, 0);
     glCreateTextures(GL_TEXTURE_2D, 1, &f.depth);
     glTextureStorage2D(f.depth, 1, GL_DEPTH_COMPONENT32F, 32, 32);
     glClearTexImage(f.depth, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &far_away);
@@ -39,17 +26,14 @@ static void finish(struct fixture* f)
 {
     glDepthFunc(GL_LESS);
     glDeleteTextures(1, &f->depth);
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
-    hair_context_destroy(f->context);
+    hair_test_scene_free(&f->scene);
 }
 
 static hair_view view_of(hair_render_path path)
 {
     hair_view view = hair_view_default();
     view.render_path = path;
-    view.projection[0] = view.projection[5] = view.projection[10] = 3;
+    hair_test_set_orthographic(&view, 3, 3, 0);
     return view;
 }
 
@@ -59,7 +43,7 @@ static uint32_t prepare(struct fixture* f, const hair_view* view)
     bool ready = false;
     uint32_t calls = 0;
     for (; !ready && calls < MAX_CALLS; ++calls)
-        hair_test_ok(f->test, hair_precompile(f->hair, view, &ready));
+        hair_test_ok(f->scene.test, hair_precompile(f->scene.hair, view, &ready));
     assert_true(ready);
     return calls;
 }
@@ -67,8 +51,8 @@ static uint32_t prepare(struct fixture* f, const hair_view* view)
 static void live(struct fixture* f, const hair_view* view)
 {
     for (int i = 0; i < 3; ++i) {
-        hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
-        hair_test_ok(f->test, hair_draw(f->hair, view));
+        hair_test_ok(f->scene.test, hair_step(f->scene.hair, 1.0f / 60));
+        hair_test_ok(f->scene.test, hair_draw(f->scene.hair, view));
     }
 }
 
@@ -78,7 +62,7 @@ static void put_a_ball_into(struct fixture* f, hair_view* view)
 {
     (void)view;
     hair_collider ball = {HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0.05f, 0}, .scale = 1, .friction = 1};
-    hair_test_ok(f->test, hair_set_colliders(f->hair, &ball, 1, sizeof ball));
+    hair_test_ok(f->scene.test, hair_set_colliders(f->scene.hair, &ball, 1, sizeof ball));
 }
 
 static void put_boxes_into(struct fixture* f, hair_view* view)
@@ -88,7 +72,7 @@ static void put_boxes_into(struct fixture* f, hair_view* view)
     for (int i = 0; i < 40; ++i)
         box[i] = (hair_collider){HAIR_SHAPE_BOX,        {0.01 * i, 0, 0}, {0, 0, 0, 1},
                                  {0.05f, 0.02f, 0.03f}, .scale = 1,       .friction = 1};
-    hair_test_ok(f->test, hair_set_colliders(f->hair, box, 40, sizeof *box));
+    hair_test_ok(f->scene.test, hair_set_colliders(f->scene.hair, box, 40, sizeof *box));
 }
 
 static void wind_coupling_at(struct fixture* f, hair_view* view)
@@ -99,23 +83,23 @@ static void wind_coupling_at(struct fixture* f, hair_view* view)
     wind.velocity[0] = 3;
     wind.fluid.drag_strand_count = 1;
     wind.fluid.resolution = 16;
-    hair_test_ok(f->test, hair_set_wind(f->hair, &wind));
+    hair_test_ok(f->scene.test, hair_set_wind(f->scene.hair, &wind));
 }
 
 static void hair_grid(struct fixture* f, hair_view* view)
 {
     (void)view;
-    hair_physics physics = f->hair->sim.physics;
+    hair_physics physics = f->scene.hair->sim.physics;
     physics.hair_hair.cohesion = 5;
-    hair_test_ok(f->test, hair_set_physics(f->hair, &physics));
+    hair_test_ok(f->scene.test, hair_set_physics(f->scene.hair, &physics));
 }
 
 static void shade_strands(struct fixture* f, hair_view* view)
 {
-    hair_look look = f->hair->geometry.look;
+    hair_look look = f->scene.hair->geometry.look;
     look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
     look.shading.model = HAIR_SHADING_FIBRES;
-    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, &look));
     put_a_ball_into(f, view);
 }
 
@@ -127,9 +111,9 @@ static void fraction_pixels(struct fixture* f, hair_view* view)
 
 static void curl(struct fixture* f, hair_view* view)
 {
-    hair_look look = f->hair->geometry.look;
+    hair_look look = f->scene.hair->geometry.look;
     look.curl.radius = 0.01f;
-    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, &look));
     put_a_ball_into(f, view);
 }
 
@@ -155,9 +139,9 @@ static void shade_small_hair(struct fixture* f, hair_view* view)
     lod.importance = 1e-6f;
     view->lod = &lod;
     shade_strands(f, view);
-    hair_look look = f->hair->geometry.look;
+    hair_look look = f->scene.hair->geometry.look;
     look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
-    hair_test_ok(f->test, hair_set_look(f->hair, &look));
+    hair_test_ok(f->scene.test, hair_set_look(f->scene.hair, &look));
 }
 
 static void show_motion(struct fixture* f, hair_view* view)
@@ -195,7 +179,7 @@ static const struct {
     {"a fluid", HAIR_RENDER_PATH_TESSELLATION, wind_coupling_at},
     {"a crowd", HAIR_RENDER_PATH_TESSELLATION, hair_grid},
     {"shadows by strands", HAIR_RENDER_PATH_TESSELLATION, shade_strands},
-    {"shares of pixels", HAIR_RENDER_PATH_CACHED, fraction_pixels},
+    {"fractions of pixels", HAIR_RENDER_PATH_CACHED, fraction_pixels},
     {"curls", HAIR_RENDER_PATH_TESSELLATION, curl},
     {"depth", HAIR_RENDER_PATH_TESSELLATION, lend_depth},
     {"depth, expanded", HAIR_RENDER_PATH_CACHED, lend_depth},
@@ -217,11 +201,11 @@ static void frames_compile_nothing_after_precompile(void** state)
         hair_view view = view_of(ways[i].path);
         ways[i].set(&f, &view);
         prepare(&f, &view);
-        uint32_t before = hair_test_count_programs(&f.context->gl);
+        uint32_t before = hair_test_count_programs(&f.scene.context->gl);
         live(&f, &view);
-        if (hair_test_count_programs(&f.context->gl) != before)
+        if (hair_test_count_programs(&f.scene.context->gl) != before)
             fail_msg("%s: of %u programs %u were prepared", ways[i].name,
-                     hair_test_count_programs(&f.context->gl), before);
+                     hair_test_count_programs(&f.scene.context->gl), before);
         finish(&f);
     }
 }
@@ -230,16 +214,16 @@ static void precompile_without_threads_compiles_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
     hair_view view = view_of(HAIR_RENDER_PATH_INSTANCED);
-    f.context->gl.parallel = 0;
-    uint32_t before = hair_test_count_programs(&f.context->gl);
+    f.scene.context->gl.parallel = 0;
+    uint32_t before = hair_test_count_programs(&f.scene.context->gl);
     bool ready = false;
     put_a_ball_into(&f, &view);
-    hair_test_ok(f.test, hair_precompile(f.hair, &view, &ready));
+    hair_test_ok(f.scene.test, hair_precompile(f.scene.hair, &view, &ready));
     assert_false(ready);
-    assert_int_equal(hair_test_count_programs(&f.context->gl), before + 1);
+    assert_int_equal(hair_test_count_programs(&f.scene.context->gl), before + 1);
     uint32_t calls = 1 + prepare(&f, &view);
     // The last call finds nothing left.
-    assert_int_equal(calls, hair_test_count_programs(&f.context->gl) - before + 1);
+    assert_int_equal(calls, hair_test_count_programs(&f.scene.context->gl) - before + 1);
     live(&f, &view);
     finish(&f);
 }
@@ -252,9 +236,9 @@ static void frame_before_precompile_is_ready_draws(void** state)
         struct fixture f = start(*state);
         hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
         bool ready = false;
-        f.context->gl.parallel = 1;
+        f.scene.context->gl.parallel = 1;
         put_a_ball_into(&f, &view);
-        hair_test_ok(f.test, hair_precompile(f.hair, &view, &ready));
+        hair_test_ok(f.scene.test, hair_precompile(f.scene.hair, &view, &ready));
         if (lives) live(&f, &view);
         finish(&f);
     }
@@ -266,9 +250,9 @@ static void precompile_refuses_null_and_invalid_views(void** state)
     hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
     bool ready = true;
     assert_int_equal(hair_precompile(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_precompile(f.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_precompile(f.scene.hair, &view, NULL), HAIR_ERROR_ARGUMENT);
     view.opacity = 2;
-    hair_test_refused(f.test, hair_precompile(f.hair, &view, &ready), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(f.scene.test, hair_precompile(f.scene.hair, &view, &ready), HAIR_ERROR_ARGUMENT,
                       "hair_view.opacity");
     assert_true(ready);
     assert_int_equal(prepare(&f, NULL) <= MAX_CALLS, 1);

@@ -1,35 +1,21 @@
 // raster_test.c - pixels that compute makes of segments are those that OpenGL draws, with any state
 // of the application.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
-#include "tests/support/frame.h"
 #include "tests/support/haircut.h"
 
 enum { WIDTH = 203, HEIGHT = 157, PIXELS = WIDTH * HEIGHT, LONG_UNUSED = 242 };
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
 // Make wavy hair of that radius, in metres.
-static struct fixture start(void** state, uint32_t followers, float radius)
+static struct hair_test_scene start(void** state, uint32_t followers, float radius)
 {
-    struct fixture f = {.test = *state};
+    struct hair_test_scene f = hair_test_scene_make(*state, NULL);
     f.hair = hair_test_wear(f.test, HAIR_STYLE_CURLY, followers, radius, &f.groom);
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
     return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
 }
 
 // Make a view from the front, at distance `away` from the middle of the head, in metres.
@@ -38,20 +24,16 @@ static hair_view front(hair_render_path path, float away)
     hair_view view = hair_view_default();
     view.render_path = path;
     view.view[13] = -1.6f, view.view[14] = -away;
-    view.projection[0] = 2.4f, view.projection[5] = 3;
-    view.projection[10] = -1, view.projection[14] = -0.02f; // Depth -1 at 1 cm, and 1 at infinity.
-    view.projection[11] = -1, view.projection[15] = 0;
+    hair_test_set_perspective(&view, 3, 1.25f);
     return view;
 }
 
-// Settings that an application may have made. put_back() restores them.
-static hair_render_path path_of(const struct hair_renderer* renderer, const hair_view* view)
+static hair_render_path path_of(const struct hair_test_scene* f, const hair_view* view)
 {
-    struct hair_draw_plan plan;
-    hair_draw_make_plan(renderer, view, NULL, &plan);
-    return plan.path;
+    return hair_test_path_of(&f->hair->renderer, view);
 }
 
+// Settings that an application may have made. put_back() restores them.
 static void set_nothing(hair_view* view)
 {
     (void)view;
@@ -129,7 +111,7 @@ struct picture {
     float pixels[4 * PIXELS], depth[PIXELS];
 };
 
-static void draw_lod(struct fixture* f, hair_render_path path, hair_pass pass, float away,
+static void draw_lod(struct hair_test_scene* f, hair_render_path path, hair_pass pass, float away,
                      void (*set)(hair_view*), const hair_lod* lod, struct picture* out)
 {
     struct hair_test_frame frame;
@@ -145,7 +127,7 @@ static void draw_lod(struct fixture* f, hair_render_path path, hair_pass pass, f
     hair_test_frame_free(&frame);
 }
 
-static void draw(struct fixture* f, hair_render_path path, hair_pass pass, float away,
+static void draw(struct hair_test_scene* f, hair_render_path path, hair_pass pass, float away,
                  void (*set)(hair_view*), struct picture* out)
 {
     draw_lod(f, path, pass, away, set, NULL, out);
@@ -187,7 +169,7 @@ static void compute_pixels_equal_drawn_pixels_under_any_state(void** state)
         {"from among it", set_nothing, 0.12f, 3e-4f},    {"thick and close", set_nothing, 0.2f, 6e-3f}};
     static struct picture drawn, made;
     for (size_t i = 0; i < sizeof hosts / sizeof *hosts; ++i) {
-        struct fixture f = start(state, 400, hosts[i].radius);
+        struct hair_test_scene f = start(state, 400, hosts[i].radius);
         draw(&f, HAIR_RENDER_PATH_CACHED, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &drawn);
         draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, hosts[i].away, hosts[i].set, &made);
         struct difference d = compare(&drawn, &made);
@@ -195,14 +177,14 @@ static void compute_pixels_equal_drawn_pixels_under_any_state(void** state)
                       d.apart);
         assert_true(d.covered > 500);
         assert_true(d.alone <= d.covered / 50 && d.apart <= d.covered / 50);
-        finish(&f);
+        hair_test_scene_free(&f);
     }
 }
 
 static void compute_depth_equals_drawn_depth(void** state)
 {
     static struct picture drawn, made;
-    struct fixture f = start(state, 400, 3e-4f);
+    struct hair_test_scene f = start(state, 400, 3e-4f);
     uint32_t there = 0, apart = 0;
     draw(&f, HAIR_RENDER_PATH_CACHED, HAIR_PASS_DEPTH, 0.8f, set_nothing, &drawn);
     draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_DEPTH, 0.8f, set_nothing, &made);
@@ -213,13 +195,13 @@ static void compute_depth_equals_drawn_depth(void** state)
     print_message("    %u pixels, %u are farther apart\n", there, apart);
     assert_true(there > 1000 && apart <= there / 50);
     assert_int_equal(f.hair->geometry.vertex_cache.shaded, 0);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void compute_levels_of_detail_equal_drawn_ones(void** state)
 {
     static struct picture drawn, made;
-    struct fixture f = start(state, 600, 3e-4f);
+    struct hair_test_scene f = start(state, 600, 3e-4f);
     for (int i = 0; i < 4; ++i) {
         hair_lod lod = hair_lod_default();
         float away = i == 3 ? 3 : 0.8f;
@@ -239,20 +221,20 @@ static void compute_levels_of_detail_equal_drawn_ones(void** state)
         assert_int_equal(apart, 0);
     }
     assert_int_equal(f.hair->geometry.vertex_cache.vertices, 0);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check that the order of threads does not matter.
 static void compute_pixels_of_equal_hair_are_equal_bits(void** state)
 {
     static struct picture first, second;
-    struct fixture f = start(state, 1500, 3e-4f);
+    struct hair_test_scene f = start(state, 1500, 3e-4f);
     draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, 0.8f, set_nothing, &first);
     for (int i = 0; i < 5; ++i) {
         draw(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, 0.8f, set_nothing, &second);
         assert_memory_equal(&first, &second, sizeof first);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check multisampling. Each sample sees what a pixel in its place would, also in front of geometry
@@ -260,14 +242,10 @@ static void compute_pixels_of_equal_hair_are_equal_bits(void** state)
 static void compute_coverage_equals_drawn_coverage(void** state)
 {
     static float pixels[2][4 * PIXELS];
-    struct fixture f = start(state, 400, 3e-4f);
+    struct hair_test_scene f = start(state, 400, 3e-4f);
     for (int made = 0; made < 2; ++made) {
-        struct hair_test_frame frame;
         hair_view view = front(made ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED, 0.8f);
-        hair_test_frame_make(&frame, WIDTH, HEIGHT, GL_RGBA32F, 4);
-        hair_test_ok(f.test, hair_draw(f.hair, &view));
-        hair_test_frame_read(&frame, pixels[made]);
-        hair_test_frame_free(&frame);
+        hair_test_draw(&f, &view, WIDTH, HEIGHT, 4, pixels[made], NULL);
     }
     uint32_t some = 0, apart = 0;
     double sum[2] = {0}, color[2] = {0};
@@ -284,40 +262,39 @@ static void compute_coverage_equals_drawn_coverage(void** state)
         some, apart, sum[0], sum[1], color[0], color[1]);
     assert_true(some > 1000 && apart <= some / 20);
     assert_true(fabs(sum[1] / sum[0] - 1) < 0.002 && fabs(color[1] / color[0] - 1) < 0.01);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void passes_without_compute_rasterization_are_drawn(void** state)
 {
-    struct fixture f = start(state, 50, 3e-4f);
+    struct hair_test_scene f = start(state, 50, 3e-4f);
     hair_lod lod = hair_lod_default();
     hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
-    assert_int_equal(path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_COMPUTE);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_COMPUTE);
     view.lod = &lod;
     view.primitive = HAIR_PRIMITIVE_LINES;
-    assert_int_equal(path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_CACHED);
     view.pass = HAIR_PASS_ID; // This pass needs more than levels of detail write for a vertex.
-    assert_int_equal(path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_INSTANCED);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_INSTANCED);
     view.pass = HAIR_PASS_COLOR;
     view.lod = NULL;
-    assert_int_equal(path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_CACHED);
     view.primitive = HAIR_PRIMITIVE_RIBBONS;
     view.coverage = HAIR_COVERAGE_ALPHA;
-    assert_int_equal(path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_CACHED);
     view.coverage = HAIR_COVERAGE_MSAA;
     for (hair_pass pass = HAIR_PASS_COLOR; pass <= HAIR_PASS_OPACITY; ++pass) {
         view.pass = pass;
         int is = pass == HAIR_PASS_COLOR || pass == HAIR_PASS_DEPTH;
-        assert_int_equal(path_of(&f.hair->renderer, &view),
-                         is ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED);
+        assert_int_equal(path_of(&f, &view), is ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check shading by the application. Its shader runs where the pixels are drawn.
 static void compute_path_draws_pixels_of_user_shaders(void** state)
 {
-    struct fixture f = start(state, 50, 3e-4f);
+    struct hair_test_scene f = start(state, 50, 3e-4f);
     hair_view view = front(HAIR_RENDER_PATH_COMPUTE, 0.8f);
     hair_shader_desc desc = hair_shader_desc_default();
     struct hair_test_frame frame;
@@ -337,12 +314,12 @@ static void compute_path_draws_pixels_of_user_shaders(void** state)
         hair_test_frame_free(&frame);
         hair_shader_destroy(view.shader);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
 {
-    struct fixture f = start(state, 50, 3e-4f);
+    struct hair_test_scene f = start(state, 50, 3e-4f);
     struct hair_raster* own = &f.hair->renderer.raster;
     struct hair_test_frame frame;
     hair_view view = front(HAIR_RENDER_PATH_CACHED, 0.8f);
@@ -364,7 +341,7 @@ static void compute_memory_fits_the_pixels_and_is_freed_unused(void** state)
     }
     assert_int_equal(own->nearest + own->tile + own->params, 0);
     hair_test_frame_free(&frame);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -1,14 +1,11 @@
 // rate_test.c - hair at a lower substep rate moves alike, as smoothly, for less work.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <hair/hair_egl.h>
-
-#include "lib/api/api.h"
-#include "tests/support/handmade.h"
 
 enum { GUIDES = 7, FRAMES = 1440, PER_SECOND = 240, MAX = 1024 };
 
@@ -18,31 +15,14 @@ struct run {
     uint32_t runs; // Number of the solver's runs.
 };
 
-struct fixture {
-    struct hair_test* test;
-    hair_context* context;
-    hair_groom* groom;
-};
-
-static struct fixture start(void** state)
+static struct hair_test_scene start(void** state)
 {
-    struct fixture f = {.test = *state};
-    hair_context_desc desc = hair_context_desc_default();
+    struct hair_test_scene f = hair_test_scene_make(*state, hair_egl_get_proc);
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    desc.host = &f.test->host.host;
-    desc.get_proc = hair_egl_get_proc;
-    desc.timings = true;
     wanted.guides = GUIDES;
     wanted.turn = 0.1f;
-    f.groom = hair_test_groom(desc.host, wanted);
-    hair_test_ok(f.test, hair_context_create(&desc, &f.context));
+    f.groom = hair_test_groom(&f.test->host.host, wanted);
     return f;
-}
-
-static void finish(struct fixture* f)
-{
-    hair_context_destroy(f->context);
-    hair_groom_destroy(f->groom);
 }
 
 // Return the angle of the head. It turns to and fro for two seconds, by at most half a radian, with
@@ -62,7 +42,7 @@ static uint32_t count_runs(hair_context* context)
     return runs;
 }
 
-static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUIDES])
+static void read_tips(struct hair_test_scene* f, hair_instance* hair, hair_vec3 tip[GUIDES])
 {
     float at[3 * MAX];
     uint32_t count = 0, each = hair->sim.smooth_vertices;
@@ -73,7 +53,7 @@ static void read_tips(struct fixture* f, hair_instance* hair, hair_vec3 tip[GUID
 
 // Simulate all frames. `rate_at` returns a frame's substep rate. `is_seen` returns whether hair is
 // visible in a frame, and a quarter of the rate is enough otherwise. NULL: always visible.
-static void run(struct fixture* f, float (*rate_at)(uint32_t frame), int (*is_seen)(uint32_t frame),
+static void run(struct hair_test_scene* f, float (*rate_at)(uint32_t frame), int (*is_seen)(uint32_t frame),
                 struct run* out)
 {
     hair_physics physics = hair_physics_default();
@@ -205,7 +185,7 @@ static void compare(const char* name, const struct run* full, const struct run* 
 static void lower_substep_rate_moves_hair_alike_with_fewer_runs(void** state)
 {
     static struct run full, low;
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     run(&f, at_one, NULL, &full);
     assert_int_equal(full.runs, FRAMES);
     run(&f, at_half, NULL, &low);
@@ -214,7 +194,7 @@ static void lower_substep_rate_moves_hair_alike_with_fewer_runs(void** state)
     run(&f, at_quarter, NULL, &low);
     compare("quarter", &full, &low, (struct bounds){0.08, 1e-3, 2.5e-4, 0.22});
     assert_int_equal(low.runs, FRAMES / 4);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check changes of the rate. Time runs at most twice as fast while substeps become shorter, and at
@@ -222,14 +202,14 @@ static void lower_substep_rate_moves_hair_alike_with_fewer_runs(void** state)
 static void hair_does_not_jump_when_the_substep_rate_changes(void** state)
 {
     static struct run full, low;
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     run(&f, at_one, NULL, &full);
     run(&f, at_any, NULL, &low);
     compare("changing", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});
     run(&f, at_one, is_now_and_then_seen, &low);
     compare("unseen", &full, &low, (struct bounds){0.05, 5e-4, 3e-4, 1.05});
     assert_in_range(low.runs, FRAMES - PER_SECOND / 4 * 3 / 4 - 5, FRAMES - PER_SECOND / 4 * 3 / 4 + 5);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 int main(void)

@@ -84,17 +84,6 @@ struct user {
     float damping;
 };
 
-// Count the OpenGL objects that exist, by trying all names.
-static uint32_t count_objects(void)
-{
-    uint32_t count = 0;
-    for (GLuint name = 1; name < 8192; ++name)
-        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
-                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
-                 glIsTransformFeedback(name) + glIsQuery(name);
-    return count;
-}
-
 static hair_result make_context(struct user* user, hair_context** out)
 {
     hair_context_desc desc = hair_context_desc_default();
@@ -173,14 +162,14 @@ struct refusal {
 static void torture(struct user* user, hair_result (*call)(struct user*), struct refusal of, uint32_t stride)
 {
     struct hair_test* test = user->test;
-    uint32_t objects = count_objects(), blocks = hair_test_blocks(test);
+    uint32_t objects = hair_test_count_objects(), blocks = hair_test_blocks(test);
     for (uint32_t n = 1; n < 2000; n += n < 32 ? 1 : stride) {
         *of.done = 0;
         *of.refuse = n;
         hair_result result = call(user);
         *of.refuse = 0;
         assert_int_equal(hair_test_blocks(test), blocks);
-        assert_int_equal(count_objects(), objects);
+        assert_int_equal(hair_test_count_objects(), objects);
         if (*of.done < n) {
             hair_test_ok(test, result);
             print_message("    %u %s\n", *of.done, of.what);

@@ -30,21 +30,10 @@ static hair_collider capsule(double x, double y, double radius, double angle)
     return collider;
 }
 
-// Return the maximum depth of a vertex in a collider or its margin. A negative value is the
-// distance. A root that the scalp holds does not count.
+// Return the maximum depth of a vertex in a collider or its margin.
 static double depth(const struct hair_test_living* living, const hair_collider* collider)
 {
-    double max = -INFINITY;
-    for (uint32_t g = 0; g < living->groom->info.guide_count; ++g)
-        for (uint32_t i = living->physics.root == HAIR_ROOT_FREE ? 0 : 1; i < living->groom->guides[g].count;
-             ++i) {
-            hair_vec3 p = hair_test_at(living, g, i);
-            double x = (double)(p.x - collider->position[0]), y = (double)(p.y - collider->position[1]);
-            double z = (double)(p.z - collider->position[2]);
-            if (collider->shape == HAIR_SHAPE_CAPSULE) z = fmax(fabs(z) - (double)collider->size[1], 0);
-            max = fmax(max, (double)collider->size[0] + MARGIN - sqrt(x * x + y * y + z * z));
-        }
-    return max;
+    return hair_test_depth(living, collider) + MARGIN;
 }
 
 // Lay a strand of 0.25 m over a collider, with its root above and to the side, and wait for

@@ -192,7 +192,8 @@ static void pins_too_far_apart_pull_a_guide_straight(void** state)
         for (uint32_t k = 0; k < 32; ++k)
             astray = fmax(astray, apart(hair_test_at(&living, 0, k), hair_scale(far, (float)k / 31)));
         hair_solver_stats pulled = hair_test_solver_stats(&living);
-        print_message("    %.2g m off the straight line, stretch %.4f, %u times taut, %u by Euler, %u led\n",
+        print_message("    %.2g m off the straight line, stretch %.4f, %u times overextended, %u by Euler, "
+                      "%u by following\n",
                       astray, hair_test_stretch(&living), pulled.overextended, pulled.euler_fallbacks,
                       pulled.follow_fallbacks);
         assert_true(astray < 0.03 && pulled.overextended > 0);

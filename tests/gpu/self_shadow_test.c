@@ -1,17 +1,14 @@
 // self_shadow_test.c - light that hair lets through to itself. The grid holds all hair, and light
 // agrees with a reference in double precision. A shadow map shadows what lies behind it, and no
 // strand by itself. Without self shadows, nothing runs or uses memory.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/base/math.h"
 #include "tests/reference/self_shadow.h"
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 
 #define SIZE 64
 #define SEGMENTS 8
@@ -21,11 +18,7 @@
 #define EACH (LIGHTS + 1)
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-    struct hair_test_frame frame;
-    hair_view view;
+    struct hair_test_scene scene;
     hair_light light[LIGHTS];
     GLuint map;
     // The GPU's data, in the head's frame.
@@ -39,26 +32,22 @@ static const float turned[16] = {0.6f, 0, -0.8f, 0, 0, 1, 0, 0, 0.8f, 0, 0.6f, 0
 
 static struct fixture start(void** state, uint32_t followers)
 {
-    struct fixture f = {.test = *state, .view = hair_view_default()};
+    struct fixture f = {0};
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     wanted.followers = followers;
     wanted.density = 1;
     look.strand.segments = SEGMENTS, look.strand.radius = 0.001f, look.self_shadow.cell = 0.012f;
     look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
-    desc.look = &look;
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    hair_test_ok(f.test, hair_teleport(f.hair, turned));
-    hair_test_ok(f.test, hair_step(f.hair, 0));
-    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
-    f.view.projection[0] = f.view.projection[5] = 1 / 0.6f;
-    f.view.projection[10] = -0.5f;
+    f.scene = hair_test_scene_of(*state, &wanted, &look);
+    hair_test_ok(f.scene.test, hair_teleport(f.scene.hair, turned));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 0));
+    hair_test_frame_make(&f.scene.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    hair_test_set_orthographic(&f.scene.view, 1 / 0.6f, -0.5f, 0);
     for (int i = 0; i < LIGHTS; ++i) f.light[i] = hair_light_default();
     f.light[1].kind = HAIR_LIGHT_POINT;
     f.light[1].position[0] = 0.3f, f.light[1].position[2] = -0.3f;
-    f.view.light_count = LIGHTS;
+    f.scene.view.light_count = LIGHTS;
     return f;
 }
 
@@ -68,15 +57,13 @@ static void finish(struct fixture* f)
     free(f->density);
     free(f->met);
     free(f->position);
-    hair_test_frame_free(&f->frame);
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
+    hair_test_scene_free(&f->scene);
 }
 
 static void draw(struct fixture* f)
 {
-    f->view.lights = f->light;
-    hair_test_ok(f->test, hair_draw(f->hair, &f->view));
+    f->scene.view.lights = f->light;
+    hair_test_ok(f->scene.test, hair_draw(f->scene.hair, &f->scene.view));
     glFinish();
 }
 
@@ -106,8 +93,8 @@ static void into_head(const float* p, double out[3])
 
 static void look_inside(struct fixture* f)
 {
-    const struct hair_self_shadow_state* own = &f->hair->lighting.self_shadow;
-    const struct hair_geometry* geometry = &f->hair->geometry;
+    const struct hair_self_shadow_state* own = &f->scene.hair->lighting.self_shadow;
+    const struct hair_geometry* geometry = &f->scene.hair->geometry;
     uint32_t box[6];
     size_t nodes = 1;
     glGetNamedBufferSubData(own->box, 0, sizeof box, box);
@@ -244,7 +231,7 @@ static double open_on_average(struct fixture* f, uint32_t vertices)
 {
     uint32_t* numbers = malloc(vertices * EACH * sizeof *numbers);
     double sum = 0;
-    glGetNamedBufferSubData(f->hair->lighting.self_shadow.light, 0,
+    glGetNamedBufferSubData(f->scene.hair->lighting.self_shadow.light, 0,
                             (GLsizeiptr)(vertices * EACH * sizeof *numbers), numbers);
     for (uint32_t v = 0; v < vertices; ++v) sum += half_of(numbers[v * EACH + 1] & 0xffff);
     free(numbers);
@@ -273,13 +260,13 @@ static void strand_does_not_shade_itself(void** state)
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
     glViewport(0, 0, 1024, 1024);
     glEnable(GL_DEPTH_TEST);
-    f.view.pass = HAIR_PASS_DEPTH;
-    memcpy(f.view.projection, f.light[0].shadow_matrix, sizeof f.view.projection);
+    f.scene.view.pass = HAIR_PASS_DEPTH;
+    memcpy(f.scene.view.projection, f.light[0].shadow_matrix, sizeof f.scene.view.projection);
     draw(&f);
     glDeleteFramebuffers(1, &frame);
-    glBindFramebuffer(GL_FRAMEBUFFER, f.frame.framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, f.scene.frame.framebuffer);
     glDisable(GL_DEPTH_TEST);
-    f.view.pass = HAIR_PASS_COLOR;
+    f.scene.view.pass = HAIR_PASS_COLOR;
     draw(&f);
     double open = open_on_average(&f, SEGMENTS + 1);
     print_message("    %g\n", open);
@@ -287,24 +274,17 @@ static void strand_does_not_shade_itself(void** state)
     finish(&f);
 }
 
-static hair_report_row row_of(struct fixture* f, const char* work)
+static hair_report_row row_of(const struct fixture* f, const char* work)
 {
-    hair_report_row rows[64] = {{0}};
-    hair_report_info info = hair_report_info_default();
-    uint32_t count = 0;
-    hair_test_ok(f->test, hair_report(f->hair, true, &info, rows, sizeof *rows, 64, &count));
-    for (uint32_t i = 0; i < count; ++i)
-        if (strcmp(rows[i].stage, work) == 0) return rows[i];
-    fail_msg("there is no row %s", work);
-    return rows[0];
+    return hair_test_report_row(f->scene.test, f->scene.hair, work);
 }
 
 static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
 {
     struct fixture f = start(state, FOLLOWERS);
-    hair_look look = f.hair->geometry.look;
-    f.view.frame_index = 7;
-    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    hair_look look = f.scene.hair->geometry.look;
+    f.scene.view.frame_index = 7;
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
     draw(&f);
     draw(&f);
     assert_int_equal(row_of(&f, "self_shadow").runs, 4);
@@ -313,8 +293,8 @@ static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
     draw(&f);
     assert_int_equal(row_of(&f, "self_shadow").runs, 6); // The grid does not change.
     look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
-    hair_test_ok(f.test, hair_set_look(f.hair, &look));
-    hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    hair_test_ok(f.scene.test, hair_set_look(f.scene.hair, &look));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
     draw(&f);
     assert_int_equal(row_of(&f, "self_shadow").runs, 0);
     assert_int_equal(row_of(&f, "self_shadow").skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
@@ -334,10 +314,10 @@ static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
     lod.per_patch = false;
     lod.strand_fraction = 0.25f;
     for (int i = 0; i < 2; ++i) {
-        f.view.lod = i ? &lod : NULL;
-        hair_test_ok(f.test, hair_step(f.hair, 0.01f));
+        f.scene.view.lod = i ? &lod : NULL;
+        hair_test_ok(f.scene.test, hair_step(f.scene.hair, 0.01f));
         if (i)
-            glClearNamedBufferData(f.hair->lighting.self_shadow.light, GL_R32UI, GL_RED_INTEGER,
+            glClearNamedBufferData(f.scene.hair->lighting.self_shadow.light, GL_R32UI, GL_RED_INTEGER,
                                    GL_UNSIGNED_INT, &none);
         draw(&f);
         look_inside(&f);
@@ -347,8 +327,8 @@ static void self_shadow_lights_only_strands_of_the_level_of_detail(void** state)
         free(f.met);
         free(f.position);
     }
-    for (uint32_t p = 0; p < f.groom->info.patch_count; ++p) {
-        const struct hair_patch* patch = &f.groom->patches[p];
+    for (uint32_t p = 0; p < f.scene.groom->info.patch_count; ++p) {
+        const struct hair_patch* patch = &f.scene.groom->patches[p];
         uint32_t drawn = 1 + (uint32_t)(0.25 * patch->count); // The next strand may be fading in.
         for (uint32_t s = 0; s < patch->count; ++s)
             for (uint32_t k = 0; k < (SEGMENTS + 1) * EACH; ++k) {

@@ -1,43 +1,24 @@
 // shader_test.c - shading by the application. It receives the documented inputs, errors have its
 // line numbers, and no source text breaks anything.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "tests/support/frame.h"
-#include "tests/support/handmade.h"
 #include "tests/support/live_hair.h"
 
 #define SIDE 96
 
-struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
-};
-
-static struct fixture start(void** state)
+static struct hair_test_scene start(void** state)
 {
-    struct fixture f = {.test = *state};
-    hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
     look.strand.radius = 0.004f;
     look.shading.model = HAIR_SHADING_LINES;
-    desc.look = &look;
-    f.groom = hair_test_groom(&f.test->host.host, hair_test_handmade_default());
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    return f;
+    return hair_test_scene_of(*state, NULL, &look);
 }
 
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
-}
-
-static hair_result make(struct fixture* f, const char* glsl, hair_shade_at at, hair_shader** out)
+static hair_result make(struct hair_test_scene* f, const char* glsl, hair_shade_at at, hair_shader** out)
 {
     hair_shader_desc desc = hair_shader_desc_default();
     desc.label = "mine";
@@ -51,50 +32,19 @@ static hair_view view_of(hair_pass pass, hair_shader* shader)
     hair_view view = hair_view_default();
     view.pass = pass;
     view.shader = shader;
-    view.projection[0] = view.projection[5] = 2;
-    view.projection[10] = -0.5f;
-    view.projection[13] = -0.2f;
+    hair_test_set_orthographic(&view, 2, -0.5f, -0.2f);
     return view;
 }
 
-static void draw(struct fixture* f, const hair_view* view, float* pixels)
+static void draw(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
-    struct hair_test_frame frame;
-    hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
-    hair_test_ok(f->test, hair_draw(f->hair, view));
-    hair_test_frame_read(&frame, pixels);
-    hair_test_frame_free(&frame);
-}
-
-// Draw the indices of strand and guide and the position along the strand, each from 1. 0 marks
-// pixels without hair.
-static void draw_ids(struct fixture* f, uint32_t* ids)
-{
-    GLuint framebuffer, target[2];
-    static const float far_away = 1;
-    static const GLuint nothing[4] = {0};
-    glCreateFramebuffers(1, &framebuffer);
-    glCreateRenderbuffers(2, target);
-    glNamedRenderbufferStorage(target[0], GL_RGBA32UI, SIDE, SIDE);
-    glNamedRenderbufferStorage(target[1], GL_DEPTH_COMPONENT32F, SIDE, SIDE);
-    glNamedFramebufferRenderbuffer(framebuffer, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target[0]);
-    glNamedFramebufferRenderbuffer(framebuffer, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, target[1]);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glViewport(0, 0, SIDE, SIDE);
-    glEnable(GL_DEPTH_TEST);
-    glClearNamedFramebufferuiv(framebuffer, GL_COLOR, 0, nothing);
-    glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &far_away);
-    hair_view view = view_of(HAIR_PASS_ID, NULL);
-    hair_test_ok(f->test, hair_draw(f->hair, &view));
-    glReadPixels(0, 0, SIDE, SIDE, GL_RGBA_INTEGER, GL_UNSIGNED_INT, ids);
-    glDeleteFramebuffers(1, &framebuffer);
-    glDeleteRenderbuffers(2, target);
+    hair_test_draw(f, view, SIDE, SIDE, 0, pixels, NULL);
 }
 
 static void user_shader_that_calls_the_built_in_changes_nothing(void** state)
 {
     static float plain[4 * SIDE * SIDE], own[4 * SIDE * SIDE];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_shader* shader;
     hair_test_ok(f.test,
                  make(&f, "vec4 hair_shade(hair_fragment f) { return vec4(hair_shade_ours(f), 1.0); }\n",
@@ -108,7 +58,7 @@ static void user_shader_that_calls_the_built_in_changes_nothing(void** state)
     assert_true(lit > 10);
     for (int i = 0; i < 4 * SIDE * SIDE; ++i) hair_test_near("value", (size_t)i, own[i], plain[i], 1e-6);
     hair_shader_destroy(shader);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Compare with the pass of indices, which gives the strand of each pixel.
@@ -116,7 +66,7 @@ static void pixel_shader_knows_strand_position_and_side(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
     static uint32_t ids[4 * SIDE * SIDE];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_shader* shader;
     hair_test_ok(
         f.test,
@@ -126,7 +76,7 @@ static void pixel_shader_knows_strand_position_and_side(void** state)
              HAIR_SHADE_PIXELS, &shader));
     hair_view view = view_of(HAIR_PASS_COLOR, shader);
     draw(&f, &view, pixels);
-    draw_ids(&f, ids);
+    hair_test_draw_ids(f.test, f.hair, &view, SIDE, ids);
     uint32_t covered = 0, strands = 0, left = 0, right = 0, last = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const float* p = pixels + 4 * i;
@@ -147,13 +97,13 @@ static void pixel_shader_knows_strand_position_and_side(void** state)
                   left, right);
     assert_true(covered > 150 && left > covered / 8 && right > covered / 8);
     hair_shader_destroy(shader);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void user_shader_has_lights_and_further_outputs(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_shader* shader;
     hair_test_ok(
         f.test,
@@ -200,7 +150,7 @@ static void user_shader_has_lights_and_further_outputs(void** state)
     hair_test_frame_free(&frame);
     glDeleteRenderbuffers(1, &second);
     hair_shader_destroy(shader);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void nonfinite_user_colors_are_drawn_black(void** state)
@@ -210,7 +160,7 @@ static void nonfinite_user_colors_are_drawn_black(void** state)
         "vec4 hair_shade(hair_fragment f) { return vec4(0.0 / (f.t - f.t), -1e30, -1.0 / (f.t - f.t), 1.0); "
         "}"};
     static float pixels[4 * SIDE * SIDE];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     for (int i = 0; i < 4; ++i) {
         hair_shader* shader;
         hair_test_ok(f.test,
@@ -221,12 +171,12 @@ static void nonfinite_user_colors_are_drawn_black(void** state)
             for (int c = 0; c < 3; ++c) assert_true(pixels[4 * k + c] == 0);
         hair_shader_destroy(shader);
     }
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void shader_errors_have_lines_of_the_users_text(void** state)
 {
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_shader* shader = NULL;
     hair_shader_desc desc = hair_shader_desc_default();
     hair_test_refused(f.test, hair_shader_create(f.test->context, &desc, &shader), HAIR_ERROR_ARGUMENT,
@@ -242,7 +192,7 @@ static void shader_errors_have_lines_of_the_users_text(void** state)
         hair_test_refused(f.test, result, HAIR_ERROR_OPENGL, "mine: ");
     }
     assert_null(shader);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void any_shader_text_is_refused_or_harmless(void** state)
@@ -263,7 +213,7 @@ static void any_shader_text_is_refused_or_harmless(void** state)
         "\xff\xfe\x01%s%n%d \\\n\\",
         "struct hair_fragment { int x; };"};
     static float before[4 * SIDE * SIDE], after[4 * SIDE * SIDE];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_view view = view_of(HAIR_PASS_COLOR, NULL);
     draw(&f, &view, before);
     for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i) {
@@ -276,7 +226,7 @@ static void any_shader_text_is_refused_or_harmless(void** state)
     }
     draw(&f, &view, after);
     assert_memory_equal(before, after, sizeof before);
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 // Check a square scalp of 0.4 m whose texture coordinates are x and z. Roots have the coordinates
@@ -284,7 +234,7 @@ static void any_shader_text_is_refused_or_harmless(void** state)
 static void roots_have_the_uvs_and_texture_of_the_scalp(void** state)
 {
     static float pixels[4 * SIDE * SIDE];
-    struct fixture f = {.test = *state};
+    struct hair_test_scene f = {.test = *state};
     struct hair_test_scalp scalp = hair_test_scalp_make(4, 0.4f);
     struct hair_test_strands guides = hair_test_strands_make(9, 4);
     for (int i = 0; i < 9; ++i) // The guides are slanted, so that strands are not seen end on.
@@ -360,7 +310,7 @@ static void roots_have_the_uvs_and_texture_of_the_scalp(void** state)
                       "hair_view.color_texture is 4711");
     glDeleteTextures(1, &texture);
     hair_shader_destroy(shader);
-    finish(&f);
+    hair_test_scene_free(&f);
     free(uvs);
     hair_test_scalp_free(&scalp);
     hair_test_strands_free(&guides);

@@ -16,16 +16,6 @@
 
 enum { FPS = 60, GUIDES = 7, MAX = 512, PATIENCE = 15 * FPS };
 
-static hair_context* make_context(struct hair_test* test)
-{
-    hair_context* context = NULL;
-    hair_context_desc desc = hair_context_desc_default();
-    desc.host = &test->host.host;
-    desc.get_proc = hair_test_trace_proc;
-    hair_test_ok(test, hair_context_create(&desc, &context));
-    return context;
-}
-
 static hair_instance* make(struct hair_test* test, hair_context* context, hair_solver solver, float sleep)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
@@ -125,7 +115,7 @@ static int compare(const void* a, const void* b)
 static void sleeping_head_steps_without_opengl_in_2_us(void** state)
 {
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_test_trace_proc);
     hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
     hair_collider collider = hair_collider_default();
     double us[999];
@@ -187,7 +177,7 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
 
 static void woken_hair_is_near_hair_that_never_slept(void** state)
 {
-    hair_context* context = make_context(*state);
+    hair_context* context = hair_test_context(*state, hair_test_trace_proc);
     check_waking(*state, context, HAIR_SOLVER_DIRECT, 1e-4f, 0);
     check_waking(*state, context, HAIR_SOLVER_DIRECT, 1e-4f, 1);
     check_waking(*state, context, HAIR_SOLVER_DIRECT, 2e-3f, 0);
@@ -268,7 +258,7 @@ static void check_settings(struct dozing* d)
 static void only_inputs_that_move_hair_wake_it(void** state)
 {
     struct dozing d = {.test = *state};
-    hair_context* context = make_context(d.test);
+    hair_context* context = hair_test_context(d.test, hair_test_trace_proc);
     d.hair = make(d.test, context, HAIR_SOLVER_DIRECT, 1e-4f);
     assert_true(let_sleep(d.test, d.hair, 1) < PATIENCE);
     d.blob = hair_test_save(d.test, d.hair);
@@ -291,7 +281,7 @@ static void sleep_begins_at_the_same_step_on_any_gpu_timing(void** state)
 {
     static struct hair_test_seen seen[2];
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_test_trace_proc);
     uint32_t frames[2];
     for (uint32_t i = 0; i < 2; ++i) { // The GPU is at most one frame behind, or three.
         hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-4f);
@@ -310,7 +300,7 @@ static void sleep_begins_at_the_same_step_on_any_gpu_timing(void** state)
 static void slow_gpu_delays_sleep_without_a_wait(void** state)
 {
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_test_trace_proc);
     hair_instance* hair[2];
     uint32_t asleep[2] = {0, 0}, frame = 0;
     for (int i = 0; i < 2; ++i) {
@@ -340,7 +330,7 @@ static void loaded_hair_falls_asleep_at_the_same_step(void** state)
 {
     static struct hair_test_seen straight, loaded;
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_test_trace_proc);
     hair_instance* hair = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
     hair_instance* other = make(test, context, HAIR_SOLVER_DIRECT, 1e-3f);
     uint32_t slept = 0;
@@ -377,7 +367,7 @@ static void loaded_hair_falls_asleep_at_the_same_step(void** state)
 static void hair_that_swings_or_may_not_sleep_stays_awake(void** state)
 {
     struct hair_test* test = *state;
-    hair_context* context = make_context(test);
+    hair_context* context = hair_test_context(test, hair_test_trace_proc);
     hair_instance* swings = make(test, context, HAIR_SOLVER_ACCURATE, 1e-4f);
     hair_instance* may_not = make(test, context, HAIR_SOLVER_DIRECT, 0);
     hair_physics physics = hair_physics_default();

@@ -1,21 +1,16 @@
 // smooth_test.c - guides are smoothed on the GPU as in the double-precision reference.
-#include "tests/support/support.h"
+#include "tests/support/scene.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "lib/api/api.h"
 #include "lib/base/math.h"
-#include "tests/reference/reference.h"
-#include "tests/support/handmade.h"
 
 #define STATES 4096
 #define SAMPLES 8192
 
 struct fixture {
-    struct hair_test* test;
-    hair_groom* groom;
-    hair_instance* hair;
+    struct hair_test_scene scene;
     struct hair_step_params params;
     struct hair_state state[STATES];
     hair_vec4 position[SAMPLES], tangent[SAMPLES], frame[SAMPLES]; // Results of the GPU.
@@ -39,13 +34,10 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
 {
     static struct fixture f;
     memset(&f, 0, sizeof f);
-    f.test = *state;
+    f.scene = hair_test_scene_of(*state, &wanted, NULL);
     f.random = 54321;
-    hair_desc desc = hair_desc_default();
-    f.groom = hair_test_groom(&f.test->host.host, wanted);
-    hair_test_ok(f.test, hair_create(f.test->context, f.groom, &desc, &f.hair));
-    f.params.guides = f.groom->info.guide_count;
-    f.params.smooth_vertices = 2 * f.groom->max_vertices - 1;
+    f.params.guides = f.scene.groom->info.guide_count;
+    f.params.smooth_vertices = 2 * f.scene.groom->max_vertices - 1;
     f.params.rotation_before = turn_about(hair_v3(1, 2, 3), 0.3f);
     f.params.rotation_after = turn_about(hair_v3(1, 2, 2.5f), 0.4f);
     f.params.rotation_now = turn_about(hair_v3(3, -1, 1), 0.5f);
@@ -55,8 +47,8 @@ static struct fixture* start_with(void** state, struct hair_test_handmade wanted
     // A direction is the difference of positions that are at least half a segment apart. A frame
     // has the errors of all frames before it, which add up as the square root of their number.
     f.direction = POSITION / (0.5 * (double)wanted.segment);
-    f.turn = sqrt(f.groom->max_vertices) * f.direction;
-    hair_test_scatter(f.groom, 0.1f * wanted.segment, 0.2f * wanted.segment, &f.random, f.state);
+    f.turn = sqrt(f.scene.groom->max_vertices) * f.direction;
+    hair_test_scatter(f.scene.groom, 0.1f * wanted.segment, 0.2f * wanted.segment, &f.random, f.state);
     return &f;
 }
 
@@ -68,37 +60,26 @@ static struct fixture* start(void** state, uint32_t fewest, uint32_t max)
     return start_with(state, wanted);
 }
 
-static void finish(struct fixture* f)
-{
-    hair_destroy(f->hair);
-    hair_groom_destroy(f->groom);
-}
-
 static void run(struct fixture* f)
 {
-    struct hair_gl* gl = &f->test->context->gl;
-    // One driver loses data that is written to a buffer while a dispatch writes the buffer.
-    glFinish();
-    glNamedBufferSubData(f->hair->sim.state, 0, f->groom->info.guide_vertex_count * sizeof *f->state,
-                         f->state);
-    glNamedBufferSubData(f->hair->sim.step, 0, sizeof f->params, &f->params);
-    hair_gl_enter(gl);
-    hair_smooth_run(&f->hair->geometry.smooth, &f->hair->sim);
-    hair_gl_leave(gl);
+    glFinish(); // One driver loses data that is written to a buffer which a dispatch reads.
+    glNamedBufferSubData(f->scene.hair->sim.step, 0, sizeof f->params, &f->params);
+    hair_test_scene_set_state(&f->scene, f->state);
     hair_vec4* buffers[] = {f->position, f->tangent, f->frame};
     for (int i = 0; i < 3; ++i)
-        glGetNamedBufferSubData(f->hair->geometry.smooth.buffer[i], 0, f->samples * sizeof(hair_vec4),
+        glGetNamedBufferSubData(f->scene.hair->geometry.smooth.buffer[i], 0, f->samples * sizeof(hair_vec4),
                                 buffers[i]);
 
     for (uint32_t g = 0; g < f->params.guides; ++g) {
         static struct hair_reference_vertex state[HAIR_MAX_GUIDE_VERTICES];
-        const struct hair_guide* guide = &f->groom->guides[g];
+        const struct hair_guide* guide = &f->scene.groom->guides[g];
         for (uint32_t i = 0; i < guide->count; ++i) {
             hair_vec4 p = f->state[guide->first + i].position, d = f->state[guide->first + i].displacement;
             state[i] = (struct hair_reference_vertex){{p.x, p.y, p.z}, {d.x, d.y, d.z}};
         }
-        hair_reference_smooth((struct hair_reference_guide){guide, f->groom->rest + guide->first, &f->params},
-                              state, f->expected + g * f->params.smooth_vertices);
+        hair_reference_smooth(
+            (struct hair_reference_guide){guide, f->scene.groom->rest + guide->first, &f->params}, state,
+            f->expected + g * f->params.smooth_vertices);
     }
 }
 
@@ -131,7 +112,7 @@ static void smoothed_guides_of_every_length_equal_the_reference(void** state)
     struct fixture* f = start(state, 2, 64);
     run(f);
     compare(f);
-    finish(f);
+    hair_test_scene_free(&f->scene);
 }
 
 static void smoothed_guides_of_2_to_256_vertices_equal_the_reference(void** state)
@@ -145,7 +126,7 @@ static void smoothed_guides_of_2_to_256_vertices_equal_the_reference(void** stat
         struct fixture* f = start_with(state, wanted);
         run(f);
         compare(f);
-        finish(f);
+        hair_test_scene_free(&f->scene);
     }
 }
 
@@ -157,7 +138,7 @@ static void smoothing_at_both_ends_of_a_substep_equals_the_reference(void** stat
         run(f);
         compare(f);
     }
-    finish(f);
+    hair_test_scene_free(&f->scene);
 }
 
 // Check that a sample has the stretch of its segment. Near a vertex, rounding may choose either
@@ -173,7 +154,7 @@ static void smoothing_outputs_the_stretch_of_each_segment(void** state)
         if (fabs(got - before) > f->direction && fabs(got - after) > f->direction)
             hair_test_near("stretch", i, got, own, f->direction);
     }
-    finish(f);
+    hair_test_scene_free(&f->scene);
 }
 
 // Check what drawing requires: unit tangents, frames with tangents as their y axis, and roots under
@@ -181,7 +162,7 @@ static void smoothing_outputs_the_stretch_of_each_segment(void** state)
 static void frames_follow_the_strand_and_roots_stay_on_the_scalp(void** state)
 {
     struct fixture* f = start(state, 2, 64);
-    hair_test_scatter(f->groom, 0, 0, &f->random, f->state);
+    hair_test_scatter(f->scene.groom, 0, 0, &f->random, f->state);
     f->params.alpha = 1;
     f->params.rotation_after = (hair_vec4){0, 0, 0, 1};
     f->params.last_displacement = (hair_vec4){0};
@@ -194,19 +175,20 @@ static void frames_follow_the_strand_and_roots_stay_on_the_scalp(void** state)
         near3("y", i, &t, (double[]){y.x, y.y, y.z}, 1e-5);
         hair_test_near("tangent", i, hair_length(hair_v3(t.x, t.y, t.z)), 1, 1e-6);
         if (i % f->params.smooth_vertices) continue;
-        hair_vec4 at = f->groom->rest[f->groom->guides[i / f->params.smooth_vertices].first].position;
+        hair_vec4 at =
+            f->scene.groom->rest[f->scene.groom->guides[i / f->params.smooth_vertices].first].position;
         hair_vec3 root = hair_rotate(now, hair_v3(at.x, at.y, at.z));
         near3("root", i, &f->position[i], (double[]){root.x, root.y, root.z}, 1e-6);
         assert_true(f->position[i].w == 0);
     }
-    finish(f);
+    hair_test_scene_free(&f->scene);
 }
 
 // Check that coincident vertices and strands of no length give finite numbers.
 static void smoothed_strand_without_length_is_finite(void** state)
 {
     struct fixture* f = start(state, 4, 16);
-    for (uint32_t i = 0; i < f->groom->info.guide_vertex_count; ++i) {
+    for (uint32_t i = 0; i < f->scene.groom->info.guide_vertex_count; ++i) {
         if (i % 3 == 0) f->state[i] = f->state[i - i % 5];
         if (i < 20) f->state[i] = f->state[0];
     }
@@ -215,7 +197,7 @@ static void smoothed_strand_without_length_is_finite(void** state)
         const hair_vec4 p = f->position[i], t = f->tangent[i], q = f->frame[i];
         assert_true(isfinite(p.x + p.y + p.z + p.w + t.x + t.y + t.z + t.w + q.x + q.y + q.z + q.w));
     }
-    finish(f);
+    hair_test_scene_free(&f->scene);
 }
 
 int main(void)

@@ -100,4 +100,56 @@ struct randoms {
     }
 };
 
+// Replace the colliders by those of a shape.
+static inline void take(const btCollisionShape& shape, const btTransform& where)
+{
+    float matrix[16];
+    where.getOpenGLMatrix(matrix);
+    assert_int_equal(hair_bullet_clear(test.bullet), HAIR_OK);
+    assert_int_equal(hair_bullet_add_shape(test.bullet, &shape, matrix), HAIR_OK);
+}
+
+// Error of Bullet's distance to curved surfaces, in metres, measured against closed forms. Its
+// iteration stops early there.
+#define GJK_ERROR 8e-3
+
+struct error {
+    double worst = 0, squares = 0;
+    int count = 0;
+    void add(double off)
+    {
+        worst = std::fmax(worst, std::fabs(off));
+        squares += off * off;
+        ++count;
+    }
+};
+
+// Compare distances at random points around the shape, outside the core, where GJK is exact. EPA
+// gives the sign farther than `limit` from the surface.
+static inline error compare(const char* what, const btConvexShape& shape, double limit, double band)
+{
+    randoms random;
+    error error;
+    for (int round = 0; round < 4; ++round) {
+        const btTransform where = random.transform(1);
+        btVector3 lower, upper;
+        take(shape, where);
+        shape.getAabb(where, lower, upper);
+        const btVector3 middle = (lower + upper) / 2, half = (upper - lower) / 2;
+        for (int i = 0; i < 800; ++i) {
+            const btVector3 p =
+                middle + (half * btScalar(1.3) + btVector3(1, 1, 1) * shape.getMargin()) * random.vector(1);
+            const double exact = gjk(&shape, where, p), own = nearest(p);
+            if (std::isinf(exact)) continue; // GJK gives no result here.
+            if (std::fabs(exact) > 2 * limit + 1e-4 && (own < 0) != (exact < 0))
+                fail_msg("%s: GJK says %g at point %d, the colliders %g", what, exact, i, own);
+            if (exact > -0.9 * static_cast<double>(shape.getMargin()) && exact < band)
+                error.add(std::fmax(std::fabs(own - exact) - 0.01 * std::fabs(exact), 0));
+        }
+    }
+    if (error.count < 60) fail_msg("%s: only %d points were compared", what, error.count);
+    if (!(error.worst <= limit)) fail_msg("%s: off by up to %g m, more than %g", what, error.worst, limit);
+    return error;
+}
+
 #endif

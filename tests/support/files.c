@@ -200,3 +200,36 @@ hair_result hair_test_read(struct hair_test_host* test, const hair_import* impor
     }
     return result;
 }
+
+struct hair_strands hair_test_import_strands(const struct hair_test_host* test, uint32_t count, uint32_t each)
+{
+    struct hair_strands strands = {.strand_count = count, .vertex_count = count * each};
+    strands.positions = hair_alloc(&test->host, strands.vertex_count, 12);
+    strands.vertices = hair_alloc(&test->host, count, 4);
+    strands.radii = hair_alloc(&test->host, count, 4);
+    for (uint32_t i = 0; i < count; ++i) {
+        strands.vertices[i] = each;
+        strands.radii[i] = (float)i;
+        for (uint32_t j = 0; j < each; ++j)
+            hair_store3(strands.positions + 3 * (size_t)(i * each + j),
+                        hair_v3(0.01f * (float)j, 0, (float)i));
+    }
+    return strands;
+}
+
+void hair_test_assert_fit(const struct hair_strands* strands)
+{
+    size_t first = 0;
+    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+        uint32_t vertices = strands->vertices[i];
+        const float* p = strands->positions + 3 * first;
+        assert_in_range(vertices, 2, 256);
+        double length = hair_strand_length(p, vertices);
+        assert_true(length >= 1e-5);
+        for (uint32_t j = 0; j < 3 * vertices; ++j) assert_true(fabsf(p[j]) <= 1e6f);
+        for (uint32_t j = 1; j < vertices; ++j)
+            assert_true(hair_strand_length(p + 3 * (j - 1), 2) >= 1e-5 * length);
+        first += vertices;
+    }
+    assert_int_equal(first, strands->vertex_count);
+}

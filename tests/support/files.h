@@ -3,6 +3,7 @@
 #define HAIR_TESTS_SUPPORT_FILES_H
 
 #include "lib/asset/asset.h"
+#include "lib/asset/strands.h"
 #include "tests/support/host.h"
 
 struct hair_test_file {
@@ -29,6 +30,13 @@ struct hair_test_file hair_test_tfx3(void);
 struct hair_test_file hair_test_tfx2(void);
 
 hair_import hair_test_import(void); // Return the defaults.
+
+// Make straight strands along x with segments of 1 cm, as an import reads them. Strand i is at
+// z = i.
+struct hair_strands hair_test_import_strands(const struct hair_test_host* test, uint32_t count,
+                                             uint32_t each);
+// Check the guarantees of lib/asset/strands.h for every strand.
+void hair_test_assert_fit(const struct hair_strands* strands);
 
 // Decode a file and check what the library promises of every input. HAIR_ERROR_FILE comes with one
 // sentence with the byte offset and without an asset. HAIR_OK comes with a valid haircut. Memory

@@ -27,14 +27,18 @@ static GLuint make_framebuffer(struct hair_test_frame* frame, int i, GLenum form
 void hair_test_frame_clear(const struct hair_test_frame* frame)
 {
     static const float black[4] = {0, 0, 0, 0}, far_away = 1;
-    glClearNamedFramebufferfv(frame->framebuffer, GL_COLOR, 0, black);
+    static const GLuint zero[4] = {0, 0, 0, 0};
+    if (frame->format == GL_RGBA32UI)
+        glClearNamedFramebufferuiv(frame->framebuffer, GL_COLOR, 0, zero);
+    else
+        glClearNamedFramebufferfv(frame->framebuffer, GL_COLOR, 0, black);
     glClearNamedFramebufferfv(frame->framebuffer, GL_DEPTH, 0, &far_away);
 }
 
 void hair_test_frame_make(struct hair_test_frame* frame, GLsizei width, GLsizei height, GLenum format,
                           GLsizei samples)
 {
-    *frame = (struct hair_test_frame){.width = width, .height = height, .samples = samples};
+    *frame = (struct hair_test_frame){.width = width, .height = height, .samples = samples, .format = format};
     frame->framebuffer = make_framebuffer(frame, 0, format, samples);
     frame->resolved = samples ? make_framebuffer(frame, 1, format, 0) : frame->framebuffer;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->framebuffer);

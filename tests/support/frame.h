@@ -6,13 +6,14 @@
 
 struct hair_test_frame {
     GLsizei width, height, samples;
+    GLenum format;
     GLuint framebuffer; // draw framebuffer
     GLuint resolved; // read framebuffer. It equals `framebuffer` if `samples` is 0.
     GLuint color[2], depth[2];
 };
 
 // Make a frame and bind it, with its viewport set, cleared to black and to depth 1. `format` is
-// GL_RGBA32F or GL_RGBA8. `samples` is 0 or 4.
+// GL_RGBA32F, GL_RGBA8 or GL_RGBA32UI. `samples` is 0 or 4.
 void hair_test_frame_make(struct hair_test_frame* frame, GLsizei width, GLsizei height, GLenum format,
                           GLsizei samples);
 // Clear the frame to black and to depth 1.

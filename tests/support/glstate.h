@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #define HAIR_TEST_VALUES 4096
+#define HAIR_TEST_UNITS 24 // texture units that are compared
 
 struct hair_test_glstate {
     size_t count;

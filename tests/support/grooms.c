@@ -2,8 +2,12 @@
 // drawn.
 #include "tests/support/grooms.h"
 
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <cmocka.h>
 
 struct hair_test_strands hair_test_strands_make(uint32_t count, uint32_t max)
 {
@@ -98,16 +102,18 @@ static struct hair_guide_spline_point guide_at(const struct hair_groom* groom, u
     return hair_guide_spline_at(&spline, u);
 }
 
-static hair_vec3 xyz(hair_vec4 v)
+hair_groom* hair_test_groom_of(const hair_groom_desc* desc)
 {
-    return hair_v3(v.x, v.y, v.z);
+    hair_groom* groom = NULL;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
+    return groom;
 }
 
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
     struct hair_guide_spline_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
     hair_vec3 p[4];
-    for (int i = 0; i < 4; ++i) p[i] = xyz(follower->offset[i]);
+    for (int i = 0; i < 4; ++i) p[i] = hair_test_xyz(follower->offset[i]);
     for (int n = 3; n > 0; --n) // De Casteljau's algorithm.
         for (int i = 0; i < n; ++i) p[i] = hair_lerp(p[i], p[i + 1], t);
     return hair_add(guide.position, hair_rotate(guide.frame, p[0]));

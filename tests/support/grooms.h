@@ -39,6 +39,14 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
                                      const struct hair_test_strands* strands);
 void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* scalp);
 
+// Create a groom. The test fails if this fails.
+hair_groom* hair_test_groom_of(const hair_groom_desc* desc);
+
+static inline hair_vec3 hair_test_xyz(hair_vec4 v)
+{
+    return hair_v3(v.x, v.y, v.z);
+}
+
 // Return a point of a follower by its guide 0 alone, like glsl/strands/follower.glsl with a look
 // that adds nothing.
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t);

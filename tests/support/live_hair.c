@@ -64,6 +64,19 @@ static void write_matrix(const struct hair_reference_rod_pose* pose, float out[1
     out[15] = 1;
 }
 
+struct hair_test_strands hair_test_straight_and_curl(void)
+{
+    struct hair_test_strands s = hair_test_strands_make(2, 24);
+    hair_test_add_straight(&s, 16, hair_v3(0.1f, 0, 0), hair_v3(0.6f, -1, 0), 0.12f);
+    for (uint32_t i = 0; i < 24; ++i) {
+        float t = (float)i / 23;
+        hair_store3(s.positions + 3 * (size_t)s.vertex_count++,
+                    hair_v3(-0.1f + 0.015f * (1 - cosf(8 * t)), -0.2f * t, 0.015f * sinf(8 * t)));
+    }
+    s.vertices[s.count++] = 24;
+    return s;
+}
+
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head, double dt)
 {
     float transform[16];
@@ -180,6 +193,19 @@ double hair_test_depth(const struct hair_test_living* living, const hair_collide
             max = fmax(max, -hair_distance_to_collider(collider, xyz, NULL));
         }
     return max;
+}
+
+void hair_test_check_slide(struct hair_test_living* living, const hair_collider* slope, double friction)
+{
+    double a = 9.81 * (sin(0.4) - friction * cos(0.4)), far = fmax(a, 0) * 0.125;
+    hair_test_read_guides(living);
+    double before = (double)hair_test_at(living, 0, 10).x;
+    hair_test_set_colliders(living, slope, 1);
+    hair_test_wait(living, 30);
+    hair_test_read_guides(living);
+    double slid = (before - (double)hair_test_at(living, 0, 10).x) / cos(0.4);
+    print_message("    friction %g: slides %.4f m of %.4f m\n", friction, slid, far);
+    hair_test_near("slid", 0, slid, far, 0.02 * far + 1e-4);
 }
 
 hair_solver_stats hair_test_solver_stats(struct hair_test_living* living)

@@ -36,6 +36,9 @@ struct hair_test_strands hair_test_straight(uint32_t vertices, hair_vec3 root, h
 void hair_test_add_straight(struct hair_test_strands* strands, uint32_t vertices, hair_vec3 root,
                             hair_vec3 way, float length);
 
+// Return a straight strand and a curl, which their rest strain supports.
+struct hair_test_strands hair_test_straight_and_curl(void);
+
 // Step. The head is at `head` at the end of the step. NULL keeps it in place.
 void hair_test_advance(struct hair_test_living* living, const struct hair_reference_rod_pose* head,
                        double dt);
@@ -64,6 +67,10 @@ void hair_test_set_colliders(struct hair_test_living* living, const hair_collide
 // Return the maximum depth of a vertex in a collider, m. A negative value is the distance. Roots
 // fixed to the scalp do not count.
 double hair_test_depth(const struct hair_test_living* living, const hair_collider* collider);
+
+// Check that the first guide slides down a slope of 0.4 rad about z by Coulomb's law, for half a
+// second. `friction` is the product of both coefficients.
+void hair_test_check_slide(struct hair_test_living* living, const hair_collider* slope, double friction);
 
 hair_solver_stats hair_test_solver_stats(struct hair_test_living* living);
 // Check that no guide's substep was repeated and none was reset.

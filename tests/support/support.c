@@ -64,6 +64,16 @@ uint32_t hair_test_blocks(const struct hair_test* test)
     return test->host.blocks - gl->programs - (gl->program != NULL);
 }
 
+uint32_t hair_test_count_objects(void)
+{
+    uint32_t count = 0;
+    for (GLuint name = 1; name < 8192; ++name)
+        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
+                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
+                 glIsTransformFeedback(name) + glIsQuery(name);
+    return count;
+}
+
 int hair_test_begin(void** state)
 {
     struct hair_test* test = *state;
@@ -85,6 +95,17 @@ int hair_test_end(void** state)
     int left = (int)(hair_test_blocks(test) - test->blocks);
     if (left) fprintf(stderr, "%d blocks of memory were not freed\n", left);
     return error || test->host.errors || left ? -1 : 0;
+}
+
+hair_context* hair_test_context(struct hair_test* test, void* (*get_proc)(const char* name, void* user))
+{
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = get_proc;
+    desc.timings = true;
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    return context;
 }
 
 uint32_t hair_test_forgive(struct hair_test* test)

@@ -37,6 +37,11 @@ int hair_test_end(void** state);
 // Return the number of blocks that the host has lent, without those that the context keeps for
 // passes used so far.
 uint32_t hair_test_blocks(const struct hair_test* test);
+// Count the OpenGL objects that exist, by trying all names.
+uint32_t hair_test_count_objects(void);
+
+// Create a context of a test's own, which times its passes. Destroy it with hair_context_destroy().
+hair_context* hair_test_context(struct hair_test* test, void* (*get_proc)(const char* name, void* user));
 
 // Forgive the errors so far. Return their number. The sentence of the last one stays in
 // host.sentence.

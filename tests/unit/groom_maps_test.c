@@ -65,13 +65,6 @@ static void free_grown(struct grown* grown)
     hair_test_scalp_free(&grown->scalp);
 }
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
 static void assert_refused(const hair_groom_desc* desc, const char* words)
 {
     hair_groom* groom = NULL;
@@ -123,7 +116,7 @@ static void followers_are_absent_where_the_density_image_is_black(void** state)
         grown.set[1].density = image(bands, 10, 1);
         grown.desc.map_sets[0] = &grown.set[0];
         grown.desc.map_sets[1] = &grown.set[1];
-        hair_groom* groom = make(&grown.desc);
+        hair_groom* groom = hair_test_groom_of(&grown.desc);
         uint32_t sum = 0;
         for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
             struct hair_patch patch = groom->patches[i];
@@ -153,7 +146,7 @@ static void density_ramp_is_kept_at_any_patch_prefix(void** state)
     // The image is 0 up to a quarter, and 1 from three quarters on.
     grown.set[0].density = image(ramp, 2, 1);
     grown.desc.map_sets[0] = &grown.set[0];
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     for (int k = 1; k <= 4; ++k) {
         double count[10];
         count_columns(groom, 0.25f * (float)k, count);
@@ -176,7 +169,7 @@ static void followers_in_one_patch_keep_the_density_of_their_root(void** state)
     for (int i = 0; i < 40; ++i) stripes[i] = i % 4 < 2 ? 0.55f : 0.75f;
     grown.set[0].density = image(stripes, 40, 1);
     grown.desc.map_sets[0] = &grown.set[0];
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     assert_true(groom->info.patch_count < 200);
     for (int k = 1; k <= 4; ++k) {
         double drawn[2] = {0}, all[2] = {0};
@@ -207,11 +200,11 @@ static void linear_map_is_equal_by_image_and_by_vertices(void** state)
     for (int i = 0; i < 200; ++i) wide[i] = 0.1f + 0.8f * ((float)i + 0.5f) / 200;
     grown.desc.map_sets[0] = &grown.set[0];
     grown.set[0].thickness = (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
-    hair_groom* by_vertices = make(&grown.desc);
+    hair_groom* by_vertices = hair_test_groom_of(&grown.desc);
     grown.set[0].thickness = image(wide, 200, 1);
-    hair_groom* by_image = make(&grown.desc);
+    hair_groom* by_image = hair_test_groom_of(&grown.desc);
     grown.desc.map_sets[0] = NULL;
-    hair_groom* plain = make(&grown.desc);
+    hair_groom* plain = hair_test_groom_of(&grown.desc);
     for (uint32_t i = 0; i < 3000; ++i) {
         float u = root_of(plain, i).x / SIDE;
         float thickness = by_vertices->followers[i].offset[0].w / plain->followers[i].offset[0].w;
@@ -247,7 +240,7 @@ static void patches_know_every_map_set(void** state)
     grown.set[1].thickness = image(thick, 2, 2);
     grown.set[2].density = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, values, 0, 0};
     for (int i = 0; i < 3; ++i) grown.desc.map_sets[i] = &grown.set[i];
-    hair_groom* groom = make(&grown.desc);
+    hair_groom* groom = hair_test_groom_of(&grown.desc);
     assert_int_equal(groom->map_sets, 3);
     double sum[4] = {0};
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {

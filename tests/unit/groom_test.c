@@ -14,13 +14,6 @@
 
 static struct hair_test_host test;
 
-static hair_groom* make(const hair_groom_desc* desc)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
-    return groom;
-}
-
 static void assert_refused(const hair_groom_desc* desc, const char* words)
 {
     hair_groom* groom = NULL;
@@ -133,7 +126,7 @@ static void patches_cover_every_follower_once(void** state)
     (void)state;
     struct example example = make_example(700);
     for (int source = 0; source < 4; ++source) {
-        hair_groom* groom = make(&example.desc[source]);
+        hair_groom* groom = hair_test_groom_of(&example.desc[source]);
         uint32_t next = 0;
         for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
             assert_int_equal(groom->patches[i].first, next);
@@ -152,7 +145,7 @@ static void follower_count_is_the_requested(void** state)
     struct example example = make_example(700);
     uint32_t wanted[4] = {700, 700, 3000, 5000};
     for (int source = 0; source < 4; ++source) {
-        hair_groom* groom = make(&example.desc[source]);
+        hair_groom* groom = hair_test_groom_of(&example.desc[source]);
         assert_int_equal(groom->info.follower_count, wanted[source]);
         hair_groom_destroy(groom);
     }
@@ -164,7 +157,7 @@ static void follower_numbers_are_finite_and_in_range(void** state)
     (void)state;
     struct example example = make_example(700);
     for (int source = 0; source < 4; ++source) {
-        hair_groom* groom = make(&example.desc[source]);
+        hair_groom* groom = hair_test_groom_of(&example.desc[source]);
         for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
             const struct hair_follower* follower = &groom->followers[i];
             assert_true(follower->guide0 < groom->info.guide_count);
@@ -198,7 +191,8 @@ static void equal_seeds_give_equal_grooms_and_others_differ(void** state)
     for (int source = 0; source < 4; ++source) {
         hair_groom_desc other = example.desc[source];
         other.seed = 2;
-        hair_groom *a = make(&example.desc[source]), *b = make(&example.desc[source]), *c = make(&other);
+        hair_groom *a = hair_test_groom_of(&example.desc[source]),
+                   *b = hair_test_groom_of(&example.desc[source]), *c = hair_test_groom_of(&other);
         assert_false(differ(a, b));
         assert_true(differ(a, c));
         hair_groom_destroy(a);
@@ -242,7 +236,7 @@ static void groom_info_describes_the_strands(void** state)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 3;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
 
     const hair_groom_info* info = &groom->info;
     assert_int_equal(info->strand_count, 2);
@@ -273,7 +267,7 @@ static void fur_of_50000_strands_fills_its_patches(void** state)
     struct hair_test_strands strands = hair_test_fur(50000);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     double before = now();
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     double fill = (double)groom->info.follower_count / HAIR_MAX_ISOLINES / groom->info.patch_count;
     printf("50,000 strands, %u guides: %.0f ms, %.1f MB at most, patches %.0f %% full\n",
            groom->info.guide_count, 1e3 * (now() - before), 1e-6 * (double)test.peak, 100 * fill);
@@ -289,7 +283,7 @@ static void followers_of_a_patch_are_neighbours(void** state)
     (void)state;
     struct hair_test_strands strands = hair_test_fur(20000);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     // 64 of 20,000 strands per square metre take a square of 57 mm.
     double sum = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
@@ -315,7 +309,7 @@ static void prefix_of_a_patch_thins_it_evenly(void** state)
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
     desc.follower_count = 5000;
-    hair_groom* groom = make(&desc);
+    hair_groom* groom = hair_test_groom_of(&desc);
     // The first half of a patch has some of the ten followers of a guide, but not all.
     uint32_t *first = calloc(500, sizeof *first), split = 0;
     for (uint32_t i = 0; i < groom->info.patch_count; ++i)
@@ -342,7 +336,7 @@ static void follower_seeds_differ_and_follow_the_groom_seed(void** state)
     static uint32_t seeds[4000];
     for (uint32_t seed = 0; seed < 2; ++seed) {
         desc.seed = seed;
-        hair_groom* groom = make(&desc);
+        hair_groom* groom = hair_test_groom_of(&desc);
         for (uint32_t i = 0; i < 2000; ++i) seeds[2000 * seed + i] = groom->followers[i].seed;
         hair_groom_destroy(groom);
     }
@@ -366,7 +360,7 @@ static void built_in_haircuts_become_grooms(void** state)
         desc.host = &test.host;
         assert_int_equal(hair_asset_to_groom_desc(asset, &desc), HAIR_OK);
         double before = now();
-        hair_groom* groom = make(&desc);
+        hair_groom* groom = hair_test_groom_of(&desc);
         uint32_t parted = 0;
         for (uint32_t i = 0; i < groom->info.follower_count; ++i)
             parted += groom->followers[i].weight1 == 0 || groom->followers[i].weight2 == 0;

@@ -87,7 +87,7 @@ static void lone_strand_scatters_like_one_fibre(void** state)
                                        .lights = 2};
     look_down(from, way, RAYS);
     hair_reference_paths(&hair, from, way, RAYS, 1, &glow);
-    hair_test_near("share of rays", 0, (double)glow.met / RAYS, 0.25, 0.02); // 2 cm of 8.
+    hair_test_near("fraction of rays", 0, (double)glow.met / RAYS, 0.25, 0.02); // 2 cm of 8.
     for (int l = 0; l < 2; ++l) {
         double expected[3], cosine = sqrt(1 - light[3 * l + 1] * light[3 * l + 1]);
         hair_reference_scatter(&hair.fibre, tangent, light + 3 * l, eye, mu, 3, expected);

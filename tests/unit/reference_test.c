@@ -1,114 +1,20 @@
-// reference_test.c - the double-precision reference agrees with values worked out by hand.
-#include "tests/support/support.h"
+// reference_test.c - the double-precision reference of motion agrees with values worked out by
+// hand.
+#include "tests/support/reference_guide.h"
 
 #include <math.h>
 #include <string.h>
-
-#include "tests/reference/reference.h"
-
-#define PI 3.141592653589793
-#define MAX HAIR_MAX_GUIDE_VERTICES
-
-// A guide of `count` vertices with links of length `link`, straight down from `root`.
-struct fixture {
-    struct hair_guide guide;
-    struct hair_rest rest[MAX];
-    struct hair_step_params params;
-    struct hair_reference_vertex state[MAX];
-};
-
-static struct hair_reference_guide whole(const struct fixture* f)
-{
-    return (struct hair_reference_guide){&f->guide, f->rest, &f->params};
-}
-
-static struct fixture straight_down(uint32_t count, float link)
-{
-    struct fixture f = {// The root frame is half a turn about x, so y points down.
-                        .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
-    for (uint32_t i = 0; i < count; ++i) {
-        f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
-        f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
-        f.state[i].position[1] = (double)(-link * (float)i);
-    }
-    f.params.keep = 1;
-    f.params.iterations = 1;
-    f.params.substeps = 1;
-    f.params.guides = 1;
-    f.params.gravity.w = 0.01f;
-    f.params.rotation_before = f.params.rotation_after = f.params.rotation_now = (hair_vec4){0, 0, 0, 1};
-    for (int i = 0; i < HAIR_STEP_SUBSTEPS; ++i)
-        f.params.substep[i] = (struct hair_substep){{0, 0, 0, 1}, {0, 0, 0, (float)(i + 1)}};
-    return f;
-}
-
-static double distance(const double* a, const double* b)
-{
-    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-static void near3(const char* what, const double* a, double x, double y, double z, double tolerance)
-{
-    hair_test_near(what, 0, a[0], x, tolerance);
-    hair_test_near(what, 1, a[1], y, tolerance);
-    hair_test_near(what, 2, a[2], z, tolerance);
-}
-
-// Compute rotate(q, v) for unit q, by the matrix of q.
-static void rotate(const double q[4], const double v[3], double out[3])
-{
-    double x = q[0], y = q[1], z = q[2], w = q[3];
-    double m[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
-                      {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
-                      {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
-    for (int i = 0; i < 3; ++i) out[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
-}
-
-// Check a frame around a plane curve. All its rotations are about the plane's normal, so a closed
-// circle returns the frame to its initial value.
-static void a_frame_carried_around_a_circle_comes_back(void** state)
-{
-    (void)state;
-    enum { SEGMENTS = 63 };
-    double directions[3 * SEGMENTS], frames[4 * SEGMENTS], root[4] = {0, 0, 0, 1};
-    for (int i = 0; i < SEGMENTS; ++i) {
-        double angle = 2 * PI * i / (SEGMENTS - 1);
-        directions[3 * i] = -sin(angle);
-        directions[3 * i + 1] = cos(angle);
-        directions[3 * i + 2] = 0;
-    }
-    hair_reference_frames(SEGMENTS, directions, root, frames);
-    for (int i = 0; i < SEGMENTS; ++i) {
-        double y[3], z[3];
-        rotate(frames + 4 * i, (double[]){0, 1, 0}, y);
-        rotate(frames + 4 * i, (double[]){0, 0, 1}, z);
-        near3("y", y, directions[3 * i], directions[3 * i + 1], 0, 1e-13);
-        near3("z", z, 0, 0, 1, 1e-13);
-    }
-}
-
-// Check parallel transport around a triangle on the sphere of directions with three right angles.
-// It rotates a frame by the triangle's area, pi/2 (Gauss and Bonnet).
-static void a_frame_carried_around_an_octant_turns_by_a_right_angle(void** state)
-{
-    (void)state;
-    double directions[] = {0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0}, frames[16], root[4] = {0, 0, 0, 1}, x[3];
-    hair_reference_frames(4, directions, root, frames);
-    rotate(frames + 12, (double[]){1, 0, 0}, x);
-    near3("x", x, 0, 0, -1, 1e-14);
-}
 
 // Check free fall. Without damping or constraints, Verlet is exact for constant acceleration. After
 // n substeps from rest, a vertex has fallen g dt^2 n (n + 1) / 2.
 static void free_vertex_falls_by_verlet(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(5, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(5, 0.01f);
     f.params.gravity.y = -10;
-    double dt = (double)f.params.gravity.w, p[3 * MAX];
+    double dt = (double)f.params.gravity.w, p[3 * HAIR_MAX_GUIDE_VERTICES];
     for (int n = 1; n <= 50; ++n) {
-        hair_reference_integrate(whole(&f), 0, f.state, p);
+        hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
         for (uint32_t i = 2; i < 5; ++i)
             for (int k = 0; k < 3; ++k) {
                 f.state[i].displacement[k] = p[3 * i + k] - f.state[i].position[k];
@@ -116,7 +22,7 @@ static void free_vertex_falls_by_verlet(void** state)
             }
         hair_test_near("fallen", n, f.state[4].position[1] + 4 * (double)0.01f,
                        -10 * dt * dt * n * (n + 1) / 2, 1e-12);
-        near3("pinned", p + 3, 0, (double)-0.01f, 0, 0);
+        hair_test_near3("pinned", p + 3, 0, (double)-0.01f, 0, 0);
     }
 }
 
@@ -125,12 +31,12 @@ static void free_vertex_falls_by_verlet(void** state)
 static void damped_motion_goes_as_far_as_its_series(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.keep = 0.75f;
-    double p[3 * MAX];
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
     f.state[3].displacement[0] = 0.004;
     for (int n = 1; n <= 20; ++n) {
-        hair_reference_integrate(whole(&f), 0, f.state, p);
+        hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
         f.state[3].displacement[0] = p[9] - f.state[3].position[0];
         f.state[3].position[0] = p[9];
         hair_test_near("gone", n, p[9], 0.003 * (1 - pow(0.75, n)) / 0.25, 1e-15);
@@ -142,12 +48,12 @@ static void damped_motion_goes_as_far_as_its_series(void** state)
 static void a_free_vertex_does_not_follow_the_head(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.substep[0].displacement = (hair_vec4){0.25f, 0, -0.5f, 1};
-    double p[3 * MAX];
-    hair_reference_integrate(whole(&f), 0, f.state, p);
-    near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
-    near3("pinned", p, 0, 0, 0, 0);
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
+    hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
+    hair_test_near3("free", p + 9, -0.25, f.state[3].position[1], 0.5, 1e-16);
+    hair_test_near3("pinned", p, 0, 0, 0, 0);
 }
 
 // Check an implicit spring. It converges to its target, and goes half way if frequency times dt is
@@ -155,53 +61,54 @@ static void a_free_vertex_does_not_follow_the_head(void** state)
 static void pull_goes_half_way_when_frequency_times_dt_is_1(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.gravity.w = 0.125f;
     f.params.shape_frequency_root = f.params.shape_frequency_tip = 8;
     f.state[3].position[0] = 0.5;
-    double p[3 * MAX];
-    hair_reference_integrate(whole(&f), 0, f.state, p);
-    near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
+    double p[3 * HAIR_MAX_GUIDE_VERTICES];
+    hair_reference_integrate(hair_test_guide_whole(&f), 0, f.state, p);
+    hair_test_near3("pulled", p + 9, 0.25, f.state[3].position[1], 0, 1e-16);
 }
 
 static void a_free_link_is_restored_exactly_in_one_relaxation(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(5, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(5, 0.01f);
     double p[3 * 5] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.02, 0.01, 0.05, -0.01, 0.04, 0.1, 0.2, 0.3};
     double middle[3];
     for (int k = 0; k < 3; ++k) middle[k] = (p[6 + k] + p[9 + k]) / 2;
-    hair_reference_distance(whole(&f), 0, p);
-    hair_test_near("length", 0, distance(p + 6, p + 9), (double)0.01f, 1e-16);
-    near3("middle", (double[]){(p[6] + p[9]) / 2, (p[7] + p[10]) / 2, (p[8] + p[11]) / 2}, middle[0],
-          middle[1], middle[2], 1e-16);
-    near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
+    hair_reference_distance(hair_test_guide_whole(&f), 0, p);
+    hair_test_near("length", 0, hair_test_distance3(p + 6, p + 9), (double)0.01f, 1e-16);
+    hair_test_near3("middle", (double[]){(p[6] + p[9]) / 2, (p[7] + p[10]) / 2, (p[8] + p[11]) / 2},
+                    middle[0], middle[1], middle[2], 1e-16);
+    hair_test_near3("other link", p + 12, 0.1, 0.2, 0.3, 0);
 }
 
 static void link_with_a_pinned_end_moves_only_the_free_end(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     double p[3 * 4] = {0, 0, 0, 0, -0.01, 0, 0.03, -0.05, 0, 0, 0, 0};
-    hair_reference_distance(whole(&f), 1, p);
-    near3("pinned", p + 3, 0, -0.01, 0, 0);
+    hair_reference_distance(hair_test_guide_whole(&f), 1, p);
+    hair_test_near3("pinned", p + 3, 0, -0.01, 0, 0);
     // The direction is (3, -4) / 5.
-    near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16);
-    hair_reference_distance(whole(&f), 0, p);
-    near3("pinned", p + 3, 0, -0.01, 0, 0);
+    hair_test_near3("free", p + 6, 0.6 * (double)0.01f, -0.01 - 0.8 * (double)0.01f, 0, 1e-16);
+    hair_reference_distance(hair_test_guide_whole(&f), 0, p);
+    hair_test_near3("pinned", p + 3, 0, -0.01, 0, 0);
 }
 
 static void bend_removes_its_fraction_of_the_error(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(8, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(8, 0.01f);
     double p[3 * 8] = {0};
     f.params.bend = 0.25f;
     for (int i = 0; i < 8; ++i) p[3 * i + 1] = -0.005 * i; // Half as long as at rest.
     double rest = (double)(2 * 0.01f), wrong = rest - 0.01;
-    hair_reference_bend(whole(&f), 1, p); // The pairs are (2,4) and (3,5). (6,8) does not exist.
-    hair_test_near("length", 2, distance(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
-    hair_test_near("length", 3, distance(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
+    hair_reference_bend(hair_test_guide_whole(&f), 1,
+                        p); // The pairs are (2,4) and (3,5). (6,8) does not exist.
+    hair_test_near("length", 2, hair_test_distance3(p + 6, p + 12), rest - 0.75 * wrong, 1e-16);
+    hair_test_near("length", 3, hair_test_distance3(p + 9, p + 15), rest - 0.75 * wrong, 1e-16);
     hair_test_near("root", 0, p[3], 0, 0);
     hair_test_near("tip", 0, p[19], -0.03, 1e-16);
 }
@@ -209,26 +116,26 @@ static void bend_removes_its_fraction_of_the_error(void** state)
 static void vertex_in_a_capsule_leaves_by_the_shortest_way(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(4, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(4, 0.01f);
     f.params.colliders = 1;
     f.params.collision_margin = 0.25f;
     f.params.collider[0] =
         (struct hair_capsule){{{0, 0, 0, 1}, {0, 2, 0, 1}}, {{8, 0, 0, 1}, {8, 2, 0, 1}}, {0, 0, 0, 0}};
     f.params.substep[0].displacement.w = 0.5f; // Half way, so the axis is at x = 4.
     double p[3 * 4] = {0, 0, 0, 0, 0, 0, 4, 1, 0.5, 4.3, 2.4, 0};
-    hair_reference_collide(whole(&f), 0, p);
-    near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
-    near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
+    hair_reference_collide(hair_test_guide_whole(&f), 0, p);
+    hair_test_near3("beside the axis", p + 6, 4, 1, 1.25, 1e-15);
+    hair_test_near3("beyond its end", p + 9, 4 + 1.25 * 0.6, 2 + 1.25 * 0.8, 0, 1e-14);
     double outside[3 * 4] = {0, 0, 0, 0, 0, 0, 5.3, 1, 0, 4, 3.3, 0};
-    hair_reference_collide(whole(&f), 0, outside);
-    near3("outside", outside + 6, 5.3, 1, 0, 0);
+    hair_reference_collide(hair_test_guide_whole(&f), 0, outside);
+    hair_test_near3("outside", outside + 6, 5.3, 1, 0, 0);
 }
 
 // Check a bent guide in its rest pose, rotated with its head. The force must correct nothing.
 static void angular_force_is_zero_in_the_rest_pose(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(9, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(9, 0.01f);
     double p[3 * 9] = {0};
     for (int i = 0; i < 8; ++i) {
         double angle = 0.3 * i, to[3] = {sin(angle) * cos(0.2 * i), -cos(angle), sin(angle) * sin(0.2 * i)};
@@ -248,20 +155,21 @@ static void angular_force_is_zero_in_the_rest_pose(void** state)
     }
     double moved[3 * 9];
     memcpy(moved, turned, sizeof moved);
-    hair_reference_angular(whole(&f), 0, moved);
+    hair_reference_angular(hair_test_guide_whole(&f), 0, moved);
     // The rest positions are floats.
     for (int i = 0; i < 9; ++i)
-        near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
+        hair_test_near3("vertex", moved + 3 * i, turned[3 * i], turned[3 * i + 1], turned[3 * i + 2], 1e-8);
 }
 
 // Compute what the angular force does to the free coordinates when one of them is moved.
-static void angular_moves_of(struct fixture* f, const double* bent, int coordinate, double by, double out[21])
+static void angular_moves_of(struct hair_test_guide* f, const double* bent, int coordinate, double by,
+                             double out[21])
 {
     double moved[27], from[27];
     memcpy(from, bent, sizeof from);
     from[6 + coordinate] += by;
     memcpy(moved, from, sizeof moved);
-    hair_reference_angular(whole(f), 0, moved);
+    hair_reference_angular(hair_test_guide_whole(f), 0, moved);
     for (int k = 0; k < 21; ++k) out[k] = moved[6 + k] - from[6 + k];
 }
 
@@ -270,7 +178,7 @@ static void angular_moves_of(struct fixture* f, const double* bent, int coordina
 static void the_angular_force_has_a_potential(void** state)
 {
     (void)state;
-    struct fixture f = straight_down(9, 0.01f);
+    struct hair_test_guide f = hair_test_guide_straight_down(9, 0.01f);
     double p[27] = {0}, ahead[21], behind[21], jacobian[21][21], largest = 0;
     f.params.angular = 2500;
     for (int i = 1; i < 9; ++i) {
@@ -289,144 +197,9 @@ static void the_angular_force_has_a_potential(void** state)
         hair_test_near("derivative", (size_t)i, jacobian[i / 21][i % 21], jacobian[i % 21][i / 21], 1e-6);
 }
 
-// Check a parabola p(s) = c0 + c1 s + c2 s^2 at uneven s. Its slopes are exact, so that the cubic
-// equals the parabola.
-static void hermite_reproduces_parabolas_exactly(void** state)
-{
-    (void)state;
-    static const double s[] = {0, 0.3, 0.5, 1.2}, c[3][3] = {{1, -2, 0.5}, {0.3, 2, -1}, {-0.7, 0.4, 1.5}};
-    double p[4][3], slope[2][3];
-    for (int i = 0; i < 4; ++i)
-        for (int k = 0; k < 3; ++k) p[i][k] = c[0][k] + s[i] * (c[1][k] + s[i] * c[2][k]);
-    for (int i = 0; i < 2; ++i) {
-        hair_reference_slope(p[i], p[i + 1], p[i + 2], s[i + 1] - s[i], s[i + 2] - s[i + 1], slope[i]);
-        for (int k = 0; k < 3; ++k)
-            hair_test_near("slope", i, slope[i][k], c[1][k] + 2 * s[i + 1] * c[2][k], 1e-14);
-    }
-    for (int n = 0; n <= 10; ++n) {
-        double w = n / 10.0, at = s[1] + w * (s[2] - s[1]), position[3], tangent[3];
-        hair_reference_hermite(p[1], slope[0], p[2], slope[1], s[2] - s[1], w, position, tangent);
-        for (int k = 0; k < 3; ++k) {
-            hair_test_near("position", n, position[k], c[0][k] + at * (c[1][k] + at * c[2][k]), 1e-14);
-            hair_test_near("tangent", n, tangent[k], (s[2] - s[1]) * (c[1][k] + 2 * at * c[2][k]), 1e-14);
-        }
-    }
-}
-
-// Check vertices around a circle of radius 1, at angles a. Chords have the length 2 sin(a/2).
-// Slopes have the length cos(a/2), along the tangents.
-//
-// Half way between two vertices the chord is cos(a/2) from the centre. Hermite's cubic adds an
-// eighth of the chord's length times the difference of the slopes, outwards. The difference is 2
-// sin(a/2) cos(a/2) = sin(a). Together the radius is 1 - 3/128 a^4.
-static void a_smoothed_circle_is_round_to_fourth_order(void** state)
-{
-    (void)state;
-    struct fixture f = straight_down(33, 0.01f);
-    double a = 0.15;
-    for (int i = 0; i < 33; ++i) {
-        f.state[i].position[0] = cos(a * i);
-        f.state[i].position[1] = sin(a * i);
-        f.rest[i].position.w = (float)(2 * sin(a / 2) / 1.25);
-    }
-    struct hair_reference_sample samples[65];
-    f.params.smooth_vertices = 65;
-    f.params.alpha = 1;
-    hair_reference_smooth(whole(&f), f.state, samples);
-    for (int k = 0; k < 65; ++k) {
-        hair_test_near("to root", k, samples[k].to_root, 32 * 2 * sin(a / 2) * k / 64, 1e-12);
-        hair_test_near("stretch", k, samples[k].stretch, 0.25, 1e-6);
-        double radius = k % 2 ? cos(a / 2) + sin(a / 2) * sin(a) / 4 : 1;
-        double from = distance(samples[k].position, (double[]){0, 0, 0});
-        if (k != 1 && k != 63)
-            hair_test_near("radius", k, from, radius, 1e-12); // The ends have no neighbours.
-        hair_test_near("tangent", k, distance(samples[k].tangent, (double[]){0, 0, 0}), 1, 1e-14);
-        double y[3];
-        rotate(samples[k].frame, (double[]){0, 1, 0}, y);
-        near3("frame", y, samples[k].tangent[0], samples[k].tangent[1], samples[k].tangent[2], 1e-13);
-    }
-}
-
-// Check that drawn positions are interpolated between the ends of the last substep, relative to the
-// moving head.
-static void smoothing_interpolates_between_the_ends_of_a_substep(void** state)
-{
-    (void)state;
-    struct fixture f = straight_down(4, 0.01f);
-    struct hair_reference_sample samples[7];
-    f.params.smooth_vertices = 7;
-    f.params.alpha = 0.25f;
-    f.params.last_displacement.x = 1;
-    for (int i = 0; i < 4; ++i) f.state[i].displacement[0] = 1.2; // Relative to the head: 0.2.
-    hair_reference_smooth(whole(&f), f.state, samples);
-    for (int k = 0; k < 7; ++k) hair_test_near("x", k, samples[k].position[0], -0.2 * 0.75, 1e-15);
-}
-
-// Return a look without strays or clumps.
-static hair_look plain_look(float radius)
-{
-    hair_look look = hair_look_default();
-    look.strand.radius = radius;
-    look.strays.tip_fraction = look.strays.fraction = 0;
-    look.clump.weight = hair_curve_line(0, 0);
-    return look;
-}
-
-// Check a follower of a straight guide that hangs down. It is its Bezier curve in the guide's
-// frame.
-static void a_follower_of_a_straight_guide_is_its_bezier_curve(void** state)
-{
-    (void)state;
-    struct fixture f = straight_down(4, 0.01f);
-    struct hair_reference_sample samples[7];
-    struct hair_reference_point point;
-    f.params.smooth_vertices = 7;
-    hair_look look = plain_look(0.5f);
-    look.strand.taper = hair_curve_line(1, 0.5f);
-    hair_reference_smooth(whole(&f), f.state, samples);
-    struct hair_follower follower = {.length_ratio = 1,
-                                     .offset = {{0, 0, 0, 2}, {1, 0, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 0}}};
-    hair_reference_follower(&follower, &look, 7, samples, 0.5, NULL, &point);
-    // In the middle, each inner control point has a weight of 3/8. Half a turn about x keeps x and
-    // inverts z.
-    near3("middle", point.position, 0.375, -0.5 * 3 * (double)0.01f, -0.375, 1e-9);
-    hair_test_near("radius", 0, point.radius, 0.5 * 2 * 0.75, 1e-7);
-    follower.length_ratio = 1.5f; // Extrapolated straight beyond the tip.
-    hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("tip", point.position, 0, -1.5 * 3 * (double)0.01f, 0, 1e-9);
-}
-
-// Check a follower of three straight parallel guides. It is their weighted mean, until it clumps.
-static void a_follower_between_guides_is_their_mean(void** state)
-{
-    (void)state;
-    struct fixture f = straight_down(4, 0.01f);
-    struct hair_reference_sample samples[21];
-    struct hair_reference_point point;
-    f.params.smooth_vertices = 7;
-    for (int guide = 0; guide < 3; ++guide) {
-        for (int i = 0; i < 4; ++i) f.state[i].position[0] = guide == 1;
-        for (int i = 0; i < 4; ++i) f.state[i].position[2] = guide == 2;
-        hair_reference_smooth(whole(&f), f.state, samples + 7 * guide);
-    }
-    hair_look look = plain_look(1);
-    struct hair_follower follower = {
-        .guide1 = 1, .guide2 = 2, .weight1 = 0.5f, .weight2 = 0.25f, .length_ratio = 1, .multi = 1};
-    follower.offset[0].w = 1;
-    hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("mean", point.position, 0.5, -3 * (double)0.01f, 0.25, 1e-9);
-    look.clump.weight = hair_curve_line(0, 1);
-    hair_reference_follower(&follower, &look, 7, samples, 1, NULL, &point);
-    near3("clumped", point.position, 0, -3 * (double)0.01f, 0, 1e-9);
-    hair_reference_follower(&follower, &look, 7, samples, 0, NULL, &point);
-    near3("root", point.position, 0.5, 0, 0.25, 1e-9);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_carried_around_a_circle_comes_back),
-        cmocka_unit_test(a_frame_carried_around_an_octant_turns_by_a_right_angle),
         cmocka_unit_test(free_vertex_falls_by_verlet),
         cmocka_unit_test(damped_motion_goes_as_far_as_its_series),
         cmocka_unit_test(a_free_vertex_does_not_follow_the_head),
@@ -437,11 +210,6 @@ int main(void)
         cmocka_unit_test(vertex_in_a_capsule_leaves_by_the_shortest_way),
         cmocka_unit_test(angular_force_is_zero_in_the_rest_pose),
         cmocka_unit_test(the_angular_force_has_a_potential),
-        cmocka_unit_test(hermite_reproduces_parabolas_exactly),
-        cmocka_unit_test(a_smoothed_circle_is_round_to_fourth_order),
-        cmocka_unit_test(smoothing_interpolates_between_the_ends_of_a_substep),
-        cmocka_unit_test(a_follower_of_a_straight_guide_is_its_bezier_curve),
-        cmocka_unit_test(a_follower_between_guides_is_their_mean),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "tests/reference/rod.h"
+#include "tests/support/reference_rod.h"
 
 #define PI 3.141592653589793
 #define CURL 12 // Number of vertices of the rod that has every feature.
@@ -43,13 +43,6 @@ static void make_curl(struct curl* c)
     for (int i = 0; i < 3 * (CURL - 1); ++i) c->rest[i] += 0.2 * sin(1.3 * i * i);
 }
 
-static struct hair_reference_rod* rod_of(const struct hair_reference_rod_desc* desc)
-{
-    struct hair_reference_rod* rod = hair_reference_rod_create(desc);
-    assert_non_null(rod);
-    return rod;
-}
-
 static double elastic_at(struct hair_reference_rod* rod, const double* positions)
 {
     hair_reference_rod_set_state(rod, positions, NULL);
@@ -84,7 +77,7 @@ static void forces_are_the_gradient_of_the_energy(void** state)
             make_curl(&c);
             c.desc.straight = straight;
             c.desc.root = roots[k];
-            struct hair_reference_rod* rod = rod_of(&c.desc);
+            struct hair_reference_rod* rod = hair_test_rod(&c.desc);
             double gradient[3 * CURL], force[3 * CURL];
             differ(rod, c.positions, gradient);
             hair_reference_rod_elastic_forces(rod, force);
@@ -131,7 +124,7 @@ static void a_round_rod_without_twist_has_the_energy_of_its_angles(void** state)
     c.desc.plain_clamp = 1;
     for (int straight = 0; straight < 2; ++straight) {
         c.desc.straight = straight;
-        struct hair_reference_rod* rod = rod_of(&c.desc);
+        struct hair_reference_rod* rod = hair_test_rod(&c.desc);
         double sum = 0, length[CURL] = {0};
         for (int i = 0; i + 1 < CURL; ++i) {
             double strain = straight ? 2 * sin(angles[i] / 2) : 4 * sin(angles[i] / 4);
@@ -162,11 +155,11 @@ static void forces_rotate_with_head_and_hair(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    struct hair_reference_rod* here = rod_of(&c.desc);
+    struct hair_reference_rod* here = hair_test_rod(&c.desc);
     const double rotation[4] = {0.1, -0.5, 0.7, 0.5};
     struct hair_reference_rod_pose elsewhere = {{3, -2, 1}, {0.1, -0.5, 0.7, 0.5}};
     c.desc.head = elsewhere;
-    struct hair_reference_rod* there = rod_of(&c.desc);
+    struct hair_reference_rod* there = hair_test_rod(&c.desc);
     double a[3 * CURL], b[3 * CURL], turned[3];
     hair_reference_rod_elastic_forces(here, a);
     hair_reference_rod_elastic_forces(there, b);
@@ -203,7 +196,7 @@ static void a_free_rod_keeps_its_momentum_and_angular_momentum(void** state)
     make_curl(&c);
     c.desc.root = HAIR_REFERENCE_ROD_FREE;
     c.desc.gravity[1] = 0;
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     double v[3 * CURL], before[6], after[6];
     for (int i = 0; i < 3 * CURL; ++i) v[i] = 0.2 * sin(3.0 * i) + 0.5;
     hair_reference_rod_set_state(rod, NULL, v);
@@ -223,7 +216,7 @@ static void free_rod_falls_like_a_stone(void** state)
     c.desc.root = HAIR_REFERENCE_ROD_FREE;
     c.desc.rest_strain = NULL;
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     assert_true(hair_reference_rod_advance(rod, NULL, 1, 60));
     double x[3 * CURL];
     hair_reference_rod_positions(rod, x);
@@ -244,7 +237,7 @@ static void damping_is_exact_and_against_the_wind(void** state)
     c.desc.bend[0] = c.desc.bend[1] = c.desc.twist = 0;
     c.desc.damping = 3;
     c.desc.wind[0] = 2;
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     assert_true(hair_reference_rod_advance(rod, NULL, 0.5, 7));
     double v[3 * CURL];
     hair_reference_rod_velocities(rod, v);
@@ -272,7 +265,7 @@ static void shape_pull_swings_the_rod_about_its_target(void** state)
     c.desc.gravity[1] = 0;
     c.desc.pull = pull;
     c.desc.pull_target = target;
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, 1, NULL, 0.3, 64, 1 << 16, 1e-9, x);
     assert_true(report.converged);
@@ -290,7 +283,7 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
     for (int run = 0; run < 2; ++run) {
         struct curl c;
         make_curl(&c);
-        struct hair_reference_rod* rod = rod_of(&c.desc);
+        struct hair_reference_rod* rod = hair_test_rod(&c.desc);
         double start = hair_reference_rod_energy(rod).total;
         max[run] = 0;
         for (int k = 0; k < 1000; ++k) {
@@ -323,7 +316,7 @@ static void motion_converges_with_the_second_order(void** state)
                                                {0, sin(angle / 2), 0, cos(angle / 2)}};
         heads[k] = pose;
     }
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, 6, heads, 1.0 / 60, 16, 1 << 14, 2e-8, NULL);
     assert_true(report.converged);
@@ -343,7 +336,7 @@ static void half_the_longest_substep_is_stable_and_triple_is_not(void** state)
     struct curl c;
     for (int run = 0; run < 2; ++run) {
         make_curl(&c);
-        struct hair_reference_rod* rod = rod_of(&c.desc);
+        struct hair_reference_rod* rod = hair_test_rod(&c.desc);
         double h = hair_reference_rod_longest_substep(rod) * (run ? 3 : 0.5);
         double start = hair_reference_rod_energy(rod).total;
         int ok = hair_reference_rod_advance(rod, NULL, 2000 * h, 2000);
@@ -358,7 +351,7 @@ static void motion_that_is_invalid_or_not_finite_is_reported(void** state)
     (void)state;
     struct curl c;
     make_curl(&c);
-    struct hair_reference_rod* rod = rod_of(&c.desc);
+    struct hair_reference_rod* rod = hair_test_rod(&c.desc);
     double v[3 * CURL] = {0};
     v[3 * CURL - 1] = NAN;
     assert_false(hair_reference_rod_advance(rod, NULL, 0, 1));

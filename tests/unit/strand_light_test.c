@@ -42,7 +42,7 @@ static void rays_hit_the_covered_fraction_of_a_grating(void** state)
         struct bench_strands strands = make(radii[i]);
         assert_true(bench_light_by_rays(&strands, 1024, 1, light));
         for (int k = 1; k < EACH - 1; ++k)
-            hair_test_near("share", (size_t)k, (double)light[BARS * EACH + k], 1 - 2000 * (double)radii[i],
+            hair_test_near("fraction", (size_t)k, (double)light[BARS * EACH + k], 1 - 2000 * (double)radii[i],
                            0.02);
         for (int k = 0; k < EACH; ++k)
             hair_test_near("a bar", (size_t)k, (double)light[EACH * 200 + k], 1, 0);

@@ -1,39 +1,16 @@
 // strands_test.c - imported strands become fit for simulation.
 #include "lib/asset/strands.h"
 #include "lib/base/math.h"
-#include "tests/support/host.h"
+#include "tests/support/files.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
 
 static struct hair_test_host test;
 static hair_import_stats repairs;
-
-static hair_import defaults(void)
-{
-    return (hair_import){.scale = 1, .keep_fraction = 1, .seed = 1};
-}
-
-// Make straight strands along x with segments of 1 cm. Strand i is at z = i.
-static struct hair_strands make(uint32_t count, uint32_t each)
-{
-    struct hair_strands strands = {.strand_count = count, .vertex_count = count * each};
-    strands.positions = hair_alloc(&test.host, strands.vertex_count, 12);
-    strands.vertices = hair_alloc(&test.host, count, 4);
-    strands.radii = hair_alloc(&test.host, count, 4);
-    for (uint32_t i = 0; i < count; ++i) {
-        strands.vertices[i] = each;
-        strands.radii[i] = (float)i;
-        for (uint32_t j = 0; j < each; ++j)
-            hair_store3(strands.positions + 3 * (size_t)(i * each + j),
-                        hair_v3(0.01f * (float)j, 0, (float)i));
-    }
-    return strands;
-}
 
 static void clean(const hair_import* import, struct hair_strands* strands)
 {
@@ -45,29 +22,12 @@ static void drop(struct hair_strands* strands)
     hair_strands_free(&test.host, strands);
 }
 
-// Check the guarantees of strands.h for every strand.
-static void assert_fit(const struct hair_strands* strands)
-{
-    size_t first = 0;
-    for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        uint32_t vertices = strands->vertices[i];
-        const float* p = strands->positions + 3 * first;
-        assert_in_range(vertices, 2, 256);
-        double length = hair_strand_length(p, vertices);
-        assert_true(length >= 1e-5);
-        for (uint32_t j = 0; j < 3 * vertices; ++j) assert_true(fabsf(p[j]) <= 1e6f);
-        for (uint32_t j = 1; j < vertices; ++j)
-            assert_true(hair_strand_length(p + 3 * (j - 1), 2) >= 1e-5 * length);
-        first += vertices;
-    }
-    assert_int_equal(first, strands->vertex_count);
-}
-
 static void clean_strands_are_left_as_they_are(void** state)
 {
     (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(10, 20), same = make(10, 20);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 10, 20),
+                        same = hair_test_import_strands(&test, 10, 20);
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 10);
     assert_memory_equal(strands.positions, same.positions, 12 * 200);
@@ -81,9 +41,9 @@ static void clean_strands_are_left_as_they_are(void** state)
 static void scale_turns_units_into_metres(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.scale = 0.01f;
-    struct hair_strands strands = make(3, 3);
+    struct hair_strands strands = hair_test_import_strands(&test, 3, 3);
     clean(&import, &strands);
     assert_float_equal(strands.positions[3], 1e-4f, 1e-9);
     assert_float_equal(strands.positions[3 * 8 + 2], 0.02f, 1e-8);
@@ -97,9 +57,9 @@ static void up_axis_is_rotated_to_y_without_mirroring(void** state)
     hair_up ups[2] = {HAIR_UP_Z, HAIR_UP_X};
     hair_vec3 want[2] = {{1, 3, -2}, {-2, 1, 3}};
     for (int i = 0; i < 2; ++i) {
-        hair_import import = defaults();
+        hair_import import = hair_test_import();
         import.up = ups[i];
-        struct hair_strands strands = make(1, 4);
+        struct hair_strands strands = hair_test_import_strands(&test, 1, 4);
         // A corner of the axes. Its handedness reveals mirroring.
         float corner[12] = {1, 2, 3, 2, 2, 3, 2, 3, 3, 2, 3, 4};
         memcpy(strands.positions, corner, sizeof corner);
@@ -118,9 +78,9 @@ static void up_axis_is_rotated_to_y_without_mirroring(void** state)
 static void tip_first_strands_are_reversed(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.tip_first = true;
-    struct hair_strands strands = make(2, 5);
+    struct hair_strands strands = hair_test_import_strands(&test, 2, 5);
     clean(&import, &strands);
     for (uint32_t i = 0; i < 10; ++i) {
         assert_float_equal(strands.positions[3 * i], 0.01f * (float)(4 - i % 5), 0);
@@ -136,9 +96,9 @@ static void keep_fraction_keeps_strands_evenly(void** state)
     const uint32_t counts[] = {1, 2, 3, 10, 97, 1000};
     for (size_t s = 0; s < 8; ++s)
         for (size_t c = 0; c < 6; ++c) {
-            hair_import import = defaults();
+            hair_import import = hair_test_import();
             import.keep_fraction = fractions[s];
-            struct hair_strands strands = make(counts[c], 3);
+            struct hair_strands strands = hair_test_import_strands(&test, counts[c], 3);
             clean(&import, &strands);
             double wanted = (double)fractions[s] * counts[c];
             assert_true(strands.strand_count >= fmax(1, floor(wanted)));
@@ -159,12 +119,12 @@ static void keep_fraction_keeps_strands_evenly(void** state)
 static void kept_strands_depend_only_on_the_seed(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.keep_fraction = 0.1f;
     struct hair_strands strands[3];
     for (uint32_t i = 0; i < 3; ++i) {
         import.seed = i / 2;
-        strands[i] = make(1000, 3);
+        strands[i] = hair_test_import_strands(&test, 1000, 3);
         clean(&import, &strands[i]);
         assert_int_equal(strands[i].strand_count, 100);
     }
@@ -176,8 +136,8 @@ static void kept_strands_depend_only_on_the_seed(void** state)
 static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
 {
     (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(2, 8);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 2, 8);
     strands.positions[0] = NAN;
     strands.positions[3 + 1] = INFINITY;
     strands.positions[9 + 2] = -1e38f;
@@ -188,16 +148,16 @@ static void nonfinite_and_far_vertices_are_removed_and_counted(void** state)
     assert_int_equal(strands.vertices[0], 4);
     assert_int_equal(strands.vertices[1], 8);
     assert_float_equal(strands.positions[0], 0.02f, 0);
-    assert_fit(&strands);
+    hair_test_assert_fit(&strands);
     drop(&strands);
 }
 
 static void scaling_beyond_the_range_of_floats_removes_vertices(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.scale = 1e6f;
-    struct hair_strands strands = make(1, 3);
+    struct hair_strands strands = hair_test_import_strands(&test, 1, 3);
     strands.positions[3] = 1e38f;
     clean(&import, &strands);
     assert_int_equal(repairs.removed_nonfinite, 1);
@@ -208,16 +168,16 @@ static void scaling_beyond_the_range_of_floats_removes_vertices(void** state)
 static void repeated_vertices_are_merged_and_counted(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     // The strand is 9 cm long. Vertices closer than 0.9 micrometres count as repeated.
-    struct hair_strands strands = make(1, 10);
+    struct hair_strands strands = hair_test_import_strands(&test, 1, 10);
     strands.positions[3 * 1] = strands.positions[0];
     strands.positions[3 * 2] = strands.positions[0] + 0.8e-6f;
     strands.positions[3 * 5] = strands.positions[3 * 4] + 1e-6f;
     clean(&import, &strands);
     assert_int_equal(repairs.removed_repeated, 2);
     assert_int_equal(strands.vertices[0], 8);
-    assert_fit(&strands);
+    hair_test_assert_fit(&strands);
     drop(&strands);
 }
 
@@ -225,21 +185,21 @@ static void creeping_strands_keep_their_shape(void** state)
 {
     (void)state;
     // Each step is below the limit, but their sum is most of the strand.
-    hair_import import = defaults();
-    struct hair_strands strands = make(1, 200001);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 1, 200001);
     for (uint32_t i = 0; i < 200001; ++i) strands.positions[3 * i] = 1e-6f * (float)i;
     clean(&import, &strands);
     assert_float_equal(hair_strand_length(strands.positions, strands.vertices[0]), 0.2, 1e-3);
     assert_true(repairs.removed_repeated > 1000);
-    assert_fit(&strands);
+    hair_test_assert_fit(&strands);
     drop(&strands);
 }
 
 static void strands_of_one_vertex_are_dropped_and_counted(void** state)
 {
     (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(4, 3);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 4, 3);
     strands.vertices[0] = 1; // The strands have 1, 5, 0 and 6 vertices.
     strands.vertices[1] = 5;
     strands.vertices[2] = 0;
@@ -250,150 +210,36 @@ static void strands_of_one_vertex_are_dropped_and_counted(void** state)
     assert_int_equal(repairs.removed_nonfinite, 4);
     assert_int_equal(strands.strand_count, 1);
     assert_float_equal(strands.radii[0], 3, 0);
-    assert_fit(&strands);
+    hair_test_assert_fit(&strands);
     drop(&strands);
 }
 
 static void strands_shorter_than_10_micrometres_are_dropped_and_counted(void** state)
 {
     (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(3, 2);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 3, 2);
     strands.positions[3] = 0.9e-5f;
     strands.positions[9] = 0; // The strand has no length.
     strands.positions[15] = 1.1e-5f;
     clean(&import, &strands);
     assert_int_equal(repairs.dropped_short, 2);
     assert_int_equal(strands.strand_count, 1);
-    assert_fit(&strands);
+    hair_test_assert_fit(&strands);
     drop(&strands);
 }
 
 static void import_that_drops_every_strand_succeeds(void** state)
 {
     (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(5, 2);
+    hair_import import = hair_test_import();
+    struct hair_strands strands = hair_test_import_strands(&test, 5, 2);
     for (uint32_t i = 0; i < 30; ++i) strands.positions[i] = NAN;
     import.strand_vertices = 16;
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 0);
     assert_int_equal(strands.vertex_count, 0);
     assert_int_equal(repairs.dropped_single, 5);
-    drop(&strands);
-}
-
-static void long_strands_are_resampled_to_256_vertices(void** state)
-{
-    (void)state;
-    hair_import import = defaults();
-    struct hair_strands strands = make(3, 65536);
-    // A helix of 50 turns, 65 m long.
-    for (uint32_t i = 0; i < 3 * 65536; ++i) {
-        float a = 6.2831853f * 50 * (float)(i % 65536) / 65535;
-        hair_store3(strands.positions + 3 * (size_t)i, hair_v3(0.01f * cosf(a), a, 0.01f * sinf(a)));
-    }
-    float tip[3];
-    memcpy(tip, strands.positions + 3 * 65535, sizeof tip);
-    clean(&import, &strands);
-    assert_int_equal(repairs.resampled, 3);
-    assert_int_equal(strands.vertices[2], 256);
-    assert_float_equal(strands.positions[0], 0.01f, 0);
-    assert_memory_equal(strands.positions + 3 * 255, tip, sizeof tip);
-    double step = hair_strand_length(strands.positions, 256) / 255;
-    for (uint32_t i = 0; i < 255; ++i)
-        assert_float_equal(hair_strand_length(strands.positions + 3 * i, 2), step, 0.01 * step);
-    assert_fit(&strands);
-    drop(&strands);
-}
-
-static void only_strands_over_256_vertices_are_resampled(void** state)
-{
-    (void)state;
-    for (uint32_t more = 0; more < 2; ++more) {
-        hair_import import = defaults();
-        struct hair_strands strands = make(1, 256 + more);
-        clean(&import, &strands);
-        assert_int_equal(repairs.resampled, more);
-        assert_int_equal(strands.vertices[0], 256);
-        drop(&strands);
-    }
-}
-
-static void resampling_puts_vertices_at_equal_distances(void** state)
-{
-    (void)state;
-    // Three sides of a rectangle, of lengths 1, 2 and 1. Nine samples are half a unit apart along
-    // it.
-    const float corners[12] = {0, 0, 0, 0, 1, 0, 2, 1, 0, 2, 0, 0};
-    const float want[27] = {0, 0,    0, 0, 0.5f, 0, 0, 1, 0,    0.5f, 1, 0, 1, 1,
-                            0, 1.5f, 1, 0, 2,    1, 0, 2, 0.5f, 0,    2, 0, 0};
-    float out[27];
-    hair_strand_resample(corners, 4, out, 9);
-    for (int i = 0; i < 27; ++i) assert_float_equal(out[i], want[i], 1e-6);
-    hair_strand_resample(corners, 4, out, 2);
-    assert_memory_equal(out + 3, corners + 9, 12);
-}
-
-static void resampling_reaches_every_count(void** state)
-{
-    (void)state;
-    for (uint32_t count = 1; count <= 256; ++count) {
-        hair_import import = defaults();
-        import.strand_vertices = count;
-        struct hair_strands strands = make(3, 7);
-        clean(&import, &strands);
-        assert_int_equal(strands.strand_count, 3);
-        for (uint32_t i = 0; i < 3; ++i) {
-            const float* p = strands.positions + 3 * (size_t)strands.vertices[0] * i;
-            assert_int_equal(strands.vertices[i], count == 1 ? 2 : count);
-            assert_float_equal(hair_strand_length(p, strands.vertices[i]), 0.06, 1e-7);
-            assert_float_equal(p[2], (float)i, 0);
-        }
-        assert_fit(&strands);
-        drop(&strands);
-    }
-}
-
-static void strands_that_fold_back_keep_distinct_vertices(void** state)
-{
-    (void)state;
-    // A strand that goes there and back. With an even count, two samples coincide on both sides of
-    // the fold.
-    for (uint32_t count = 3; count <= 256; ++count) {
-        hair_import import = defaults();
-        import.strand_vertices = count;
-        struct hair_strands strands = make(1, 3);
-        strands.positions[3] = 1;
-        strands.positions[6] = 0;
-        clean(&import, &strands);
-        assert_int_equal(strands.strand_count, 1);
-        assert_int_equal(strands.vertices[0], count);
-        assert_fit(&strands);
-        drop(&strands);
-    }
-}
-
-static void strands_that_cannot_be_resampled_are_dropped(void** state)
-{
-    (void)state;
-    hair_import import = defaults();
-    import.strand_vertices = 2;
-    struct hair_strands strands = make(2, 3);
-    strands.positions[6] = 0; // The tip of the first strand is at its root.
-    clean(&import, &strands);
-    assert_int_equal(strands.strand_count, 1);
-    assert_int_equal(repairs.dropped_short, 1);
-    assert_float_equal(strands.radii[0], 1, 0);
-    drop(&strands);
-
-    // Floats at 1e6 m are spaced by 6 cm, which is too coarse for 256 vertices on 25 cm.
-    strands = make(1, 2);
-    import.strand_vertices = 256;
-    strands.positions[0] = 9e5f;
-    strands.positions[3] = 9e5f + 0.25f;
-    clean(&import, &strands);
-    assert_int_equal(strands.strand_count, 0);
     drop(&strands);
 }
 
@@ -414,19 +260,19 @@ static void strands_of_any_bits_become_valid(void** state)
     (void)state;
     uint32_t random = 7, kept = 0;
     for (uint32_t round = 0; round < 2000; ++round) {
-        hair_import import = defaults();
+        hair_import import = hair_test_import();
         import.strand_vertices = round % 3 ? 0 : round % 257;
         import.tip_first = round & 1;
         import.up = (hair_up)(round % 3);
         import.keep_fraction = round % 5 ? 1 : 0.5f;
         uint32_t each = 1 + hair_hash(round) % (round % 50 ? 12 : 600);
-        struct hair_strands strands = make(20, each);
+        struct hair_strands strands = hair_test_import_strands(&test, 20, each);
         for (uint32_t i = 0; i < 3 * strands.vertex_count; ++i) strands.positions[i] = random_float(&random);
         clean(&import, &strands);
-        assert_fit(&strands);
+        hair_test_assert_fit(&strands);
         kept += strands.strand_count;
 
-        import = defaults();
+        import = hair_test_import();
         struct hair_strands same = {.strand_count = strands.strand_count,
                                     .vertex_count = strands.vertex_count};
         same.positions = hair_alloc(&test.host, strands.vertex_count, 12);
@@ -443,10 +289,10 @@ static void strands_of_any_bits_become_valid(void** state)
 static void four_million_strands_take_no_longer_than_their_number(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.keep_fraction = 0.5f;
     import.scale = 0.1f; // With this scale, no strand is beyond 1e6 m.
-    struct hair_strands strands = make(4194304, 2);
+    struct hair_strands strands = hair_test_import_strands(&test, 4194304, 2);
     size_t before = test.live;
     clean(&import, &strands);
     assert_int_equal(strands.strand_count, 2097152);
@@ -457,9 +303,9 @@ static void four_million_strands_take_no_longer_than_their_number(void** state)
 static void unused_memory_of_an_import_is_freed(void** state)
 {
     (void)state;
-    hair_import import = defaults();
+    hair_import import = hair_test_import();
     import.keep_fraction = 0.01f;
-    struct hair_strands strands = make(10000, 10);
+    struct hair_strands strands = hair_test_import_strands(&test, 10000, 10);
     clean(&import, &strands);
     assert_true(test.live < 100 * 10 * 12 + 100 * 8 + 3 * 16 + 16);
     drop(&strands);
@@ -470,10 +316,10 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
     (void)state;
     uint32_t failures = 0;
     for (uint32_t refuse = 1;; ++refuse) {
-        hair_import import = defaults();
+        hair_import import = hair_test_import();
         import.strand_vertices = 8;
         import.keep_fraction = 0.1f;
-        struct hair_strands strands = make(1000, 16);
+        struct hair_strands strands = hair_test_import_strands(&test, 1000, 16);
         test.allocations = 0;
         test.refuse = refuse;
         hair_result result = hair_strands_clean(&test.host, &import, &strands, &repairs);
@@ -505,12 +351,6 @@ int main(void)
         TEST(strands_of_one_vertex_are_dropped_and_counted),
         TEST(strands_shorter_than_10_micrometres_are_dropped_and_counted),
         TEST(import_that_drops_every_strand_succeeds),
-        TEST(long_strands_are_resampled_to_256_vertices),
-        TEST(only_strands_over_256_vertices_are_resampled),
-        TEST(resampling_puts_vertices_at_equal_distances),
-        TEST(resampling_reaches_every_count),
-        TEST(strands_that_fold_back_keep_distinct_vertices),
-        TEST(strands_that_cannot_be_resampled_are_dropped),
         TEST(strands_of_any_bits_become_valid),
         TEST(four_million_strands_take_no_longer_than_their_number),
         TEST(unused_memory_of_an_import_is_freed),

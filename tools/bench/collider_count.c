@@ -19,9 +19,9 @@
 #define POST_RADIUS 0.02f
 #define BUSY_FRAMES 40
 
-enum kind { BALLS, FORMS, POSTS_WHOLE, POSTS_OF_BALLS };
+enum kind { BALLS, MESHES, POSTS_WHOLE, POSTS_OF_BALLS };
 
-static const char* const names[] = {"balls", "forms", "posts", "posts of balls"};
+static const char* const names[] = {"balls", "meshes", "posts", "posts of balls"};
 
 struct subject {
     struct bench* bench;
@@ -112,10 +112,10 @@ static void die(struct subject* subject)
 static hair_collider collider_of(const struct subject* subject, enum kind kind, uint32_t i, uint32_t* random)
 {
     hair_collider collider = hair_collider_default();
-    if (kind == BALLS || kind == FORMS) {
-        collider.shape = kind == FORMS ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE;
+    if (kind == BALLS || kind == MESHES) {
+        collider.shape = kind == MESHES ? HAIR_SHAPE_MESH : HAIR_SHAPE_SPHERE;
         collider.mesh = subject->form;
-        collider.size[0] = kind == FORMS ? 0 : RADIUS;
+        collider.size[0] = kind == MESHES ? 0 : RADIUS;
         collider.position[0] = random_in(random, -SIDE / 2, SIDE / 2);
         collider.position[1] = random_in(random, -LENGTH, -0.03f);
         collider.position[2] = random_in(random, -SIDE / 2, SIDE / 2);
@@ -145,7 +145,7 @@ static bool live(struct bench* bench, uint32_t guides, uint32_t count, enum kind
     desc.thread_mapping = bench->options.mapping;
     out->colliders = malloc(sizeof *out->colliders * count);
     result = out->colliders ? make_groom(out) : HAIR_ERROR_MEMORY;
-    if (!result && kind == FORMS) result = make_mesh(out);
+    if (!result && kind == MESHES) result = make_mesh(out);
     if (!result) result = hair_create(bench->context, out->groom, &desc, &out->hair);
     for (uint32_t i = 0; i < count && !result; ++i) out->colliders[i] = collider_of(out, kind, i, &random);
     if (!result) return true;
@@ -266,5 +266,5 @@ void bench_collider_count(struct bench* bench)
     if (!quick) compare_with(bench, BALLS, BALLS, 100, 0);
     compare_with(bench, BALLS, BALLS, 1000, 0);
     if (!quick) compare_with(bench, BALLS, BALLS, 10000, 0);
-    compare_with(bench, FORMS, FORMS, quick ? 100 : 1000, 0);
+    compare_with(bench, MESHES, MESHES, quick ? 100 : 1000, 0);
 }

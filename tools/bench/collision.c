@@ -16,7 +16,7 @@ static const char* const columns[] = {"case",
                                       "voxel",
                                       "inside_before",
                                       "inside_after",
-                                      "share_out",
+                                      "fraction_out",
                                       "max_depth_before",
                                       "max_depth",
                                       "moved",
@@ -144,7 +144,7 @@ static void add_row(struct bench_bust* bust, hair_follower_collision collision, 
     bench_set_number(row, "voxel", voxel);
     bench_set_count(row, "inside_before", found->inside_before);
     bench_set_count(row, "inside_after", found->inside_after);
-    bench_set_number(row, "share_out", 1 - (double)found->inside_after / (double)found->inside_before);
+    bench_set_number(row, "fraction_out", 1 - (double)found->inside_after / (double)found->inside_before);
     bench_set_number(row, "max_depth_before", found->depth_before);
     bench_set_number(row, "max_depth", found->depth);
     bench_set_count(row, "moved", found->moved);

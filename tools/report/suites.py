@@ -127,7 +127,7 @@ SUITES = [
     {
         "name": "physics", "title": "Known rods and chains",
         "text": "What is known in closed form or to many digits: the heavy elastica, chains, pendulums, the catenary, buckling, energy.",
-        "plots": [{"series": against_limit, "across": "error, as a share of its limit", "limit": 1,
+        "plots": [{"series": against_limit, "across": "error, as a fraction of its limit", "limit": 1,
                    "caption": "Left of the line the limit is held."}],
         "shown": missed, "shown_title": "limits that are missed",
     },
@@ -143,7 +143,7 @@ SUITES = [
         "text": "Milliseconds of a picture against its FLIP (Andersson et al. 2020) from the same hair at 1,024 samples a pixel, over what hair "
                 "covers and 8 pixels around.",
         "plots": [{"series": render("long"), "across": "milliseconds a picture", "down": "FLIP",
-                   "caption": "What nothing beats is labelled by its share of the strands and its segments."}],
+                   "caption": "What nothing beats is labelled by its fraction of the strands and its segments."}],
         "shown": lambda row: row.get("front") is True, "shown_title": "what nothing beats",
         "columns": ["case", "method", "primitive", "lod", "segments", "samples", "ms", "flip", "psnr", "coverage_error", "runs"],
     },
@@ -179,7 +179,7 @@ SUITES = [
     {
         "name": "wind", "title": "Wind",
         "text": "The fluid around the head: what a projection takes and what divergence it leaves; flows whose shape is known.",
-        "plots": [{"series": divergence, "joined": True, "across": "milliseconds", "down": "divergence left, as a share",
+        "plots": [{"series": divergence, "joined": True, "across": "milliseconds", "down": "divergence left, as a fraction",
                    "caption": "Projections, each with as much relaxation as its number says, by more and more cycles or iterations."},
                   {"series": through_a_ball, "joined": True, "across": "radii down the wind from a ball's middle", "down": "speed, by the wind's", "linear": True,
                    "caption": "Air by formulas, and the mean of the fluid."},

@@ -1,0 +1,212 @@
+// capture_output_test.c - output of hair-capture: hashes, pictures, videos and statistics. Output
+// that fails leaves no file behind, and keeps an old one.
+#define _XOPEN_SOURCE 700
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-capture"
+
+// The least hair and the fewest pixels that suffice. The head takes longest to make.
+#define SMALL "$D/small.json --samples 1"
+#define WITH_HEAD "--size 64x36 --followers 300 --guides 32 --samples 1 --set redblack.iterations=2"
+
+// Check that no temporary file is left.
+#define ANY "[A-Za-z0-9]"
+#define TEMPORARY "*." ANY ANY ANY ANY ANY ANY
+#define CLEAN " && test -z \"$(find $D -name '" TEMPORARY "')\""
+
+#define expect hair_test_shell_expect
+
+static void hashes_are_equal_twice_and_with_any_thread_count(void** state)
+{
+    (void)state;
+    expect(0,
+           "$T --hash --frames 2:4 " WITH_HEAD " >$D/1 && for n in 0 1 $(nproc); do LP_NUM_THREADS=$n "
+           "$T --hash --frames 2:4 " WITH_HEAD " >$D/2 && cmp $D/1 $D/2 || exit; done",
+           "");
+    expect(0, "cat $D/1", "strands ");
+    assert_non_null(strstr(hair_test_said, "\npixels "));
+    assert_int_equal(strlen(hair_test_said), strlen("strands 0123456789abcdef\npixels 0123456789abcdef\n"));
+}
+
+// Check that captures differ in both lines: the hash of strands and the hash of pixels.
+static void hashes_of_different_captures_differ(void** state)
+{
+    (void)state;
+    static const char* const others[] = {"--frames 3:5",
+                                         "--frames 2:4 --style bob",
+                                         "--frames 2:4 --seed 7",
+                                         "--frames 2:4 --set gravity.y=-5",
+                                         "--frames 2:4 --motion still",
+                                         "--frames 2:4 --solver follow",
+                                         "--frames 2:4 --set preset=wet"};
+    expect(0, "$T --hash --frames 2:4 " SMALL " >$D/1", "");
+    for (size_t i = 0; i < sizeof others / sizeof *others; ++i) {
+        char command[512];
+        snprintf(command, sizeof command, "$T --hash %s " SMALL " >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
+                 others[i]);
+        expect(0, command, "4\n");
+    }
+    // The look does not change the strands.
+    expect(0,
+           "$T --hash --frames 2:4 " SMALL
+           " --set color.root.r=0.9 >$D/2; cat $D/1 $D/2 | sort | uniq | wc -l",
+           "3\n");
+}
+
+static void frame_alone_equals_the_frame_in_a_sequence(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:4 -o $D/f_%03d.png && $T " SMALL " --frames 3:4 -o $D/f.png", "");
+    expect(0, "cmp $D/f.png $D/f_003.png && test $(ls $D/f_*.png | wc -l) = 4" CLEAN, "");
+    expect(0, "! cmp -s $D/f_000.png $D/f_003.png", "");
+    expect(0, "$T " SMALL " --frames 3:4 -o $D/f_%d.png && cmp $D/f.png $D/f_3.png", "");
+}
+
+static void pictures_and_videos_have_the_format_of_their_name(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:1 -o $D/p.png && head -c 8 $D/p.png | od -An -tx1",
+           "89 50 4e 47 0d 0a 1a 0a");
+    expect(0, "$T " SMALL " --frames 0:1 -o $D/p.exr && head -c 4 $D/p.exr | od -An -tx1", "76 2f 31 01");
+    expect(0, "$T " SMALL " --frames 0:2 -o $D/p.y4m && head -n 1 $D/p.y4m",
+           "YUV4MPEG2 W64 H36 F30000:1000 Ip A1:1 C420jpeg");
+    // A header line, and then twice "FRAME" with 1.5 bytes per pixel.
+    expect(0, "test $(tail -n +2 $D/p.y4m | wc -c) = $((2 * (6 + 64 * 36 * 3 / 2)))", "");
+    expect(0, "$T " SMALL " --frames 0:2 -o - | cmp - $D/p.y4m", "");
+    expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o - | tail -n 1 | wc -c", "3\n");
+    expect(0, "$T " SMALL " --size 3x5 --frames 0:1 -o - | wc -c", "");
+    expect(0, "$T " SMALL " --size 1x1 --frames 0:1 -o $D/1.png && test -s $D/1.png" CLEAN, "");
+}
+
+static void mp4_can_be_played_before_it_is_complete(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:3 -o $D/v.mp4 && head -c 8 $D/v.mp4 | tail -c 4", "ftyp");
+    expect(0,
+           "test $(grep -abo moov $D/v.mp4 | cut -d: -f1) -lt $(grep -abo mdat $D/v.mp4 | cut -d: -f1)" CLEAN,
+           "");
+    // 3 x 64 x 36.
+    expect(0, "ffmpeg -v error -i $D/v.mp4 -f rawvideo -pix_fmt gray - | wc -c", "6912\n");
+}
+
+static void an_encoder_that_fails_leaves_no_video(void** state)
+{
+    (void)state;
+    expect(1, "PATH=/nonexistent $T " SMALL " --frames 0:1 -o $D/w.mp4", "cannot start ffmpeg");
+    expect(0, "mkdir -p $D/bin && printf '#!/bin/sh\\nexit 7\\n' >$D/bin/ffmpeg && chmod +x $D/bin/ffmpeg",
+           "");
+    expect(1, "PATH=$D/bin:$PATH $T " SMALL " --frames 0:30 -o $D/w.mp4", "ffmpeg");
+    expect(0, "printf '#!/bin/sh\\ncat >/dev/null; kill -9 $$\\n' >$D/bin/ffmpeg", "");
+    expect(1, "PATH=$D/bin:$PATH $T " SMALL " --frames 0:2 -o $D/w.mp4", "status 137");
+    expect(0, "! test -e $D/w.mp4" CLEAN, "");
+}
+
+static void full_disk_exits_with_1_and_keeps_the_device_file(void** state)
+{
+    (void)state;
+    expect(1, "$T " SMALL " --frames 0:2 -o /dev/full", "No space left");
+    expect(0, "ln -s /dev/full $D/full.png && ln -s /dev/full $D/full.exr && ln -s /dev/full $D/full.mp4",
+           "");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/full.png", "full.png");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/full.exr", "full.exr");
+    expect(1, "$T " SMALL " --frames 0:2 -o $D/full.mp4", "ffmpeg");
+    expect(1, "$T " SMALL " --frames 0:1 --stats /dev/full", "No space left");
+    expect(1, "$T " SMALL " --frames 0:1 --hash >/dev/full", "cannot write");
+    expect(0, "test -c /dev/full && test -L $D/full.png && test -L $D/full.mp4", "");
+}
+
+static void output_that_is_no_regular_file_is_written_in_place(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:1 -o /dev/null && test -c /dev/null", "");
+    expect(0,
+           "mkfifo $D/p.fifo; $T " SMALL " --frames 0:1 -o $D/p.fifo & head -n 1 $D/p.fifo && wait $!; "
+           "test -p $D/p.fifo",
+           "YUV4MPEG2");
+    expect(0, "$T " SMALL " --frames 0:1 -o /dev/stdout | head -n 1", "YUV4MPEG2");
+}
+
+static void closed_pipe_exits_with_1(void** state)
+{
+    (void)state;
+    expect(1,
+           "{ $T " SMALL " --size 640x360 --frames 0:9 -o -; echo $? >$D/code; } | head -c 9 >/dev/null; "
+           "exit $(cat $D/code)",
+           "Broken pipe");
+}
+
+static void interrupted_capture_exits_with_1_and_keeps_the_old_file(void** state)
+{
+    (void)state;
+    static const char* const names[] = {"i.y4m", "i.mp4"};
+    for (int i = 0; i < 2; ++i) {
+        char command[512];
+        snprintf(command, sizeof command,
+                 "echo old >$D/%s; $T " SMALL " --frames 0:100000 -o $D/%s & "
+                 "while ! ls $D/" TEMPORARY
+                 " >/dev/null 2>&1; do sleep 0.02; done; sleep 0.2; kill -INT $!; wait $!",
+                 names[i], names[i]);
+        expect(1, command, "interrupted after frame");
+        snprintf(command, sizeof command, "cat $D/%s" CLEAN, names[i]);
+        expect(0, command, "old\n");
+    }
+}
+
+static void missing_output_folder_exits_with_1(void** state)
+{
+    (void)state;
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/none/a.png", "none/a.png");
+    expect(1, "$T " SMALL " --frames 0:1 -o $D/none/a_%d.png", "none/a_");
+    expect(1, "$T " SMALL " --frames 0:1 --stats $D/none/s.json", "none/s.json");
+}
+
+static void stats_contain_what_was_drawn(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 0:2 --stats $D/s.json && cat $D/s.json", "\"suite\": \"capture\"");
+    assert_non_null(strstr(hair_test_said, "\"renderer\": \""));
+    assert_non_null(strstr(hair_test_said, "\"followers\": 300"));
+    assert_non_null(strstr(hair_test_said, "\"method\": \"sim/mixed"));
+    assert_null(strstr(hair_test_said, "redblack")); // A pass that has not run is not listed.
+    assert_null(strstr(hair_test_said, "\"runs\": 0"));
+    assert_non_null(strstr(hair_test_said, "\"solver_stats\": {\n    \"euler_fallbacks\": "));
+    assert_non_null(strstr(hair_test_said, "\"reset\": 0"));
+    assert_non_null(strstr(hair_test_said, "\"substep\": 0.00416667"));
+    assert_non_null(strstr(hair_test_said, "\"import_stats\""));
+    expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
+}
+
+static int start(void** state)
+{
+    (void)state;
+    if (hair_test_shell_start(TOOL)) return -1;
+    return hair_test_shell(
+        "echo '{\"head\": false, \"motion\": \"demo\", \"size\": [64, 36], \"settings\":"
+        " {\"followers\": 300, \"guides\": 32, \"redblack.iterations\": 2}}' >$D/small.json");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hashes_are_equal_twice_and_with_any_thread_count),
+        cmocka_unit_test(hashes_of_different_captures_differ),
+        cmocka_unit_test(frame_alone_equals_the_frame_in_a_sequence),
+        cmocka_unit_test(pictures_and_videos_have_the_format_of_their_name),
+        cmocka_unit_test(mp4_can_be_played_before_it_is_complete),
+        cmocka_unit_test(an_encoder_that_fails_leaves_no_video),
+        cmocka_unit_test(full_disk_exits_with_1_and_keeps_the_device_file),
+        cmocka_unit_test(output_that_is_no_regular_file_is_written_in_place),
+        cmocka_unit_test(closed_pipe_exits_with_1),
+        cmocka_unit_test(interrupted_capture_exits_with_1_and_keeps_the_old_file),
+        cmocka_unit_test(missing_output_folder_exits_with_1),
+        cmocka_unit_test(stats_contain_what_was_drawn),
+    };
+    return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
+}
