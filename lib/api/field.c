@@ -35,13 +35,12 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_field_info own = hair_field_info_default();
-    hair_result result = HAIR_COPY_OUT(&context->host, hair_field_info, &own, out);
-    if (!result) result = hair_check_current(context);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_OUT(&context->host, hair_field_info, &own, out));
+    HAIR_TRY(hair_check_current(context));
     hair_enter(hair);
-    result = hair_update_field(hair);
+    hair_result result = hair_update_field(hair);
     hair_gl_leave(&context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
 
     const struct hair_field_box* box = &hair->field.box;
     if (hair_field_is_near(&hair->field)) {

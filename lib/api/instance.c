@@ -110,13 +110,12 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
     hair_desc own;
-    hair_result result = HAIR_COPY_IN(host, hair_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(host, hair_desc, desc, &own));
     if (!groom) return hair_fail(host, HAIR_ERROR_ARGUMENT, "groom is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_instance* hair = hair_alloc(host, 1, sizeof *hair);
     if (!hair) return hair_fail_memory(host, "an instance");
-    result = fill(hair, context, groom, &own);
+    hair_result result = fill(hair, context, groom, &own);
     if (result) {
         hair_destroy(hair);
         return result;
@@ -142,8 +141,7 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_physics own;
-    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own));
     if (own.collision.margin != hair->sim.physics.collision.margin) hair_geometry_invalidate(&hair->geometry);
     hair->sim.physics = own;
     return HAIR_OK;
@@ -159,8 +157,7 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_look own;
-    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_look, look, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_look, look, &own));
     hair->look = own;
     hair_look_apply_wetness(&own);
     if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_geometry_invalidate(&hair->geometry);
@@ -178,9 +175,9 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
-    if (!result) hair->sim.head = pose;
-    return result;
+    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
+    hair->sim.head = pose;
+    return HAIR_OK;
 }
 
 hair_result hair_get_transform(const hair_instance* hair, float transform[16])
@@ -270,8 +267,7 @@ hair_result hair_step(hair_instance* hair, float dt)
 hair_result hair_reset(hair_instance* hair)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     hair_enter(hair);
     hair_sim_reset(&hair->sim);
     hair_smooth_invalidate(&hair->geometry.smooth);
@@ -284,12 +280,11 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
-    if (!result) result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
+    HAIR_TRY(hair_check_current(hair->context));
     hair_enter(hair);
     struct hair_pose was = hair->sim.head_at_last_step;
-    result = hair_sim_teleport(&hair->sim, &pose);
+    hair_result result = hair_sim_teleport(&hair->sim, &pose);
     if (!result) {
         hair_geometry_teleport_history(&hair->geometry, &was, &pose);
         hair_smooth_invalidate(&hair->geometry.smooth);

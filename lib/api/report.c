@@ -162,8 +162,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     const hair_host* host = &hair->context->host;
     hair_report_info own = hair_report_info_default();
     float ms[HAIR_GL_CATEGORIES];
-    hair_result result = HAIR_COPY_OUT(host, hair_report_info, &own, info);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_OUT(host, hair_report_info, &own, info));
     if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
     if (!rows && capacity)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: rows is NULL but capacity is %u", hair->label,
@@ -171,8 +170,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     if (capacity && (stride < sizeof *rows || stride > 4096))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not in [%zu, 4096]", hair->label,
                          stride, sizeof *rows);
-    result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
     *count = 0;
     if (!frame) return HAIR_OK;

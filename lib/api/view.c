@@ -56,19 +56,18 @@ static hair_result copy_lights(const hair_instance* hair, hair_view* view, hair_
     size_t stride = at ? view->lights->header.size : 0;
     HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
     uint32_t shadows = 0;
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < view->light_count && !result; ++i) {
-        result = HAIR_COPY_IN(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
-        if (!result) result = check_light(hair, &light[i], i);
-        if (!result) shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
+    for (uint32_t i = 0; i < view->light_count; ++i) {
+        HAIR_TRY(HAIR_COPY_IN(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]));
+        HAIR_TRY(check_light(hair, &light[i], i));
+        shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
     }
     view->lights = light;
-    if (!result && shadows > HAIR_SHADOW_MAPS)
+    if (shadows > HAIR_SHADOW_MAPS)
         return hair_fail(
             host, HAIR_ERROR_ARGUMENT,
             "%s: %u of hair_view.lights have a hair_shadow_map or a opaque_shadow_map, not at most %d",
             hair->label, shadows, HAIR_SHADOW_MAPS);
-    return result;
+    return HAIR_OK;
 }
 
 static hair_result check_sky(const hair_instance* hair, const float* sky)
@@ -85,16 +84,16 @@ static hair_result copy_view(const hair_instance* hair, const hair_view* view, h
                              struct storage* storage)
 {
     const hair_host* host = &hair->context->host;
-    hair_result result = HAIR_COPY_IN(host, hair_view, view, own);
-    if (!result && own->lod) {
-        result = HAIR_COPY_IN(host, hair_lod, own->lod, &storage->lod);
+    HAIR_TRY(HAIR_COPY_IN(host, hair_view, view, own));
+    if (own->lod) {
+        HAIR_TRY(HAIR_COPY_IN(host, hair_lod, own->lod, &storage->lod));
         own->lod = &storage->lod;
     }
-    if (!result && own->shader && own->shader->context != hair->context)
+    if (own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
-    if (!result) result = copy_lights(hair, own, storage->light);
-    return result ? result : check_sky(hair, own->sky);
+    HAIR_TRY(copy_lights(hair, own, storage->light));
+    return check_sky(hair, own->sky);
 }
 
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
@@ -115,11 +114,9 @@ static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
     const struct hair_collider_list* list = &hair->sim.colliders.current;
     int needed = view->slice != HAIR_SLICE_NONE;
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
-    hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
-    if (!result)
-        result = hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
-                                     &hair->sim.head_at_last_step, view);
-    return result;
+    if (needed) HAIR_TRY(hair_update_field(hair));
+    return hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
+                               &hair->sim.head_at_last_step, view);
 }
 
 static hair_result draw_air(hair_instance* hair, const hair_view* view)
@@ -145,8 +142,7 @@ static hair_result update_follower_collision(hair_instance* hair)
         return result;
     }
     int wanted = geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
-    hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
-    if (result) return result;
+    if (wanted) HAIR_TRY(hair_update_field(hair));
     int near = wanted && hair_field_is_near(&hair->field);
     if (!hair->sim.colliders.current.count) hair_geometry_free_follower_collision(geometry);
     return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
@@ -208,11 +204,11 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_context* context = hair->context;
     hair_view own;
     struct storage storage;
-    hair_result result = copy_view(hair, view, &own, &storage);
-    if (!result) result = hair_check_current(context);
-    if (!result) result = hair_check_view_textures(hair, &own);
-    if (!result) result = check_framebuffer(hair);
-    if (result) return result;
+    HAIR_TRY(copy_view(hair, view, &own, &storage));
+    HAIR_TRY(hair_check_current(context));
+    HAIR_TRY(hair_check_view_textures(hair, &own));
+    HAIR_TRY(check_framebuffer(hair));
+    hair_result result = HAIR_OK;
     struct hair_draw_plan plan;
     make_plan(hair, &own, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
@@ -241,15 +237,14 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
     int colliders = sim->colliders.current.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
-    hair_result result = HAIR_OK;
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND)
         return sim->wind_state.params ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
-    if (colliders && (!shows || view->slice)) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE);
-    if (!result && sim->colliders.meshes) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES);
-    if (!result && shows) result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
-    if (!result && shows && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
-    if (result || shows) return result;
+    if (colliders && (!shows || view->slice)) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
+    if (sim->colliders.meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
+    if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
+    if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
+    if (shows) return HAIR_OK;
     return hair_draw_precompile(&hair->renderer, plan, colliders);
 }
 
@@ -259,14 +254,13 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     struct hair_gl* gl = &hair->context->gl;
     hair_view own;
     struct storage storage;
-    hair_result result = view ? copy_view(hair, view, &own, &storage) : HAIR_OK;
-    if (!result) result = hair_check_current(hair->context);
-    if (result) return result;
+    if (view) HAIR_TRY(copy_view(hair, view, &own, &storage));
+    HAIR_TRY(hair_check_current(hair->context));
     struct hair_draw_plan plan;
     if (view) make_plan(hair, &own, &plan);
     hair_enter_unprofiled(hair);
     hair_gl_begin_async(gl);
-    result = hair_sim_ensure_programs(&hair->sim);
+    hair_result result = hair_sim_ensure_programs(&hair->sim);
     if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
     hair_gl_leave(gl);
@@ -305,7 +299,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_result result = update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     hair_gl_leave(&hair->context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
     copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
     return HAIR_OK;
@@ -329,8 +323,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     if (!positions && capacity)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL but capacity is %u", hair->label,
                          capacity);
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
 
     const struct hair_sim* sim = &hair->sim;
     uint64_t all = 0;
@@ -361,12 +354,11 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
 hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     hair_solver_stats own = hair_solver_stats_default();
     hair_enter_unprofiled(hair);
-    result = hair_sim_solver_stats(&hair->sim, &own);
+    hair_result result = hair_sim_solver_stats(&hair->sim, &own);
     hair_gl_leave(&hair->context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
     return HAIR_COPY_OUT(&hair->context->host, hair_solver_stats, &own, out);
 }

@@ -17,9 +17,8 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
     hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair owners",
                                         sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
     hair_free(&gl->host, owners);
-    return result ? result
-                  : hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner,
-                                           &feedback->owner_texture);
+    HAIR_TRY(result);
+    return hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner, &feedback->owner_texture);
 }
 
 hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* guides)

@@ -157,12 +157,10 @@ static hair_result create(struct hair_sim* sim, int had_contact)
 static hair_result make_buffers(struct hair_sim* sim)
 {
     size_t vertices = sim->guide_vertices;
-    hair_result result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
-                                         vertices * sizeof(struct hair_history), NULL, &sim->history);
-    if (!result)
-        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material",
-                                 vertices * sizeof(hair_vec4), NULL, &sim->material);
-    return result;
+    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
+                             vertices * sizeof(struct hair_history), NULL, &sim->history));
+    return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material", vertices * sizeof(hair_vec4),
+                           NULL, &sim->material);
 }
 
 hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom)
@@ -178,9 +176,9 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
-    hair_result result = make_buffers(sim);
-    if (!result) result = create(sim, 0);
-    return result ? result : hair_sim_ensure_hair_grid(sim);
+    HAIR_TRY(make_buffers(sim));
+    HAIR_TRY(create(sim, 0));
+    return hair_sim_ensure_hair_grid(sim);
 }
 
 // Return whether the presence of colliders has changed the accurate solver's own substep.
@@ -206,9 +204,9 @@ hair_result hair_sim_rebuild_rods(struct hair_sim* sim)
     int had_contact = sim->had_contact || hair_sim_contacts(sim) > 0;
     int other = rods->substep_scale != find_substep_scale(sim) || is_first_contact(sim, had_contact) ||
                 sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
-    hair_result result = other ? create(sim, had_contact) : HAIR_OK;
-    if (!result) sim->had_contact = had_contact;
-    return result;
+    if (other) HAIR_TRY(create(sim, had_contact));
+    sim->had_contact = had_contact;
+    return HAIR_OK;
 }
 
 void hair_sim_free_rods(struct hair_sim* sim)

@@ -340,9 +340,7 @@ static hair_result read(struct hair_serializer* s, struct hair_sim* sim, struct 
 static hair_result upload(const struct hair_serializer* s)
 {
     GLuint source = 0;
-    hair_result result =
-        hair_gl_buffer(s->gl, HAIR_GL_NO_CATEGORY, "hair loaded", s->end, s->native, &source);
-    if (result) return result;
+    HAIR_TRY(hair_gl_buffer(s->gl, HAIR_GL_NO_CATEGORY, "hair loaded", s->end, s->native, &source));
     for (uint32_t i = 0; i < s->buffers; ++i) HAIR_ASSERT(s->buffer[i].at + s->buffer[i].size <= s->end);
     for (uint32_t i = 0; i < s->buffers; ++i)
         s->gl->CopyNamedBufferSubData(source, s->buffer[i].buffer, (GLintptr)s->buffer[i].at, 0,

@@ -48,22 +48,17 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
         hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root transforms",
                         sim->guides * sizeof *root_transforms, root_transforms, root_transform);
     hair_free(&gl->host, root_transforms);
-    if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
-                                 motion->root_bindings->count * sizeof *motion->root_bindings->binding,
-                                 motion->root_bindings->binding, &motion->root_binding);
-    if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
-                                 motion->root_bindings->positions, &motion->rest);
-    for (int i = 0; i < 2 && !result; ++i)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size, &motion->scalp[i]);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
-                                 sizeof(struct hair_scalp_params), &motion->params);
-    if (!result)
-        result =
-            hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
-    return result;
+    HAIR_TRY(result);
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
+                             motion->root_bindings->count * sizeof *motion->root_bindings->binding,
+                             motion->root_bindings->binding, &motion->root_binding));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
+                             motion->root_bindings->positions, &motion->rest));
+    for (int i = 0; i < 2; ++i)
+        HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size, &motion->scalp[i]));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
+                             sizeof(struct hair_scalp_params), &motion->params));
+    return hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
 }
 
 static void rest_scalp(struct hair_sim* sim)
@@ -78,15 +73,13 @@ static void rest_scalp(struct hair_sim* sim)
 hair_result hair_scalp_motion_create(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
-    hair_result result = HAIR_OK;
     GLuint root_transform = 0;
     if (hair_scalp_motion_is_on(sim)) return HAIR_OK;
-    result = hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_SCALP, HAIR_GL_BIND_FOLLOWERS, 0);
-    if (!result) result = hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1));
-    if (!result)
-        result = hair_gl_ensure_program(
-            gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices));
-    if (!result) result = make_buffers(sim, &root_transform);
+    HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_SCALP, HAIR_GL_BIND_FOLLOWERS, 0));
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1)));
+    HAIR_TRY(hair_gl_ensure_program(
+        gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices)));
+    hair_result result = make_buffers(sim, &root_transform);
     if (result) {
         hair_gl_free_buffer(gl, &root_transform);
         free_buffers(sim);
