@@ -195,7 +195,7 @@ void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint prog
 
 // source.c ----------------------------------------------------------------------------------------
 
-#define HAIR_GL_MAX_SOURCES 48 // Maximum number of files of one shader, itself included.
+#define HAIR_GL_MAX_SOURCES 80 // Maximum number of files of one shader, itself included.
 
 struct hair_gl_source {
     char* text; // Text with all includes in place. The caller frees it.
