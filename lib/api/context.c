@@ -14,7 +14,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
     context->host = host;
-    context->sdf_pool.gl = &context->gl;
+    hair_sdf_pool_init(&context->sdf_pool, &context->gl);
     hair_result result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
@@ -62,7 +62,7 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
 hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 {
     if (!context) return HAIR_ERROR_ARGUMENT;
-    context->gl.memory.limit = bytes;
+    hair_gl_memory_set_limit(&context->gl, bytes);
     return HAIR_OK;
 }
 

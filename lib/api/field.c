@@ -23,11 +23,15 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
     for (int k = 0; k < 4; ++k) out[4 * k + 3] = k == 3;
 }
 
+hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
+{
+    const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
+    return hair_field_update(&hair->field, colliders->collider, colliders->count, head);
+}
+
 hair_result hair_update_field(hair_instance* hair)
 {
-    const struct hair_colliders* colliders = &hair->sim.colliders;
-    return hair_field_update(&hair->field, colliders->current.collider, colliders->current.count,
-                             &hair->sim.head_at_last_step);
+    return hair_update_field_at(hair, &hair->sim.head_at_last_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)

@@ -17,16 +17,12 @@ const char* hair_skip_reason_string(hair_skip_reason why)
 
 void hair_enter(hair_instance* hair)
 {
-    HAIR_ASSERT(!hair->context->gl.profiler);
-    hair_enter_unprofiled(hair);
-    hair->context->gl.profiler = &hair->profiler;
+    hair_gl_enter_for(&hair->context->gl, &hair->memory, &hair->profiler);
 }
 
 void hair_enter_unprofiled(hair_instance* hair)
 {
-    HAIR_ASSERT(!hair->context->gl.owner);
-    hair_gl_enter(&hair->context->gl);
-    hair->context->gl.owner = &hair->memory;
+    hair_gl_enter_for(&hair->context->gl, &hair->memory, NULL);
 }
 
 struct hair_frame_requests* hair_current_requests(hair_instance* hair)
@@ -56,11 +52,11 @@ static hair_skip_reason why_not_collided(const hair_instance* hair,
                                          const struct hair_frame_requests* requests, int pushes)
 {
     const hair_look* look = &hair->geometry.look;
-    int off = look->followers.collision == HAIR_FOLLOWER_COLLISION_NONE || look->followers.density <= 0 ||
-              !hair->geometry.followers;
+    int off = look->followers.collision == HAIR_FOLLOWER_COLLISION_NONE ||
+              !hair_geometry_shows_followers(&hair->geometry) || !hair->geometry.followers;
     if (off || (pushes && look->followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
         return HAIR_SKIP_REASON_NOT_WANTED;
-    if (!hair->sim.colliders.current.count) return HAIR_SKIP_REASON_NONE_NEAR;
+    if (!hair_sim_colliders(&hair->sim)->count) return HAIR_SKIP_REASON_NONE_NEAR;
     hair_skip_reason why = why_not_shown(requests);
     return why == HAIR_SKIP_REASON_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_SKIP_REASON_NONE_NEAR
                                                                                   : why;
@@ -70,7 +66,7 @@ static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct ha
                                       int kind)
 {
     if (requests->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
-    if (hair->geometry.look.followers.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
+    if (!hair_geometry_shows_followers(&hair->geometry)) return HAIR_SKIP_REASON_NOT_WANTED;
     return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
@@ -101,7 +97,7 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     case HAIR_GL_CATEGORY_ROOT_TRANSFORMS: return why_not_simulated(requests, skin);
     case HAIR_GL_CATEGORY_WIND: return why_not_simulated(requests, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_CATEGORY_HAIR_GRID: return why_not_simulated(requests, hair_grid_is_on(sim));
-    case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, sim->diagnosis.wanted);
+    case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, hair_sim_is_diagnosed(sim));
     case HAIR_GL_CATEGORY_ACTIVITY: return why_not_simulated(requests, sim->physics.sleep_threshold > 0);
     case HAIR_GL_CATEGORY_SOLVE: return why_not_simulated(requests, 1);
     case HAIR_GL_CATEGORY_SMOOTH: return shown;

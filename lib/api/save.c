@@ -28,7 +28,7 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     hair_enter_unprofiled(hair);
     hair_result result = hair_sim_load(&hair->sim, bytes, size);
     if (!result) {
-        hair_smooth_invalidate(&hair->geometry.smooth);
+        hair_geometry_invalidate_guides(&hair->geometry);
         hair_geometry_forget_history(&hair->geometry);
     }
     hair_gl_leave(&context->gl);

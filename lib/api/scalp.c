@@ -8,9 +8,8 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
                          struct hair_pose* space)
 {
     const hair_host* host = &hair->context->host;
-    const struct hair_root_bindings* root_bindings = hair->sim.scalp_motion.root_bindings;
     *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
-    if (!root_bindings)
+    if (!hair_scalp_motion_vertex_count(&hair->sim))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
     if (stride < 12 || stride > LONGEST || stride % 4)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
@@ -50,7 +49,7 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     struct hair_pose space;
     if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
     HAIR_TRY(check(hair, stride, to_world, &space));
-    uint32_t vertices = hair->sim.scalp_motion.root_bindings->vertex_count;
+    uint32_t vertices = hair_scalp_motion_vertex_count(&hair->sim);
     if (count != vertices)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
                          hair->label, count, vertices);
@@ -83,7 +82,7 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
     if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
                          hair->label, buffer);
-    uint64_t ensure = (uint64_t)stride * (hair->sim.scalp_motion.root_bindings->vertex_count - 1) + 12,
+    uint64_t ensure = (uint64_t)stride * (hair_scalp_motion_vertex_count(&hair->sim) - 1) + 12,
              there = (uint64_t)has;
     if (offset % 4 || offset > there || ensure > there - offset)
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,

@@ -111,7 +111,7 @@ static hair_result check_framebuffer(const hair_instance* hair)
 // the field's copy.
 static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_collider_list* list = &hair->sim.colliders.current;
+    const struct hair_collider_list* list = hair_sim_colliders(&hair->sim);
     int needed = view->slice != HAIR_SLICE_NONE;
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
     if (needed) HAIR_TRY(hair_update_field(hair));
@@ -122,9 +122,8 @@ static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
 static hair_result draw_air(hair_instance* hair, const hair_view* view)
 {
     const struct hair_sim* sim = &hair->sim;
-    const struct hair_fluid* fluid = sim->wind_state.box.w > 0 ? &sim->wind_coupling.fluid : NULL;
-    if (!sim->wind_state.params) return HAIR_OK;
-    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, fluid, &hair->field.box,
+    if (!hair_sim_has_wind(sim)) return HAIR_OK;
+    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, hair_sim_fluid(sim), &hair->field.box,
                          &sim->head_at_last_step, view);
 }
 
@@ -137,30 +136,23 @@ static hair_result update_follower_collision(hair_instance* hair)
     if (geometry->push_out_weight <= 0) {
         hair_result result =
             geometry->look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        geometry->follower_collision.field =
-            !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+        hair_geometry_set_blockers(geometry,
+                                   !result && hair_field_is_near(&hair->field) ? &hair->field : NULL);
         return result;
     }
     int wanted = geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
     if (wanted) HAIR_TRY(hair_update_field(hair));
     int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair->sim.colliders.current.count) hair_geometry_free_follower_collision(geometry);
+    if (!hair_sim_colliders(&hair->sim)->count) hair_geometry_free_follower_collision(geometry);
     return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
                                                    hair->sim.physics.collision.margin);
 }
 
-static void make_ready(hair_instance* hair)
+// Tell the renderer how far strands may be from where the groom has them. Culling depends on it.
+static void update_attachment(hair_instance* hair)
 {
-    hair_smooth_ensure(&hair->geometry.smooth, &hair->sim);
-    hair_geometry_bind_followers(&hair->geometry, &hair->sim);
-}
-
-// Return whether every strand stays within its length of its root. This needs a guide with a fixed
-// root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
-static int is_held(const struct hair_sim* sim)
-{
-    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count &&
-           !hair_scalp_motion_is_on(sim);
+    hair->renderer.is_cullable = hair_sim_has_fixed_roots(&hair->sim);
+    hair->renderer.has_attached_roots = hair_sim_has_attached_strands(&hair->sim);
 }
 
 static int is_of_surroundings(const hair_view* view)
@@ -172,7 +164,7 @@ static int is_of_surroundings(const hair_view* view)
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
-    return is_held(&hair->sim) &&
+    return hair_sim_has_attached_strands(&hair->sim) &&
            hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
 }
 
@@ -190,7 +182,7 @@ static int is_to_be_drawn(hair_instance* hair, const struct hair_draw_plan* plan
     requests->strand_list |= !unseen && plan->has_strand_list;
     requests->vertex_cache |= !unseen && plan->vertices == HAIR_VERTICES_CACHED;
     requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
-    return !unseen && hair->geometry.look.followers.density > 0;
+    return !unseen && hair_geometry_shows_followers(&hair->geometry);
 }
 
 static void make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out)
@@ -217,17 +209,15 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (is_of_surroundings(&own)) {
         result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
-        make_ready(hair);
+        hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
         hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
-        if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.followers.density > 0)
+        if (own.pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
             result = update_follower_collision(hair);
-        hair->renderer.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
-                                     !hair_scalp_motion_is_on(&hair->sim);
-        hair->renderer.has_attached_roots = is_held(&hair->sim);
+        update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
     hair_gl_leave(&context->gl);
-    if (!result) hair->sim.unseen = 0;
+    if (!result) hair_sim_set_unseen_time(&hair->sim, 0);
     return result;
 }
 
@@ -236,10 +226,10 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     const hair_view* view = plan->view;
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
-    int colliders = sim->colliders.current.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
+    int colliders = hair_sim_colliders(sim)->count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND)
-        return sim->wind_state.params ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
+        return hair_sim_has_wind(sim) ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
     if (colliders && (!shows || view->slice)) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
     if (sim->colliders.meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
@@ -294,7 +284,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 {
     hair_vec4* vertices = NULL;
     hair_enter_unprofiled(hair);
-    make_ready(hair);
+    hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
     hair_result result = update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
@@ -308,10 +298,10 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
 {
     hair_enter_unprofiled(hair);
-    make_ready(hair);
+    hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_gl_leave(&hair->context->gl);
-    return read_buffer(hair, hair->geometry.smooth.buffer[0], count, 4, &hair->sim.head_at_last_step,
-                       positions);
+    return read_buffer(hair, hair_geometry_smoothed_positions(&hair->geometry), count, 4,
+                       &hair->sim.head_at_last_step, positions);
 }
 
 hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
@@ -329,10 +319,8 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     uint64_t all = 0;
     switch (what) {
     case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
-    case HAIR_READ_SMOOTH: all = hair->geometry.smooth.vertices; break;
-    case HAIR_READ_FOLLOWERS:
-        all = (uint64_t)hair->geometry.followers * (hair->geometry.look.strand.segments + 1);
-        break;
+    case HAIR_READ_SMOOTH: all = hair_geometry_count_smoothed(&hair->geometry); break;
+    case HAIR_READ_FOLLOWERS: all = hair_geometry_count_vertices(&hair->geometry); break;
     default:
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: source is %d, not in [0, %d]", hair->label,
                          (int)what, HAIR_READ_FOLLOWERS);
@@ -344,7 +332,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     uint32_t number = *count < capacity ? *count : capacity;
     HAIR_ASSERT(number <= *count);
     if (number == 0) return HAIR_OK;
-    hair->sim.unseen = 0;
+    hair_sim_set_unseen_time(&hair->sim, 0);
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
     if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);
     return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,

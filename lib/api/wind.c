@@ -1,8 +1,6 @@
 // wind.c - public calls that set and get the wind.
 #include "lib/api/api.h"
 
-#include <string.h>
-
 static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
                                 double min, double max)
 {
@@ -52,11 +50,8 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
         HAIR_TRY(check_source(hair, i, &sources[i]));
     }
     if (own.texture) HAIR_TRY(check_texture(hair, own.texture));
-    if (memcmp(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources) != 0)
-        hair_sleep_wake(&hair->sim);
-    memcpy(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources);
-    own.sources = own.source_count ? hair->sim.wind_state.source : NULL;
-    hair->sim.wind = own;
+    own.sources = sources;
+    hair_sim_set_wind(&hair->sim, &own);
     return HAIR_OK;
 }
 

@@ -71,6 +71,11 @@ static void free_if_empty(struct hair_sdf_pool* pool)
     *pool = (struct hair_sdf_pool){.gl = pool->gl};
 }
 
+void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl)
+{
+    *pool = (struct hair_sdf_pool){.gl = gl};
+}
+
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
                                   uint32_t* place)
 {

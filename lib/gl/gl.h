@@ -218,7 +218,10 @@ hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir
 
 // Save the application's state. Call this before anything else in a [GL] call.
 void hair_gl_enter(struct hair_gl* gl);
-// Restore the application's state.
+// Enter for work of one instance. `owner` owns the memory that is allocated until
+// hair_gl_leave(), and `profiler` counts the passes. NULL `profiler` counts none.
+void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler);
+// Restore the application's state. Nothing is owned or counted from then on.
 void hair_gl_leave(struct hair_gl* gl);
 
 // Create a framebuffer without attachments. Transform feedback without rasterisation needs one,
@@ -235,6 +238,8 @@ void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
 
 // memory.c ----------------------------------------------------------------------------------------
 
+// Set the maximum of bytes that buffers and textures may take from now on. 0 disables it.
+void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes);
 // Check whether `size` more bytes for `label` stay within the memory limit. Make room to record one
 // more object.
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size);

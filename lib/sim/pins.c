@@ -87,6 +87,12 @@ static bool are_alike(const struct hair_pins* pins, const struct hair_resolved_p
     return alike;
 }
 
+const struct hair_resolved_pin* hair_pins_get(const struct hair_sim* sim, uint32_t* count)
+{
+    *count = sim->pins.count;
+    return sim->pins.resolved_pin;
+}
+
 void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
     HAIR_ASSERT(count <= HAIR_MAX_PINS && (resolved_pin || !count));

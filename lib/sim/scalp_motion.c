@@ -70,6 +70,12 @@ static void rest_scalp(struct hair_sim* sim)
     hair_gl_write_uniform(sim->gl, motion->scalp[0], scalp_size(motion), motion->root_bindings->positions);
 }
 
+uint32_t hair_scalp_motion_vertex_count(const struct hair_sim* sim)
+{
+    const struct hair_root_bindings* root_bindings = sim->scalp_motion.root_bindings;
+    return root_bindings ? root_bindings->vertex_count : 0;
+}
+
 hair_result hair_scalp_motion_create(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
@@ -170,7 +176,7 @@ static void take_changed(struct hair_sim* sim)
     GLuint given = motion->scalp[1];
     motion->scalp[1] = motion->scalp[0];
     motion->scalp[0] = given;
-    motion->rotation = (hair_vec4){q.x, q.y, q.z, q.w};
+    motion->rotation = hair_quat_to_vec4(q);
     motion->offset = (hair_vec4){away.x, away.y, away.z, 0};
 }
 
