@@ -56,7 +56,8 @@ void hair_sim_upload_render_state(struct hair_sim* sim)
     struct hair_step_params params = {0};
     hair_sim_write_physics(sim, &params);
     hair_sim_write_now(sim, &params);
-    params.rotation_now = hair_quat_to_vec4(sim->head_at_last_step.rotation); // The head may have moved.
+    // The head may have moved since.
+    params.rotation_now = hair_quat_to_vec4(sim->head_at_last_step.rotation);
     hair_sim_upload(sim, &params);
 }
 
