@@ -214,6 +214,18 @@ hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, con
 hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir, const char* name,
                                      const char* prefix, const char* own, struct hair_gl_source* out);
 
+// shader_log.c ------------------------------------------------------------------------------------
+
+#define HAIR_GL_MAX_INFO_LOG 2048 // Maximum bytes of a driver's message that are logged.
+
+// Report a compiler message about a stage with the names of files. Its first line is an error, and
+// the other lines are information. An error in the text of the application has the label `own` and
+// the text's lines. NULL `own` means that there is no such text.
+hair_result hair_gl_report_compile(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
+                                   const char* name, const char* message);
+// Report a linker message about the program `label` in the same way.
+hair_result hair_gl_report_link(struct hair_gl* gl, const char* own, const char* label, const char* message);
+
 // state.c -----------------------------------------------------------------------------------------
 
 // Save the application's state. Call this before anything else in a [GL] call.

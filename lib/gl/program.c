@@ -1,8 +1,7 @@
-// program.c - compilation of shaders to programs. Errors name the file and the line.
+// program.c - compilation of shaders to programs.
 #include "lib/gl/gl.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char* const features[] = {
@@ -22,39 +21,6 @@ static GLenum stage_of(const char* name)
     for (size_t i = 0; dot && i < sizeof stages / sizeof *stages; ++i)
         if (strcmp(dot, stages[i].suffix) == 0) return stages[i].stage;
     return 0;
-}
-
-// Report a compiler message. Drivers begin it with the number of the file, as in "2:50(7): error"
-// (Mesa) or "2(50) : error" (NVIDIA). An error in the application's text is reported with its own
-// label and lines, as the one sentence of the failing call.
-static hair_result report(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
-                          const char* name, const char* message)
-{
-    char where[128] = "", *rest = NULL;
-    const char* at = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
-    long file = strtol(at, &rest, 10);
-    int whose = 0; // Nonzero if the error is in the application's text.
-    if (own && file == HAIR_GL_MAX_SOURCES)
-        file = 0; // See called() in source.c.
-    else
-        whose = own && file == 0;
-    if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
-        char* after = NULL;
-        long line = strtol(rest + 1, &after, 10);
-        while (*after && strchr("(): 0123456789", *after)) ++after;
-        snprintf(where, sizeof where, whose ? "%.0s%ld: " : "glsl/%s:%ld: ", source->file[file], line);
-        at = after;
-    } else {
-        snprintf(where, sizeof where, "glsl/%s: ", source->file[0]);
-        at = message;
-        whose = 0;
-    }
-    int length = (int)strcspn(at, "\n");
-    if (own)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s:%s%s%.*s", own, whose ? "" : " ", where, length,
-                         at);
-    hair_log(&gl->host, HAIR_LOG_ERROR, "%s%.*s", where, length, at);
-    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
 // Inputs of a program, which are its stages with their full texts.
@@ -95,11 +61,12 @@ static hair_result check_stage(const struct recipe* recipe, const struct stage* 
 {
     struct hair_gl* gl = recipe->gl;
     GLint done = 0;
-    char message[1024] = "";
+    char message[HAIR_GL_MAX_INFO_LOG] = "";
     gl->GetShaderiv(stage->shader, GL_COMPILE_STATUS, &done);
     if (done) return HAIR_OK;
     gl->GetShaderInfoLog(stage->shader, sizeof message, NULL, message);
-    return report(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL, stage->name, message);
+    return hair_gl_report_compile(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL,
+                                  stage->name, message);
 }
 
 static hair_result define(struct recipe* recipe, const char* name)
@@ -209,11 +176,9 @@ static hair_result tell_why(const struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
     for (uint32_t i = 0; i < recipe->stages; ++i) HAIR_TRY(check_stage(recipe, &recipe->stage[i]));
-    char message[512] = "";
+    char message[HAIR_GL_MAX_INFO_LOG] = "";
     gl->GetProgramInfoLog(program, sizeof message, NULL, message);
-    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
-                     recipe->shader ? recipe->shader->label : "", recipe->shader ? ": " : "", recipe->label,
-                     (int)strcspn(message, "\n"), message);
+    return hair_gl_report_link(gl, recipe->shader ? recipe->shader->label : NULL, recipe->label, message);
 }
 
 // Start a program, or load it from the application's cache and set *kept.
