@@ -48,13 +48,11 @@ static hair_skip_reason why_not_shown(const struct hair_frame_requests* requests
     return HAIR_SKIP_REASON_UNCHANGED;
 }
 
+// Return the reason why work with colliders has not run, which the look wants if `is_wanted`.
 static hair_skip_reason why_not_collided(const hair_instance* hair,
-                                         const struct hair_frame_requests* requests, int pushes)
+                                         const struct hair_frame_requests* requests, bool is_wanted)
 {
-    const hair_look* look = &hair->geometry.look;
-    int off = look->followers.collision == HAIR_FOLLOWER_COLLISION_NONE ||
-              !hair_geometry_shows_followers(&hair->geometry) || !hair->geometry.followers;
-    if (off || (pushes && look->followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
+    if (!is_wanted || !hair_geometry_shows_followers(&hair->geometry) || !hair->geometry.followers)
         return HAIR_SKIP_REASON_NOT_WANTED;
     if (!hair_sim_colliders(&hair->sim)->count) return HAIR_SKIP_REASON_NONE_NEAR;
     hair_skip_reason why = why_not_shown(requests);
@@ -91,6 +89,9 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     const struct hair_sim* sim = &hair->sim;
     hair_skip_reason shown = why_not_shown(requests);
     int skin = hair_scalp_motion_is_on(sim);
+    hair_follower_collision collision = hair->geometry.look.followers.collision;
+    bool collides = collision != HAIR_FOLLOWER_COLLISION_NONE,
+         has_density_grid = hair->geometry.look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
     switch (work) {
     case HAIR_GL_CATEGORY_UNPACK_SCALP:
         return skin ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
@@ -102,16 +103,14 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     case HAIR_GL_CATEGORY_SOLVE: return why_not_simulated(requests, 1);
     case HAIR_GL_CATEGORY_SMOOTH: return shown;
     case HAIR_GL_CATEGORY_BIND_FOLLOWERS: return skin ? shown : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_CATEGORY_FIELD:
-    case HAIR_GL_CATEGORY_HIT: return why_not_collided(hair, requests, 0);
-    case HAIR_GL_CATEGORY_REPAIR: return why_not_collided(hair, requests, 1);
+    case HAIR_GL_CATEGORY_FIELD: return why_not_collided(hair, requests, collides || has_density_grid);
+    case HAIR_GL_CATEGORY_HIT: return why_not_collided(hair, requests, collides);
+    case HAIR_GL_CATEGORY_REPAIR:
+        return why_not_collided(hair, requests, collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     case HAIR_GL_CATEGORY_EXPAND:
         return requests->vertex_cache || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
                                                                              : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_CATEGORY_SELF_SHADOW:
-        return hair->geometry.look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS
-                   ? HAIR_SKIP_REASON_NOT_WANTED
-                   : shown;
+    case HAIR_GL_CATEGORY_SELF_SHADOW: return has_density_grid ? shown : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_OCCLUSION: return why_not_culled(requests);
     case HAIR_GL_CATEGORY_SCAN_STRANDS:
     case HAIR_GL_CATEGORY_COMPACT_STRANDS:

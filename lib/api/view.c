@@ -128,24 +128,27 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
 }
 
 // Find followers inside colliders and push them out before they are drawn, unless nobody can see
-// this. Colliders still block light in that case.
+// this. Colliders block the light of a density grid in any case.
 static hair_result update_follower_collision(hair_instance* hair)
 {
     struct hair_geometry* geometry = &hair->geometry;
+    const hair_look* look = &geometry->look;
     if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
-    if (geometry->push_out_weight <= 0) {
-        hair_result result =
-            geometry->look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        hair_geometry_set_blockers(geometry,
-                                   !result && hair_field_is_near(&hair->field) ? &hair->field : NULL);
-        return result;
+    bool is_shown = geometry->push_out_weight > 0;
+    bool collides =
+        is_shown && look->followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
+    bool blocks = look->self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
+    hair_geometry_set_blockers(geometry, NULL);
+    if (collides || blocks) HAIR_TRY(hair_update_field(hair));
+    const struct hair_collider_field* field =
+        (collides || blocks) && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+    if (is_shown) {
+        if (!hair_sim_colliders(&hair->sim)->count) hair_geometry_free_follower_collision(geometry);
+        HAIR_TRY(hair_geometry_update_follower_collision(geometry, collides ? field : NULL,
+                                                         hair->sim.physics.collision.margin));
     }
-    int wanted = geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
-    if (wanted) HAIR_TRY(hair_update_field(hair));
-    int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair_sim_colliders(&hair->sim)->count) hair_geometry_free_follower_collision(geometry);
-    return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
-                                                   hair->sim.physics.collision.margin);
+    hair_geometry_set_blockers(geometry, field);
+    return HAIR_OK;
 }
 
 // Tell the renderer how far strands may be from where the groom has them. Culling depends on it.
@@ -235,7 +238,11 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;
-    return hair_draw_precompile(&hair->renderer, plan, colliders);
+    HAIR_TRY(hair_draw_precompile(&hair->renderer, plan, colliders));
+    if (!colliders || hair->geometry.look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE) return HAIR_OK;
+    // Colliders block light also where followers pass through them.
+    hair_draw_find_passes(&hair->renderer, HAIR_GL_WITH(COLLIDERS), plan);
+    return hair_draw_compile(&hair->renderer, plan);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)
