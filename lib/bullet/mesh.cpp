@@ -175,8 +175,7 @@ static uint64_t fingerprint_of(const btConcaveShape* shape, const btVector3& low
 static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_gather& context,
                           uint64_t fingerprint, uint64_t count, uint32_t max)
 {
-    const hair_result result = hair_bullet_keep(bullet, shape, fingerprint, nullptr);
-    if (result) return result;
+    HAIR_TRY(hair_bullet_keep(bullet, shape, fingerprint, nullptr));
     hair_log(&bullet->host, context.log_once ? HAIR_LOG_WARNING : HAIR_LOG_ERROR,
              "Bullet's shape %s of type %d has %llu triangles, more than %u: hair goes through it",
              shape->getName(), shape->getShapeType(), static_cast<unsigned long long>(count), max);
@@ -227,10 +226,7 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
     const uint64_t fingerprint = fingerprint_of(own, lower, upper);
     const hair_cached_shape* cached = hair_bullet_find(bullet, own, fingerprint);
     const hair_collision_mesh* collision_mesh = cached ? cached->mesh : nullptr;
-    if (!cached) {
-        hair_result result = make(bullet, own, context, fingerprint, lower, upper, &collision_mesh);
-        if (result) return result;
-    }
+    if (!cached) HAIR_TRY(make(bullet, own, context, fingerprint, lower, upper, &collision_mesh));
     return hair_bullet_add_collision_mesh(bullet, shape, context, collision_mesh,
                                           static_cast<float>(shape->getMargin()), scale);
 }
