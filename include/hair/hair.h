@@ -47,6 +47,8 @@
 #include <hair/hair_context.h>
 #include <hair/hair_instance.h>
 #include <hair/hair_physics.h>
+#include <hair/hair_colliders.h>
+#include <hair/hair_wind.h>
 #include <hair/hair_look.h>
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>

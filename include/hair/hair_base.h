@@ -40,7 +40,7 @@
 /// A haircut. It is immutable and can be shared by any number of instances. See hair_groom.h.
 typedef struct hair_groom hair_groom;
 
-/// A triangle mesh to collide with. It is immutable and can be shared. See hair_physics.h.
+/// A triangle mesh to collide with. It is immutable and can be shared. See hair_colliders.h.
 typedef struct hair_collision_mesh hair_collision_mesh;
 
 /// The objects of the library in one OpenGL context. See hair_context.h.

@@ -73,5 +73,7 @@ void hair_begin_frame(hair_instance* hair);
 
 // Update the field to the head and colliders of the last step. [GL], with the context entered.
 hair_result hair_update_field(hair_instance* hair);
+// Update the field as hair_update_field() does, but for another pose of the head.
+hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
 
 #endif

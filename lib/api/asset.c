@@ -8,9 +8,8 @@ hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size
     hair_host host = HAIR_HOST_OF(desc);
     hair_asset_desc own;
     hair_import import;
-    hair_result result = HAIR_COPY_IN(&host, hair_asset_desc, desc, &own);
-    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_asset_desc, desc, &own));
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     if (!bytes) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "bytes is NULL");
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     return hair_asset_decode(&host, &import, bytes, size, out);
@@ -35,8 +34,7 @@ hair_result hair_asset_generate(const hair_style_desc* desc, hair_asset** out)
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_style_desc own;
-    hair_result result = HAIR_COPY_IN(&host, hair_style_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_style_desc, desc, &own));
     if (own.strand_vertices == 1)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT,
                          "hair_style_desc.strand_vertices is 1, not 0 or in [2, 256]");
@@ -124,8 +122,7 @@ hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* d
 {
     if (!asset) return HAIR_ERROR_ARGUMENT;
     if (!desc) return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "hair_groom_desc is NULL");
-    hair_result result = hair_check_header(&asset->host, "hair_groom_desc", desc->header);
-    if (result) return result;
+    HAIR_TRY(hair_check_header(&asset->host, "hair_groom_desc", desc->header));
     desc->positions = asset->strands.positions;
     desc->strand_vertices = asset->strands.vertices;
     desc->strand_count = asset->strands.strand_count;

@@ -28,10 +28,11 @@ float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2])
 // Include the positions of pins to the world or to the head, and the hair that hangs from them.
 static void include_pins(const hair_instance* hair, int world, hair_vec3 bounds[2])
 {
-    for (uint32_t i = 0; i < hair->sim.pins.count; ++i) {
-        const struct hair_resolved_pin* resolved_pin = &hair->sim.pins.resolved_pin[i];
-        const double* at = resolved_pin->place;
-        if (resolved_pin->world == world)
+    uint32_t count;
+    const struct hair_resolved_pin* pins = hair_pins_get(&hair->sim, &count);
+    for (uint32_t i = 0; i < count; ++i) {
+        const double* at = pins[i].place;
+        if (pins[i].world == world)
             include(hair_v3((float)at[0], (float)at[1], (float)at[2]), hair->longest, bounds);
     }
 }

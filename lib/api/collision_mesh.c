@@ -6,8 +6,7 @@ hair_result hair_collision_mesh_create(const hair_collision_mesh_desc* desc, hai
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_collision_mesh_desc own;
-    hair_result result = HAIR_COPY_IN(&host, hair_collision_mesh_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_collision_mesh_desc, desc, &own));
     if (!own.positions)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_collision_mesh_desc.positions is NULL");
     if (!own.triangles)

@@ -6,8 +6,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_context_desc own;
-    hair_result result = HAIR_COPY_IN(&host, hair_context_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_context_desc, desc, &own));
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     if (!own.get_proc) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_context_desc.get_proc is NULL");
     if (own.cache && (!own.cache->get || !own.cache->put))
@@ -15,8 +14,8 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
     context->host = host;
-    context->sdf_pool.gl = &context->gl;
-    result = hair_gl_create(&context->gl, &host, &own);
+    hair_sdf_pool_init(&context->sdf_pool, &context->gl);
+    hair_result result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
         return result;
@@ -42,10 +41,9 @@ hair_result hair_check_current(const hair_context* context)
 hair_result hair_context_reload(hair_context* context)
 {
     if (!context) return HAIR_ERROR_ARGUMENT;
-    hair_result result = hair_check_current(context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(context));
     hair_gl_enter(&context->gl);
-    result = hair_gl_compile(&context->gl);
+    hair_result result = hair_gl_compile(&context->gl);
     hair_gl_leave(&context->gl);
     return result;
 }
@@ -64,7 +62,7 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
 hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 {
     if (!context) return HAIR_ERROR_ARGUMENT;
-    context->gl.memory.limit = bytes;
+    hair_gl_memory_set_limit(&context->gl, bytes);
     return HAIR_OK;
 }
 

@@ -23,11 +23,15 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
     for (int k = 0; k < 4; ++k) out[4 * k + 3] = k == 3;
 }
 
+hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
+{
+    const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
+    return hair_field_update(&hair->field, colliders->collider, colliders->count, head);
+}
+
 hair_result hair_update_field(hair_instance* hair)
 {
-    const struct hair_colliders* colliders = &hair->sim.colliders;
-    return hair_field_update(&hair->field, colliders->current.collider, colliders->current.count,
-                             &hair->sim.head_at_last_step);
+    return hair_update_field_at(hair, &hair->sim.head_at_last_step);
 }
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
@@ -35,13 +39,12 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     hair_field_info own = hair_field_info_default();
-    hair_result result = HAIR_COPY_OUT(&context->host, hair_field_info, &own, out);
-    if (!result) result = hair_check_current(context);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_OUT(&context->host, hair_field_info, &own, out));
+    HAIR_TRY(hair_check_current(context));
     hair_enter(hair);
-    result = hair_update_field(hair);
+    hair_result result = hair_update_field(hair);
     hair_gl_leave(&context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
 
     const struct hair_field_box* box = &hair->field.box;
     if (hair_field_is_near(&hair->field)) {

@@ -26,8 +26,7 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
 // Copy the map sets into `own` and let `desc` point there.
 static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
 {
-    hair_result result = HAIR_OK;
-    for (int i = 0; i < HAIR_MAP_SETS && !result; ++i) {
+    for (int i = 0; i < HAIR_MAP_SETS; ++i) {
         if (!desc->map_sets[i]) continue;
         if (i && !desc->map_sets[i - 1])
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
@@ -35,10 +34,10 @@ static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_
         if (!desc->scalp_positions)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.scalp_positions is NULL but map_sets[%d] is not", i);
-        result = HAIR_COPY_IN(host, hair_map_set, desc->map_sets[i], &own[i]);
+        HAIR_TRY(HAIR_COPY_IN(host, hair_map_set, desc->map_sets[i], &own[i]));
         desc->map_sets[i] = &own[i];
     }
-    return result;
+    return HAIR_OK;
 }
 
 hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
@@ -47,11 +46,10 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
     hair_groom_desc own;
     hair_import import;
     hair_map_set maps[HAIR_MAP_SETS];
-    hair_result result = HAIR_COPY_IN(&host, hair_groom_desc, desc, &own);
-    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import);
-    if (!result) result = check_arrays(&host, &own);
-    if (!result) result = copy_maps(&host, &own, maps);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
+    HAIR_TRY(check_arrays(&host, &own));
+    HAIR_TRY(copy_maps(&host, &own, maps));
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     return hair_groom_build(&host, &own, &import, out);
 }

@@ -51,23 +51,49 @@ static void tell_softened(hair_instance* hair)
              hair->label, now.guides, hair->sim.guides, hair->sim.substep, now.worst, (double)now.factor);
 }
 
+// Return a look with its wetness applied.
+static hair_look wetted(const hair_look* look)
+{
+    hair_look own = *look;
+    hair_look_apply_wetness(&own);
+    return own;
+}
+
+// Find the bounds of the hair in the head's frame.
+static void find_bounds(hair_instance* hair, const hair_groom* groom)
+{
+    hair->longest = hair_find_bounds(groom, hair->bounds);
+    HAIR_ASSERT(hair->longest > 0);
+    hair_vec3 middle = hair_lerp(hair->bounds[0], hair->bounds[1], 0.5f);
+    hair->renderer.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
+}
+
+// Create what every room has of the instance.
+static hair_result create_rooms(hair_instance* hair, const hair_groom* groom, const hair_desc* desc,
+                                const struct hair_sim_desc* sim)
+{
+    struct hair_gl* gl = &hair->context->gl;
+    hair_look look = wetted(&hair->look);
+    find_bounds(hair, groom);
+    hair_field_create(&hair->field, sim->sdf_pool, groom, desc->field_voxel);
+    HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
+    hair->told = hair_rods_report_none().softened;
+    tell_held(hair);
+    tell_softened(hair);
+    HAIR_TRY(hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look,
+                                  desc->hit_method == HAIR_HIT_METHOD_PREPASS));
+    HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
+    hair_renderer_create(&hair->renderer, gl, groom, &hair->geometry, &hair->lighting);
+    hair_sim_reset(&hair->sim);
+    return HAIR_OK;
+}
+
 static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
                         const hair_desc* desc)
 {
     const hair_host* host = &context->host;
     hair->context = context;
     hair->max_dt = (double)desc->max_dt;
-    hair->sim.asked_substep = (double)desc->substep;
-    hair->sim.contacts.sdf_pool = &context->sdf_pool;
-    hair->sim.solver = desc->solver;
-    hair->geometry.follower_collision.prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS;
-    hair->sim.by_thread = desc->solver != HAIR_SOLVER_REDBLACK &&
-                          (desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
-                               ? context->gl.software
-                               : desc->thread_mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE);
-    hair->sim.diagnosis.wanted = desc->diagnose != 0;
-    hair->sim.feedback.wanted = desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK;
-    hair->sim.wind = hair_wind_default();
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
@@ -77,29 +103,23 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          "%s: hair_desc.thread_mapping is HAIR_THREAD_MAPPING_FEEDBACK, which only the "
                          "solver redblack has",
                          hair->label);
-    hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &hair->sim.physics);
-    if (!result) result = HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look);
-    hair->geometry.look = hair->look;
-    if (!result) hair_look_apply_wetness(&hair->geometry.look);
-    if (!result) result = hair_check_transform(hair, "hair_desc.transform", desc->transform, &hair->sim.head);
-    if (!result) result = hair_check_current(context);
-    if (result) return result;
-
-    hair->longest = hair_find_bounds(groom, hair->bounds);
-    HAIR_ASSERT(hair->longest > 0);
-    hair_vec3 middle = hair_lerp(hair->bounds[0], hair->bounds[1], 0.5f);
-    hair->renderer.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
-    hair_field_create(&hair->field, &context->sdf_pool, groom, desc->field_voxel);
-    hair->sim.wind_coupling.field = &hair->field;
+    struct hair_sim_desc sim = {.solver = desc->solver,
+                                .substep = (double)desc->substep,
+                                .is_by_thread =
+                                    desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
+                                        ? context->gl.software
+                                        : desc->thread_mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE,
+                                .uses_feedback = desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK,
+                                .is_diagnosed = desc->diagnose,
+                                .wind = hair_wind_default(),
+                                .sdf_pool = &context->sdf_pool,
+                                .field = &hair->field};
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &sim.physics));
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look));
+    HAIR_TRY(hair_check_transform(hair, "hair_desc.transform", desc->transform, &sim.head));
+    HAIR_TRY(hair_check_current(context));
     hair_enter_unprofiled(hair);
-    result = hair_sim_create(&hair->sim, &context->gl, groom);
-    hair->told = hair_rods_report_none().softened;
-    if (!result) tell_held(hair);
-    if (!result) tell_softened(hair);
-    if (!result) result = hair_geometry_create(&hair->geometry, &context->gl, groom, &hair->sim);
-    if (!result) result = hair_lighting_create(&hair->lighting, &context->gl, groom);
-    if (!result) hair_renderer_create(&hair->renderer, &context->gl, groom, &hair->geometry, &hair->lighting);
-    if (!result) hair_sim_reset(&hair->sim);
+    hair_result result = create_rooms(hair, groom, desc, &sim);
     hair_gl_leave(&context->gl);
     return result;
 }
@@ -110,13 +130,12 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
     hair_desc own;
-    hair_result result = HAIR_COPY_IN(host, hair_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(host, hair_desc, desc, &own));
     if (!groom) return hair_fail(host, HAIR_ERROR_ARGUMENT, "groom is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_instance* hair = hair_alloc(host, 1, sizeof *hair);
     if (!hair) return hair_fail_memory(host, "an instance");
-    result = fill(hair, context, groom, &own);
+    hair_result result = fill(hair, context, groom, &own);
     if (result) {
         hair_destroy(hair);
         return result;
@@ -142,10 +161,9 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_physics own;
-    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own));
     if (own.collision.margin != hair->sim.physics.collision.margin) hair_geometry_invalidate(&hair->geometry);
-    hair->sim.physics = own;
+    hair_sim_set_physics(&hair->sim, &own);
     return HAIR_OK;
 }
 
@@ -159,12 +177,10 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_look own;
-    hair_result result = HAIR_COPY_IN(&hair->context->host, hair_look, look, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_look, look, &own));
     hair->look = own;
-    hair_look_apply_wetness(&own);
-    if (memcmp(&own, &hair->geometry.look, sizeof own) != 0) hair_geometry_invalidate(&hair->geometry);
-    hair->geometry.look = own;
+    own = wetted(&own);
+    hair_geometry_set_look(&hair->geometry, &own);
     return HAIR_OK;
 }
 
@@ -178,9 +194,9 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
-    if (!result) hair->sim.head = pose;
-    return result;
+    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
+    hair_sim_set_head(&hair->sim, &pose);
+    return HAIR_OK;
 }
 
 hair_result hair_get_transform(const hair_instance* hair, float transform[16])
@@ -197,9 +213,9 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &hair->context->host;
-    hair_result result = hair_colliders_set(host, &hair->sim.colliders, colliders, count, stride);
+    hair_result result = hair_sim_set_colliders(&hair->sim, colliders, count, stride);
     uint32_t contacts = hair_sim_contacts(&hair->sim);
-    if (hair->sim.colliders.changed) hair_geometry_invalidate(&hair->geometry);
+    if (hair_sim_has_new_colliders(&hair->sim)) hair_geometry_invalidate(&hair->geometry);
     if (!result && !hair->sim.rods && count > contacts && !hair->has_left_out) {
         hair->has_left_out = 1;
         hair_log(
@@ -228,7 +244,7 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     double unseen = hair->sim.unseen;
     HAIR_ASSERT(time > 0);
-    hair->sim.unseen = fmin(unseen + time, 1);
+    hair_sim_set_unseen_time(&hair->sim, unseen + time);
     if (hair_sleep_through(&hair->sim)) {
         hair_sim_pass_time(&hair->sim, time);
         hair_begin_frame(hair);
@@ -237,32 +253,27 @@ hair_result hair_step(hair_instance* hair, float dt)
     }
     hair_result result = hair_check_current(context);
     if (result) {
-        hair->sim.unseen = unseen;
+        hair_sim_set_unseen_time(&hair->sim, unseen);
         return result;
     }
     struct hair_gl_profiler was = hair->profiler;
     struct hair_frame_requests requests = hair->requests[(was.number + 1) % HAIR_GL_FRAMES];
     hair_enter(hair);
     hair_begin_frame(hair);
-    if (hair_wind_coupling_is_on(&hair->sim)) {
-        // The field is that at the end of the step, because it moves along with the head.
-        const struct hair_collider_list* colliders = &hair->sim.colliders.current;
-        result = hair_field_update(&hair->field, colliders->collider, colliders->count, &hair->sim.head);
-    }
+    // The field is that at the end of the step, because it moves along with the head.
+    if (hair_wind_coupling_is_on(&hair->sim)) result = hair_update_field_at(hair, &hair->sim.head);
     if (!result) result = hair_sim_step(&hair->sim, time);
     if (!result) {
         tell_softened(hair);
-        hair_smooth_invalidate(&hair->geometry.smooth);
+        hair_geometry_invalidate_guides(&hair->geometry);
         hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     }
     hair_gl_leave(&context->gl);
     if (result) { // The frame is undone.
         HAIR_ASSERT(hair->profiler.number == was.number + 1);
         *hair_current_requests(hair) = requests;
-        for (int i = 0; i < HAIR_GL_FRAMES; ++i)
-            memcpy(was.frame[i].query, hair->profiler.frame[i].query, sizeof was.frame[i].query);
-        hair->profiler = was;
-        hair->sim.unseen = unseen;
+        hair_gl_profiler_undo(&hair->profiler, &was);
+        hair_sim_set_unseen_time(&hair->sim, unseen);
     }
     return result;
 }
@@ -270,11 +281,10 @@ hair_result hair_step(hair_instance* hair, float dt)
 hair_result hair_reset(hair_instance* hair)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     hair_enter(hair);
     hair_sim_reset(&hair->sim);
-    hair_smooth_invalidate(&hair->geometry.smooth);
+    hair_geometry_invalidate_guides(&hair->geometry);
     hair_geometry_forget_history(&hair->geometry);
     hair_gl_leave(&hair->context->gl);
     return HAIR_OK;
@@ -284,15 +294,14 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose pose;
-    hair_result result = hair_check_transform(hair, "transform", transform, &pose);
-    if (!result) result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
+    HAIR_TRY(hair_check_current(hair->context));
     hair_enter(hair);
     struct hair_pose was = hair->sim.head_at_last_step;
-    result = hair_sim_teleport(&hair->sim, &pose);
+    hair_result result = hair_sim_teleport(&hair->sim, &pose);
     if (!result) {
         hair_geometry_teleport_history(&hair->geometry, &was, &pose);
-        hair_smooth_invalidate(&hair->geometry.smooth);
+        hair_geometry_invalidate_guides(&hair->geometry);
     }
     hair_gl_leave(&hair->context->gl);
     return result;

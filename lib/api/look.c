@@ -76,8 +76,7 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
     if (!look || (unsigned)kind >= HAIR_LOOK_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own, fresh = hair_look_default();
-    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&silent, hair_look, look, &own));
     own.strand.taper = fresh.strand.taper;
     own.strand.length = fresh.strand.length;
     own.strand.length_variation = fresh.strand.length_variation;
@@ -128,8 +127,7 @@ hair_result hair_look_color(hair_look* look, hair_color color)
     if (!look || (unsigned)color >= HAIR_COLOR_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own;
-    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&silent, hair_look, look, &own));
     memcpy(own.color.root, colors[color].root, sizeof own.color.root);
     memcpy(own.color.tip, colors[color].tip, sizeof own.color.tip);
     own.color.spread = colors[color].spread;
@@ -201,8 +199,7 @@ hair_result hair_look_fit_curl(hair_look* look, const float* positions, uint32_t
     if (!look || !is_usable(positions, vertex_count)) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own;
-    hair_result result = HAIR_COPY_IN(&silent, hair_look, look, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&silent, hair_look, look, &own));
 
     struct example e = {.positions = positions, .vertices = vertex_count, .first = hair_load3(positions)};
     hair_vec3 chord = vertex_of(&e, vertex_count - 1);

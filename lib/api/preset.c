@@ -25,8 +25,7 @@ hair_result hair_physics_preset(hair_physics* physics, hair_preset preset)
     if (!physics || (unsigned)preset >= HAIR_PRESET_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_physics own;
-    hair_result result = HAIR_COPY_IN(&silent, hair_physics, physics, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(&silent, hair_physics, physics, &own));
     own.fiber.radius = presets[preset].radius;
     own.fiber.youngs_modulus = presets[preset].young;
     own.fiber.density = presets[preset].density;

@@ -17,16 +17,12 @@ const char* hair_skip_reason_string(hair_skip_reason why)
 
 void hair_enter(hair_instance* hair)
 {
-    HAIR_ASSERT(!hair->context->gl.profiler);
-    hair_enter_unprofiled(hair);
-    hair->context->gl.profiler = &hair->profiler;
+    hair_gl_enter_for(&hair->context->gl, &hair->memory, &hair->profiler);
 }
 
 void hair_enter_unprofiled(hair_instance* hair)
 {
-    HAIR_ASSERT(!hair->context->gl.owner);
-    hair_gl_enter(&hair->context->gl);
-    hair->context->gl.owner = &hair->memory;
+    hair_gl_enter_for(&hair->context->gl, &hair->memory, NULL);
 }
 
 struct hair_frame_requests* hair_current_requests(hair_instance* hair)
@@ -52,15 +48,13 @@ static hair_skip_reason why_not_shown(const struct hair_frame_requests* requests
     return HAIR_SKIP_REASON_UNCHANGED;
 }
 
+// Return the reason why work with colliders has not run, which the look wants if `is_wanted`.
 static hair_skip_reason why_not_collided(const hair_instance* hair,
-                                         const struct hair_frame_requests* requests, int pushes)
+                                         const struct hair_frame_requests* requests, bool is_wanted)
 {
-    const hair_look* look = &hair->geometry.look;
-    int off = look->followers.collision == HAIR_FOLLOWER_COLLISION_NONE || look->followers.density <= 0 ||
-              !hair->geometry.followers;
-    if (off || (pushes && look->followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT))
+    if (!is_wanted || !hair_geometry_shows_followers(&hair->geometry) || !hair->geometry.followers)
         return HAIR_SKIP_REASON_NOT_WANTED;
-    if (!hair->sim.colliders.current.count) return HAIR_SKIP_REASON_NONE_NEAR;
+    if (!hair_sim_colliders(&hair->sim)->count) return HAIR_SKIP_REASON_NONE_NEAR;
     hair_skip_reason why = why_not_shown(requests);
     return why == HAIR_SKIP_REASON_UNCHANGED && !hair_field_is_near(&hair->field) ? HAIR_SKIP_REASON_NONE_NEAR
                                                                                   : why;
@@ -70,7 +64,7 @@ static hair_skip_reason why_not_drawn(const hair_instance* hair, const struct ha
                                       int kind)
 {
     if (requests->views[kind] == 0) return HAIR_SKIP_REASON_NOT_CALLED;
-    if (hair->geometry.look.followers.density <= 0) return HAIR_SKIP_REASON_NOT_WANTED;
+    if (!hair_geometry_shows_followers(&hair->geometry)) return HAIR_SKIP_REASON_NOT_WANTED;
     return HAIR_SKIP_REASON_OUT_OF_VIEW;
 }
 
@@ -95,27 +89,28 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     const struct hair_sim* sim = &hair->sim;
     hair_skip_reason shown = why_not_shown(requests);
     int skin = hair_scalp_motion_is_on(sim);
+    hair_follower_collision collision = hair->geometry.look.followers.collision;
+    bool collides = collision != HAIR_FOLLOWER_COLLISION_NONE,
+         has_density_grid = hair->geometry.look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
     switch (work) {
     case HAIR_GL_CATEGORY_UNPACK_SCALP:
         return skin ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_ROOT_TRANSFORMS: return why_not_simulated(requests, skin);
     case HAIR_GL_CATEGORY_WIND: return why_not_simulated(requests, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_CATEGORY_HAIR_GRID: return why_not_simulated(requests, hair_grid_is_on(sim));
-    case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, sim->diagnosis.wanted);
+    case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, hair_sim_is_diagnosed(sim));
     case HAIR_GL_CATEGORY_ACTIVITY: return why_not_simulated(requests, sim->physics.sleep_threshold > 0);
     case HAIR_GL_CATEGORY_SOLVE: return why_not_simulated(requests, 1);
     case HAIR_GL_CATEGORY_SMOOTH: return shown;
     case HAIR_GL_CATEGORY_BIND_FOLLOWERS: return skin ? shown : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_CATEGORY_FIELD:
-    case HAIR_GL_CATEGORY_HIT: return why_not_collided(hair, requests, 0);
-    case HAIR_GL_CATEGORY_REPAIR: return why_not_collided(hair, requests, 1);
+    case HAIR_GL_CATEGORY_FIELD: return why_not_collided(hair, requests, collides || has_density_grid);
+    case HAIR_GL_CATEGORY_HIT: return why_not_collided(hair, requests, collides);
+    case HAIR_GL_CATEGORY_REPAIR:
+        return why_not_collided(hair, requests, collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT);
     case HAIR_GL_CATEGORY_EXPAND:
         return requests->vertex_cache || shown != HAIR_SKIP_REASON_UNCHANGED ? shown
                                                                              : HAIR_SKIP_REASON_NOT_WANTED;
-    case HAIR_GL_CATEGORY_SELF_SHADOW:
-        return hair->geometry.look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS
-                   ? HAIR_SKIP_REASON_NOT_WANTED
-                   : shown;
+    case HAIR_GL_CATEGORY_SELF_SHADOW: return has_density_grid ? shown : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_OCCLUSION: return why_not_culled(requests);
     case HAIR_GL_CATEGORY_SCAN_STRANDS:
     case HAIR_GL_CATEGORY_COMPACT_STRANDS:
@@ -162,8 +157,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     const hair_host* host = &hair->context->host;
     hair_report_info own = hair_report_info_default();
     float ms[HAIR_GL_CATEGORIES];
-    hair_result result = HAIR_COPY_OUT(host, hair_report_info, &own, info);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_OUT(host, hair_report_info, &own, info));
     if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
     if (!rows && capacity)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: rows is NULL but capacity is %u", hair->label,
@@ -171,8 +165,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     if (capacity && (stride < sizeof *rows || stride > 4096))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not in [%zu, 4096]", hair->label,
                          stride, sizeof *rows);
-    result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
     *count = 0;
     if (!frame) return HAIR_OK;

@@ -9,8 +9,7 @@ hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t*
     if (!bytes && capacity)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL but capacity is %zu", hair->label,
                          capacity);
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     *size = hair_sim_save_size(&hair->sim);
     if (!bytes) return HAIR_OK;
     if (capacity < *size)
@@ -25,12 +24,13 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
     if (!hair) return HAIR_ERROR_ARGUMENT;
     hair_context* context = hair->context;
     if (!bytes) return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL", hair->label);
-    hair_result result = hair_check_current(context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(context));
     hair_enter_unprofiled(hair);
-    result = hair_sim_load(&hair->sim, bytes, size);
-    if (!result) hair_smooth_invalidate(&hair->geometry.smooth);
-    if (!result) hair_geometry_forget_history(&hair->geometry);
+    hair_result result = hair_sim_load(&hair->sim, bytes, size);
+    if (!result) {
+        hair_geometry_invalidate_guides(&hair->geometry);
+        hair_geometry_forget_history(&hair->geometry);
+    }
     hair_gl_leave(&context->gl);
     return result;
 }

@@ -8,15 +8,14 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
                          struct hair_pose* space)
 {
     const hair_host* host = &hair->context->host;
-    const struct hair_root_bindings* root_bindings = hair->sim.scalp_motion.root_bindings;
     *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
-    if (!root_bindings)
+    if (!hair_scalp_motion_vertex_count(&hair->sim))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
     if (stride < 12 || stride > LONGEST || stride % 4)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
                          hair->label, stride, LONGEST);
-    hair_result result = to_world ? hair_check_transform(hair, "to_world", to_world, space) : HAIR_OK;
-    return result ? result : hair_check_current(hair->context);
+    if (to_world) HAIR_TRY(hair_check_transform(hair, "to_world", to_world, space));
+    return hair_check_current(hair->context);
 }
 
 // Return the positions packed. Return NULL and set `result` if memory runs out or a position is
@@ -49,12 +48,12 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     const hair_host* host = &hair->context->host;
     struct hair_pose space;
     if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
-    hair_result result = check(hair, stride, to_world, &space);
-    if (result) return result;
-    uint32_t vertices = hair->sim.scalp_motion.root_bindings->vertex_count;
+    HAIR_TRY(check(hair, stride, to_world, &space));
+    uint32_t vertices = hair_scalp_motion_vertex_count(&hair->sim);
     if (count != vertices)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
                          hair->label, count, vertices);
+    hair_result result;
     float* packed = take(hair, positions, count, stride, &result);
     if (!packed) return result;
     hair_enter(hair);
@@ -83,7 +82,7 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
     if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
                          hair->label, buffer);
-    uint64_t ensure = (uint64_t)stride * (hair->sim.scalp_motion.root_bindings->vertex_count - 1) + 12,
+    uint64_t ensure = (uint64_t)stride * (hair_scalp_motion_vertex_count(&hair->sim) - 1) + 12,
              there = (uint64_t)has;
     if (offset % 4 || offset > there || ensure > there - offset)
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
@@ -108,11 +107,10 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     if (!hair) return HAIR_ERROR_ARGUMENT;
     struct hair_pose space;
     size_t from = 0, size = 0;
-    hair_result result = check(hair, stride, to_world, &space);
-    if (!result) result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
-    if (result) return result;
+    HAIR_TRY(check(hair, stride, to_world, &space));
+    HAIR_TRY(check_buffer(hair, gl_buffer, offset, stride, &from, &size));
     hair_enter(hair);
-    result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
+    hair_result result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result)
         hair_scalp_motion_set_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
                                      (uint32_t)(stride / 4), &space);

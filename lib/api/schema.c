@@ -36,8 +36,7 @@ hair_result hair_schema_copy_out(const hair_host* host, const char* name, const 
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
     hair_struct_header header;
     memcpy(&header, out, sizeof header);
-    hair_result result = hair_check_header(host, name, header);
-    if (result) return result;
+    HAIR_TRY(hair_check_header(host, name, header));
     memcpy(out, own, header.size < size ? header.size : size);
     memcpy(out, &header, sizeof header);
     return HAIR_OK;

@@ -6,12 +6,11 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
     struct hair_gl* gl = &context->gl;
     GLuint program = 0;
     shader->context = context;
-    hair_result result = hair_gl_create_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
-                                               desc->at == HAIR_SHADE_PIXELS, &shader->gl);
-    if (result) return result;
+    HAIR_TRY(hair_gl_create_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
+                                   desc->at == HAIR_SHADE_PIXELS, &shader->gl));
     // Compile the variant that most views use. Errors of other variants show here too.
     hair_gl_enter(gl);
-    result =
+    hair_result result =
         hair_gl_ensure_user_program(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
     hair_gl_leave(gl);
     return result;
@@ -22,15 +21,13 @@ hair_result hair_shader_create(hair_context* context, const hair_shader_desc* de
     if (!context) return HAIR_ERROR_ARGUMENT;
     const hair_host* host = &context->host;
     hair_shader_desc own;
-    hair_result result = HAIR_COPY_IN(host, hair_shader_desc, desc, &own);
-    if (result) return result;
+    HAIR_TRY(HAIR_COPY_IN(host, hair_shader_desc, desc, &own));
     if (!own.glsl) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_shader_desc.glsl is NULL");
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
-    result = hair_check_current(context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(context));
     hair_shader* shader = hair_alloc(host, 1, sizeof *shader);
     if (!shader) return hair_fail_memory(host, "a shader");
-    result = fill(shader, context, &own);
+    hair_result result = fill(shader, context, &own);
     if (result) {
         hair_shader_destroy(shader);
         return result;

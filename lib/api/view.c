@@ -56,19 +56,18 @@ static hair_result copy_lights(const hair_instance* hair, hair_view* view, hair_
     size_t stride = at ? view->lights->header.size : 0;
     HAIR_ASSERT(view->light_count <= HAIR_LIGHTS);
     uint32_t shadows = 0;
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < view->light_count && !result; ++i) {
-        result = HAIR_COPY_IN(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]);
-        if (!result) result = check_light(hair, &light[i], i);
-        if (!result) shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
+    for (uint32_t i = 0; i < view->light_count; ++i) {
+        HAIR_TRY(HAIR_COPY_IN(host, hair_light, at ? at + i * stride : (const char*)&usual, &light[i]));
+        HAIR_TRY(check_light(hair, &light[i], i));
+        shadows += light[i].hair_shadow_map || light[i].opaque_shadow_map;
     }
     view->lights = light;
-    if (!result && shadows > HAIR_SHADOW_MAPS)
+    if (shadows > HAIR_SHADOW_MAPS)
         return hair_fail(
             host, HAIR_ERROR_ARGUMENT,
             "%s: %u of hair_view.lights have a hair_shadow_map or a opaque_shadow_map, not at most %d",
             hair->label, shadows, HAIR_SHADOW_MAPS);
-    return result;
+    return HAIR_OK;
 }
 
 static hair_result check_sky(const hair_instance* hair, const float* sky)
@@ -85,16 +84,16 @@ static hair_result copy_view(const hair_instance* hair, const hair_view* view, h
                              struct storage* storage)
 {
     const hair_host* host = &hair->context->host;
-    hair_result result = HAIR_COPY_IN(host, hair_view, view, own);
-    if (!result && own->lod) {
-        result = HAIR_COPY_IN(host, hair_lod, own->lod, &storage->lod);
+    HAIR_TRY(HAIR_COPY_IN(host, hair_view, view, own));
+    if (own->lod) {
+        HAIR_TRY(HAIR_COPY_IN(host, hair_lod, own->lod, &storage->lod));
         own->lod = &storage->lod;
     }
-    if (!result && own->shader && own->shader->context != hair->context)
+    if (own->shader && own->shader->context != hair->context)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_view.shader is of another context",
                          hair->label);
-    if (!result) result = copy_lights(hair, own, storage->light);
-    return result ? result : check_sky(hair, own->sky);
+    HAIR_TRY(copy_lights(hair, own, storage->light));
+    return check_sky(hair, own->sky);
 }
 
 // Check the framebuffer. Drawing into an incomplete one would raise the application's error flag
@@ -112,59 +111,51 @@ static hair_result check_framebuffer(const hair_instance* hair)
 // the field's copy.
 static hair_result draw_colliders(hair_instance* hair, const hair_view* view)
 {
-    const struct hair_collider_list* list = &hair->sim.colliders.current;
+    const struct hair_collider_list* list = hair_sim_colliders(&hair->sim);
     int needed = view->slice != HAIR_SLICE_NONE;
     for (uint32_t i = 0; i < list->count; ++i) needed |= list->collider[i].mesh != NULL;
-    hair_result result = needed ? hair_update_field(hair) : HAIR_OK;
-    if (!result)
-        result = hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
-                                     &hair->sim.head_at_last_step, view);
-    return result;
+    if (needed) HAIR_TRY(hair_update_field(hair));
+    return hair_draw_colliders(&hair->renderer, &hair->field, list->collider, list->count,
+                               &hair->sim.head_at_last_step, view);
 }
 
 static hair_result draw_air(hair_instance* hair, const hair_view* view)
 {
     const struct hair_sim* sim = &hair->sim;
-    const struct hair_fluid* fluid = sim->wind_state.box.w > 0 ? &sim->wind_coupling.fluid : NULL;
-    if (!sim->wind_state.params) return HAIR_OK;
-    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, fluid, &hair->field.box,
+    if (!hair_sim_has_wind(sim)) return HAIR_OK;
+    return hair_draw_air(&hair->renderer, &sim->wind_state, &sim->wind, hair_sim_fluid(sim), &hair->field.box,
                          &sim->head_at_last_step, view);
 }
 
 // Find followers inside colliders and push them out before they are drawn, unless nobody can see
-// this. Colliders still block light in that case.
+// this. Colliders block the light of a density grid in any case.
 static hair_result update_follower_collision(hair_instance* hair)
 {
     struct hair_geometry* geometry = &hair->geometry;
+    const hair_look* look = &geometry->look;
     if (hair_geometry_has_follower_collision(geometry)) return HAIR_OK;
-    if (geometry->push_out_weight <= 0) {
-        hair_result result =
-            geometry->look.self_shadow.method == HAIR_SELF_SHADOW_STRANDS ? hair_update_field(hair) : HAIR_OK;
-        geometry->follower_collision.field =
-            !result && hair_field_is_near(&hair->field) ? &hair->field : NULL;
-        return result;
+    bool is_shown = geometry->push_out_weight > 0;
+    bool collides =
+        is_shown && look->followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
+    bool blocks = look->self_shadow.method == HAIR_SELF_SHADOW_STRANDS;
+    hair_geometry_set_blockers(geometry, NULL);
+    if (collides || blocks) HAIR_TRY(hair_update_field(hair));
+    const struct hair_collider_field* field =
+        (collides || blocks) && hair_field_is_near(&hair->field) ? &hair->field : NULL;
+    if (is_shown) {
+        if (!hair_sim_colliders(&hair->sim)->count) hair_geometry_free_follower_collision(geometry);
+        HAIR_TRY(hair_geometry_update_follower_collision(geometry, collides ? field : NULL,
+                                                         hair->sim.physics.collision.margin));
     }
-    int wanted = geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE && geometry->followers;
-    hair_result result = wanted ? hair_update_field(hair) : HAIR_OK;
-    if (result) return result;
-    int near = wanted && hair_field_is_near(&hair->field);
-    if (!hair->sim.colliders.current.count) hair_geometry_free_follower_collision(geometry);
-    return hair_geometry_update_follower_collision(geometry, near ? &hair->field : NULL,
-                                                   hair->sim.physics.collision.margin);
+    hair_geometry_set_blockers(geometry, field);
+    return HAIR_OK;
 }
 
-static void make_ready(hair_instance* hair)
+// Tell the renderer how far strands may be from where the groom has them. Culling depends on it.
+static void update_attachment(hair_instance* hair)
 {
-    hair_smooth_ensure(&hair->geometry.smooth, &hair->sim);
-    hair_geometry_bind_followers(&hair->geometry, &hair->sim);
-}
-
-// Return whether every strand stays within its length of its root. This needs a guide with a fixed
-// root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
-static int is_held(const struct hair_sim* sim)
-{
-    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count &&
-           !hair_scalp_motion_is_on(sim);
+    hair->renderer.is_cullable = hair_sim_has_fixed_roots(&hair->sim);
+    hair->renderer.has_attached_roots = hair_sim_has_attached_strands(&hair->sim);
 }
 
 static int is_of_surroundings(const hair_view* view)
@@ -176,7 +167,7 @@ static int is_of_surroundings(const hair_view* view)
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
     if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
-    return is_held(&hair->sim) &&
+    return hair_sim_has_attached_strands(&hair->sim) &&
            hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
 }
 
@@ -194,7 +185,7 @@ static int is_to_be_drawn(hair_instance* hair, const struct hair_draw_plan* plan
     requests->strand_list |= !unseen && plan->has_strand_list;
     requests->vertex_cache |= !unseen && plan->vertices == HAIR_VERTICES_CACHED;
     requests->occlusion |= !unseen && hair_draw_uses_occlusion(view);
-    return !unseen && hair->geometry.look.followers.density > 0;
+    return !unseen && hair_geometry_shows_followers(&hair->geometry);
 }
 
 static void make_plan(const hair_instance* hair, const hair_view* view, struct hair_draw_plan* out)
@@ -208,11 +199,11 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     hair_context* context = hair->context;
     hair_view own;
     struct storage storage;
-    hair_result result = copy_view(hair, view, &own, &storage);
-    if (!result) result = hair_check_current(context);
-    if (!result) result = hair_check_view_textures(hair, &own);
-    if (!result) result = check_framebuffer(hair);
-    if (result) return result;
+    HAIR_TRY(copy_view(hair, view, &own, &storage));
+    HAIR_TRY(hair_check_current(context));
+    HAIR_TRY(hair_check_view_textures(hair, &own));
+    HAIR_TRY(check_framebuffer(hair));
+    hair_result result = HAIR_OK;
     struct hair_draw_plan plan;
     make_plan(hair, &own, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;
@@ -221,17 +212,15 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     if (is_of_surroundings(&own)) {
         result = own.pass == HAIR_PASS_COLLIDERS ? draw_colliders(hair, &own) : draw_air(hair, &own);
     } else {
-        make_ready(hair);
+        hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
         hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
-        if (own.pass != HAIR_PASS_GUIDES && hair->geometry.look.followers.density > 0)
+        if (own.pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
             result = update_follower_collision(hair);
-        hair->renderer.is_cullable = (hair->sim.physics.root != HAIR_ROOT_FREE || !hair->sim.rods) &&
-                                     !hair_scalp_motion_is_on(&hair->sim);
-        hair->renderer.has_attached_roots = is_held(&hair->sim);
+        update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
     hair_gl_leave(&context->gl);
-    if (!result) hair->sim.unseen = 0;
+    if (!result) hair_sim_set_unseen_time(&hair->sim, 0);
     return result;
 }
 
@@ -240,17 +229,20 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     const hair_view* view = plan->view;
     struct hair_gl* gl = &hair->context->gl;
     const struct hair_sim* sim = &hair->sim;
-    int colliders = sim->colliders.current.count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
-    hair_result result = HAIR_OK;
+    int colliders = hair_sim_colliders(sim)->count > 0, shows = view->pass == HAIR_PASS_COLLIDERS;
     if (view->pass == HAIR_PASS_GUIDES) return hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
     if (view->pass == HAIR_PASS_WIND)
-        return sim->wind_state.params ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
-    if (colliders && (!shows || view->slice)) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE);
-    if (!result && sim->colliders.meshes) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES);
-    if (!result && shows) result = hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS);
-    if (!result && shows && view->slice) result = hair_gl_ensure_program(gl, HAIR_GL_SLICE);
-    if (result || shows) return result;
-    return hair_draw_precompile(&hair->renderer, plan, colliders);
+        return hair_sim_has_wind(sim) ? hair_gl_ensure_program(gl, HAIR_GL_AIR) : HAIR_OK;
+    if (colliders && (!shows || view->slice)) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
+    if (sim->colliders.meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
+    if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
+    if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
+    if (shows) return HAIR_OK;
+    HAIR_TRY(hair_draw_precompile(&hair->renderer, plan, colliders));
+    if (!colliders || hair->geometry.look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE) return HAIR_OK;
+    // Colliders block light also where followers pass through them.
+    hair_draw_find_passes(&hair->renderer, HAIR_GL_WITH(COLLIDERS), plan);
+    return hair_draw_compile(&hair->renderer, plan);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)
@@ -259,14 +251,13 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     struct hair_gl* gl = &hair->context->gl;
     hair_view own;
     struct storage storage;
-    hair_result result = view ? copy_view(hair, view, &own, &storage) : HAIR_OK;
-    if (!result) result = hair_check_current(hair->context);
-    if (result) return result;
+    if (view) HAIR_TRY(copy_view(hair, view, &own, &storage));
+    HAIR_TRY(hair_check_current(hair->context));
     struct hair_draw_plan plan;
     if (view) make_plan(hair, &own, &plan);
     hair_enter_unprofiled(hair);
     hair_gl_begin_async(gl);
-    result = hair_sim_ensure_programs(&hair->sim);
+    hair_result result = hair_sim_ensure_programs(&hair->sim);
     if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
     hair_gl_leave(gl);
@@ -300,12 +291,12 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 {
     hair_vec4* vertices = NULL;
     hair_enter_unprofiled(hair);
-    make_ready(hair);
+    hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
     hair_result result = update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     hair_gl_leave(&hair->context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
     copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
     return HAIR_OK;
@@ -314,10 +305,10 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
 static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
 {
     hair_enter_unprofiled(hair);
-    make_ready(hair);
+    hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_gl_leave(&hair->context->gl);
-    return read_buffer(hair, hair->geometry.smooth.buffer[0], count, 4, &hair->sim.head_at_last_step,
-                       positions);
+    return read_buffer(hair, hair_geometry_smoothed_positions(&hair->geometry), count, 4,
+                       &hair->sim.head_at_last_step, positions);
 }
 
 hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
@@ -329,17 +320,14 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     if (!positions && capacity)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL but capacity is %u", hair->label,
                          capacity);
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
 
     const struct hair_sim* sim = &hair->sim;
     uint64_t all = 0;
     switch (what) {
     case HAIR_READ_GUIDES: all = sim->guide_vertices; break;
-    case HAIR_READ_SMOOTH: all = hair->geometry.smooth.vertices; break;
-    case HAIR_READ_FOLLOWERS:
-        all = (uint64_t)hair->geometry.followers * (hair->geometry.look.strand.segments + 1);
-        break;
+    case HAIR_READ_SMOOTH: all = hair_geometry_count_smoothed(&hair->geometry); break;
+    case HAIR_READ_FOLLOWERS: all = hair_geometry_count_vertices(&hair->geometry); break;
     default:
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: source is %d, not in [0, %d]", hair->label,
                          (int)what, HAIR_READ_FOLLOWERS);
@@ -351,7 +339,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     uint32_t number = *count < capacity ? *count : capacity;
     HAIR_ASSERT(number <= *count);
     if (number == 0) return HAIR_OK;
-    hair->sim.unseen = 0;
+    hair_sim_set_unseen_time(&hair->sim, 0);
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
     if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);
     return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,
@@ -361,12 +349,11 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
 hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
 {
     if (!hair) return HAIR_ERROR_ARGUMENT;
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     hair_solver_stats own = hair_solver_stats_default();
     hair_enter_unprofiled(hair);
-    result = hair_sim_solver_stats(&hair->sim, &own);
+    hair_result result = hair_sim_solver_stats(&hair->sim, &own);
     hair_gl_leave(&hair->context->gl);
-    if (result) return result;
+    HAIR_TRY(result);
     return HAIR_COPY_OUT(&hair->context->host, hair_solver_stats, &own, out);
 }

@@ -24,12 +24,11 @@ static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t
 
 static hair_result check_maps(const hair_instance* hair, const hair_view* view)
 {
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count && !result; ++i) {
-        result = check_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map");
-        if (!result) result = check_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map");
+    for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count; ++i) {
+        HAIR_TRY(check_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map"));
+        HAIR_TRY(check_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map"));
     }
-    return result;
+    return HAIR_OK;
 }
 
 static hair_result check_color(const hair_instance* hair, const hair_view* view)
@@ -64,7 +63,7 @@ static hair_result check_depth(const hair_instance* hair, const hair_view* view)
 
 hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view)
 {
-    hair_result result = check_maps(hair, view);
-    if (!result) result = check_color(hair, view);
-    return result ? result : check_depth(hair, view);
+    HAIR_TRY(check_maps(hair, view));
+    HAIR_TRY(check_color(hair, view));
+    return check_depth(hair, view);
 }

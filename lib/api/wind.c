@@ -1,8 +1,6 @@
 // wind.c - public calls that set and get the wind.
 #include "lib/api/api.h"
 
-#include <string.h>
-
 static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
                                 double min, double max)
 {
@@ -14,13 +12,13 @@ static hair_result check_number(const hair_instance* hair, uint32_t i, const cha
 
 static hair_result check_source(const hair_instance* hair, uint32_t i, const hair_wind_source* source)
 {
-    hair_result result = check_number(hair, i, "speed", source->speed, -1000, 1000);
-    if (!result) result = check_number(hair, i, "radius", source->radius, 0.001, 100);
-    for (int k = 0; k < 3 && !result; ++k) {
-        result = check_number(hair, i, "position", source->position[k], -1e9, 1e9);
-        if (!result) result = check_number(hair, i, "direction", source->direction[k], -1e6, 1e6);
+    HAIR_TRY(check_number(hair, i, "speed", source->speed, -1000, 1000));
+    HAIR_TRY(check_number(hair, i, "radius", source->radius, 0.001, 100));
+    for (int k = 0; k < 3; ++k) {
+        HAIR_TRY(check_number(hair, i, "position", source->position[k], -1e9, 1e9));
+        HAIR_TRY(check_number(hair, i, "direction", source->direction[k], -1e6, 1e6));
     }
-    return result;
+    return HAIR_OK;
 }
 
 // Check that a texture is 3D. Binding an object that is no texture would raise the application's
@@ -29,8 +27,7 @@ static hair_result check_texture(const hair_instance* hair, GLuint texture)
 {
     const struct hair_gl* gl = &hair->context->gl;
     GLint target = 0;
-    hair_result result = hair_check_current(hair->context);
-    if (result) return result;
+    HAIR_TRY(hair_check_current(hair->context));
     if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
     if (target == GL_TEXTURE_3D) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.texture is %u, not a 3D texture",
@@ -43,22 +40,18 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     const hair_host* host = &hair->context->host;
     hair_wind own;
     hair_wind_source sources[HAIR_WIND_SOURCES] = {0};
-    hair_result result = HAIR_COPY_IN_OR_DEFAULT(host, hair_wind, wind, &own);
-    if (!result && own.source_count && !own.sources)
-        result = hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
-                           hair->label, own.source_count);
-    HAIR_ASSERT(result || own.source_count <= HAIR_WIND_SOURCES);
-    for (uint32_t i = 0; !result && i < own.source_count; ++i) {
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_wind, wind, &own));
+    if (own.source_count && !own.sources)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.sources is NULL but source_count is %u",
+                         hair->label, own.source_count);
+    HAIR_ASSERT(own.source_count <= HAIR_WIND_SOURCES);
+    for (uint32_t i = 0; i < own.source_count; ++i) {
         sources[i] = own.sources[i];
-        result = check_source(hair, i, &sources[i]);
+        HAIR_TRY(check_source(hair, i, &sources[i]));
     }
-    if (!result && own.texture) result = check_texture(hair, own.texture);
-    if (result) return result;
-    if (memcmp(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources) != 0)
-        hair_sleep_wake(&hair->sim);
-    memcpy(hair->sim.wind_state.source, sources, own.source_count * sizeof *sources);
-    own.sources = own.source_count ? hair->sim.wind_state.source : NULL;
-    hair->sim.wind = own;
+    if (own.texture) HAIR_TRY(check_texture(hair, own.texture));
+    own.sources = sources;
+    hair_sim_set_wind(&hair->sim, &own);
     return HAIR_OK;
 }
 

@@ -56,12 +56,11 @@ static hair_result check_cleaned(const struct hair_source* source, const hair_as
 
 static hair_result decode(const struct hair_source* source, hair_asset* asset)
 {
-    hair_result result = decode_raw(source, asset);
-    if (result) return result;
+    HAIR_TRY(decode_raw(source, asset));
     asset->file_strands = asset->strands.strand_count;
     asset->file_vertices = asset->strands.vertex_count;
-    result = hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs);
-    return result ? result : check_cleaned(source, asset);
+    HAIR_TRY(hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs));
+    return check_cleaned(source, asset);
 }
 
 hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes,
@@ -90,8 +89,7 @@ hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void*
         return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "format is %u, which cannot be written",
                          (unsigned)format);
     size_t needed;
-    hair_result result = found->measure(asset, &needed);
-    if (result) return result;
+    HAIR_TRY(found->measure(asset, &needed));
     *size = needed;
     if (bytes && capacity >= needed) found->encode(asset, bytes);
     return HAIR_OK;

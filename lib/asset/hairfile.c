@@ -63,9 +63,7 @@ static hair_result find_arrays(const struct hair_source* source, struct header* 
     *end = HEADER;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) {
         if (!(header->arrays & arrays[i].bit)) continue;
-        hair_result result =
-            hair_check_section(source, arrays[i].what, *end, arrays[i].count, arrays[i].size);
-        if (result) return result;
+        HAIR_TRY(hair_check_section(source, arrays[i].what, *end, arrays[i].count, arrays[i].size));
         if (arrays[i].at) *arrays[i].at = *end;
         *end += (uint64_t)arrays[i].count * arrays[i].size;
     }
@@ -99,20 +97,19 @@ static hair_result check_sum(const struct hair_source* source, const struct head
 
 static hair_result read_header(const struct hair_source* source, struct header* header)
 {
-    hair_result result = hair_check_section(source, "header", 0, HEADER, 1);
-    if (result) return result;
+    HAIR_TRY(hair_check_section(source, "header", 0, HEADER, 1));
     header->strands = hair_read_u32(source->bytes + 4);
     header->vertices = hair_read_u32(source->bytes + 8);
     header->arrays = hair_read_u32(source->bytes + 12);
     header->segments = hair_read_u32(source->bytes + 16);
     uint64_t end = 0;
-    result = check_counts(source, header);
-    if (!result) result = find_arrays(source, header, &end);
-    if (!result) result = check_sum(source, header);
-    if (!result && source->size > end && header->arrays <= KNOWN)
+    HAIR_TRY(check_counts(source, header));
+    HAIR_TRY(find_arrays(source, header, &end));
+    HAIR_TRY(check_sum(source, header));
+    if (source->size > end && header->arrays <= KNOWN)
         hair_log(source->host, HAIR_LOG_WARNING, "what follows the arrays, from byte %llu on, is not read",
                  (unsigned long long)end);
-    return result;
+    return HAIR_OK;
 }
 
 // Read half the thickness at each root. One bad value discards all radii, because radii of half a
@@ -145,9 +142,8 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
 {
     struct header header = {0};
     struct hair_strands* strands = &asset->strands;
-    hair_result result = read_header(source, &header);
-    if (!result) result = hair_strands_allocate(source->host, strands, header.strands, header.vertices);
-    if (result) return result;
+    HAIR_TRY(read_header(source, &header));
+    HAIR_TRY(hair_strands_allocate(source->host, strands, header.strands, header.vertices));
 
     HAIR_ASSERT(header.points_at >= HEADER);
     asset->strand_set = HAIR_STRAND_SET_FULL;
@@ -155,10 +151,9 @@ hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* a
     const unsigned char* points = source->bytes + header.points_at;
     for (size_t i = 0; i < 3 * (size_t)header.vertices; ++i)
         strands->positions[i] = hair_read_float(points + 4 * i);
-    if (header.arrays & THICKNESS) result = read_radii(source, &header, strands);
-    if (!result && header.arrays & COLORS)
-        result = hair_read_colors(source, (size_t)header.colors_at, 12, strands);
-    return result;
+    if (header.arrays & THICKNESS) HAIR_TRY(read_radii(source, &header, strands));
+    if (header.arrays & COLORS) HAIR_TRY(hair_read_colors(source, (size_t)header.colors_at, 12, strands));
+    return HAIR_OK;
 }
 
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size)

@@ -258,9 +258,7 @@ hair_result hair_strands_clean(const hair_host* host, const hair_import* import,
     if (import->tip_first) reverse_all(strands);
     thin_out(import, strands);
     repair_all(import, strands, repairs);
-    hair_result result = HAIR_OK;
     uint32_t count = import->strand_vertices == 1 ? 2 : import->strand_vertices;
-    if (count) result = resample_all(host, count, strands, repairs);
-    if (!result && strands->vertex_count < vertices / 2) result = shrink_all(host, strands);
-    return result;
+    if (count) HAIR_TRY(resample_all(host, count, strands, repairs));
+    return strands->vertex_count < vertices / 2 ? shrink_all(host, strands) : HAIR_OK;
 }

@@ -85,8 +85,7 @@ static hair_result check_section(const struct hair_source* source, const struct 
 static hair_result read_header(const struct hair_source* source, const struct layout* layout,
                                uint32_t* strands, uint32_t* each)
 {
-    hair_result result = hair_check_section(source, "header", 0, layout->header, 1);
-    if (result) return result;
+    HAIR_TRY(hair_check_section(source, "header", 0, layout->header, 1));
     *strands = hair_read_u32(source->bytes + 4);
     *each = hair_read_u32(source->bytes + 8);
     if (*strands == 0) return hair_fail(source->host, HAIR_ERROR_FILE, "the count of strands at byte 4 is 0");
@@ -94,22 +93,19 @@ static hair_result read_header(const struct hair_source* source, const struct la
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the vertices of each strand at byte 8 are %u, fewer than 2", *each);
     uint64_t vertices = (uint64_t)*strands * *each;
-    for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size && !result; ++i)
-        result = check_section(source, layout, &layout->sections[i], *strands, vertices);
-    if (!result && vertices > UINT32_MAX)
-        result =
-            hair_fail(source->host, HAIR_ERROR_FILE, "the counts at byte 4 make %llu vertices, more than %u",
-                      (unsigned long long)vertices, UINT32_MAX);
-    return result;
+    for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i)
+        HAIR_TRY(check_section(source, layout, &layout->sections[i], *strands, vertices));
+    if (vertices <= UINT32_MAX) return HAIR_OK;
+    return hair_fail(source->host, HAIR_ERROR_FILE, "the counts at byte 4 make %llu vertices, more than %u",
+                     (unsigned long long)vertices, UINT32_MAX);
 }
 
 static hair_result decode(const struct hair_source* source, const struct layout* layout, hair_asset* asset)
 {
     uint32_t count = 0, each = 0;
     struct hair_strands* strands = &asset->strands;
-    hair_result result = read_header(source, layout, &count, &each);
-    if (!result) result = hair_strands_allocate(source->host, strands, count, count * each);
-    if (result) return result;
+    HAIR_TRY(read_header(source, layout, &count, &each));
+    HAIR_TRY(hair_strands_allocate(source->host, strands, count, count * each));
 
     HAIR_ASSERT((uint64_t)count * each == strands->vertex_count);
     asset->strand_set = HAIR_STRAND_SET_GUIDES;

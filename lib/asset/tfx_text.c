@@ -52,10 +52,10 @@ static hair_result read_numbers(const struct reader* reader, struct hair_line* l
 static hair_result read_finite(const struct reader* reader, struct hair_line* line, float* out,
                                uint32_t count)
 {
-    hair_result result = read_numbers(reader, line, out, count);
-    for (uint32_t i = 0; i < count && !result; ++i)
-        if (!isfinite(out[i])) result = complain(reader, line->start, "a number of the line is not finite");
-    return result;
+    HAIR_TRY(read_numbers(reader, line, out, count));
+    for (uint32_t i = 0; i < count; ++i)
+        if (!isfinite(out[i])) return complain(reader, line->start, "a number of the line is not finite");
+    return HAIR_OK;
 }
 
 static hair_result read_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
@@ -141,8 +141,7 @@ static hair_result read_vertex(struct reader* reader, size_t strand_at)
         return hair_fail(reader->source->host, HAIR_ERROR_FILE,
                          "the file ends at byte %zu, within the strand at byte %zu", reader->source->size,
                          strand_at);
-    hair_result result = read_numbers(reader, &line, position, 3);
-    if (result) return result;
+    HAIR_TRY(read_numbers(reader, &line, position, 3));
     if (reader->fill) {
         HAIR_ASSERT(reader->vertices < reader->fill->vertex_count);
         place(reader, position);
@@ -155,11 +154,10 @@ static hair_result read_vertex(struct reader* reader, size_t strand_at)
 static hair_result read_strand(struct reader* reader, struct hair_line* line)
 {
     uint32_t count = 0;
-    hair_result result = find_vertex_count(reader, line, &count);
-    if (!result && count > UINT32_MAX - reader->vertices)
-        result = complain(reader, line->start, "the strand makes too many vertices");
-    for (uint32_t i = 0; i < count && !result; ++i) result = read_vertex(reader, line->start);
-    if (result) return result;
+    HAIR_TRY(find_vertex_count(reader, line, &count));
+    if (count > UINT32_MAX - reader->vertices)
+        return complain(reader, line->start, "the strand makes too many vertices");
+    for (uint32_t i = 0; i < count; ++i) HAIR_TRY(read_vertex(reader, line->start));
     HAIR_ASSERT(!reader->fill || reader->strands < reader->fill->strand_count);
     if (reader->fill) reader->fill->vertices[reader->strands] = count;
     ++reader->strands;
@@ -178,14 +176,13 @@ static void rewind_to_start(struct reader* reader, struct hair_strands* fill)
 static hair_result read_all(struct reader* reader)
 {
     struct hair_line line;
-    hair_result result = HAIR_OK;
-    while (!result && hair_text_next(&reader->text, &line)) {
+    while (hair_text_next(&reader->text, &line)) {
         struct hair_token name;
         if (!hair_line_next(&line, &name)) continue;
-        result =
-            hair_token_is(&name, "strand") ? read_strand(reader, &line) : read_setting(reader, &name, &line);
+        HAIR_TRY(hair_token_is(&name, "strand") ? read_strand(reader, &line)
+                                                : read_setting(reader, &name, &line));
     }
-    return result;
+    return HAIR_OK;
 }
 
 static hair_result check_counts(const struct reader* reader)
@@ -215,11 +212,9 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
 {
     struct reader reader = {.source = source, .scale = 1};
     rewind_to_start(&reader, NULL);
-    hair_result result = read_all(&reader);
-    if (!result) result = check_counts(&reader);
-    if (!result)
-        result = hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices);
-    if (result) return result;
+    HAIR_TRY(read_all(&reader));
+    HAIR_TRY(check_counts(&reader));
+    HAIR_TRY(hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices));
 
     asset->strand_set = HAIR_STRAND_SET_GUIDES;
     reader.warned = true;

@@ -83,8 +83,7 @@ hair_result hair_schema_copy_in(const hair_host* host, const char* name, const v
     if (!desc) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s is NULL", name);
     hair_struct_header header;
     memcpy(&header, desc, sizeof header);
-    hair_result result = hair_check_header(host, name, header);
-    if (result) return result;
+    HAIR_TRY(hair_check_header(host, name, header));
 
     write_defaults(own, fields.size, header, fields);
     memcpy(own, desc, header.size < fields.size ? header.size : fields.size);

@@ -24,6 +24,12 @@ struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_
 // Return a.position - b.position.
 hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b);
 
+// Return a rotation as shaders read it.
+static inline hair_vec4 hair_quat_to_vec4(hair_quat q)
+{
+    return (hair_vec4){q.x, q.y, q.z, q.w};
+}
+
 // Return the world matrix `m` for positions from the head's origin. Its last column gains m times
 // that origin.
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head);

@@ -61,8 +61,7 @@ hair_result hair_bullet_keep(hair_bullet* bullet, const btCollisionShape* shape,
 {
     if (2 * (bullet->cached_count + 1) > bullet->cached_capacity) {
         uint32_t capacity = bullet->cached_capacity ? 2 * bullet->cached_capacity : 64;
-        hair_result result = rebuild(bullet, capacity, UINT32_MAX, nullptr);
-        if (result) return result;
+        HAIR_TRY(rebuild(bullet, capacity, UINT32_MAX, nullptr));
     }
     hair_cached_shape* cached = &bullet->cached[place_of(bullet, shape)];
     if (cached->shape)

@@ -6,8 +6,9 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 #include <cmath>
+#include <cstdio>
 
-#define MAX_POINTS 1048576
+#define MAX_POINTS 1048576u // Maximum number of points of a shape.
 // Number of directions over a sphere. A hull of points that far apart sags by 0.4 % of the radius.
 #define DIRECTIONS 1024
 
@@ -17,6 +18,12 @@ namespace
 struct cloud {
     hair_mesh mesh;
     float rounding;
+    uint64_t count; // Points of the shape. At most MAX_POINTS of them are in `mesh`.
+
+    void add(const btVector3& at)
+    {
+        if (++count <= MAX_POINTS) mesh.add_vertex(at);
+    }
 };
 
 // Return the i-th of DIRECTIONS directions along Fibonacci's spiral.
@@ -33,8 +40,7 @@ struct mesh_points : btInternalTriangleIndexCallback {
 
     void internalProcessTriangleIndex(btVector3* triangle, int, int) override
     {
-        for (int k = 0; k < 3; ++k)
-            if (out->mesh.vertex_count < MAX_POINTS) out->mesh.add_vertex(triangle[k]);
+        for (int k = 0; k < 3; ++k) out->add(triangle[k]);
     }
 };
 } // namespace
@@ -56,10 +62,10 @@ static void add_spheres(const btMultiSphereShape* shape, cloud* out)
     for (int i = 0; i < shape->getSphereCount(); ++i) {
         const btScalar radius = shape->getSphereRadius(i) - min_value;
         if (radius <= 0)
-            out->mesh.add_vertex(shape->getSpherePosition(i) * s);
+            out->add(shape->getSpherePosition(i) * s);
         else
             for (int k = 0; k < DIRECTIONS; ++k)
-                out->mesh.add_vertex((shape->getSpherePosition(i) + radius * direction(k)) * s);
+                out->add((shape->getSpherePosition(i) + radius * direction(k)) * s);
     }
 }
 
@@ -69,12 +75,12 @@ static void gather(const btConvexShape* shape, cloud* out)
     switch (shape->getShapeType()) {
     case CONVEX_HULL_SHAPE_PROXYTYPE: {
         const btConvexHullShape* hull = static_cast<const btConvexHullShape*>(shape);
-        for (int i = 0; i < hull->getNumPoints(); ++i) out->mesh.add_vertex(hull->getScaledPoint(i));
+        for (int i = 0; i < hull->getNumPoints(); ++i) out->add(hull->getScaledPoint(i));
         return;
     }
     case CONVEX_POINT_CLOUD_SHAPE_PROXYTYPE: {
         const btConvexPointCloudShape* points = static_cast<const btConvexPointCloudShape*>(shape);
-        for (int i = 0; i < points->getNumPoints(); ++i) out->mesh.add_vertex(points->getScaledPoint(i));
+        for (int i = 0; i < points->getNumPoints(); ++i) out->add(points->getScaledPoint(i));
         return;
     }
     case CONVEX_TRIANGLEMESH_SHAPE_PROXYTYPE: {
@@ -94,13 +100,13 @@ static void gather(const btConvexShape* shape, cloud* out)
             for (int i = 0; i < polyhedron->getNumVertices(); ++i) {
                 btVector3 at;
                 polyhedron->getVertex(i, at);
-                out->mesh.add_vertex(at);
+                out->add(at);
             }
             return;
         }
         // Take the farthest point of any other shape in every direction.
         for (int k = 0; k < DIRECTIONS; ++k)
-            out->mesh.add_vertex(shape->localGetSupportingVertexWithoutMargin(direction(k)));
+            out->add(shape->localGetSupportingVertexWithoutMargin(direction(k)));
     }
 }
 
@@ -167,8 +173,12 @@ static hair_result add_points(hair_bullet* bullet, const btConvexShape* shape, c
                               const cloud& points)
 {
     if (!points.mesh.vertex_count) return hair_bullet_wrong(bullet, shape, context, "has no points");
-    if (points.mesh.vertex_count >= MAX_POINTS)
-        return hair_bullet_wrong(bullet, shape, context, "has 1048576 points or more");
+    if (points.count > MAX_POINTS) {
+        char what[64];
+        std::snprintf(what, sizeof what, "has %llu points, more than %u",
+                      static_cast<unsigned long long>(points.count), MAX_POINTS);
+        return hair_bullet_wrong(bullet, shape, context, what);
+    }
     for (uint32_t i = 0; i < 3 * points.mesh.vertex_count; ++i)
         if (!(std::fabs(points.mesh.positions[i]) <= 1e6f))
             return hair_bullet_wrong(bullet, shape, context, "has a point that is not within 1e6 m");

@@ -7,8 +7,10 @@
 
 #include <cmath>
 
-// Maximum number of vertices of a collision mesh. Each triangle has three of its own.
-#define MAX_TRIANGLES 16777216u
+// Maximum number of vertices of a collision mesh, which is that of hair_collision_mesh_desc too.
+#define MAX_VERTICES 16777216u
+#define TRIANGLE_VERTICES 3 // Vertices of a triangle of a mesh. Triangles share none.
+#define FIELD_VERTICES 6 // Vertices of a triangle of a height field and of the floor below it.
 // Depth of a height field below its lowest point, as a fraction of its longest side.
 #define DEPTH 0.1f
 
@@ -171,14 +173,12 @@ static uint64_t fingerprint_of(const btConcaveShape* shape, const btVector3& low
 // Refuse a shape with too many triangles. It is stored without a collision mesh, so that they are
 // not counted again.
 static hair_result refuse(hair_bullet* bullet, const btConcaveShape* shape, const hair_gather& context,
-                          uint64_t fingerprint, uint64_t count)
+                          uint64_t fingerprint, uint64_t count, uint32_t max)
 {
-    const hair_result result = hair_bullet_keep(bullet, shape, fingerprint, nullptr);
-    if (result) return result;
+    HAIR_TRY(hair_bullet_keep(bullet, shape, fingerprint, nullptr));
     hair_log(&bullet->host, context.log_once ? HAIR_LOG_WARNING : HAIR_LOG_ERROR,
              "Bullet's shape %s of type %d has %llu triangles, more than %u: hair goes through it",
-             shape->getName(), shape->getShapeType(), static_cast<unsigned long long>(count),
-             MAX_TRIANGLES / 3);
+             shape->getName(), shape->getShapeType(), static_cast<unsigned long long>(count), max);
     return HAIR_ERROR_ARGUMENT;
 }
 
@@ -188,15 +188,15 @@ static hair_result make(hair_bullet* bullet, const btConcaveShape* shape, const 
 {
     counter triangles;
     shape->processAllTriangles(&triangles, lower, upper);
-    if (triangles.count > MAX_TRIANGLES / 3)
-        return refuse(bullet, shape, context, fingerprint, triangles.count);
+    const bool is_field = shape->getShapeType() == TERRAIN_SHAPE_PROXYTYPE;
+    const uint32_t max = MAX_VERTICES / (is_field ? FIELD_VERTICES : TRIANGLE_VERTICES);
+    if (triangles.count > max) return refuse(bullet, shape, context, fingerprint, triangles.count, max);
     hair_mesh mesh = {};
     mesh.host = &bullet->host;
     gatherer gatherer;
     gatherer.mesh = &mesh;
     shape->processAllTriangles(&gatherer, lower, upper);
-    if (shape->getShapeType() == TERRAIN_SHAPE_PROXYTYPE)
-        close_below(static_cast<const btHeightfieldTerrainShape*>(shape), &mesh);
+    if (is_field) close_below(static_cast<const btHeightfieldTerrainShape*>(shape), &mesh);
     hair_result result = mesh.result;
     if (!result)
         result = hair_bullet_make_collision_mesh(bullet, shape, fingerprint, mesh,
@@ -226,10 +226,7 @@ hair_result hair_bullet_add_mesh(hair_bullet* bullet, const btConcaveShape* shap
     const uint64_t fingerprint = fingerprint_of(own, lower, upper);
     const hair_cached_shape* cached = hair_bullet_find(bullet, own, fingerprint);
     const hair_collision_mesh* collision_mesh = cached ? cached->mesh : nullptr;
-    if (!cached) {
-        hair_result result = make(bullet, own, context, fingerprint, lower, upper, &collision_mesh);
-        if (result) return result;
-    }
+    if (!cached) HAIR_TRY(make(bullet, own, context, fingerprint, lower, upper, &collision_mesh));
     return hair_bullet_add_collision_mesh(bullet, shape, context, collision_mesh,
                                           static_cast<float>(shape->getMargin()), scale);
 }

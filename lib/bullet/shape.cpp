@@ -17,8 +17,7 @@ hair_result hair_bullet_wrong(hair_bullet* bullet, const btCollisionShape* shape
                          shape->getName(), shape->getShapeType(), what);
     const uint64_t wrong = 1; // In place of a hash.
     if (hair_bullet_find(bullet, shape, wrong)) return HAIR_ERROR_ARGUMENT;
-    const hair_result result = hair_bullet_keep(bullet, shape, wrong, nullptr);
-    if (result) return result;
+    HAIR_TRY(hair_bullet_keep(bullet, shape, wrong, nullptr));
     hair_log(&bullet->host, HAIR_LOG_WARNING, "Bullet's shape %s of type %d %s: hair goes through it",
              shape->getName(), shape->getShapeType(), what);
     return HAIR_ERROR_ARGUMENT;
@@ -68,9 +67,10 @@ hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape
     hair_result result =
         hair_bullet_reserve(&bullet->host, &colliders, &bullet->capacity, bullet->count + 1, sizeof collider);
     bullet->colliders = static_cast<hair_collider*>(colliders);
-    HAIR_ASSERT(result || bullet->count < bullet->capacity);
-    if (!result) bullet->colliders[bullet->count++] = collider;
-    return result;
+    HAIR_TRY(result);
+    HAIR_ASSERT(bullet->count < bullet->capacity);
+    bullet->colliders[bullet->count++] = collider;
+    return HAIR_OK;
 }
 
 // Return a rotation that takes +y to an axis. Any rotation about that axis is equivalent for shapes

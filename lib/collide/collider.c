@@ -64,8 +64,8 @@ static hair_result check(const hair_host* host, const hair_collider* collider, u
             return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].%s is %g, not in [%g, %g]", i,
                              numbers[k].name, (double)numbers[k].value, (double)numbers[k].min,
                              (double)numbers[k].max);
-    hair_result result = check_rotation(host, collider, i);
-    return result ? result : check_size(host, collider, i);
+    HAIR_TRY(check_rotation(host, collider, i));
+    return check_size(host, collider, i);
 }
 
 static hair_collider collider_at(const hair_collider* from, uint32_t i, size_t stride)
@@ -94,9 +94,9 @@ static hair_result reserve(const hair_host* host, struct hair_collider_list* lis
 static hair_result reserve_all(const hair_host* host, struct hair_colliders* colliders, uint32_t count,
                                uint32_t count_before)
 {
-    hair_result result = reserve(host, &colliders->current, count);
-    if (!result) result = reserve(host, &colliders->previous, count > count_before ? count : count_before);
-    if (result || count <= colliders->capacity) return result;
+    HAIR_TRY(reserve(host, &colliders->current, count));
+    HAIR_TRY(reserve(host, &colliders->previous, count > count_before ? count : count_before));
+    if (count <= colliders->capacity) return HAIR_OK;
     uint32_t* pair = hair_alloc(host, colliders->current.capacity, sizeof *pair);
     if (!pair) return hair_fail_memory(host, "colliders");
     if (colliders->current.count) memcpy(pair, colliders->match, colliders->current.count * sizeof *pair);
@@ -145,8 +145,7 @@ static hair_result check_list(const hair_host* host, const hair_collider* from, 
                          sizeof(hair_collider));
     for (uint32_t i = 0; i < count; ++i) {
         hair_collider collider = collider_at(from, i, stride);
-        hair_result result = check(host, &collider, i);
-        if (result) return result;
+        HAIR_TRY(check(host, &collider, i));
     }
     return HAIR_OK;
 }
@@ -164,21 +163,19 @@ static int are_there(const struct hair_collider_list* list, const hair_collider*
 hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
                                const hair_collider* from, uint32_t count, size_t stride)
 {
-    hair_result result = check_list(host, from, count, stride);
-    for (uint32_t i = 0; i < count && !result; ++i) {
+    HAIR_TRY(check_list(host, from, count, stride));
+    for (uint32_t i = 0; i < count; ++i) {
         hair_collider collider = collider_at(from, i, stride);
         if (collider.shape == HAIR_SHAPE_MESH && !collider.mesh)
-            result = hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].mesh is NULL", i);
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].mesh is NULL", i);
         if (collider.shape != HAIR_SHAPE_MESH && collider.mesh)
-            result = hair_fail(host, HAIR_ERROR_ARGUMENT,
-                               "colliders[%u].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH", i);
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "colliders[%u].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH", i);
     }
-    if (!result && are_there(&colliders->current, from, count, stride)) return HAIR_OK;
-    if (!result) result = reserve_all(host, colliders, count, colliders->previous.count);
-    if (!result)
-        result = hair_match_colliders(host, from, count, stride, colliders->previous.collider,
-                                      colliders->previous.count, colliders->match);
-    if (result) return result;
+    if (are_there(&colliders->current, from, count, stride)) return HAIR_OK;
+    HAIR_TRY(reserve_all(host, colliders, count, colliders->previous.count));
+    HAIR_TRY(hair_match_colliders(host, from, count, stride, colliders->previous.collider,
+                                  colliders->previous.count, colliders->match));
     put(&colliders->current, from, count, stride);
     count_contacts(colliders);
     colliders->changed = 1;
@@ -189,12 +186,10 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
                                    const hair_collider* now, uint32_t count, const hair_collider* before,
                                    uint32_t count_before)
 {
-    hair_result result = check_list(host, now, count, sizeof *now);
-    if (!result) result = check_list(host, before, count_before, sizeof *before);
-    if (!result) result = reserve_all(host, colliders, count, count_before);
-    if (!result)
-        result = hair_match_colliders(host, now, count, sizeof *now, before, count_before, colliders->match);
-    if (result) return result;
+    HAIR_TRY(check_list(host, now, count, sizeof *now));
+    HAIR_TRY(check_list(host, before, count_before, sizeof *before));
+    HAIR_TRY(reserve_all(host, colliders, count, count_before));
+    HAIR_TRY(hair_match_colliders(host, now, count, sizeof *now, before, count_before, colliders->match));
     put(&colliders->current, now, count, sizeof *now);
     put(&colliders->previous, before, count_before, sizeof *before);
     count_contacts(colliders);

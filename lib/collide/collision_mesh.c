@@ -282,18 +282,15 @@ static uint64_t hash_content(const hair_collision_mesh* mesh)
 static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triangles* t,
                         hair_collision_mesh* mesh)
 {
-    hair_result result =
-        hair_triangles_build(&mesh->host, desc->positions, desc->triangles, desc->triangle_count, t);
-    if (result) return result;
+    HAIR_TRY(hair_triangles_build(&mesh->host, desc->positions, desc->triangles, desc->triangle_count, t));
     if (!t->count)
         return hair_fail(&mesh->host, HAIR_ERROR_ARGUMENT,
                          "hair_collision_mesh_desc: none of %u triangles has three different corners",
                          desc->triangle_count);
     mesh->info.unused = desc->triangle_count - t->count;
     mesh->info.is_closed = (uint32_t)hair_triangles_are_closed(t);
-    result = build_grid(desc, t, mesh);
-    if (!result) result = measure(mesh, t);
-    if (result) return result;
+    HAIR_TRY(build_grid(desc, t, mesh));
+    HAIR_TRY(measure(mesh, t));
     if (mesh->info.is_closed) return find_sides(mesh, t);
     thicken(mesh);
     hair_log(&mesh->host, HAIR_LOG_WARNING, "a collision mesh of %u triangles is not closed: a shell of %g m",
@@ -304,15 +301,14 @@ static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triang
 hair_result hair_collision_mesh_build(const hair_host* host, const hair_collision_mesh_desc* desc,
                                       hair_collision_mesh** out)
 {
-    hair_result result = check_arrays(host, desc);
-    if (result) return result;
+    HAIR_TRY(check_arrays(host, desc));
     hair_collision_mesh* mesh = hair_alloc(host, 1, sizeof *mesh);
     if (!mesh) return hair_fail_memory(host, "a collision mesh");
     struct hair_triangles triangles = {0};
     mesh->host = *host;
     mesh->info = hair_collision_mesh_info_default();
     atomic_init(&mesh->holders, 1);
-    result = fill(desc, &triangles, mesh);
+    hair_result result = fill(desc, &triangles, mesh);
     hair_triangles_free(host, &triangles);
     if (result) {
         hair_collision_mesh_release(mesh);

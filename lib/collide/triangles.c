@@ -171,7 +171,6 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
                                  uint32_t count, struct hair_triangles* out)
 {
     struct hair_triangles t = {.positions = positions};
-    hair_result result;
     t.indices = hair_alloc(host, count, sizeof *t.indices);
     if (!t.indices) return hair_fail_memory(host, "a collision mesh's triangles");
     for (uint32_t i = 0; i < count; ++i) {
@@ -186,8 +185,8 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
         HAIR_ASSERT((t.lowest & (t.lowest - 1)) == 0 && t.lowest <= 2 * t.leaves - 1);
         t.box = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.box);
         t.dipole = hair_alloc(host, 2 * (size_t)t.leaves - 1, sizeof *t.dipole);
-        result = t.box && t.dipole ? put_in_order(host, &t)
-                                   : hair_fail_memory(host, "a collision mesh's triangles");
+        hair_result result = t.box && t.dipole ? put_in_order(host, &t)
+                                               : hair_fail_memory(host, "a collision mesh's triangles");
         if (result) {
             hair_triangles_free(host, &t);
             return result;

@@ -45,20 +45,14 @@ static hair_result make(struct hair_collider_field* field)
     const struct hair_field_box* box = &field->box;
     uint32_t bricks = hair_field_bricks(box), size[3];
     for (int i = 0; i < 3; ++i) size[i] = HAIR_BRICK * box->bricks[i];
-    hair_result result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field", GL_R16F, size,
-                                            GL_LINEAR, &field->distance);
-    if (!result)
-        result = hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field collider", GL_R32UI, size,
-                                    GL_NEAREST, &field->number);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field", sizeof(struct hair_field_params),
-                                 &field->params);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field work", ALIGNMENT, &field->work);
-    if (!result)
-        result =
-            hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture);
-    if (result) return result;
+    HAIR_TRY(hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field", GL_R16F, size, GL_LINEAR,
+                                &field->distance));
+    HAIR_TRY(hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_FIELD, "hair field collider", GL_R32UI, size, GL_NEAREST,
+                                &field->number));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field", sizeof(struct hair_field_params),
+                             &field->params));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, "hair field work", ALIGNMENT, &field->work));
+    HAIR_TRY(hair_gl_buffer_texture(gl, "hair field work", GL_RGBA32UI, field->work, &field->work_texture));
     field->dirty = hair_alloc(&gl->host, bricks, sizeof *field->dirty);
     field->brick_colliders = hair_alloc(&gl->host, bricks, sizeof *field->brick_colliders);
     field->best = hair_alloc(&gl->host, bricks, sizeof *field->best);
@@ -89,14 +83,12 @@ static hair_result make_room(struct hair_collider_field* field, uint32_t count)
 static hair_result replace(struct hair_collider_field* field, struct hair_placed_collider* placed,
                            struct hair_placed_collider* now)
 {
-    hair_result result = HAIR_OK;
     now->place = placed->place;
     if (now->mesh == placed->mesh) {
         *placed = *now;
         return HAIR_OK;
     }
-    if (now->mesh) result = hair_sdf_pool_acquire(field->sdf_pool, now->mesh, &now->place);
-    if (result) return result;
+    if (now->mesh) HAIR_TRY(hair_sdf_pool_acquire(field->sdf_pool, now->mesh, &now->place));
     if (placed->mesh) hair_sdf_pool_release(field->sdf_pool, placed->place);
     *placed = *now;
     return HAIR_OK;
@@ -194,9 +186,9 @@ static hair_result dispatch(struct hair_collider_field* field, const struct hair
         if (sizes[i]) memcpy(bytes + at[i], parts[i], sizes[i]);
     hair_result result = hair_gl_resize(gl, "hair field work", all, bytes, field->work);
     hair_free(&gl->host, bytes);
-    if (!result && plain) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE);
-    if (!result && job->with_meshes) result = hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES);
-    if (result) return result;
+    HAIR_TRY(result);
+    if (plain) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
+    if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
     gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
     run(field, HAIR_GL_VOXELISE, plain, 2, at, length);
     if (job->with_meshes)
@@ -234,6 +226,21 @@ static int is_same(hair_quat a, hair_quat b)
     return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
 }
 
+// Update the field, which has colliders. A failure leaves it half written.
+static hair_result update(struct hair_collider_field* field, const hair_collider* colliders, uint32_t count,
+                          const struct hair_pose* head)
+{
+    HAIR_TRY(make_room(field, count));
+    HAIR_TRY(place_all(field, colliders, count, head));
+    if (field->near && !field->distance) {
+        HAIR_TRY(make(field));
+        write_params(field, head->rotation);
+    }
+    if (!field->distance) return HAIR_OK;
+    if (!is_same(field->rotation, head->rotation)) write_params(field, head->rotation);
+    return write_marked(field);
+}
+
 hair_result hair_field_update(struct hair_collider_field* field, const hair_collider* colliders,
                               uint32_t count, const struct hair_pose* head)
 {
@@ -241,16 +248,7 @@ hair_result hair_field_update(struct hair_collider_field* field, const hair_coll
         if (field->placed) clear(field);
         return HAIR_OK;
     }
-    hair_result result = make_room(field, count);
-    if (!result) result = place_all(field, colliders, count, head);
-    if (!result && field->near && !field->distance) {
-        result = make(field);
-        if (!result) write_params(field, head->rotation);
-    }
-    if (!result && field->distance) {
-        if (!is_same(field->rotation, head->rotation)) write_params(field, head->rotation);
-        result = write_marked(field);
-    }
+    hair_result result = update(field, colliders, count, head);
     if (result) clear(field);
     return result;
 }

@@ -31,9 +31,8 @@ static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
         if (pool->pooled[i].mesh) used += count_nodes(pool->pooled[i].mesh);
     size_t room = used + more + (used + more) / 2;
     if (room < MIN_ROOM) room = MIN_ROOM;
-    hair_result result = hair_gl_storage(pool->gl, HAIR_GL_NO_CATEGORY, "hair collision meshes",
-                                         room * sizeof(float), NULL, &buffer);
-    if (result) return result;
+    HAIR_TRY(hair_gl_storage(pool->gl, HAIR_GL_NO_CATEGORY, "hair collision meshes", room * sizeof(float),
+                             NULL, &buffer));
     hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
     pool->nodes = buffer;
     pool->room = room;
@@ -70,6 +69,11 @@ static void free_if_empty(struct hair_sdf_pool* pool)
     hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
     hair_free(&pool->gl->host, pool->pooled);
     *pool = (struct hair_sdf_pool){.gl = pool->gl};
+}
+
+void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl)
+{
+    *pool = (struct hair_sdf_pool){.gl = gl};
 }
 
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,

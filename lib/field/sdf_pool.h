@@ -21,6 +21,9 @@ struct hair_sdf_pool {
     uint32_t count, capacity; // Number of places, and capacity.
 };
 
+// Set up an empty pool, without memory or OpenGL.
+void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl);
+
 // Add a user of `collision_mesh`. Its place stays `place` until hair_sdf_pool_release().
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* collision_meshes,
                                   const hair_collision_mesh* collision_mesh, uint32_t* place);

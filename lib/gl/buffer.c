@@ -42,8 +42,7 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
     HAIR_ASSERT(label && !*out);
     GLuint buffer = 0;
     GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
-    hair_result result = hair_gl_memory_ask(gl, label, (uint64_t)want);
-    if (result) return result;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)want));
     void* zeros = data ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
     if (!data && !zeros) return hair_fail_memory(&gl->host, label);
     gl->CreateBuffers(1, &buffer);
@@ -82,8 +81,7 @@ hair_result hair_gl_uniform(struct hair_gl* gl, hair_gl_category category, const
     HAIR_ASSERT(size > 0 && !*out);
     GLuint buffer = 0;
     GLint64 got = 0;
-    hair_result result = hair_gl_memory_ask(gl, label, size);
-    if (result) return result;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, size));
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
         gl->NamedBufferData(buffer, (GLsizeiptr)size, NULL, GL_STREAM_DRAW);
@@ -110,8 +108,7 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
 {
     HAIR_ASSERT(buffer && size > 0);
     uint64_t was = buffer_bytes(gl, buffer), got;
-    hair_result result = size > was ? hair_gl_memory_ask(gl, label, size - was) : HAIR_OK;
-    if (result) return result;
+    if (size > was) HAIR_TRY(hair_gl_memory_ask(gl, label, size - was));
     gl->NamedBufferData(buffer, (GLsizeiptr)size, data, GL_STREAM_DRAW);
     got = buffer_bytes(gl, buffer);
     hair_gl_memory_resize(gl, buffer, got);
@@ -127,8 +124,7 @@ hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const 
     GLuint buffer = 0;
     GLint64 got = 0;
     const void* at = NULL;
-    hair_result result = hair_gl_memory_ask(gl, label, size);
-    if (result) return result;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, size));
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
         gl->NamedBufferStorage(buffer, (GLsizeiptr)size, NULL, access);
@@ -179,8 +175,7 @@ hair_result hair_gl_texture_3d(struct hair_gl* gl, hair_gl_category category, co
             return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s is %u texels long, more than the driver's %d",
                              label, size[i], max);
     uint64_t bytes = texel_bytes(format) * size[0] * size[1] * size[2];
-    hair_result result = hair_gl_memory_ask(gl, label, bytes);
-    if (result) return result;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, bytes));
     gl->CreateTextures(GL_TEXTURE_3D, 1, &texture);
     if (texture) {
         gl->TextureStorage3D(texture, 1, format, (GLsizei)size[0], (GLsizei)size[1], (GLsizei)size[2]);
@@ -208,8 +203,7 @@ hair_result hair_gl_texture_2d(struct hair_gl* gl, hair_gl_category category, co
     HAIR_ASSERT(width > 0 && height > 0 && !*out);
     GLuint texture = 0;
     uint64_t bytes = texel_bytes(format) * width * height;
-    hair_result result = hair_gl_memory_ask(gl, label, bytes);
-    if (result) return result;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, bytes));
     gl->CreateTextures(GL_TEXTURE_2D, 1, &texture);
     if (texture) gl->TextureStorage2D(texture, 1, format, (GLsizei)width, (GLsizei)height);
     if (!texture || texture_bytes(gl, texture) != bytes) {
@@ -267,8 +261,8 @@ void hair_gl_free_texture(struct hair_gl* gl, GLuint* texture)
 hair_result hair_gl_ensure_array(struct hair_gl* gl, hair_gl_category category, const char* label,
                                  size_t size, GLuint* buffer, GLenum format, GLuint* texture)
 {
-    hair_result result = *buffer ? HAIR_OK : hair_gl_storage(gl, category, label, size, NULL, buffer);
-    if (result || !texture || *texture) return result;
+    if (!*buffer) HAIR_TRY(hair_gl_storage(gl, category, label, size, NULL, buffer));
+    if (!texture || *texture) return HAIR_OK;
     return hair_gl_buffer_texture(gl, label, format, *buffer, texture);
 }
 

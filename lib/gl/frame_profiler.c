@@ -30,6 +30,14 @@ void hair_gl_profiler_next_frame(struct hair_gl_profiler* profiler)
     memset(frame->runs, 0, sizeof frame->runs);
 }
 
+void hair_gl_profiler_undo(struct hair_gl_profiler* profiler, const struct hair_gl_profiler* was)
+{
+    struct hair_gl_profiler now = *profiler;
+    *profiler = *was;
+    for (int i = 0; i < HAIR_GL_FRAMES; ++i)
+        memcpy(profiler->frame[i].query, now.frame[i].query, sizeof now.frame[i].query);
+}
+
 void hair_gl_profiler_free(struct hair_gl* gl, struct hair_gl_profiler* profiler)
 {
     for (int i = 0; i < HAIR_GL_FRAMES; ++i)

@@ -28,6 +28,8 @@ const char* hair_gl_category_label(hair_gl_category category);
 
 // Begin the next frame, without calling OpenGL.
 void hair_gl_profiler_next_frame(struct hair_gl_profiler* profiler);
+// Undo the frames that have begun since `was` was copied. Keep the queries made since.
+void hair_gl_profiler_undo(struct hair_gl_profiler* profiler, const struct hair_gl_profiler* was);
 void hair_gl_profiler_free(struct hair_gl* gl, struct hair_gl_profiler* profiler);
 
 static inline struct hair_gl_frame* hair_gl_profiler_frame(struct hair_gl_profiler* profiler, uint32_t number)

@@ -195,7 +195,7 @@ void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint prog
 
 // source.c ----------------------------------------------------------------------------------------
 
-#define HAIR_GL_MAX_SOURCES 48 // Maximum number of files of one shader, itself included.
+#define HAIR_GL_MAX_SOURCES 80 // Maximum number of files of one shader, itself included.
 
 struct hair_gl_source {
     char* text; // Text with all includes in place. The caller frees it.
@@ -214,11 +214,26 @@ hair_result hair_gl_read_source(const hair_host* host, const char* glsl_dir, con
 hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir, const char* name,
                                      const char* prefix, const char* own, struct hair_gl_source* out);
 
+// shader_log.c ------------------------------------------------------------------------------------
+
+#define HAIR_GL_MAX_INFO_LOG 2048 // Maximum bytes of a driver's message that are logged.
+
+// Report a compiler message about a stage with the names of files. Its first line is an error, and
+// the other lines are information. An error in the text of the application has the label `own` and
+// the text's lines. NULL `own` means that there is no such text.
+hair_result hair_gl_report_compile(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
+                                   const char* name, const char* message);
+// Report a linker message about the program `label` in the same way.
+hair_result hair_gl_report_link(struct hair_gl* gl, const char* own, const char* label, const char* message);
+
 // state.c -----------------------------------------------------------------------------------------
 
 // Save the application's state. Call this before anything else in a [GL] call.
 void hair_gl_enter(struct hair_gl* gl);
-// Restore the application's state.
+// Enter for work of one instance. `owner` owns the memory that is allocated until
+// hair_gl_leave(), and `profiler` counts the passes. NULL `profiler` counts none.
+void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler);
+// Restore the application's state. Nothing is owned or counted from then on.
 void hair_gl_leave(struct hair_gl* gl);
 
 // Create a framebuffer without attachments. Transform feedback without rasterisation needs one,
@@ -235,6 +250,8 @@ void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
 
 // memory.c ----------------------------------------------------------------------------------------
 
+// Set the maximum of bytes that buffers and textures may take from now on. 0 disables it.
+void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes);
 // Check whether `size` more bytes for `label` stay within the memory limit. Make room to record one
 // more object.
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size);

@@ -56,6 +56,11 @@ static void set_bytes(struct hair_gl_memory* memory, struct hair_gl_allocation* 
     of->bytes = bytes;
 }
 
+void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes)
+{
+    gl->memory.limit = bytes;
+}
+
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size)
 {
     const struct hair_gl_memory* memory = &gl->memory;

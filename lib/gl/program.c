@@ -1,8 +1,7 @@
-// program.c - compilation of shaders to programs. Errors name the file and the line.
+// program.c - compilation of shaders to programs.
 #include "lib/gl/gl.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char* const features[] = {
@@ -22,39 +21,6 @@ static GLenum stage_of(const char* name)
     for (size_t i = 0; dot && i < sizeof stages / sizeof *stages; ++i)
         if (strcmp(dot, stages[i].suffix) == 0) return stages[i].stage;
     return 0;
-}
-
-// Report a compiler message. Drivers begin it with the number of the file, as in "2:50(7): error"
-// (Mesa) or "2(50) : error" (NVIDIA). An error in the application's text is reported with its own
-// label and lines, as the one sentence of the failing call.
-static hair_result report(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
-                          const char* name, const char* message)
-{
-    char where[128] = "", *rest = NULL;
-    const char* at = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
-    long file = strtol(at, &rest, 10);
-    int whose = 0; // Nonzero if the error is in the application's text.
-    if (own && file == HAIR_GL_MAX_SOURCES)
-        file = 0; // See called() in source.c.
-    else
-        whose = own && file == 0;
-    if (rest != at && (*rest == ':' || *rest == '(') && file >= 0 && file < (long)source->files) {
-        char* after = NULL;
-        long line = strtol(rest + 1, &after, 10);
-        while (*after && strchr("(): 0123456789", *after)) ++after;
-        snprintf(where, sizeof where, whose ? "%.0s%ld: " : "glsl/%s:%ld: ", source->file[file], line);
-        at = after;
-    } else {
-        snprintf(where, sizeof where, "glsl/%s: ", source->file[0]);
-        at = message;
-        whose = 0;
-    }
-    int length = (int)strcspn(at, "\n");
-    if (own)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s:%s%s%.*s", own, whose ? "" : " ", where, length,
-                         at);
-    hair_log(&gl->host, HAIR_LOG_ERROR, "%s%.*s", where, length, at);
-    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "shader glsl/%s does not compile", name);
 }
 
 // Inputs of a program, which are its stages with their full texts.
@@ -95,11 +61,12 @@ static hair_result check_stage(const struct recipe* recipe, const struct stage* 
 {
     struct hair_gl* gl = recipe->gl;
     GLint done = 0;
-    char message[1024] = "";
+    char message[HAIR_GL_MAX_INFO_LOG] = "";
     gl->GetShaderiv(stage->shader, GL_COMPILE_STATUS, &done);
     if (done) return HAIR_OK;
     gl->GetShaderInfoLog(stage->shader, sizeof message, NULL, message);
-    return report(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL, stage->name, message);
+    return hair_gl_report_compile(gl, &stage->source, recipe->shader ? recipe->shader->label : NULL,
+                                  stage->name, message);
 }
 
 static hair_result define(struct recipe* recipe, const char* name)
@@ -119,20 +86,18 @@ static hair_result define_all(struct recipe* recipe)
 {
     char threads[32];
     snprintf(threads, sizeof threads, "HAIR_GUIDE_THREADS %u", HAIR_GL_THREADS(recipe->pass));
-    hair_result result =
-        define(recipe, recipe->gl->lines_level ? "HAIR_LINES_LEVEL 1" : "HAIR_LINES_LEVEL 0");
-    if (!result && recipe->gl->subgroup) result = define(recipe, "HAIR_SUBGROUP 1");
-    if (!result && recipe->gl->long_atomics) result = define(recipe, "HAIR_LONG_ATOMICS 1");
-    if (!result) result = define(recipe, threads);
-    for (uint32_t i = 0; i < HAIR_GL_FEATURES && !result; ++i)
+    HAIR_TRY(define(recipe, recipe->gl->lines_level ? "HAIR_LINES_LEVEL 1" : "HAIR_LINES_LEVEL 0"));
+    if (recipe->gl->subgroup) HAIR_TRY(define(recipe, "HAIR_SUBGROUP 1"));
+    if (recipe->gl->long_atomics) HAIR_TRY(define(recipe, "HAIR_LONG_ATOMICS 1"));
+    HAIR_TRY(define(recipe, threads));
+    for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
         if (recipe->pass & HAIR_GL_BIT(i)) {
             char name[64];
             snprintf(name, sizeof name, "%s 1", features[i]);
-            result = define(recipe, name);
+            HAIR_TRY(define(recipe, name));
         }
-    if (!result && recipe->shader)
-        result = define(recipe, recipe->shader->pixels ? "HAIR_USER_PIXELS 1" : "HAIR_USER_VERTICES 1");
-    return result;
+    if (!recipe->shader) return HAIR_OK;
+    return define(recipe, recipe->shader->pixels ? "HAIR_USER_PIXELS 1" : "HAIR_USER_VERTICES 1");
 }
 
 // Return the name of a stage after "NAME?" if the pass has the feature NAME, otherwise NULL.
@@ -153,8 +118,8 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
 static hair_result read_stages(struct recipe* recipe, const char* stages)
 {
     struct hair_gl* gl = recipe->gl;
-    hair_result result = define_all(recipe);
-    for (const char* at = stages; *at && recipe->stages < MAX_STAGES && !result;) {
+    HAIR_TRY(define_all(recipe));
+    for (const char* at = stages; *at && recipe->stages < MAX_STAGES;) {
         struct stage* stage = &recipe->stage[recipe->stages];
         size_t length = strcspn(at, " ");
         char word[64];
@@ -163,16 +128,16 @@ static hair_result read_stages(struct recipe* recipe, const char* stages)
         const char* wanted = value ? NULL : wanted_stage(recipe, word);
         if (value) {
             *value = ' ';
-            result = define(recipe, word);
+            HAIR_TRY(define(recipe, word));
         } else if (wanted) {
             snprintf(stage->name, sizeof stage->name, "%s", wanted);
-            result = hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, recipe->prefix,
-                                              recipe->shader ? recipe->shader->text : NULL, &stage->source);
-            if (!result) ++recipe->stages;
+            HAIR_TRY(hair_gl_read_source_with(&gl->host, gl->glsl_dir, stage->name, recipe->prefix,
+                                              recipe->shader ? recipe->shader->text : NULL, &stage->source));
+            ++recipe->stages;
         }
         at += length + strspn(at + length, " ");
     }
-    return result;
+    return HAIR_OK;
 }
 
 static struct hair_gl_key key_of(const struct recipe* recipe)
@@ -191,10 +156,7 @@ static struct hair_gl_key key_of(const struct recipe* recipe)
 static hair_result start(struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < recipe->stages && !result; ++i)
-        result = start_stage(recipe, &recipe->stage[i], program);
-    if (result) return result;
+    for (uint32_t i = 0; i < recipe->stages; ++i) HAIR_TRY(start_stage(recipe, &recipe->stage[i], program));
     if (recipe->captured)
         gl->TransformFeedbackVaryings(program, 1, &recipe->captured, GL_INTERLEAVED_ATTRIBS);
     if (gl->cache.put) gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
@@ -213,15 +175,10 @@ static bool is_linked(const struct hair_gl* gl, GLuint program)
 static hair_result tell_why(const struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
-    for (uint32_t i = 0; i < recipe->stages; ++i) {
-        hair_result result = check_stage(recipe, &recipe->stage[i]);
-        if (result) return result;
-    }
-    char message[512] = "";
+    for (uint32_t i = 0; i < recipe->stages; ++i) HAIR_TRY(check_stage(recipe, &recipe->stage[i]));
+    char message[HAIR_GL_MAX_INFO_LOG] = "";
     gl->GetProgramInfoLog(program, sizeof message, NULL, message);
-    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s%sprogram %s does not link: %.*s",
-                     recipe->shader ? recipe->shader->label : "", recipe->shader ? ": " : "", recipe->label,
-                     (int)strcspn(message, "\n"), message);
+    return hair_gl_report_link(gl, recipe->shader ? recipe->shader->label : NULL, recipe->label, message);
 }
 
 // Start a program, or load it from the application's cache and set *kept.
@@ -313,8 +270,7 @@ hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* s
 static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
-    hair_result result = hair_gl_link_pass(gl, NULL, own->pass, &program);
-    if (result) return result;
+    HAIR_TRY(hair_gl_link_pass(gl, NULL, own->pass, &program));
     if (own->program) gl->DeleteProgram(own->program);
     own->program = program;
     return HAIR_OK;
@@ -345,7 +301,7 @@ static hair_result begin_async(struct hair_gl* gl, struct hair_gl_program* own)
     if (!recipe) return HAIR_ERROR_MEMORY;
     hair_result result = recipe->result ? recipe->result : begin(recipe, &own->key, &kept, &program);
     close_recipe(recipe);
-    if (result) return result;
+    HAIR_TRY(result);
     *(kept ? &own->program : &own->begun) = program;
     if (!kept && !gl->parallel) finish(gl, own);
     if (!kept && gl->parallel) ++gl->pending;
@@ -376,10 +332,9 @@ hair_result hair_gl_ensure_programs(struct hair_gl* gl, hair_gl_pass first, hair
                                     hair_gl_pass wanted)
 {
     HAIR_ASSERT(first <= last && last < HAIR_GL_ROWS);
-    hair_result result = HAIR_OK;
-    for (hair_gl_pass row = first; row <= last && !result; ++row)
-        result = hair_gl_ensure_program(gl, hair_gl_add_features(row, wanted));
-    return result;
+    for (hair_gl_pass row = first; row <= last; ++row)
+        HAIR_TRY(hair_gl_ensure_program(gl, hair_gl_add_features(row, wanted)));
+    return HAIR_OK;
 }
 
 void hair_gl_begin_async(struct hair_gl* gl)

@@ -108,8 +108,7 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
         char directive[64];
         size_t length = parse_include(line, end, &name);
         if (length) {
-            hair_result result = read_one(reader, name, length);
-            if (result) return result;
+            HAIR_TRY(read_one(reader, name, length));
             append(&reader->text, directive,
                    (size_t)snprintf(directive, sizeof directive, "#line %d %u\n", line_number + 1,
                                     called(reader, number)));
@@ -144,8 +143,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
     char* read = NULL;
     const char* given = strcmp(own, HAIR_GL_USER_SHADER) == 0 ? reader->own : NULL;
     int in_file = reader->folder && !given;
-    hair_result result = in_file ? read_file(reader->host, reader->folder, own, &read) : HAIR_OK;
-    if (result) return result;
+    if (in_file) HAIR_TRY(read_file(reader->host, reader->folder, own, &read));
     const char* text = given ? given : in_file ? read : find_built_in(own);
     if (!text) return hair_fail(reader->host, HAIR_ERROR_OPENGL, "shader text glsl/%s is not there", own);
     if (number > 0) {
@@ -153,7 +151,7 @@ static hair_result read_one(struct reader* reader, const char* name, size_t leng
         append(&reader->text, directive,
                (size_t)snprintf(directive, sizeof directive, "#line 1 %u\n", called(reader, number)));
     }
-    result = put_lines(reader, text, number);
+    hair_result result = put_lines(reader, text, number);
     hair_free(reader->host, read);
     return result;
 }

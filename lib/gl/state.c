@@ -91,6 +91,14 @@ void hair_gl_enter(struct hair_gl* gl)
                  HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first, saved->uniform_size);
 }
 
+void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct hair_gl_profiler* profiler)
+{
+    HAIR_ASSERT(!gl->owner && !gl->profiler);
+    hair_gl_enter(gl);
+    gl->owner = owner;
+    gl->profiler = profiler;
+}
+
 // Unbind everything that the library may delete. A program that is deleted while current cannot be
 // made current again by an application that restores it. Mesa unbinds a deleted buffer with
 // glBindBufferBase, which also clears the application's generic binding.

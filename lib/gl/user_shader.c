@@ -59,9 +59,9 @@ hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shade
             *out = shader->programs[i].program;
             return HAIR_OK;
         }
-    hair_result result = make_room(gl, shader);
-    if (!result) result = hair_gl_link_pass(gl, shader, pass, out);
-    HAIR_ASSERT(result || shader->count < shader->room);
-    if (!result) shader->programs[shader->count++] = (struct hair_gl_user_program){pass, *out};
-    return result;
+    HAIR_TRY(make_room(gl, shader));
+    HAIR_TRY(hair_gl_link_pass(gl, shader, pass, out));
+    HAIR_ASSERT(shader->count < shader->room);
+    shader->programs[shader->count++] = (struct hair_gl_user_program){pass, *out};
+    return HAIR_OK;
 }

@@ -27,9 +27,8 @@ static void gather_shape_samples(const struct hair_groom_builder* builder, float
 static hair_result find_owners(struct hair_groom_builder* builder, const float* shape_samples)
 {
     struct hair_kd_tree tree;
-    hair_result result = hair_kd_tree_build(builder->host, (struct hair_point_set){shape_samples, AXES},
-                                            builder->groom->info.guide_count, &tree);
-    if (result) return result;
+    HAIR_TRY(hair_kd_tree_build(builder->host, (struct hair_point_set){shape_samples, AXES},
+                                builder->groom->info.guide_count, &tree));
     for (uint32_t i = 0; i < builder->strands.strand_count; ++i) {
         // The guide of the strand's cell is near, so the search only has to find a nearer one.
         HAIR_ASSERT(builder->owner[i] < builder->groom->info.guide_count);
@@ -58,8 +57,7 @@ static void sort_strands(struct hair_groom_builder* builder)
 hair_result hair_strand_candidates(struct hair_groom_builder* builder)
 {
     uint32_t strands = builder->strands.strand_count, guides = builder->groom->info.guide_count;
-    hair_result result = hair_guide_bins(builder);
-    if (result) return result;
+    HAIR_TRY(hair_guide_bins(builder));
     float* shape_samples = hair_alloc(builder->host, guides, AXES * sizeof *shape_samples);
     builder->strand_of = hair_alloc(builder->host, strands, sizeof *builder->strand_of);
     if (!shape_samples || !builder->strand_of) {
@@ -67,7 +65,7 @@ hair_result hair_strand_candidates(struct hair_groom_builder* builder)
         return hair_fail_memory(builder->host, "the binding of strands to guides");
     }
     gather_shape_samples(builder, shape_samples);
-    result = find_owners(builder, shape_samples);
+    hair_result result = find_owners(builder, shape_samples);
     hair_free(builder->host, shape_samples);
     if (!result) sort_strands(builder);
     return result;

@@ -62,18 +62,17 @@ static void describe(struct hair_groom_builder* builder)
 
 static hair_result build(struct hair_groom_builder* builder)
 {
-    hair_result result = hair_build_strands(builder);
-    if (!result) result = hair_build_scalp(builder);
-    if (!result) result = hair_build_guides(builder);
-    if (!result) result = hair_build_rest(builder);
-    if (!result) result = count_candidates(builder);
-    if (!result) result = hair_build_scalp_points(builder);
-    if (!result) result = hair_build_maps(builder);
-    if (!result) result = hair_build_patches(builder);
-    if (!result) result = make_followers(builder);
-    if (!result) result = hair_build_strand_attributes(builder);
-    if (!result) result = hair_build_root_bindings(builder);
-    if (result) return result;
+    HAIR_TRY(hair_build_strands(builder));
+    HAIR_TRY(hair_build_scalp(builder));
+    HAIR_TRY(hair_build_guides(builder));
+    HAIR_TRY(hair_build_rest(builder));
+    HAIR_TRY(count_candidates(builder));
+    HAIR_TRY(hair_build_scalp_points(builder));
+    HAIR_TRY(hair_build_maps(builder));
+    HAIR_TRY(hair_build_patches(builder));
+    HAIR_TRY(make_followers(builder));
+    HAIR_TRY(hair_build_strand_attributes(builder));
+    HAIR_TRY(hair_build_root_bindings(builder));
     hair_apply_thickness(builder);
     hair_measure_patches(builder->groom);
     builder->groom->head_sphere = hair_find_head_sphere(builder->groom);

@@ -47,8 +47,7 @@ hair_result hair_guide_candidates(struct hair_groom_builder* builder)
 {
     uint32_t guides = builder->groom->info.guide_count;
     uint64_t wanted = builder->desc->follower_count ? builder->desc->follower_count : guides;
-    hair_result result = hair_guide_bins(builder);
-    if (result) return result;
+    HAIR_TRY(hair_guide_bins(builder));
     for (uint32_t i = 0; i < guides; ++i)
         builder->bin_candidates[i] = (uint32_t)(wanted * (i + 1) / guides - wanted * i / guides);
     hair_number_candidates(builder);

@@ -36,20 +36,19 @@ static hair_result copy_rest(struct hair_groom_builder* builder)
     const hair_groom_desc* desc = builder->desc;
     struct hair_strands* strands = &builder->strands;
     uint32_t each = desc->color_count, count = strands->strand_count;
-    hair_result result = HAIR_OK;
     if (desc->strand_radii) {
-        result = check_numbers(builder, "strand_radii", desc->strand_radii, count, FARTHEST);
+        HAIR_TRY(check_numbers(builder, "strand_radii", desc->strand_radii, count, FARTHEST));
         strands->radii = hair_alloc(builder->host, count, sizeof *strands->radii);
-        if (!result && !strands->radii) result = hair_fail_memory(builder->host, "strands");
-        if (!result) memcpy(strands->radii, desc->strand_radii, count * sizeof *strands->radii);
+        if (!strands->radii) return hair_fail_memory(builder->host, "strands");
+        memcpy(strands->radii, desc->strand_radii, count * sizeof *strands->radii);
     }
-    if (!desc->colors || result) return result;
-    result = check_numbers(builder, "colors", desc->colors,
-                           3 * (each ? (size_t)each * count : (size_t)strands->vertex_count), 1);
+    if (!desc->colors) return HAIR_OK;
+    HAIR_TRY(check_numbers(builder, "colors", desc->colors,
+                           3 * (each ? (size_t)each * count : (size_t)strands->vertex_count), 1));
     strands->colors = hair_alloc(builder->host, count, 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
-    if (!result && !strands->colors) result = hair_fail_memory(builder->host, "the colours of strands");
+    if (!strands->colors) return hair_fail_memory(builder->host, "the colours of strands");
     size_t first = 0;
-    for (uint32_t i = 0; i < count && !result; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         float* out = strands->colors + 3 * HAIR_STRAND_COLORS * (size_t)i;
         if (each)
             hair_strand_even_colors(desc->colors + 3 * (size_t)each * i, each, out);
@@ -58,15 +57,14 @@ static hair_result copy_rest(struct hair_groom_builder* builder)
                                out);
         first += strands->vertices[i];
     }
-    return result;
+    return HAIR_OK;
 }
 
 static hair_result copy_strands(struct hair_groom_builder* builder)
 {
     const hair_groom_desc* desc = builder->desc;
     struct hair_strands* strands = &builder->strands;
-    hair_result result = count_vertices(builder, &strands->vertex_count);
-    if (result) return result;
+    HAIR_TRY(count_vertices(builder, &strands->vertex_count));
     strands->strand_count = desc->strand_count;
     strands->positions = hair_alloc(builder->host, strands->vertex_count, 3 * sizeof(float));
     strands->vertices = hair_alloc(builder->host, strands->strand_count, sizeof(uint32_t));
@@ -79,8 +77,7 @@ static hair_result copy_strands(struct hair_groom_builder* builder)
 static hair_result clean(struct hair_groom_builder* builder)
 {
     hair_import_stats* repairs = &builder->groom->info.import_stats;
-    hair_result result = hair_strands_clean(builder->host, builder->import, &builder->strands, repairs);
-    if (result) return result;
+    HAIR_TRY(hair_strands_clean(builder->host, builder->import, &builder->strands, repairs));
     if (builder->strands.strand_count == 0)
         return hair_fail(
             builder->host, HAIR_ERROR_ARGUMENT,
@@ -114,9 +111,8 @@ static void measure(struct hair_groom_builder* builder)
 
 hair_result hair_build_strands(struct hair_groom_builder* builder)
 {
-    hair_result result = copy_strands(builder);
-    if (!result) result = clean(builder);
-    if (result) return result;
+    HAIR_TRY(copy_strands(builder));
+    HAIR_TRY(clean(builder));
     uint32_t count = builder->strands.strand_count;
     builder->first = hair_alloc(builder->host, count, sizeof *builder->first);
     builder->length = hair_alloc(builder->host, count, sizeof *builder->length);
@@ -181,13 +177,12 @@ hair_result hair_build_scalp(struct hair_groom_builder* builder)
 {
     const hair_groom_desc* desc = builder->desc;
     if (!desc->scalp_positions) return HAIR_OK;
-    hair_result result = check_triangles(builder);
-    if (!result) result = check_density(builder);
-    if (result) return result;
+    HAIR_TRY(check_triangles(builder));
+    HAIR_TRY(check_density(builder));
     builder->scalp = hair_alloc(builder->host, desc->scalp_vertex_count, 3 * sizeof *builder->scalp);
     builder->density = hair_alloc(builder->host, desc->scalp_triangle_count, sizeof *builder->density);
     if (!builder->scalp || !builder->density) return hair_fail_memory(builder->host, "the scalp");
-    result = place_scalp(builder);
-    if (!result) average_density(builder);
-    return result;
+    HAIR_TRY(place_scalp(builder));
+    average_density(builder);
+    return HAIR_OK;
 }

@@ -58,17 +58,16 @@ static hair_result check_map(const struct hair_groom_builder* builder, uint32_t 
 static hair_result check_maps(const struct hair_groom_builder* builder, uint32_t sets)
 {
     const hair_groom_desc* desc = builder->desc;
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < sets && !result; ++i) {
-        result = check_map(builder, i, "density", &desc->map_sets[i]->density, 1);
-        if (!result) result = check_map(builder, i, "thickness", &desc->map_sets[i]->thickness, THICKEST);
+    for (uint32_t i = 0; i < sets; ++i) {
+        HAIR_TRY(check_map(builder, i, "density", &desc->map_sets[i]->density, 1));
+        HAIR_TRY(check_map(builder, i, "thickness", &desc->map_sets[i]->thickness, THICKEST));
     }
-    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count && !result; ++i)
+    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count; ++i)
         if (!(fabsf(desc->scalp_uvs[i]) <= 1e6f))
-            result = hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
-                               "hair_groom_desc.scalp_uvs: vertex %zu has %g, not in [-1e6, 1e6]", i / 2,
-                               (double)desc->scalp_uvs[i]);
-    return result;
+            return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_uvs: vertex %zu has %g, not in [-1e6, 1e6]", i / 2,
+                             (double)desc->scalp_uvs[i]);
+    return HAIR_OK;
 }
 
 // Find the values before and after a coordinate along a side. `fraction` is the weight of the
@@ -140,8 +139,7 @@ hair_result hair_build_maps(struct hair_groom_builder* builder)
     uint32_t count = builder->candidate_count;
     builder->groom->map_sets = sets;
     if (sets == 0) return HAIR_OK;
-    hair_result result = check_maps(builder, sets);
-    if (result) return result;
+    HAIR_TRY(check_maps(builder, sets));
     if (!builder->scalp_points)
         return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
                          "hair_groom_desc.scalp_triangles: none of %u has three different corners",

@@ -51,8 +51,7 @@ static hair_result scatter_candidates(struct hair_groom_builder* builder)
 hair_result hair_scalp_candidates(struct hair_groom_builder* builder)
 {
     uint32_t triangles = builder->desc->scalp_triangle_count;
-    hair_result result = hair_scalp_bins(builder);
-    if (result) return result;
+    HAIR_TRY(hair_scalp_bins(builder));
     double total = 0;
     for (uint32_t i = 0; i < triangles; ++i) total += fertile_area(builder, i);
     if (!(total > 0))
@@ -266,9 +265,8 @@ static hair_result plant(struct scalp* scalp)
     uint32_t guides = builder->groom->info.guide_count;
     for (uint32_t i = 0; i < guides; ++i)
         hair_store3(scalp->points + 3 * (size_t)i, hair_guide_root(builder->groom, i));
-    hair_result result =
-        hair_kd_tree_build(builder->host, (struct hair_point_set){scalp->points, 3}, guides, &scalp->roots);
-    if (result) return result;
+    HAIR_TRY(
+        hair_kd_tree_build(builder->host, (struct hair_point_set){scalp->points, 3}, guides, &scalp->roots));
     for (uint32_t i = 0; i < builder->desc->scalp_vertex_count; ++i)
         scalp->guide_at[i] = find_guide_at(scalp, i);
     for (uint32_t i = 0; i < builder->bin_count; ++i) grow_triangle(scalp, i);

@@ -35,9 +35,7 @@ static hair_result build(const hair_host* host, const hair_style_desc* desc, str
     asset->format = HAIR_FORMAT_NONE;
     asset->strand_set = HAIR_STRAND_SET_GUIDES;
     struct hair_scalp scalp;
-    hair_result result =
-        hair_scalp_build(host, desc->guide_count, hair_style_parting(desc->style), desc->seed, &scalp);
-    if (result) return result;
+    HAIR_TRY(hair_scalp_build(host, desc->guide_count, hair_style_parting(desc->style), desc->seed, &scalp));
     asset->scalp_positions = scalp.positions;
     asset->scalp_triangles = scalp.triangles;
     asset->scalp_vertex_count = scalp.vertex_count;

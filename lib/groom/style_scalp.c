@@ -316,12 +316,12 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
     float area = fraction * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
     choose_spacing(build, area, vertex_count);
     fill_gaps(build, vertex_count);
-    hair_result result = triangulate(build);
-    for (int i = 0; i < RELAXATIONS && !result; ++i) {
+    HAIR_TRY(triangulate(build));
+    for (int i = 0; i < RELAXATIONS; ++i) {
         relax(build);
-        result = triangulate(build);
+        HAIR_TRY(triangulate(build));
     }
-    return result;
+    return HAIR_OK;
 }
 
 // Move vertices outwards until the centroids of triangles lie on the skull. Triangles are flat and

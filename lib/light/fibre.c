@@ -47,9 +47,9 @@ static double logistic(double x, double scale, double kept)
     return e / (scale * (1 + e) * (1 + e)) / kept;
 }
 
-// Paths of a ray that meets the fibre at the angle `in` around it, counted from its middle. `fraction`
-// is the fraction of all incoming light that leaves in each lobe without absorption. `angle` is the
-// angle from the incoming direction, and `path` the distance inside in radii.
+// Paths of a ray that meets the fibre at the angle `in` around it, counted from its middle.
+// `fraction` is the fraction of all incoming light that leaves in each lobe without absorption.
+// `angle` is the angle from the incoming direction, and `path` the distance inside in radii.
 struct ray {
     double fraction[LOBES], angle[LOBES], path[LOBES];
 };

@@ -76,15 +76,14 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
 {
     size_t texel = format == GL_R32UI ? 4 : 16;
     HAIR_ASSERT(size > 0 && size % texel == 0);
-    hair_result result = HAIR_OK;
     GLint max = 0;
     gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
     if (size / texel > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
                          label, size / texel, max);
-    if (!*buffer) result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, label, 16, buffer);
-    if (!result && !*texture) result = hair_gl_buffer_texture(gl, label, format, *buffer, texture);
-    return result ? result : hair_gl_resize(gl, label, size, data, *buffer);
+    if (!*buffer) HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, label, 16, buffer));
+    if (!*texture) HAIR_TRY(hair_gl_buffer_texture(gl, label, format, *buffer, texture));
+    return hair_gl_resize(gl, label, size, data, *buffer);
 }
 
 static hair_result upload(struct hair_sim* sim)
@@ -92,27 +91,29 @@ static hair_result upload(struct hair_sim* sim)
     struct hair_contacts* contacts = &sim->contacts;
     const struct hair_collider_grid* cells = &contacts->grid;
     const struct hair_contact none = {.grid = {0, 0, 0, 0}};
-    hair_result result =
-        put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
-            cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture);
-    if (!result)
-        result = put(sim->gl, "hair contact cells", GL_R32UI, cells->entries * sizeof *cells->entry,
-                     cells->entry, &contacts->cell, &contacts->cell_texture);
-    return result;
+    HAIR_TRY(put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
+                 cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture));
+    return put(sim->gl, "hair contact cells", GL_R32UI, cells->entries * sizeof *cells->entry, cells->entry,
+               &contacts->cell, &contacts->cell_texture);
+}
+
+static hair_result find(struct hair_sim* sim, const struct hair_collider_grid_desc* desc)
+{
+    const hair_host* host = &sim->gl->host;
+    struct hair_collider_grid* cells = &sim->contacts.grid;
+    int others = 0;
+    HAIR_TRY(
+        hair_collider_grid_gather(host, cells, &sim->colliders, &sim->head_at_last_step, &sim->head, desc));
+    HAIR_TRY(retain_meshes(sim));
+    HAIR_TRY(hair_collider_grid_build(host, cells, desc, &others));
+    return others ? upload(sim) : HAIR_OK;
 }
 
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start)
 {
-    const hair_host* host = &sim->gl->host;
-    struct hair_collider_grid* cells = &sim->contacts.grid;
     struct hair_collider_grid_desc desc = describe(sim, dt, fraction_start);
-    int others = 0;
-    hair_result result =
-        hair_collider_grid_gather(host, cells, &sim->colliders, &sim->head_at_last_step, &sim->head, &desc);
-    if (!result) result = retain_meshes(sim);
-    if (!result) result = hair_collider_grid_build(host, cells, &desc, &others);
-    if (!result && others) result = upload(sim);
-    if (result) cells->entries = 0; // The lists on the GPU may be incomplete.
+    hair_result result = find(sim, &desc);
+    if (result) sim->contacts.grid.entries = 0; // The lists on the GPU may be incomplete.
     return result;
 }
 

@@ -17,9 +17,8 @@ static hair_result make_owners(struct hair_sim* sim, const struct hair_guide* gu
     hair_result result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair owners",
                                         sim->guide_vertices * sizeof *owners, owners, &feedback->owner);
     hair_free(&gl->host, owners);
-    return result ? result
-                  : hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner,
-                                           &feedback->owner_texture);
+    HAIR_TRY(result);
+    return hair_gl_buffer_texture(gl, "hair owners", GL_R32UI, feedback->owner, &feedback->owner_texture);
 }
 
 hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* guides)
@@ -27,23 +26,20 @@ hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* 
     struct hair_gl* gl = sim->gl;
     struct hair_feedback* feedback = &sim->feedback;
     size_t size = sim->guide_vertices * sizeof(struct hair_state);
-    hair_result result = make_owners(sim, guides);
+    HAIR_TRY(make_owners(sim, guides));
     gl->CreateTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
-    for (int i = 0; i < HAIR_FEEDBACK_STATES && !result; ++i) {
-        if (i != GUIDES)
-            result =
-                hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair feedback", size, NULL, &feedback->buffer[i]);
-        GLuint buffer = i == GUIDES ? sim->state : feedback->buffer[i];
-        if (!result)
-            result = hair_gl_buffer_texture(gl, "hair feedback", GL_RGBA32F, buffer, &feedback->texture[i]);
-        if (!result) gl->TransformFeedbackBufferBase(feedback->captured[i], 0, buffer);
-    }
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair rest", GL_RGBA32F, sim->rest, &feedback->rest_texture);
-    if (!result)
-        result = hair_gl_buffer_texture(gl, "hair guides", GL_RGBA32UI, sim->guide, &feedback->guide_texture);
     feedback->framebuffer = hair_gl_blank_framebuffer(gl);
-    return result ? result : hair_gl_ensure_programs(gl, HAIR_GL_FEEDBACK_INTEGRATE, HAIR_GL_FEEDBACK_END, 0);
+    for (int i = 0; i < HAIR_FEEDBACK_STATES; ++i) {
+        if (i != GUIDES)
+            HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair feedback", size, NULL,
+                                    &feedback->buffer[i]));
+        GLuint buffer = i == GUIDES ? sim->state : feedback->buffer[i];
+        HAIR_TRY(hair_gl_buffer_texture(gl, "hair feedback", GL_RGBA32F, buffer, &feedback->texture[i]));
+        gl->TransformFeedbackBufferBase(feedback->captured[i], 0, buffer);
+    }
+    HAIR_TRY(hair_gl_buffer_texture(gl, "hair rest", GL_RGBA32F, sim->rest, &feedback->rest_texture));
+    HAIR_TRY(hair_gl_buffer_texture(gl, "hair guides", GL_RGBA32UI, sim->guide, &feedback->guide_texture));
+    return hair_gl_ensure_programs(gl, HAIR_GL_FEEDBACK_INTEGRATE, HAIR_GL_FEEDBACK_END, 0);
 }
 
 void hair_feedback_free(struct hair_sim* sim)

@@ -247,24 +247,27 @@ hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
     return result;
 }
 
-hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guides,
-                             const struct hair_rest* rest)
+static hair_result make_all(struct hair_sim* sim, const struct hair_guide* guides,
+                            const struct hair_rest* rest)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_grid* hair_grid = &sim->hair_grid;
-    if (!hair_grid_is_on(sim) || hair_grid->texture) return HAIR_OK;
-    hair_result result = make_rest(sim, guides, rest);
-    if (!result) result = hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0);
+    HAIR_TRY(make_rest(sim, guides, rest));
+    HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0));
     size_t grid = (size_t)grid_fours(hair_grid) * 4 * sizeof(int32_t);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", sizeof(struct hair_grid_params),
-                                 &hair_grid->params);
-    if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", grid, NULL, &hair_grid->grid);
-    if (!result)
-        result = hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid accelerations",
-                                      sim->guide_vertices * sizeof(hair_vec4), &hair_grid->acceleration,
-                                      GL_RGBA32F, &hair_grid->texture);
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", sizeof(struct hair_grid_params),
+                             &hair_grid->params));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid", grid, NULL, &hair_grid->grid));
+    return hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_HAIR_GRID, "hair grid accelerations",
+                                sim->guide_vertices * sizeof(hair_vec4), &hair_grid->acceleration, GL_RGBA32F,
+                                &hair_grid->texture);
+}
+
+hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guides,
+                             const struct hair_rest* rest)
+{
+    if (!hair_grid_is_on(sim) || sim->hair_grid.texture) return HAIR_OK;
+    hair_result result = make_all(sim, guides, rest);
     if (result) hair_grid_free(sim);
     return result;
 }

@@ -43,12 +43,11 @@ static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, u
     if (count && !sim->rods)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "the solver redblack has no pins, but their count is %u",
                          count);
-    hair_result result = HAIR_OK;
-    for (uint32_t i = 0; i < count && !result; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         hair_pin pin = pin_at(from, i, stride);
-        result = check(sim, &pin, i);
+        HAIR_TRY(check(sim, &pin, i));
     }
-    return result;
+    return HAIR_OK;
 }
 
 static int compare(const void* a, const void* b)
@@ -88,6 +87,12 @@ static bool are_alike(const struct hair_pins* pins, const struct hair_resolved_p
     return alike;
 }
 
+const struct hair_resolved_pin* hair_pins_get(const struct hair_sim* sim, uint32_t* count)
+{
+    *count = sim->pins.count;
+    return sim->pins.resolved_pin;
+}
+
 void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
     HAIR_ASSERT(count <= HAIR_MAX_PINS && (resolved_pin || !count));
@@ -102,8 +107,7 @@ void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pi
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
 {
     const hair_host* host = &sim->gl->host;
-    hair_result result = check_all(sim, from, count, stride);
-    if (result) return result;
+    HAIR_TRY(check_all(sim, from, count, stride));
     const struct hair_guide* guides = hair_sim_guides(sim, NULL);
     struct hair_resolved_pin* resolved_pin = hair_alloc(host, count, sizeof *resolved_pin);
     if (!resolved_pin) return hair_fail_memory(host, "pins");
@@ -118,6 +122,7 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
         for (int k = 0; k < 3; ++k) resolved_pin[i].place[k] = (double)pin.position[k];
     }
     if (count) qsort(resolved_pin, count, sizeof *resolved_pin, compare);
+    hair_result result = HAIR_OK;
     for (uint32_t i = 1; i < count && !result; ++i)
         if (compare(&resolved_pin[i - 1], &resolved_pin[i]) == 0)
             result =

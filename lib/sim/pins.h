@@ -23,6 +23,9 @@ struct hair_sim;
 // Replace the pins by `count` pins that are `stride` bytes apart. On failure nothing has changed.
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride);
 
+// Return the pins in the order of guides and their vertices, and their number in *count.
+const struct hair_resolved_pin* hair_pins_get(const struct hair_sim* sim, uint32_t* count);
+
 // Check loaded pins. Fail if the vertex of a pin does not exist, or if the order is wrong.
 hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolved_pin* resolved_pin,
                             uint32_t count);

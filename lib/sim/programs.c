@@ -135,8 +135,8 @@ static bool uses_two_passes(const struct hair_sim* sim, hair_gl_pass pass)
 static hair_result ensure_solver(const struct hair_sim* sim, hair_gl_pass pass)
 {
     if (!uses_two_passes(sim, pass)) return hair_gl_ensure_program(sim->gl, pass);
-    hair_result result = hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS1));
-    return result ? result : hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS2));
+    HAIR_TRY(hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS1)));
+    return hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS2));
 }
 
 hair_result hair_sim_ensure_solver(struct hair_sim* sim)
@@ -198,12 +198,12 @@ hair_result hair_sim_ensure_programs(struct hair_sim* sim)
     int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
     hair_gl_pass smooth =
         hair_scalp_motion_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
-    hair_result result = ensure_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread));
-    if (!result && any && sim->by_thread && gl->software) // The lists of a step decide which.
-        result = hair_gl_ensure_program(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread));
-    if (!result) result = hair_gl_ensure_program(gl, hair_gl_pass_for(smooth, sim->max_vertices));
-    if (!result && sim->physics.sleep_threshold > 0) result = hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY);
-    if (!result && hair_grid_is_on(sim))
-        result = hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0);
-    return result ? result : hair_wind_coupling_ensure_programs(sim);
+    HAIR_TRY(ensure_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread)));
+    if (any && sim->by_thread && gl->software) // The lists of a step decide which.
+        HAIR_TRY(hair_gl_ensure_program(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread)));
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_gl_pass_for(smooth, sim->max_vertices)));
+    if (sim->physics.sleep_threshold > 0) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY));
+    if (hair_grid_is_on(sim))
+        HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0));
+    return hair_wind_coupling_ensure_programs(sim);
 }

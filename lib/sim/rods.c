@@ -98,49 +98,75 @@ static void hold(struct hair_sim* sim)
     rods->held = 1;
 }
 
-// Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
-static hair_result create(struct hair_sim* sim, int had_contact)
+// Return the length of a substep, s. `substep_scale` is its multiple of the solver's own length.
+static double find_substep(const struct hair_sim* sim, int mixed, int had_contact, uint32_t substep_scale)
 {
-    const hair_host* host = &sim->gl->host;
-    struct hair_rods* rods = sim->rods;
+    const struct hair_rods* rods = sim->rods;
     double substep = sim->asked_substep;
-    struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
-    if (!rod) return hair_fail_memory(host, "the guides as rods");
-    hold(sim);
-    int mixed = are_mixed(sim);
     if (substep == 0) {
         substep = hair_rods_substep(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
                                     sim->solver, mixed);
         // Impacts can destabilise explicit bending that is near its limit.
         if (had_contact && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
-    uint32_t substep_scale = find_substep_scale(sim);
     if (substep_scale > 1) substep = fmax(substep, fmin(substep * substep_scale, LONGEST));
     HAIR_ASSERT(substep > 0);
+    return substep;
+}
+
+// Buffers that depend on physics.
+struct buffers {
+    GLuint rod, reduction, bend;
+    uint32_t rounds; // Rounds of `reduction` before its last.
+};
+
+// Upload rods to new buffers. On failure the caller frees `rod` and `reduction`.
+static hair_result upload(struct hair_sim* sim, const struct hair_rod* rod, int mixed, double substep,
+                          struct buffers* out)
+{
+    out->bend = sim->bend;
+    HAIR_TRY(make_reduction(sim, rod, substep, &out->reduction, &out->rounds));
+    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", sim->guide_vertices * sizeof *rod,
+                             rod, &out->rod));
+    if (!mixed || out->bend) return HAIR_OK;
+    return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &out->bend);
+}
+
+// Replace the buffers of the simulation.
+static void replace(struct hair_sim* sim, const struct buffers* now, int mixed)
+{
+    hair_gl_free_buffer(sim->gl, &sim->rod);
+    hair_gl_free_buffer(sim->gl, &sim->reduction);
+    sim->rod = now->rod;
+    sim->reduction = now->reduction;
+    sim->rounds = now->rounds;
+    sim->bend = now->bend;
+    if (!mixed) hair_gl_free_buffer(sim->gl, &sim->bend);
+}
+
+// Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
+static hair_result create(struct hair_sim* sim, int had_contact)
+{
+    const hair_host* host = &sim->gl->host;
+    struct hair_rods* rods = sim->rods;
+    struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
+    if (!rod) return hair_fail_memory(host, "the guides as rods");
+    hold(sim);
+    int mixed = are_mixed(sim);
+    uint32_t substep_scale = find_substep_scale(sim);
+    double substep = find_substep(sim, mixed, had_contact, substep_scale);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
                                                          &sim->physics, sim->solver, mixed, substep, rod);
     hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
                   &sim->physics, sim->solver, mixed, substep, rod);
-    GLuint buffer = 0, reduction = 0, bend = sim->bend;
-    uint32_t rounds = 0;
-    hair_result result = make_reduction(sim, rod, substep, &reduction, &rounds);
-    if (!result)
-        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods",
-                                 sim->guide_vertices * sizeof *rod, rod, &buffer);
-    if (!result && mixed && !bend)
-        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &bend);
+    struct buffers now = {0};
+    hair_result result = upload(sim, rod, mixed, substep, &now);
     if (result) {
-        hair_gl_free_buffer(sim->gl, &reduction);
-        hair_gl_free_buffer(sim->gl, &buffer);
+        hair_gl_free_buffer(sim->gl, &now.reduction);
+        hair_gl_free_buffer(sim->gl, &now.rod);
     } else {
-        if (!mixed) hair_gl_free_buffer(sim->gl, &bend);
-        sim->bend = bend;
+        replace(sim, &now, mixed);
         rods->mixed = mixed;
-        hair_gl_free_buffer(sim->gl, &sim->rod);
-        hair_gl_free_buffer(sim->gl, &sim->reduction);
-        sim->rod = buffer;
-        sim->reduction = reduction;
-        sim->rounds = rounds;
         rods->made_for = sim->physics;
         rods->report.softened = softened;
         rods->had_contact = had_contact;
@@ -157,12 +183,10 @@ static hair_result create(struct hair_sim* sim, int had_contact)
 static hair_result make_buffers(struct hair_sim* sim)
 {
     size_t vertices = sim->guide_vertices;
-    hair_result result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
-                                         vertices * sizeof(struct hair_history), NULL, &sim->history);
-    if (!result)
-        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material",
-                                 vertices * sizeof(hair_vec4), NULL, &sim->material);
-    return result;
+    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
+                             vertices * sizeof(struct hair_history), NULL, &sim->history));
+    return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material", vertices * sizeof(hair_vec4),
+                           NULL, &sim->material);
 }
 
 hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom)
@@ -178,9 +202,9 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
-    hair_result result = make_buffers(sim);
-    if (!result) result = create(sim, 0);
-    return result ? result : hair_sim_ensure_hair_grid(sim);
+    HAIR_TRY(make_buffers(sim));
+    HAIR_TRY(create(sim, 0));
+    return hair_sim_ensure_hair_grid(sim);
 }
 
 // Return whether the presence of colliders has changed the accurate solver's own substep.
@@ -206,9 +230,9 @@ hair_result hair_sim_rebuild_rods(struct hair_sim* sim)
     int had_contact = sim->had_contact || hair_sim_contacts(sim) > 0;
     int other = rods->substep_scale != find_substep_scale(sim) || is_first_contact(sim, had_contact) ||
                 sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
-    hair_result result = other ? create(sim, had_contact) : HAIR_OK;
-    if (!result) sim->had_contact = had_contact;
-    return result;
+    if (other) HAIR_TRY(create(sim, had_contact));
+    sim->had_contact = had_contact;
+    return HAIR_OK;
 }
 
 void hair_sim_free_rods(struct hair_sim* sim)

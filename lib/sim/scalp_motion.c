@@ -49,26 +49,19 @@ static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
         hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root transforms",
                         sim->guides * sizeof *root_transforms, root_transforms, root_transform);
     hair_free(&gl->host, root_transforms);
-    if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
-                                 motion->root_bindings->count * sizeof *motion->root_bindings->binding,
-                                 motion->root_bindings->binding, &motion->root_binding);
-    if (!result)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
-                                 motion->root_bindings->positions, &motion->rest);
-    for (int i = 0; i < 2 && !result; ++i)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size,
-                                 motion->root_bindings->positions, &motion->scalp[i]);
-    if (!result)
-        result =
-            hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp upload", size, &motion->upload);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
-                                 sizeof(struct hair_scalp_params), &motion->params);
-    if (!result)
-        result =
-            hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
-    return result;
+    HAIR_TRY(result);
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
+                             motion->root_bindings->count * sizeof *motion->root_bindings->binding,
+                             motion->root_bindings->binding, &motion->root_binding));
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
+                             motion->root_bindings->positions, &motion->rest));
+    for (int i = 0; i < 2; ++i)
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size,
+                                 motion->root_bindings->positions, &motion->scalp[i]));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp upload", size, &motion->upload));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
+                             sizeof(struct hair_scalp_params), &motion->params));
+    return hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
 }
 
 // Write scalp[which]. The GPU copies the positions from another buffer, because writes of the CPU
@@ -90,18 +83,22 @@ static void rest_scalp(struct hair_sim* sim)
     write_scalp(sim, 0, motion->root_bindings->positions);
 }
 
+uint32_t hair_scalp_motion_vertex_count(const struct hair_sim* sim)
+{
+    const struct hair_root_bindings* root_bindings = sim->scalp_motion.root_bindings;
+    return root_bindings ? root_bindings->vertex_count : 0;
+}
+
 hair_result hair_scalp_motion_create(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
-    hair_result result = HAIR_OK;
     GLuint root_transform = 0;
     if (hair_scalp_motion_is_on(sim)) return HAIR_OK;
-    result = hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_SCALP, HAIR_GL_BIND_FOLLOWERS, 0);
-    if (!result) result = hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1));
-    if (!result)
-        result = hair_gl_ensure_program(
-            gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices));
-    if (!result) result = make_buffers(sim, &root_transform);
+    HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_SCALP, HAIR_GL_BIND_FOLLOWERS, 0));
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1)));
+    HAIR_TRY(hair_gl_ensure_program(
+        gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices)));
+    hair_result result = make_buffers(sim, &root_transform);
     if (result) {
         hair_gl_free_buffer(gl, &root_transform);
         free_buffers(sim);
@@ -191,7 +188,7 @@ static void take_changed(struct hair_sim* sim)
     GLuint given = motion->scalp[1];
     motion->scalp[1] = motion->scalp[0];
     motion->scalp[0] = given;
-    motion->rotation = (hair_vec4){q.x, q.y, q.z, q.w};
+    motion->rotation = hair_quat_to_vec4(q);
     motion->offset = (hair_vec4){away.x, away.y, away.z, 0};
 }
 

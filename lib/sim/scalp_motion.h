@@ -32,6 +32,9 @@ void hair_scalp_motion_free(struct hair_sim* sim);
 // NULL.
 hair_result hair_scalp_motion_create(struct hair_sim* sim);
 
+// Return the number of vertices of the groom's scalp, or 0 if the groom has none.
+uint32_t hair_scalp_motion_vertex_count(const struct hair_sim* sim);
+
 // Set the scalp of the next step, xyz per vertex. hair_scalp_motion_create() has succeeded.
 void hair_scalp_motion_set(struct hair_sim* sim, const float* positions, const struct hair_pose* space);
 // Set the scalp of the next step from `size` bytes of a buffer, from the byte `offset` on. The

@@ -3,14 +3,25 @@
 
 #include <string.h>
 
-#define TWO_PI 6.28318530718f
 #define REDBLACK_SUBSTEP (1.0 / 120)
 #define EARLY 1e-6 // Tolerance of the end of a substep, as a fraction of a substep.
 // Maximum vertices of a guide for a thread per guide. NVIDIA's driver fails to link programs with
 // more private memory.
 #define MAX_OF_THREAD 128
-// Maximum displacement in a substep, m. Beyond it redblack.comp resets strands to their rest pose.
-#define FARTHEST 1e4f
+
+static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
+{
+    sim->solver = desc->solver;
+    sim->asked_substep = desc->substep;
+    sim->by_thread = desc->is_by_thread && desc->solver != HAIR_SOLVER_REDBLACK;
+    sim->feedback.wanted = desc->uses_feedback;
+    sim->diagnosis.wanted = desc->is_diagnosed;
+    sim->physics = desc->physics;
+    sim->wind = desc->wind;
+    sim->head = desc->head;
+    sim->contacts.sdf_pool = desc->sdf_pool;
+    sim->wind_coupling.field = desc->field;
+}
 
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 {
@@ -22,20 +33,28 @@ static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
     }
 }
 
-hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom)
+// Count the guides and their vertices, and find everything that depends on their numbers.
+static void measure(struct hair_sim* sim, const struct hair_groom* groom)
 {
-    HAIR_ASSERT(!sim->gl && 2 <= groom->max_vertices && groom->max_vertices <= HAIR_MAX_GUIDE_VERTICES);
-    sim->gl = gl;
     sim->guides = groom->info.guide_count;
     sim->guide_vertices = groom->info.guide_vertex_count;
     sim->max_vertices = groom->max_vertices;
     sim->smooth_vertices = 2 * (groom->max_vertices - 1) + 1;
-    if (sim->max_vertices > MAX_OF_THREAD && !gl->software) sim->by_thread = 0;
+    if (sim->max_vertices > MAX_OF_THREAD && !sim->gl->software) sim->by_thread = 0;
     sim->two_pass = hair_sim_may_use_two_passes(sim);
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
     sim->wind_state.ball = groom->head_sphere;
     sim->scalp_motion.root_bindings = hair_root_bindings_retain(groom->root_bindings);
+}
+
+hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom,
+                            const struct hair_sim_desc* desc)
+{
+    HAIR_ASSERT(!sim->gl && 2 <= groom->max_vertices && groom->max_vertices <= HAIR_MAX_GUIDE_VERTICES);
+    sim->gl = gl;
+    set_up(sim, desc);
+    measure(sim, groom);
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     size_t solver_stats =
         sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
@@ -76,109 +95,6 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_scalp_motion_free(sim);
     hair_sleep_free(sim);
     hair_diagnosis_free(sim);
-}
-
-static hair_vec4 vec4_of(hair_vec3 v, float w)
-{
-    return (hair_vec4){v.x, v.y, v.z, w};
-}
-static hair_vec4 vec4_of_quat(hair_quat q)
-{
-    return (hair_vec4){q.x, q.y, q.z, q.w};
-}
-
-static float squared_frequency(float hertz)
-{
-    return TWO_PI * TWO_PI * hertz * hertz;
-}
-
-static void write_physics(const struct hair_sim* sim, struct hair_step_params* params)
-{
-    HAIR_ASSERT(sim->substep > 0);
-    const hair_physics* physics = &sim->physics;
-    params->gravity =
-        (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
-    params->keep = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
-    params->shape_frequency_root = TWO_PI * physics->shape.frequency_root;
-    params->shape_frequency_tip = TWO_PI * physics->shape.frequency_tip;
-    params->angular = squared_frequency(physics->redblack.angular_hz);
-    params->bend = physics->redblack.bend;
-    params->collision_margin = physics->collision.margin;
-    params->iterations = physics->redblack.iterations;
-    params->guides = sim->guides;
-    params->smooth_vertices = sim->smooth_vertices;
-    if (sim->rods) hair_sim_write_rods(sim, params);
-}
-
-// Write the parameters by which smooth.comp interpolates strands within the last substep, under the
-// current pose of the head.
-static void write_now(const struct hair_sim* sim, struct hair_step_params* params)
-{
-    hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
-    int far = !(hair_dot(moved, moved) < FARTHEST * FARTHEST); // Too far to interpolate.
-    double span = sim->next_substep > 0 ? sim->next_substep : sim->last_substep;
-    HAIR_ASSERT(span > 0 && sim->accumulator >= 0);
-    params->alpha = far ? 1 : (float)fmin(sim->accumulator / span, 1);
-    params->rotation_before = vec4_of_quat(sim->last_before.rotation);
-    params->rotation_after = vec4_of_quat(sim->last_after.rotation);
-    params->rotation_now = vec4_of_quat(sim->head.rotation);
-    params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
-}
-
-static void upload(struct hair_sim* sim, const struct hair_step_params* params)
-{
-    hair_gl_write_uniform(sim->gl, sim->step, sizeof *params, params);
-}
-
-void hair_sim_upload_render_state(struct hair_sim* sim)
-{
-    struct hair_step_params params = {0};
-    write_physics(sim, &params);
-    write_now(sim, &params);
-    params.rotation_now = vec4_of_quat(sim->head_at_last_step.rotation); // The head may have moved.
-    upload(sim, &params);
-}
-
-// Return the fraction of a step of dt that is done at the end of substep `i`. The first substep
-// begins `from` seconds into the step, which may be negative.
-static double fraction_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt)
-{
-    return fmax(fmin((from + (i + 1) * sim->substep) / dt, 1), 0);
-}
-
-// Write the next `count` substeps. The first begins `from` seconds into a step of `dt`, which may
-// be negative.
-static void write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
-                           double dt)
-{
-    HAIR_ASSERT(0 < count && count <= HAIR_STEP_SUBSTEPS);
-    for (uint32_t i = 0; i < count; ++i) {
-        double fraction = fraction_at_end(sim, i, from, dt);
-        sim->last_before = sim->last_after;
-        sim->last_after = hair_pose_between(&sim->head_at_last_step, &sim->head, fraction);
-        params->substep[i].rotation = vec4_of_quat(sim->last_after.rotation);
-        params->substep[i].displacement =
-            vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)fraction);
-    }
-    params->substeps = count;
-}
-
-static void write_colliders(const struct hair_sim* sim, struct hair_step_params* params)
-{
-    if (sim->contacts.any) {
-        hair_contacts_write(sim, params);
-        return;
-    }
-    if (!sim->rods) {
-        params->colliders =
-            hair_colliders_capsules(&sim->colliders, &sim->head_at_last_step, &sim->head, params->collider);
-        return;
-    }
-    params->colliders = hair_colliders_bodies(&sim->colliders, &sim->head_at_last_step, &sim->head,
-                                              params->collider, params->body);
-    HAIR_ASSERT(params->colliders <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
-    for (uint32_t i = 0; i < params->colliders; ++i)
-        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
 }
 
 static float fraction_of(double from, double dt)
@@ -254,12 +170,12 @@ static void update_forces(struct hair_sim* sim, double dt)
 static void write_dispatch(struct hair_sim* sim, struct hair_step_params* params, uint32_t count, double from,
                            double dt)
 {
-    params->rotation_start = vec4_of_quat(sim->last_after.rotation);
+    params->rotation_start = hair_quat_to_vec4(sim->last_after.rotation);
     sim->last_substep = sim->substep;
-    write_substeps(sim, params, count, from, dt);
-    write_now(sim, params);
+    hair_sim_write_substeps(sim, params, count, from, dt);
+    hair_sim_write_now(sim, params);
     params->list = hair_sim_flip_work_list(sim);
-    upload(sim, params);
+    hair_sim_upload(sim, params);
 }
 
 // Bind the forces that are on, for a dispatch that has been written.
@@ -294,8 +210,8 @@ static void end_dispatch(struct hair_sim* sim, struct hair_step_params* params, 
 // Move the roots with a skinned scalp in `total` substeps.
 static void move_roots(struct hair_sim* sim, bool again, uint32_t total, double from, double dt)
 {
-    float before = (float)fraction_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
-    float after = (float)fraction_at_end(sim, total > 0 ? total - 1 : 0, from, dt);
+    float before = (float)hair_sim_fraction_at_end(sim, total > 1 ? total - 2 : 0, from, dt);
+    float after = (float)hair_sim_fraction_at_end(sim, total > 0 ? total - 1 : 0, from, dt);
     hair_scalp_motion_run(sim, again, total, before, after);
 }
 
@@ -305,8 +221,8 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
 {
     struct hair_step_params params = {0};
     sim->next_substep = sim->substep;
-    write_physics(sim, &params);
-    write_colliders(sim, &params);
+    hair_sim_write_physics(sim, &params);
+    hair_sim_write_colliders(sim, &params);
     params.fraction_start = fraction_of(from, dt);
     if (hair_scalp_motion_is_on(sim)) move_roots(sim, again, total, from, dt);
     bind_buffers(sim);
@@ -319,8 +235,8 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
         end_dispatch(sim, &params, count);
     }
     if (total == 0) {
-        write_now(sim, &params);
-        upload(sim, &params);
+        hair_sim_write_now(sim, &params);
+        hair_sim_upload(sim, &params);
     }
     if (!hair_grid_is_on(sim)) hair_grid_reset(sim);
 }
@@ -404,7 +320,7 @@ static void reset_history(struct hair_sim* sim)
 
 static void run_over_vertices(struct hair_sim* sim, hair_gl_pass pass, const struct hair_step_params* params)
 {
-    upload(sim, params);
+    hair_sim_upload(sim, params);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
     hair_gl_run(sim->gl, pass, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
@@ -417,8 +333,8 @@ void hair_sim_reset(struct hair_sim* sim)
     hair_sleep_wake(sim);
     sim->had_contact = 0;
     for (int k = 0; k < 3; ++k) sim->wind_state.moved[k] = 0;
-    write_physics(sim, &params);
-    write_now(sim, &params);
+    hair_sim_write_physics(sim, &params);
+    hair_sim_write_now(sim, &params);
     if (hair_scalp_motion_is_on(sim)) hair_scalp_motion_reset(sim);
     run_over_vertices(sim, hair_sim_reset_pass(sim, hair_scalp_motion_is_on(sim)), &params);
 }
@@ -442,9 +358,9 @@ hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to)
     hair_sleep_wake(sim);
     hair_grid_reset(sim); // The grid's accelerations are for the old rotation of the head.
     hair_colliders_reset(&sim->colliders); // Old positions imply no velocities.
-    write_physics(sim, &params);
-    params.rotation_before = vec4_of_quat(from.rotation);
-    params.rotation_now = vec4_of_quat(to->rotation);
+    hair_sim_write_physics(sim, &params);
+    params.rotation_before = hair_quat_to_vec4(from.rotation);
+    params.rotation_now = hair_quat_to_vec4(to->rotation);
     run_over_vertices(sim, hair_sim_rotate_pass(sim), &params);
     hair_sim_upload_render_state(sim);
     return HAIR_OK;

@@ -95,7 +95,23 @@ struct hair_sim {
     struct hair_diagnosis diagnosis;
 };
 
-hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom);
+// Settings with which a simulation is created.
+struct hair_sim_desc {
+    hair_solver solver;
+    double substep; // Substep length, s. 0 selects the solver's own.
+    bool is_by_thread; // True prefers a thread per guide. Ignored under redblack.
+    bool uses_feedback; // True runs redblack by transform feedback.
+    bool is_diagnosed; // True watches the energy of guides.
+    hair_physics physics;
+    hair_wind wind;
+    struct hair_pose head;
+    struct hair_sdf_pool* sdf_pool; // Collision meshes of the context.
+    const struct hair_collider_field* field; // Field of the instance, which a fluid reads.
+};
+
+// Create a simulation. `*sim` is all 0. On failure hair_sim_destroy() frees what there is.
+hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom,
+                            const struct hair_sim_desc* desc);
 void hair_sim_destroy(struct hair_sim* sim);
 
 // Run the substeps that fit into the time since the last one. Write the step buffer for
@@ -107,6 +123,57 @@ void hair_sim_pass_time(struct hair_sim* sim, double dt);
 void hair_sim_reset(struct hair_sim* sim);
 // Move sim->head to a pose, and the hair rigidly with it.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
+
+// Functions of settings.c, for what the application sets and asks between steps.
+
+// Set the physics, from the next step on.
+void hair_sim_set_physics(struct hair_sim* sim, const hair_physics* physics);
+// Set the wind, from the next step on. Copy the checked sources to which `wind` points. Other
+// sources wake sleeping hair.
+void hair_sim_set_wind(struct hair_sim* sim, const hair_wind* wind);
+// Set the pose of the head at the end of the next step.
+void hair_sim_set_head(struct hair_sim* sim, const struct hair_pose* head);
+// Set the colliders at the end of the next step, as hair_colliders_set() does.
+hair_result hair_sim_set_colliders(struct hair_sim* sim, const hair_collider* colliders, uint32_t count,
+                                   size_t stride);
+// Return the colliders that were set last.
+const struct hair_collider_list* hair_sim_colliders(const struct hair_sim* sim);
+// Return whether colliders have been set since the last step.
+bool hair_sim_has_new_colliders(const struct hair_sim* sim);
+// Set the time since a view last showed the hair, s. At most 1 s counts. Hair that no view shows
+// may have longer substeps.
+void hair_sim_set_unseen_time(struct hair_sim* sim, double seconds);
+// Return whether no strand leaves the reach of its patch, because the scalp holds all roots where
+// the groom has them.
+bool hair_sim_has_fixed_roots(const struct hair_sim* sim);
+// Return whether every strand stays within its length of its root. This needs a guide with a fixed
+// root. The solver redblack stretches guides. Pins and scalp motion move guides elsewhere.
+bool hair_sim_has_attached_strands(const struct hair_sim* sim);
+// Return whether the last step had a wind.
+bool hair_sim_has_wind(const struct hair_sim* sim);
+// Return the fluid of the last step's wind, or NULL if it had none.
+const struct hair_fluid* hair_sim_fluid(const struct hair_sim* sim);
+// Return whether the energy of guides is watched.
+bool hair_sim_is_diagnosed(const struct hair_sim* sim);
+
+// Functions of step_params.c.
+
+// Write the physics and the rods.
+void hair_sim_write_physics(const struct hair_sim* sim, struct hair_step_params* params);
+// Write the parameters by which smooth.comp interpolates strands within the last substep, under the
+// current pose of the head.
+void hair_sim_write_now(const struct hair_sim* sim, struct hair_step_params* params);
+// Write the next `count` substeps. The first begins `from` seconds into a step of `dt`, which may
+// be negative.
+void hair_sim_write_substeps(struct hair_sim* sim, struct hair_step_params* params, uint32_t count,
+                             double from, double dt);
+// Write the colliders of the step, or the parameters of the grid that finds them.
+void hair_sim_write_colliders(const struct hair_sim* sim, struct hair_step_params* params);
+// Return the fraction of a step of dt that is done at the end of substep `i`. The first substep
+// begins `from` seconds into the step, which may be negative.
+double hair_sim_fraction_at_end(const struct hair_sim* sim, uint32_t i, double from, double dt);
+// Upload the parameters to the step buffer.
+void hair_sim_upload(struct hair_sim* sim, const struct hair_step_params* params);
 // Write the step buffer for smooth.comp, with the head where the last step left it.
 void hair_sim_upload_render_state(struct hair_sim* sim);
 

@@ -152,23 +152,28 @@ static void reset_quiet_time(struct hair_sim* sim)
 
 // Measurements ------------------------------------------------------------------------------------
 
-hair_result hair_sleep_create(struct hair_sim* sim)
+static hair_result make(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
     size_t size = sim->guide_vertices * sizeof(hair_vec4);
-    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY);
-    if (!result && !sleep->anchor)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair anchors", size, NULL, &sleep->anchor);
-    if (!result && !sleep->activity)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity", 4 * sizeof(uint32_t), NULL,
-                                 &sleep->activity);
-    if (!result && !sleep->params)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity",
-                                 sizeof(struct hair_activity_params), &sleep->params);
-    if (!result && !sleep->mapped)
-        result = hair_gl_mapped(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity readback", 4 * sizeof(uint32_t),
-                                &sleep->readback, (const void**)&sleep->mapped);
+    HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY));
+    if (!sleep->anchor)
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair anchors", size, NULL, &sleep->anchor));
+    if (!sleep->activity)
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity", 4 * sizeof(uint32_t), NULL,
+                                 &sleep->activity));
+    if (!sleep->params)
+        HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity",
+                                 sizeof(struct hair_activity_params), &sleep->params));
+    if (sleep->mapped) return HAIR_OK;
+    return hair_gl_mapped(gl, HAIR_GL_CATEGORY_ACTIVITY, "hair activity readback", 4 * sizeof(uint32_t),
+                          &sleep->readback, (const void**)&sleep->mapped);
+}
+
+hair_result hair_sleep_create(struct hair_sim* sim)
+{
+    hair_result result = make(sim);
     if (result) hair_sleep_free(sim);
     return result;
 }

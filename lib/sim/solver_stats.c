@@ -63,14 +63,14 @@ hair_result hair_diagnosis_ensure(struct hair_sim* sim, int disturbed)
     d->watches = d->wanted && has_energy(sim) && !is_driven(sim, disturbed);
     if (!d->watches) d->goes_on = 0;
     if (!d->watches) return HAIR_OK;
-    hair_result result = hair_gl_ensure_program(gl, energy_pass(sim));
-    if (!result && !d->energy_params)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energy",
-                                 sizeof(struct hair_energy_params), &d->energy_params);
-    if (!result && !d->energy)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energies",
-                                 sim->guides * sizeof(struct hair_energy), NULL, &d->energy);
-    return result;
+    HAIR_TRY(hair_gl_ensure_program(gl, energy_pass(sim)));
+    if (!d->energy_params)
+        HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energy",
+                                 sizeof(struct hair_energy_params), &d->energy_params));
+    if (!d->energy)
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair energies",
+                                 sim->guides * sizeof(struct hair_energy), NULL, &d->energy));
+    return HAIR_OK;
 }
 
 void hair_diagnosis_watch(struct hair_sim* sim, uint32_t substeps)
@@ -128,14 +128,13 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     struct hair_diagnosis* d = &sim->diagnosis;
     struct hair_gl* gl = sim->gl;
     struct hair_motion_params params = motion_params(sim);
-    hair_result result = hair_gl_ensure_program(gl, HAIR_GL_MOTION_OF_GUIDES);
-    if (!result && !d->motion_params)
-        result =
-            hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion", sizeof params, &d->motion_params);
-    if (!result && !d->found)
-        result = hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion found",
-                                 HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found);
-    if (result) return result;
+    HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_MOTION_OF_GUIDES));
+    if (!d->motion_params)
+        HAIR_TRY(
+            hair_gl_uniform(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion", sizeof params, &d->motion_params));
+    if (!d->found)
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_DIAGNOSE, "hair motion found",
+                                 HAIR_FOUND_COUNT * sizeof *found, NULL, &d->found));
     hair_gl_write_uniform(gl, d->motion_params, sizeof params, &params);
     gl->ClearNamedBufferData(d->found, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     hair_sim_bind(sim);
@@ -159,8 +158,7 @@ hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solve
 {
     uint32_t count[HAIR_SOLVER_STATS_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
     struct hair_rods_report held = hair_sim_preload_report(sim);
-    hair_result result = find_motion(sim, found);
-    if (result) return result;
+    HAIR_TRY(find_motion(sim, found));
     sim->gl->GetNamedBufferSubData(sim->solver_stats, 0, sizeof count, count);
     solver_stats->euler_fallbacks = count[HAIR_SOLVER_STATS_EULER_FALLBACKS];
     solver_stats->follow_fallbacks = count[HAIR_SOLVER_STATS_FOLLOW_FALLBACKS];

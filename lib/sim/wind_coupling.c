@@ -55,13 +55,13 @@ static hair_result ensure_hair(struct hair_sim* sim)
     struct hair_wind_coupling* wind_coupling = &sim->wind_coupling;
     int wanted = is_porous(sim);
     if (!wanted) free_hair(wind_coupling, sim->gl);
-    hair_result result = hair_fluid_ensure_hair(&wind_coupling->fluid, wanted);
-    if (!result && wanted && !wind_coupling->splat)
-        result = hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres);
-    if (!result && wanted && !wind_coupling->params)
-        result = hair_gl_uniform(sim->gl, HAIR_GL_CATEGORY_WIND, "hair grid of the fluid",
-                                 sizeof(struct hair_grid_params), &wind_coupling->params);
-    return result;
+    HAIR_TRY(hair_fluid_ensure_hair(&wind_coupling->fluid, wanted));
+    if (wanted && !wind_coupling->splat)
+        HAIR_TRY(hair_grid_weigh(sim, &wind_coupling->splat, &wind_coupling->metres));
+    if (wanted && !wind_coupling->params)
+        HAIR_TRY(hair_gl_uniform(sim->gl, HAIR_GL_CATEGORY_WIND, "hair grid of the fluid",
+                                 sizeof(struct hair_grid_params), &wind_coupling->params));
+    return HAIR_OK;
 }
 
 hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim)
@@ -80,13 +80,12 @@ hair_result hair_wind_coupling_ensure(struct hair_sim* sim)
     struct hair_fluid_desc desc = desc_of(sim), was = fluid->desc;
     int same = fluid->gl && was.cells == desc.cells && was.side == desc.side && was.method == desc.method;
     fluid->desc.cycles = desc.cycles;
-    hair_result result = HAIR_OK;
     if (!same) {
         hair_wind_coupling_free(sim);
-        result = hair_fluid_create(fluid, sim->gl, &desc);
+        HAIR_TRY(hair_fluid_create(fluid, sim->gl, &desc));
     }
-    if (!result) result = ensure_hair(sim);
-    return result ? result : hair_fluid_make_room(fluid, sim->colliders.current.count);
+    HAIR_TRY(ensure_hair(sim));
+    return hair_fluid_make_room(fluid, sim->colliders.current.count);
 }
 
 void hair_wind_coupling_free(struct hair_sim* sim)

@@ -108,6 +108,11 @@ hair_result hair_geometry_update_follower_collision(struct hair_geometry* geomet
     return HAIR_OK;
 }
 
+void hair_geometry_set_blockers(struct hair_geometry* geometry, const struct hair_collider_field* field)
+{
+    geometry->follower_collision.field = field;
+}
+
 void hair_geometry_invalidate(struct hair_geometry* geometry)
 {
     geometry->follower_collision.valid = 0;

@@ -1,10 +1,15 @@
 // geometry.c - the life of the strands of an instance.
 #include "lib/strands/geometry.h"
 
+#include <string.h>
+
 hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
-                                 const struct hair_groom* groom, const struct hair_sim* sim)
+                                 const struct hair_groom* groom, const struct hair_sim* sim,
+                                 const hair_look* look, bool uses_prepass)
 {
     geometry->gl = gl;
+    geometry->look = *look;
+    geometry->follower_collision.prepass = uses_prepass;
     geometry->guides = sim->guides;
     geometry->smooth_vertices = sim->smooth_vertices;
     geometry->followers = groom->info.follower_count;
@@ -42,4 +47,36 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
+}
+
+void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look)
+{
+    if (memcmp(look, &geometry->look, sizeof *look) != 0) hair_geometry_invalidate(geometry);
+    geometry->look = *look;
+}
+
+void hair_geometry_invalidate_guides(struct hair_geometry* geometry)
+{
+    hair_smooth_invalidate(&geometry->smooth);
+}
+
+void hair_geometry_ensure_guides(struct hair_geometry* geometry, struct hair_sim* sim)
+{
+    hair_smooth_ensure(&geometry->smooth, sim);
+    hair_geometry_bind_followers(geometry, sim);
+}
+
+uint32_t hair_geometry_count_smoothed(const struct hair_geometry* geometry)
+{
+    return geometry->smooth.vertices;
+}
+
+GLuint hair_geometry_smoothed_positions(const struct hair_geometry* geometry)
+{
+    return geometry->smooth.buffer[0];
+}
+
+bool hair_geometry_shows_followers(const struct hair_geometry* geometry)
+{
+    return geometry->look.followers.density > 0;
 }

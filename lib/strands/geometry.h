@@ -32,11 +32,26 @@ struct hair_geometry {
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
 };
 
-// Create the smoothed guides and the buffers of followers. The members that the application sets
-// must be set before.
+// Create the smoothed guides and the buffers of followers. `look` is one after
+// hair_look_apply_wetness(). If `uses_prepass`, a prepass finds followers inside colliders.
 hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
-                                 const struct hair_groom* groom, const struct hair_sim* sim);
+                                 const struct hair_groom* groom, const struct hair_sim* sim,
+                                 const hair_look* look, bool uses_prepass);
 void hair_geometry_destroy(struct hair_geometry* geometry);
+// Set the look, after hair_look_apply_wetness(). A different look outdates follower collision and
+// the vertex cache.
+void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look);
+// Record that the guides have moved. They are smoothed again before the next draw.
+void hair_geometry_invalidate_guides(struct hair_geometry* geometry);
+// Smooth the guides, and move the roots of followers with a skinned scalp, unless both are up to
+// date.
+void hair_geometry_ensure_guides(struct hair_geometry* geometry, struct hair_sim* sim);
+// Return the number of vertices of all smoothed guides.
+uint32_t hair_geometry_count_smoothed(const struct hair_geometry* geometry);
+// Return the buffer of the positions of smoothed guides. xyz is from the head's origin, m.
+GLuint hair_geometry_smoothed_positions(const struct hair_geometry* geometry);
+// Return whether the look shows any follower.
+bool hair_geometry_shows_followers(const struct hair_geometry* geometry);
 
 // Functions of followers.c, which every file of this folder may use.
 
@@ -106,6 +121,9 @@ hair_result hair_geometry_update_follower_collision(struct hair_geometry* geomet
 hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry);
 // Return whether follower collision is up to date with the guides and colliders.
 bool hair_geometry_has_follower_collision(const struct hair_geometry* geometry);
+// Set the field of the colliders that block light until the next update. NULL means that none is
+// near.
+void hair_geometry_set_blockers(struct hair_geometry* geometry, const struct hair_collider_field* field);
 // Mark follower collision and the vertex cache as outdated. Call this when followers or colliders
 // change, but guides do not move.
 void hair_geometry_invalidate(struct hair_geometry* geometry);

@@ -50,41 +50,34 @@ static hair_result make_levels(struct hair_fluid* fluid)
                                          .relax = suitable(&fluid->desc)};
         memcpy(bytes + (size_t)i * HAIR_FLUID_ALIGNMENT, &level, sizeof level);
     }
-    hair_result result = hair_gl_uniform(fluid->gl, HAIR_GL_CATEGORY_WIND, "hair fluid levels", sizeof bytes,
-                                         &fluid->level_params);
-    if (!result) hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
-    return result;
+    HAIR_TRY(hair_gl_uniform(fluid->gl, HAIR_GL_CATEGORY_WIND, "hair fluid levels", sizeof bytes,
+                             &fluid->level_params));
+    hair_gl_write_uniform(fluid->gl, fluid->level_params, sizeof bytes, bytes);
+    return HAIR_OK;
 }
 
 static hair_result make_all(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     hair_fluid_method method = fluid->desc.method;
-    uint32_t n = fluid->desc.cells, slots, cells;
+    uint32_t n = fluid->desc.cells, slots = find_levels(fluid), cells = fluid->level[fluid->levels].cell;
     const uint32_t size[3] = {n, n, n};
-    hair_result result = hair_fluid_ensure_programs(gl, method, 0);
-    slots = find_levels(fluid);
-    cells = fluid->level[fluid->levels].cell;
     size_t faces = 3 * hair_fluid_slots(fluid);
-    for (int i = 0; i < 3 && !result; ++i)
-        result = hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]);
-    if (!result)
-        result = hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall_velocity);
-    if (!result)
-        result = hair_fluid_make_buffer(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->face_fraction);
-    if (!result) result = hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->rhs);
-    for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1) && !result; ++i)
-        result = hair_fluid_make_buffer(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid", sizeof(struct hair_fluid_params),
-                                 &fluid->params);
-    if (!result)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid motion",
-                                 sizeof(struct hair_fluid_motion), &fluid->motion);
-    if (!result) result = make_levels(fluid);
-    return result ? result
-                  : hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_WIND, "hair air", GL_RGBA16F, size, GL_LINEAR,
-                                       &fluid->air);
+    HAIR_TRY(hair_fluid_ensure_programs(gl, method, 0));
+    for (int i = 0; i < 3; ++i)
+        HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid velocity", faces, GL_R32F, &fluid->velocity[i]));
+    HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid walls", faces, GL_R32F, &fluid->wall_velocity));
+    HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid openings", slots, GL_R32UI, &fluid->face_fraction));
+    HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid divergence", cells, GL_R32F, &fluid->rhs));
+    for (int i = 0; i < (method == HAIR_FLUID_JACOBI ? 2 : 1); ++i)
+        HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid pressure", cells, GL_R32F, &fluid->pressure[i]));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid", sizeof(struct hair_fluid_params),
+                             &fluid->params));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair fluid motion", sizeof(struct hair_fluid_motion),
+                             &fluid->motion));
+    HAIR_TRY(make_levels(fluid));
+    return hair_gl_texture_3d(gl, HAIR_GL_CATEGORY_WIND, "hair air", GL_RGBA16F, size, GL_LINEAR,
+                              &fluid->air);
 }
 
 hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,

@@ -1,25 +1,28 @@
 // porous.c - hair as an obstacle that closes faces of the fluid in part.
 #include "lib/wind/fluid.h"
 
+static hair_result make_buffers(struct hair_fluid* fluid)
+{
+    struct hair_fluid_hair* hair = &fluid->hair;
+    size_t nodes = hair_fluid_nodes(fluid);
+    HAIR_TRY(hair_fluid_make_buffer(fluid, "hair grid of the fluid", 4 * nodes * nodes * nodes, GL_RGBA32I,
+                                    &hair->grid));
+    HAIR_TRY(hair_fluid_make_buffer(fluid, "hair fluid walls among hair", 3 * hair_fluid_slots(fluid),
+                                    GL_R32F, &hair->wall_velocity));
+    return hair_fluid_make_buffer(fluid, "hair fluid openings among hair", fluid->level[fluid->levels].slot,
+                                  GL_R32UI, &hair->face_fraction);
+}
+
 hair_result hair_fluid_ensure_hair(struct hair_fluid* fluid, int wanted)
 {
     HAIR_ASSERT(fluid->gl && fluid->levels > 0);
     struct hair_fluid_hair* hair = &fluid->hair;
-    size_t nodes = hair_fluid_nodes(fluid);
     if (!wanted == !hair->grid.buffer) return HAIR_OK;
     fluid->made_for.cells = 0; // Coarser faces depend on hair from now on, or no longer.
     hair_fluid_free_hair(fluid);
-    hair_result result = HAIR_OK;
-    if (wanted) result = hair_fluid_ensure_programs(fluid->gl, fluid->desc.method, 1);
-    if (!wanted || result) return result;
-    result = hair_fluid_make_buffer(fluid, "hair grid of the fluid", 4 * nodes * nodes * nodes, GL_RGBA32I,
-                                    &hair->grid);
-    if (!result)
-        result = hair_fluid_make_buffer(fluid, "hair fluid walls among hair", 3 * hair_fluid_slots(fluid),
-                                        GL_R32F, &hair->wall_velocity);
-    if (!result)
-        result = hair_fluid_make_buffer(fluid, "hair fluid openings among hair",
-                                        fluid->level[fluid->levels].slot, GL_R32UI, &hair->face_fraction);
+    if (!wanted) return HAIR_OK;
+    HAIR_TRY(hair_fluid_ensure_programs(fluid->gl, fluid->desc.method, 1));
+    hair_result result = make_buffers(fluid);
     if (result) hair_fluid_free_hair(fluid);
     return result;
 }

@@ -13,12 +13,10 @@ static bool takes(hair_fluid_method method, hair_gl_pass pass)
 
 hair_result hair_fluid_ensure_programs(struct hair_gl* gl, hair_fluid_method method, int porous)
 {
-    hair_result result = HAIR_OK;
-    for (hair_gl_pass pass = HAIR_GL_FLUID_FACE_FRACTIONS; pass <= HAIR_GL_FLUID_EXPORT_VELOCITY && !result;
-         ++pass)
-        if (takes(method, pass)) result = hair_gl_ensure_program(gl, pass);
-    if (!result && porous) result = hair_gl_ensure_programs(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
-    return result;
+    for (hair_gl_pass pass = HAIR_GL_FLUID_FACE_FRACTIONS; pass <= HAIR_GL_FLUID_EXPORT_VELOCITY; ++pass)
+        if (takes(method, pass)) HAIR_TRY(hair_gl_ensure_program(gl, pass));
+    if (!porous) return HAIR_OK;
+    return hair_gl_ensure_programs(gl, HAIR_GL_FLUID_CLEAR, HAIR_GL_FLUID_POROUS, 0);
 }
 
 static uint32_t cubed(uint32_t n)

@@ -59,11 +59,11 @@ hair_result hair_wind_ensure(struct hair_wind_state* state, struct hair_gl* gl, 
         hair_wind_free_state(state, gl);
         return HAIR_OK;
     }
-    hair_result result = ensure_gusts(state, gl, wind);
-    if (!result && !state->params)
-        result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair wind", sizeof(struct hair_wind_params),
-                                 &state->params);
-    return result;
+    HAIR_TRY(ensure_gusts(state, gl, wind));
+    if (!state->params)
+        HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_WIND, "hair wind", sizeof(struct hair_wind_params),
+                                 &state->params));
+    return HAIR_OK;
 }
 
 void hair_wind_free_state(struct hair_wind_state* state, struct hair_gl* gl)

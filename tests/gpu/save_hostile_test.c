@@ -9,7 +9,7 @@
 
 #define refused hair_test_refused
 
-// Offsets of the fields, as in lib/sim/save.c.
+// Offsets of the fields, as in lib/sim/save_fields.c.
 enum {
     VERSION = 8,
     WHOLE = 12,

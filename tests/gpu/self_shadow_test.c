@@ -250,6 +250,34 @@ static void opaque_shadow_map_darkens_hair_behind_it(void** state)
     finish(&f);
 }
 
+static hair_report_row row_of(const struct fixture* f, const char* work)
+{
+    return hair_test_report_row(f->scene.test, f->scene.hair, work);
+}
+
+// Check a collider within the hair. Its shadow does not depend on what becomes of followers in it.
+static void colliders_darken_hair_that_passes_through_them(void** state)
+{
+    struct fixture f = start(state, FOLLOWERS);
+    hair_look look = f.scene.hair->geometry.look;
+    hair_collider ball = hair_collider_default();
+    look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
+    hair_test_ok(f.scene.test, hair_set_look(f.scene.hair, &look));
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
+    draw(&f);
+    double without = open_on_average(&f, VERTICES);
+    for (int k = 0; k < 3; ++k) ball.position[k] = turned[12 + k];
+    ball.size[0] = 0.09f;
+    hair_test_ok(f.scene.test, hair_set_colliders(f.scene.hair, &ball, 1, sizeof ball));
+    draw(&f);
+    double with = open_on_average(&f, VERTICES);
+    print_message("    %g of the light without, %g with the collider\n", without, with);
+    assert_true(with < 0.95 * without);
+    assert_int_equal(row_of(&f, "hit").runs, 0);
+    assert_int_equal(row_of(&f, "hit").skip_reason, HAIR_SKIP_REASON_NOT_WANTED);
+    finish(&f);
+}
+
 static void strand_does_not_shade_itself(void** state)
 {
     struct fixture f = start(state, 1);
@@ -272,11 +300,6 @@ static void strand_does_not_shade_itself(void** state)
     print_message("    %g\n", open);
     assert_true(open > 0.97);
     finish(&f);
-}
-
-static hair_report_row row_of(const struct fixture* f, const char* work)
-{
-    return hair_test_report_row(f->scene.test, f->scene.hair, work);
 }
 
 static void self_shadow_is_shared_by_views_and_absent_when_off(void** state)
@@ -348,6 +371,7 @@ int main(void)
         HAIR_TEST(density_grid_holds_the_area_of_all_strands),
         HAIR_TEST(transmittance_equals_the_reference),
         HAIR_TEST(opaque_shadow_map_darkens_hair_behind_it),
+        HAIR_TEST(colliders_darken_hair_that_passes_through_them),
         HAIR_TEST(strand_does_not_shade_itself),
         HAIR_TEST(self_shadow_lights_only_strands_of_the_level_of_detail),
         HAIR_TEST(self_shadow_is_shared_by_views_and_absent_when_off),

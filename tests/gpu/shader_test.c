@@ -3,6 +3,7 @@
 #include "tests/support/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -195,6 +196,37 @@ static void shader_errors_have_lines_of_the_users_text(void** state)
     hair_test_scene_free(&f);
 }
 
+static void append(hair_log_level level, const char* sentence, void* user)
+{
+    static const char* const levels[] = {"error", "warning", "info"};
+    size_t used = strlen(user);
+    snprintf((char*)user + used, 8192 - used, "%s: %s\n", levels[level], sentence);
+}
+
+static void every_error_of_a_shader_has_a_line_in_the_log(void** state)
+{
+    static char log[8192];
+    struct fixture f = start(state);
+    hair_host host = {.log = append, .user = log};
+    hair_context* context = NULL;
+    hair_context_desc desc = hair_context_desc_default();
+    hair_shader_desc wrong = hair_shader_desc_default();
+    hair_shader* shader = NULL;
+    desc.host = &host;
+    desc.get_proc = hair_egl_get_proc;
+    hair_test_ok(f.test, hair_context_create(&desc, &context));
+    wrong.label = "mine";
+    wrong.glsl = "vec4 hair_shade(hair_fragment f)\n{\n    float a = nonsense;\n    float b = rubbish;\n"
+                 "    return vec4(a, b, 0.0, 1.0);\n}\n";
+    assert_int_equal(hair_shader_create(context, &wrong, &shader), HAIR_ERROR_OPENGL);
+    hair_context_destroy(context);
+    print_message("%s", log);
+    assert_non_null(strstr(log, "error: mine:3: "));
+    assert_non_null(strstr(log, "info: mine:4: "));
+    assert_non_null(strstr(log, "rubbish"));
+    finish(&f);
+}
+
 static void any_shader_text_is_refused_or_harmless(void** state)
 {
     static const char* const texts[] = {
@@ -325,6 +357,7 @@ int main(void)
         HAIR_TEST(roots_have_the_uvs_and_texture_of_the_scalp),
         HAIR_TEST(nonfinite_user_colors_are_drawn_black),
         HAIR_TEST(shader_errors_have_lines_of_the_users_text),
+        HAIR_TEST(every_error_of_a_shader_has_a_line_in_the_log),
         HAIR_TEST(any_shader_text_is_refused_or_harmless),
     };
     if (hair_test_skips()) return 0;

@@ -165,7 +165,37 @@ static void a_hull_of_millions_of_points_is_an_error(void**)
 {
     std::vector<btVector3> points(1048576 + 7, btVector3(1, 2, 3));
     btConvexPointCloudShape cloud(points.data(), static_cast<int>(points.size()), btVector3(1, 1, 1));
-    refused(cloud, "has 1048576 points or more");
+    refused(cloud, "has 1048583 points, more than 1048576");
+    std::unique_ptr<btTriangleMesh> mesh(new btTriangleMesh(true, false));
+    mesh->preallocateVertices(3 * 349526);
+    const btVector3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
+    for (int i = 0; i < 349526; ++i) mesh->addTriangle(a, b, c);
+    btConvexTriangleMeshShape hull(mesh.get(), false);
+    refused(hull, "has 1048578 points, more than 1048576");
+    test.host.errors = 0;
+}
+
+// Check the greatest number of points that the message allows, at the corners of a cube.
+static void a_hull_of_the_maximum_of_points_is_a_collider(void**)
+{
+    std::vector<btVector3> points;
+    for (int i = 0; i < 1048576; ++i)
+        points.push_back(btVector3(btScalar(i & 1), btScalar(i >> 1 & 1), btScalar(i >> 2 & 1)));
+    btConvexPointCloudShape cloud(points.data(), static_cast<int>(points.size()), btVector3(1, 1, 1));
+    hair_bullet_set_resolution(test.bullet, 8);
+    assert_int_equal(take(cloud), HAIR_OK);
+    assert_int_equal(colliders(1)[0].shape, HAIR_SHAPE_MESH);
+}
+
+// Check that the floor below a height field counts before any triangle is stored. 2,875,202
+// triangles have fewer vertices than the maximum, but twice as many with the floor.
+static void a_height_field_of_millions_of_triangles_is_an_error_without_memory(void**)
+{
+    std::vector<float> heights(1200 * 1200, 0.0f);
+    btHeightfieldTerrainShape field(1200, 1200, heights.data(), 1, -1, 1, 1, PHY_FLOAT, false);
+    test.host.peak = test.host.live;
+    refused(field, "has 2875202 triangles, more than 2796202");
+    assert_true(test.host.peak < 1 << 16);
     test.host.errors = 0;
 }
 
@@ -246,6 +276,8 @@ int main(void)
         TEST(degenerate_triangles_are_left_out),
         TEST(nonfinite_height_fields_are_errors),
         TEST(a_hull_of_millions_of_points_is_an_error),
+        TEST(a_hull_of_the_maximum_of_points_is_a_collider),
+        TEST(a_height_field_of_millions_of_triangles_is_an_error_without_memory),
         TEST(mesh_without_triangles_is_an_error),
         TEST(mesh_of_ten_million_triangles_is_an_error_without_memory),
         TEST(world_skips_a_mesh_of_ten_million_triangles),

@@ -30,7 +30,7 @@ static int finish(void** state)
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);
         unlink(path);
     }
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i <= HAIR_GL_MAX_SOURCES; ++i) {
         snprintf(path, sizeof path, "%s/%d.glsl", folder, i);
         unlink(path);
     }
@@ -100,13 +100,16 @@ static void too_many_files_and_too_long_names_are_refused(void** state)
 {
     (void)state;
     struct hair_gl_source source;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i <= HAIR_GL_MAX_SOURCES; ++i) {
         char name[32], text[64];
         snprintf(name, sizeof name, "%d.glsl", i);
         snprintf(text, sizeof text, "#include \"%d.glsl\"\n", i + 1);
-        put(name, text);
+        put(name, i < HAIR_GL_MAX_SOURCES ? text : "last\n");
     }
     assert_int_equal(resolve("0.glsl", &source), HAIR_ERROR_OPENGL);
+    assert_string_equal(test.sentence, "shader 0.glsl includes too much");
+    assert_int_equal(resolve("1.glsl", &source), HAIR_OK);
+    hair_free(&test.host, source.text);
     put("a.comp", "#include \"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\"\n");
     assert_int_equal(resolve("a.comp", &source), HAIR_ERROR_OPENGL);
     assert_int_equal(test.errors, 2);

@@ -1,0 +1,43 @@
+// field.h - the distance field.
+#ifndef HAIR_SHARED_FIELD_H
+#define HAIR_SHARED_FIELD_H
+
+// Side of a brick, voxels. A work group writes one brick of the distance field.
+#define HAIR_BRICK 8
+#define HAIR_COLLIDER_TEXELS 6 // Per hair_field_collider.
+#define HAIR_NO_COLLIDER 4294967295u // A collider's number that means that no collider is near.
+
+// Place and range of the distance field.
+struct hair_field_params {
+    hair_vec4 rotation; // Head rotation, unit quaternion.
+    // xyz: lower corner of the field's box in the head's frame, m. w: side of a voxel, m.
+    hair_vec4 lower;
+    // xyz: 1 / sides of the box, 1/m. w: distance that stands for all greater distances, m.
+    hair_vec4 inverse;
+};
+HAIR_SIZE(hair_field_params)
+
+// A collider in the head's frame.
+struct hair_field_collider {
+    hair_vec4 position; // xyz: m. w: rounding, m.
+    hair_vec4 rotation; // Unit quaternion from its own axes to the head's.
+    hair_vec4 size;     // xyz: as its shape says, m. w of a collision mesh: its scale.
+    hair_vec4 grid;     // Grid of a collision mesh. xyz: first node, m. w: spacing of nodes, m.
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint first;  // Index of its first node.
+    hair_uint shape;  // hair_shape.
+    hair_uint number; // Index among the instance's colliders.
+    hair_uint unused0, unused1;
+};
+HAIR_SIZE(hair_field_collider)
+
+// HAIR_BRICK^3 voxels, and the colliders that reach into them.
+struct hair_field_brick {
+    hair_uint at;    // Position among bricks: x + (y << 10) + (z << 20).
+    hair_uint first; // First member.
+    hair_uint count;
+    hair_uint unused;
+};
+HAIR_SIZE(hair_field_brick)
+
+#endif
