@@ -1,6 +1,10 @@
 // leap_parts.glsl - a substep of SHAKE, as a whole or in parts. parts.glsl explains the parts.
 
+#ifdef HAIR_STIFF
+#define MIN_PART (1.0 / 128.0)
+#else
 #define MIN_PART (1.0 / 32.0)
+#endif
 
 // Maximum number of loop rounds. llvmpipe leaves all loops after a fixed number of rounds, which
 // lib/sim/programs.c has. A thread goes round once per vertex. A work group goes round once, and
@@ -26,6 +30,11 @@ bool may_split(float smaller)
            rounds_spent + LOOPS_OF_ATTEMPT * uint((1.0 - done) / smaller) < MAX_LOOPS;
 }
 
+// Return the size of parts to try after a failure. Short waves gain energy when parts become
+// shorter. A whip therefore goes to its part at once, while its short waves still have little
+// energy.
+float smaller_part() { return leap_part == 1.0 ? min(whip_part, 0.5) : 0.5 * leap_part; }
+
 // Return whether a segment turns too far and smaller parts are possible.
 bool turns_far(int method)
 {
@@ -33,12 +42,17 @@ bool turns_far(int method)
     bool  far = false, touches = false;
     rounds_spent += LOOPS_OF_PART + LOOPS_OF_STEP * length_steps;
     FOR_VERTICES(guide_count) {
-        far     = far || turns_at(i, min_cosine);
+#ifdef HAIR_STIFF
+        bool turned = IS_BACK(method) ? turns_in_whole(i, method) : turns_at(i, min_cosine);
+#else
+        bool turned = turns_at(i, min_cosine);
+#endif
+        far     = far || turned;
         touches = touches || (COLLIDERS && local(met) != BITS(0u));
     }
     bvec2 found = group_any(bvec2(far, touches));
     touching    = found.y;
-    return IS_SHAKE(method) && found.x && may_split(0.5 * leap_part);
+    return (IS_SHAKE(method) || IS_BACK(method)) && found.x && may_split(smaller_part());
 }
 
 // Increment of the count of quiet substeps. Each change of a part's length shifts the energy of
@@ -59,6 +73,25 @@ void place_part(float size, float end, vec3 head_moved)
     root_moved = root_now - root_then + (end - done) * head_moved;
 }
 
+// Prepare the next attempt, in smaller parts, after one by `method` has failed. Return false if no
+// smaller parts are possible. `known_before` is that before the attempt.
+bool splits(inout int method, float known_before, vec3 head_moved)
+{
+    float size = smaller_part();
+    if (!(IS_SHAKE(method) || (IS_BACK(method) && leap_part == 1.0)) || !may_split(size)) return false;
+#ifdef HAIR_STIFF
+    known = known_before;
+    if (IS_BACK(method) && known >= 1.0) {
+        // The first part begins with the velocity of the start.
+        FOR_VERTICES(guide_count) { local(displacement) = known < 2.0 ? local(displacement) : local(rate); }
+        known = 0.0;
+    }
+#endif
+    place_part(size, done + size, head_moved);
+    method = SHAKE - 1; // The loop over methods adds 1.
+    return true;
+}
+
 // Begin the next part where the last one ended.
 void begin_part()
 {
@@ -74,7 +107,7 @@ void do_substep(vec3 head_moved)
     float size = known > 0.0 ? known_part() : 1.0, quiet = 0.0;
     if (size < 1.0) quiet = known / size - 1.0 + QUIET_STEP;
     if (quiet >= 1.0) {
-        size *= 2.0;
+        size  = size < whip_part ? 2.0 * size : 1.0;
         quiet = 0.0;
     }
     done         = 0.0;

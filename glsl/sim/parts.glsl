@@ -15,7 +15,10 @@ uint  length_steps;
 // Contact and pins may leave lengths broken in parts of any size. Guides that touch a collider,
 // have pins, or look up colliders in lists therefore take whole substeps.
 #if HAIR_SOLVER == SHAKE && !defined(HAIR_COLLIDER_GRID) && !defined(HAIR_PINNED)
-#if defined(HAIR_PASS1) || defined(HAIR_PASS2)
+#if defined(HAIR_PASS1) && defined(HAIR_STIFF)
+#define LEAVES_WHIPS
+bool is_left; // The second program must do the guide.
+#elif defined(HAIR_PASS1) || defined(HAIR_PASS2)
 #define WATCHES_TURNS
 #endif
 #ifdef HAIR_PASS2
@@ -24,6 +27,7 @@ uint  length_steps;
 #endif
 
 #ifdef SPLITS
+float whip_part;    // Longest part of a guide that whips. 0 if the guide cannot be split.
 float leap_part;    // Fraction of the substep, a power of two
 // Values of params.keep and params.kick for the part.
 float part_keep;
@@ -44,12 +48,13 @@ float leap_span() { return known == 0.0 ? 0.5 : 0.5 + 0.5 * known_part() / leap_
 float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half a step.
 #endif
 
+// Cosine of the angle by which a segment may turn in a substep, 0.3 rad.
+#define MIN_COSINE 0.955
+
 #ifdef WATCHES_TURNS
 // Leapfrog keeps the energy of a segment that turns evenly. A whip gains or loses energy where the
 // turn changes within a substep. A whip keeps its parts until a whole substep turns no segment
 // farther than a part may.
-// Cosine of the angle by which a segment may turn in a substep, 0.3 rad.
-#define MIN_COSINE 0.955
 // Cosine of the angle by which a segment may turn in a part, 0.1 rad.
 #define MIN_PART_COSINE 0.995
 #define MAX_TURN_CHANGE 0.05 // Maximum change of the turn from one leap to the next, rad
@@ -86,4 +91,17 @@ bool turns_at(uint i, float min_cosine)
 #else
 #define PUT_SPREAD
 #define KEEP_SPREAD
+#endif
+
+#if defined(HAIR_STIFF) && (defined(LEAVES_WHIPS) || defined(SPLITS))
+// Maximum of 1 - cos of the angle by which a segment may turn in a substep of BDF2, 0.1 rad.
+#define MAX_TURN_OF_BACK 0.005
+
+// Return whether a segment turns too far for a whole substep by `method`. BDF2 would damp its motion.
+bool turns_in_whole(uint i, int method)
+{
+    float along = dot(GET(edge), AFTER_VEC3(moved) - GET(moved)),
+          max_turn = IS_BACK(method) ? MAX_TURN_OF_BACK : 1.0 - MIN_COSINE;
+    return i + 1u < guide_count && method < EULER && along > max_turn * local(rest_length);
+}
 #endif
