@@ -16,6 +16,12 @@
 #endif
 // Rounds of one test against few colliders.
 #define LOOPS_OF_LOOK (COLLIDERS ? params.colliders + 10u + 12u * uint(bitCount(params.bodies)) : 0u)
+// Rounds of shortwave_error() with its sums.
+#ifdef HAIR_THREAD_PER_GUIDE
+#define LOOPS_OF_ERROR 4u
+#else
+#define LOOPS_OF_ERROR 24u
+#endif
 // Rounds of a part, without those of each step of lengths.
 #define LOOPS_OF_PART (15u + 2u * LOOPS_OF_LOOK)
 #define LOOPS_OF_STEP (9u + LOOPS_OF_LOOK)
@@ -30,9 +36,7 @@ bool may_split(float smaller)
            rounds_spent + LOOPS_OF_ATTEMPT * uint((1.0 - done) / smaller) < MAX_LOOPS;
 }
 
-// Return the size of parts to try after a failure. Short waves gain energy when parts become
-// shorter. A whip therefore goes to its part at once, while its short waves still have little
-// energy.
+// Return the size of parts to try after a failure.
 float smaller_part() { return leap_part == 1.0 ? min(whip_part, 0.5) : 0.5 * leap_part; }
 
 // Return whether a segment turns too far and smaller parts are possible.
@@ -54,6 +58,8 @@ bool turns_far(int method)
     touching    = found.y;
     return (IS_SHAKE(method) || IS_BACK(method)) && found.x && may_split(smaller_part());
 }
+
+#define MAX_ERROR 0.003 // Maximum of shortwave_error() in a part
 
 // Increment of the count of quiet substeps. Each change of a part's length shifts the energy of
 // short waves a little. A longer part is therefore tried only after 512 quiet substeps.
@@ -100,19 +106,53 @@ void begin_part()
     fraction_then = fraction_now;
 }
 
+// Return by how much leaps over whole substeps would misjudge the energy of the guide's motion, as a
+// fraction of its energy.
+//
+// Leapfrog conserves an energy that is less than the true one by (w h)^2 / 4 of the energy of waves
+// of frequency w. As waves get shorter in a whip, the true energy grows. Summed over all waves, the
+// difference is half the bending energy of the displacement. It is proportional to the square of
+// the leap's length.
+float shortwave_error()
+{
+    FOR_VERTICES(guide_count) { PUT(handed, local(displacement)); }
+    GROUP_BARRIER;
+    FOR_VERTICES(guide_count) {
+        vec3 turn = (AFTER_VEC3(handed) - GET(handed)) / max(local(rest_length), 1e-9);
+        PUT(lever, i + 1u < guide_count ? turn : vec3(0.0));
+    }
+    GROUP_BARRIER;
+    float error = 0.0, energy = 0.0, h = params.gravity.w;
+    FOR_VERTICES(guide_count) {
+        vec3 before = BEFORE_VEC3(lever), d = GET(handed) - GET_AT(handed, 0u);
+        vec3 bend   = i > 0u && i + 1u < guide_count ? GET(lever) - before : vec3(0.0);
+        bool moves  = i < guide_count && local(slack) > 0.0;
+        error += 0.25 * local(strain).w * dot(bend, bend);
+        energy += moves ? 0.5 * dot(d, d) / local(slack) : 0.0;
+    }
+    // Weight counts too, so that a guide that hardly moves needs no short parts.
+    float by_weight = 0.25 * length(params.gravity.xyz) * guide_length * guide_length;
+    error           = group_sum(error);
+    GROUP_BARRIER;
+    return error / max(group_sum(energy) / (h * h) + by_weight, 1e-12);
+}
+
 // Do a substep in parts as long as the last one. Parts become twice as long after quiet substeps,
 // and shorter where necessary.
 void do_substep(vec3 head_moved)
 {
     float size = known > 0.0 ? known_part() : 1.0, quiet = 0.0;
-    if (size < 1.0) quiet = known / size - 1.0 + QUIET_STEP;
-    if (quiet >= 1.0) {
-        size  = size < whip_part ? 2.0 * size : 1.0;
-        quiet = 0.0;
-    }
     done         = 0.0;
     rounds_spent = 0u;
     touching     = false;
+    if (size < 1.0) {
+        float error = shortwave_error(), longer = size < whip_part ? 2.0 * size : 1.0, last = size;
+        quiet       = known / size - 1.0 + QUIET_STEP;
+        if (quiet >= 1.0) size = longer * longer * error < 0.5 * MAX_ERROR ? longer : size;
+        while (size * size * error > MAX_ERROR && size > MIN_PART) size *= 0.5;
+        if (quiet >= 1.0 || size < last) quiet = 0.0;
+        rounds_spent = LOOPS_OF_ERROR;
+    }
     while (size < 1.0 && !may_split(size)) size *= 2.0;
     float begun = size;
     for (; done < 1.0; done += leap_part) {

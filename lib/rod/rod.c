@@ -26,8 +26,8 @@
 #define EXPLICIT_MARGIN_BENT 1.5 // Stability margin of strands that are not straight at rest.
 #define STRAIGHT 1e-4 // Maximum sine of half the angle at a vertex of a straight strand.
 // Maximum length of a part of a substep of a guide that whips, over that at which explicit bending
-// is stable. Short waves seem to gain energy in proportion to the square of this length.
-#define MAX_WHIP_PART 0.21
+// is stable.
+#define MAX_WHIP_PART 0.5
 #define MIN_WHIP_PART (1.0 / 128) // MIN_PART of glsl/sim/leap_parts.glsl
 #define MIN_PER_FRAME_DIRECT 4
 // Maximum substeps per frame of direct, for a heavy tip. Beyond that, tip inertia is added: see
