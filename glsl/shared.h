@@ -439,9 +439,9 @@ struct hair_rod {
     // x: length of segment i, m. 0 for the tip. y: 1 / mass, 1/m. z: square of the angular
     // frequency of the pull to the rest pose, 1/s^2. w of a first vertex: method of the accurate
     // solver. 0 is explicit, 1 is BDF2, and 2 is implicit Euler, for a guide that a heavy tip pulls
-    // taut. w of a second vertex: longest part of a substep for the accurate solver when the guide
-    // whips, a power of two. 0 if no part is short enough. w of every vertex in the mixed scheme: 2 w0, twice the real part of conj(q_(i-1)) q_i
-    // at rest. 0 for the tip.
+    // taut. w of a second vertex: longest part of a substep when the guide whips, a power of two. 0
+    // if no part is short enough. w of every vertex in the mixed scheme: 2 w0, twice the real part
+    // of conj(q_(i-1)) q_i at rest. 0 for the tip.
     hair_vec4 segment;
     // Row of L D L^T of the implicit system of the solver's own method. x: 1/D. y: L(i+1,i). z:
     // L(i+2,i). w: number of the first pin beyond this vertex, counted from 1. 0 if there is none.

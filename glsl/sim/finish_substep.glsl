@@ -21,8 +21,9 @@ float known_after(int method)
 }
 
 #ifdef LEAVES_WHIPS
-// Return whether the second program may do better than the failed attempt.
-bool may_be_whip(int method)
+// Return whether an attempt may have failed because the guide whips. The second program then tries
+// again. A guide that touches a collider takes whole substeps.
+bool may_whip(int method)
 {
     bool touches = false;
     if (method != own_method || method == EULER) return false;
@@ -77,8 +78,9 @@ bool accept(int method, bool waits, vec3 head_moved)
                                floatBitsToUint(FARTHEST * FARTHEST);
     }
 #ifdef LEAVES_WHIPS
-    uint found_bits = all_bits(uvec2(uint(lost) | uint(struck) << 1u | uint(turns) << 2u | uint(touches) << 3u, 0u)).x;
-    bvec2 found = notEqual(uvec2(found_bits) & uvec2(1u, 2u), uvec2(0u));
+    uint  flags = uint(lost) | uint(struck) << 1u | uint(turns) << 2u | uint(touches) << 3u;
+    uint  all   = all_bits(uvec2(flags, 0u)).x;
+    bvec2 found = bvec2((all & 1u) != 0u, (all & 2u) != 0u);
 #else
     bvec2 found = group_any(bvec2(lost, struck));
 #endif
@@ -87,7 +89,7 @@ bool accept(int method, bool waits, vec3 head_moved)
         known = waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
 #ifdef LEAVES_WHIPS
-    bool whips = (found_bits & 12u) == 4u && rod[guide_first + 1u].segment.w > 0.0;
+    bool whips = (all & 12u) == 4u && rod[guide_first + 1u].segment.w > 0.0;
     return !(found.x || whips);
 #elif defined(HAIR_PASS1)
     if (HAIR_SOLVER == SHAKE && COLLIDERS && !found.y) return !group_any(bvec2(turns || found.x, false)).x;

@@ -3,6 +3,9 @@
 // If lengths fail or a segment turns too far, a part of half the time is tried, and so on. A leap
 // of length h after one of length g advances the velocity by (g + h) / 2, which keeps leapfrog's
 // second order. Displacements are stored as over a whole substep.
+//
+// BDF2 damps a whip's waves. A guide of BDF2 that whips is therefore solved by SHAKE, in parts in
+// which explicit bending is stable. BDF2 continues after quiet substeps.
 
 // Extent to which the past is known. At 0 nothing is known, and the strand is at rest. At 1 its
 // displacement is known. At 2 its rates are known too. Above 1 SHAKE waits, and below 2 BDF2 leaps.
@@ -93,11 +96,12 @@ bool turns_at(uint i, float min_cosine)
 #define KEEP_SPREAD
 #endif
 
-#if defined(HAIR_STIFF) && (defined(LEAVES_WHIPS) || defined(SPLITS))
-// Maximum of 1 - cos of the angle by which a segment may turn in a substep of BDF2, 0.1 rad.
-#define MAX_TURN_OF_BACK 0.005
+#if defined(LEAVES_WHIPS) || defined(SPLITS)
+// Maximum of 1 - cos of the angle by which a segment may turn in a substep of BDF2, 0.07 rad. BDF2
+// damps the waves of faster turns.
+#define MAX_TURN_OF_BACK 0.0025
 
-// Return whether a segment turns too far for a whole substep by `method`. BDF2 would damp its motion.
+// Return whether a segment turns too far in a whole substep.
 bool turns_in_whole(uint i, int method)
 {
     float along = dot(GET(edge), AFTER_VEC3(moved) - GET(moved)),

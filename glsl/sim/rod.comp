@@ -5,7 +5,7 @@
 // whose bending makes SHAKE unstable at this substep. A substep that the method leaves stretched or
 // not finite is done again by implicit Euler, and then by follow-the-leader, which cannot fail. A
 // guide that is not finite even then returns to its rest pose. Each such substep is counted in
-// health[]. SHAKE takes a substep in parts where a whip turns segments, as parts.glsl explains.
+// health[]. A whip is solved by SHAKE in parts of a substep, as parts.glsl explains.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
@@ -50,6 +50,7 @@ void attempt_all(vec3 head_moved)
     int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
 #ifdef SPLITS
     float known_before = known;
+    // BDF2 has no past after parts, and begins with a leap.
     if (leap_part < 1.0) method = SHAKE;
     else if (own_method == BACK && known > 0.0 && known < 1.0) {
         method = BACK;
@@ -69,7 +70,7 @@ void attempt_all(vec3 head_moved)
         place_part(1.0, 1.0, head_moved);
 #endif
 #ifdef LEAVES_WHIPS
-        is_left = may_be_whip(method);
+        is_left = may_whip(method);
         if (is_left) return;
 #endif
 #ifdef KEEPS_RATES
@@ -95,7 +96,8 @@ void attempt_all(vec3 head_moved)
 
 // Many guides go through two programs. The first knows only the solver's own method. The second
 // knows all methods, and does the guides that the first leaves. The first thus takes fewer
-// registers, and its instructions fit into a GPU's cache.
+// registers, and its instructions fit into a GPU's cache. With HAIR_STIFF the first knows all
+// methods too, but not parts of a substep.
 void main()
 {
     uint first = hair_guide_number(),

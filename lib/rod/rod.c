@@ -25,8 +25,8 @@
 #define EXPLICIT_MARGIN 1.15 // Stability margin of explicit bending.
 #define EXPLICIT_MARGIN_BENT 1.5 // Stability margin of strands that are not straight at rest.
 #define STRAIGHT 1e-4 // Maximum sine of half the angle at a vertex of a straight strand.
-// Maximum length of a part of a substep of a guide that whips, over that at which explicit bending
-// is stable.
+// Maximum length of a part of a substep of a guide that whips, in substeps at which explicit
+// bending is just stable.
 #define MAX_WHIP_PART 0.5
 #define MIN_WHIP_PART (1.0 / 128) // MIN_PART of glsl/sim/leap_parts.glsl
 #define MIN_PER_FRAME_DIRECT 4
@@ -136,9 +136,8 @@ static double longest_explicit(const struct hair_rod_shape* s, const struct band
     return max > 0 ? 2 / ((is_straight(s) ? EXPLICIT_MARGIN : EXPLICIT_MARGIN_BENT) * sqrt(max)) : INFINITY;
 }
 
-// Return the longest part of a substep for a guide that whips, a power of two, as a fraction of the
-// substep. `phase` is the substep over that at which explicit bending is stable. Return 0 if no part
-// is short enough.
+// Return the longest part of a substep for a guide that whips, a power of two. `phase` is the
+// substep over that at which explicit bending is stable. Return 0 if no part is short enough.
 static double whip_part(double phase)
 {
     double part = 1;

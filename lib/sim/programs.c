@@ -16,7 +16,7 @@
 #define PART_ROUNDS_OF_THREAD 30000
 // Loop iterations for parts of a substep with a work group per guide. They suffice for 71 parts.
 #define PART_ROUNDS_OF_GROUP 9000
-// The same for guides whose bending is implicit. They suffice for 128 parts.
+// Loop iterations for parts of a guide whose bending is implicit. They suffice for 128 parts.
 #define PART_ROUNDS_OF_STIFF 18000
 // Maximum vertices of a guide whose parts fit into a thread.
 #define MAX_SPLIT_IN_THREAD 32
