@@ -123,9 +123,8 @@ static struct hair_state* whip_in_steps(struct hair_test* test, hair_thread_mapp
     hair_physics physics = hair_test_bare();
     struct hair_test_living living;
     physics.damping = 0;
-    struct hair_test_strands strands =
-        hair_test_straight(vertices, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
-    for (uint32_t i = 1; i < guides; ++i)
+    struct hair_test_strands strands = hair_test_strands_make(guides, vertices);
+    for (uint32_t i = 0; i < guides; ++i)
         hair_test_add_straight(&strands, vertices, hair_v3(0, 0, 0), hair_v3(1, 0, 0), LENGTH);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_ACCURATE, mapping, 1.0 / 1024, &physics);
     hair_test_live(test, &strands, &desc, &living);
@@ -144,9 +143,9 @@ static const hair_thread_mapping mappings[] = {HAIR_THREAD_MAPPING_WORKGROUP_PER
 // them in several dispatches.
 static void cracking_whip_is_equal_in_longer_steps(void** state)
 {
-    // The two programs round differently on GPUs.
+    // The two programs round differently on GPUs, and where only the first runs a thread per guide.
     if (!((struct hair_test*)*state)->context->gl.software) return;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 3; ++k) {
         uint32_t vertices = k < 2 ? 32 : 64;
         int substeps = k < 2 ? 2048 : 704;
         struct hair_state* one = whip_in_steps(*state, mappings[k % 2], vertices, 1, substeps, 1);
