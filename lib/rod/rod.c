@@ -28,7 +28,9 @@
 // Maximum length of a part of a substep of a guide that whips, in substeps at which explicit
 // bending is just stable.
 #define MAX_WHIP_PART 0.5
-#define MIN_WHIP_PART (1.0 / 128) // MIN_PART of glsl/sim/leap_parts.glsl
+// Minimum length of a part with which a whip may begin. A guide that needs shorter parts would take
+// too long.
+#define MIN_WHIP_PART (1.0 / 32)
 #define MIN_PER_FRAME_DIRECT 4
 // Maximum substeps per frame of direct, for a heavy tip. Beyond that, tip inertia is added: see
 // tip_inertia.c.
@@ -142,7 +144,7 @@ static double whip_part(double phase)
 {
     double part = 1;
     while (part * phase > MAX_WHIP_PART && part > MIN_WHIP_PART) part /= 2;
-    return part * phase < 1 ? part : 0;
+    return part * phase <= MAX_WHIP_PART ? part : 0;
 }
 
 // The two rows of L D L^T above the next row. `one` is the last row, and `two` the row before that.
