@@ -38,6 +38,14 @@ bool may_whip(int method)
 bool accept(int method, bool waits, vec3 head_moved)
 {
     bool lost = false, struck = false, turns = false, touches = false;
+#ifdef LEAVES_WHIPS
+    if (may_turn_far()) {
+        FOR_VERTICES(guide_count) {
+            turns   = turns || turns_in_whole(i, method);
+            touches = touches || (COLLIDERS && local(met) != BITS(0u));
+        }
+    }
+#endif
     FOR_VERTICES(guide_count) {
         vec3 d = GET(moved), kept = d;
 #if defined(HAIR_PASS1) && defined(WATCHES_TURNS)
@@ -45,10 +53,6 @@ bool accept(int method, bool waits, vec3 head_moved)
         turns  = turns || turns_at(i, MIN_COSINE);
         struck = struck || (COLLIDERS && local(met) != BITS(0u));
         lost   = lost || (!COLLIDERS && turns);
-#endif
-#ifdef LEAVES_WHIPS
-        turns   = turns || turns_in_whole(i, method);
-        touches = touches || (COLLIDERS && local(met) != BITS(0u));
 #endif
         // Limit the speed that follow-the-leader added.
         if (IS_LEADER(method)) {

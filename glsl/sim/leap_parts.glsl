@@ -46,7 +46,8 @@ bool turns_far(int method)
     bool  far = false, touches = false;
     rounds_spent += LOOPS_OF_PART + LOOPS_OF_STEP * length_steps;
     FOR_VERTICES(guide_count) {
-        bool turned = IS_BACK(method) ? turns_in_whole(i, method) : turns_at(i, min_cosine);
+        bool turned =
+            IS_BACK(method) ? may_turn_far() && turns_in_whole(i, method) : turns_at(i, min_cosine);
         far     = far || turned;
         touches = touches || (COLLIDERS && local(met) != BITS(0u));
     }

@@ -101,6 +101,9 @@ bool turns_at(uint i, float min_cosine)
 // damps the waves of faster turns.
 #define MAX_TURN_OF_BACK 0.0025
 
+// Return whether segments may turn too far in a whole substep. Lengths take one step where none does.
+bool may_turn_far() { return length_steps > 1u; }
+
 // Return whether a segment turns too far in a whole substep.
 bool turns_in_whole(uint i, int method)
 {
