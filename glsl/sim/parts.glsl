@@ -101,7 +101,8 @@ bool turns_at(uint i, float min_cosine)
 // damps the waves of faster turns.
 #define MAX_TURN_OF_BACK 0.0025
 
-// Return whether segments may turn too far in a whole substep. Lengths take one step where none does.
+// Return whether segments may turn too far in a whole substep. Lengths of quiet guides take one
+// step.
 bool may_turn_far() { return length_steps > 1u; }
 
 // Return whether a segment turns too far in a whole substep.

@@ -59,8 +59,9 @@ struct whip {
     double seconds;
 };
 
-// Release a strand and check its energy until `seconds`. The energy is relative to the strand hanging
-// straight down. Substeps sample short waves coarsely, which makes the energy vary in between.
+// Release a strand and check its energy until `seconds`. The energy is relative to the strand
+// hanging straight down. Substeps sample short waves coarsely, which makes the energy vary in
+// between.
 static void keep_energy(struct hair_test* test, const struct whip* whip)
 {
     hair_physics physics = hair_test_bare();

@@ -178,8 +178,8 @@ static bool find_whip_energy(struct bench_live_scene* live, struct hair_referenc
     return true;
 }
 
-// Measure the energy of a strand five seconds after its level release, relative to hanging down, and
-// its maximum until then.
+// Measure the energy of a strand five seconds after its level release, relative to hanging down.
+// Measure its maximum until then too.
 static bool run_whip(struct bench_live_scene* live, struct hair_reference_rod* rod)
 {
     double weight = bench_section_of(&live->scene->physics).line_density * LENGTH * BENCH_GRAVITY;
