@@ -90,7 +90,7 @@ static void keep_energy(struct hair_test* test, const struct whip* whip)
         whip->vertices, whip->degrees, (int)whip->root, 1 / h, whip->beside, now / first, whip->seconds,
         max / first);
     hair_test_healthy(&living);
-    assert_true(now > 0.95 * first);
+    assert_true(now > 0.97 * first);
     assert_true(max < 1.015 * first);
     hair_test_die(&living);
 }
@@ -108,9 +108,9 @@ static void cracking_whip_keeps_its_energy(void** state)
         {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 2048, 0, 5},
         {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1024, 1, 5},
         {32, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 1, 5},
-        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, 0, 2.5},
-        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1024, 0, 2},
-        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 1, 2},
+        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 0, 0, 2.2},
+        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 1.0 / 1024, 0, 1.5},
+        {64, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 1, 1.2},
         {128, 90, HAIR_ROOT_CLAMPED, HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE, 0, 0, 1.5},
         {128, 90, HAIR_ROOT_HINGED, HAIR_THREAD_MAPPING_THREAD_PER_GUIDE, 1.0 / 1024, 0, 1.2},
     };
