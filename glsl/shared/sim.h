@@ -48,8 +48,9 @@ struct hair_rod {
     // x: length of segment i, m. 0 for the tip. y: 1 / mass, 1/m. z: square of the angular
     // frequency of the pull to the rest pose, 1/s^2. w of a first vertex: method of the accurate
     // solver. 0 is explicit, 1 is BDF2, and 2 is implicit Euler, for a guide that a heavy tip pulls
-    // taut. w of every vertex in the mixed scheme: 2 w0, twice the real part of conj(q_(i-1)) q_i
-    // at rest. 0 for the tip.
+    // taut. w of a second vertex: longest part of a substep when the guide whips, a power of two. 0
+    // if no part is short enough. w of every vertex in the mixed scheme: 2 w0, twice the real part
+    // of conj(q_(i-1)) q_i at rest. 0 for the tip.
     hair_vec4 segment;
     // Row of L D L^T of the implicit system of the solver's own method. x: 1/D. y: L(i+1,i). z:
     // L(i+2,i). w: number of the first pin beyond this vertex, counted from 1. 0 if there is none.
@@ -141,7 +142,7 @@ struct hair_step_params {
     hair_uint list;   // 0 or 1. This dispatch's header in health[].
     hair_uint substep_first; // Index in `substep` at which this dispatch begins.
     hair_uint part_rounds; // Loop iterations that parts of a substep may take. See leap_parts.glsl.
-    hair_uint unused0;
+    hair_uint list_guides; // Guides of the list per work group of the second program.
     // Parameters of the grid for looking up any number of colliders, from the head's origin.
     hair_vec4 cells_lower; // xyz: lower corner, m. w: 1 / side of a cell, 1/m.
     hair_uint cells_x, cells_y, cells_z;

@@ -20,12 +20,32 @@ float known_after(int method)
     return 2.0;
 }
 
+#ifdef LEAVES_WHIPS
+// Return whether an attempt may have failed because the guide whips. The second program then tries
+// again. A guide that touches a collider takes whole substeps.
+bool may_whip(int method)
+{
+    bool touches = false;
+    if (method != own_method || method == EULER) return false;
+    FOR_VERTICES(guide_count) { touches = touches || (COLLIDERS && local(met) != BITS(0u)); }
+    return !COLLIDERS || !group_any(bvec2(touches, false)).x;
+}
+#endif
+
 // Accept `moved` as the result of a substep by `method`. Update place, displacement and rates. A
 // strand that is not finite, or is farther away than any hair, returns to its rest pose and moves
 // with the head. Return false if another program must do the substep instead.
 bool accept(int method, bool waits, vec3 head_moved)
 {
-    bool lost = false, struck = false, turns = false;
+    bool lost = false, struck = false, turns = false, touches = false;
+#ifdef LEAVES_WHIPS
+    if (may_turn_far()) {
+        FOR_VERTICES(guide_count) {
+            turns   = turns || turns_in_whole(i, method);
+            touches = touches || (COLLIDERS && local(met) != BITS(0u));
+        }
+    }
+#endif
     FOR_VERTICES(guide_count) {
         vec3 d = GET(moved), kept = d;
 #if defined(HAIR_PASS1) && defined(WATCHES_TURNS)
@@ -61,11 +81,21 @@ bool accept(int method, bool waits, vec3 head_moved)
             lost = lost || max(bits_of(dot(from_head, from_head)), bits_of(dot(d, d))) >
                                floatBitsToUint(FARTHEST * FARTHEST);
     }
+#ifdef LEAVES_WHIPS
+    uint  flags = uint(lost) | uint(struck) << 1u | uint(turns) << 2u | uint(touches) << 3u;
+    uint  all   = all_bits(uvec2(flags, 0u)).x;
+    bvec2 found = bvec2((all & 1u) != 0u, (all & 2u) != 0u);
+#else
     bvec2 found = group_any(bvec2(lost, struck));
-    if (own_method == SHAKE)
-        known = IS_SHAKE(method) ? leap_part : waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
+#endif
+    if (IS_SHAKE(method)) known = leap_part;
+    else if (own_method == SHAKE)
+        known = waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
-#ifdef HAIR_PASS1
+#ifdef LEAVES_WHIPS
+    bool whips = (all & 12u) == 4u && rod[guide_first + 1u].segment.w > 0.0;
+    return !(found.x || whips);
+#elif defined(HAIR_PASS1)
     if (HAIR_SOLVER == SHAKE && COLLIDERS && !found.y) return !group_any(bvec2(turns || found.x, false)).x;
     return !found.x;
 #else

@@ -17,7 +17,7 @@ void clear_list(uint list)
 void add_to_list(uint number)
 {
     uint at     = length_of_list(params.list), n = atomicAdd(solver_stats[at], 1u);
-    uint groups = n / GUIDES_IN_GROUP + 1u;
+    uint groups = n / params.list_guides + 1u;
     solver_stats[uint(HAIR_SOLVER_STATS_LISTS) + n] = number;
     atomicMax(solver_stats[at - 3u], min(groups, HAIR_MAX_GROUPS));
     atomicMax(solver_stats[at - 2u], (groups + HAIR_MAX_GROUPS - 1u) / HAIR_MAX_GROUPS);

@@ -40,7 +40,7 @@ void solve_implicit(bool euler) { substitute(euler); }
 // mostly have one thread each.
 void solve_implicit(bool euler)
 {
-#ifndef HAIR_PASS1
+#if !defined(HAIR_PASS1) || defined(HAIR_STIFF)
     if (euler || uint(reduction.length()) < params.vertices) {
         substitute(euler);
         return;

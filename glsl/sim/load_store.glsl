@@ -13,6 +13,9 @@ void load()
     float taken = rod[guide_first].segment.w;
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
 #endif
+#ifdef SPLITS
+    whip_part = rod[guide_first + 1u].segment.w;
+#endif
     FOR_VERTICES(guide_count) {
         // Request all reads before any value is used, because a GPU waits for all of them as long
         // as for one.

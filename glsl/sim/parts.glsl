@@ -3,6 +3,9 @@
 // If lengths fail or a segment turns too far, a part of half the time is tried, and so on. A leap
 // of length h after one of length g advances the velocity by (g + h) / 2, which keeps leapfrog's
 // second order. Displacements are stored as over a whole substep.
+//
+// BDF2 damps a whip's waves. A guide of BDF2 that whips is therefore solved by SHAKE, in parts in
+// which explicit bending is stable. BDF2 continues after quiet substeps.
 
 // Extent to which the past is known. At 0 nothing is known, and the strand is at rest. At 1 its
 // displacement is known. At 2 its rates are known too. Above 1 SHAKE waits, and below 2 BDF2 leaps.
@@ -15,7 +18,10 @@ uint  length_steps;
 // Contact and pins may leave lengths broken in parts of any size. Guides that touch a collider,
 // have pins, or look up colliders in lists therefore take whole substeps.
 #if HAIR_SOLVER == SHAKE && !defined(HAIR_COLLIDER_GRID) && !defined(HAIR_PINNED)
-#if defined(HAIR_PASS1) || defined(HAIR_PASS2)
+#if defined(HAIR_PASS1) && defined(HAIR_STIFF)
+#define LEAVES_WHIPS
+bool is_left; // The second program must do the guide.
+#elif defined(HAIR_PASS1) || defined(HAIR_PASS2)
 #define WATCHES_TURNS
 #endif
 #ifdef HAIR_PASS2
@@ -24,6 +30,7 @@ uint  length_steps;
 #endif
 
 #ifdef SPLITS
+float whip_part;    // Longest part of a guide that whips. 0 if the guide cannot be split.
 float leap_part;    // Fraction of the substep, a power of two
 // Values of params.keep and params.kick for the part.
 float part_keep;
@@ -44,12 +51,13 @@ float leap_span() { return known == 0.0 ? 0.5 : 0.5 + 0.5 * known_part() / leap_
 float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half a step.
 #endif
 
+// Cosine of the angle by which a segment may turn in a substep, 0.3 rad.
+#define MIN_COSINE 0.955
+
 #ifdef WATCHES_TURNS
 // Leapfrog keeps the energy of a segment that turns evenly. A whip gains or loses energy where the
 // turn changes within a substep. A whip keeps its parts until a whole substep turns no segment
 // farther than a part may.
-// Cosine of the angle by which a segment may turn in a substep, 0.3 rad.
-#define MIN_COSINE 0.955
 // Cosine of the angle by which a segment may turn in a part, 0.1 rad.
 #define MIN_PART_COSINE 0.995
 #define MAX_TURN_CHANGE 0.05 // Maximum change of the turn from one leap to the next, rad
@@ -86,4 +94,22 @@ bool turns_at(uint i, float min_cosine)
 #else
 #define PUT_SPREAD
 #define KEEP_SPREAD
+#endif
+
+#if defined(LEAVES_WHIPS) || defined(SPLITS)
+// Maximum of 1 - cos of the angle by which a segment may turn in a substep of BDF2, 0.07 rad. BDF2
+// damps the waves of faster turns.
+#define MAX_TURN_OF_BACK 0.0025
+
+// Return whether segments may turn too far in a whole substep. Lengths of quiet guides take one
+// step.
+bool may_turn_far() { return length_steps > 1u; }
+
+// Return whether a segment turns too far in a whole substep.
+bool turns_in_whole(uint i, int method)
+{
+    float along = dot(GET(edge), AFTER_VEC3(moved) - GET(moved)),
+          max_turn = IS_BACK(method) ? MAX_TURN_OF_BACK : 1.0 - MIN_COSINE;
+    return i + 1u < guide_count && method < EULER && along > max_turn * local(rest_length);
+}
 #endif

@@ -5,7 +5,7 @@
 // whose bending makes SHAKE unstable at this substep. A substep that the method leaves stretched or
 // not finite is done again by implicit Euler, and then by follow-the-leader, which cannot fail. A
 // guide that is not finite even then returns to its rest pose. Each such substep is counted in
-// health[]. SHAKE takes a substep in parts where a whip turns segments, as parts.glsl explains.
+// health[]. A whip is solved by SHAKE in parts of a substep, as parts.glsl explains.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
@@ -27,6 +27,7 @@ layout(local_size_x = GROUP_THREADS) in;
 void place_part(float size, float end, vec3 head_moved);
 bool may_split(float smaller);
 bool turns_far(int method);
+bool splits(inout int method, float known_before, vec3 head_moved);
 #endif
 
 // Do the substep by `method`. Return false if it failed.
@@ -47,6 +48,15 @@ void attempt_all(vec3 head_moved)
 {
     bool waits = own_method == SHAKE && known > 1.0;
     int method = waits || (own_method == BACK && known < LEAPS_NEXT) ? EULER : own_method;
+#ifdef SPLITS
+    float known_before = known;
+    // BDF2 has no past after parts, and begins with a leap.
+    if (leap_part < 1.0) method = SHAKE;
+    else if (own_method == BACK && known > 0.0 && known < 1.0) {
+        method = BACK;
+        known  = LEAPS_NEXT;
+    }
+#endif
     // One compiler makes slower code if the attempt is the loop's condition.
     for (;; ++method) {
         vec3 moves = head_moved;
@@ -55,13 +65,13 @@ void attempt_all(vec3 head_moved)
 #endif
         if (attempt(method, moves)) break;
 #ifdef SPLITS
-        if (IS_SHAKE(method) && may_split(0.5 * leap_part)) {
-            place_part(0.5 * leap_part, done + 0.5 * leap_part, head_moved);
-            --method;
-            continue;
-        }
+        if (splits(method, known_before, head_moved)) continue;
         // A method that does not leap does the whole rest.
         place_part(1.0, 1.0, head_moved);
+#endif
+#ifdef LEAVES_WHIPS
+        is_left = may_whip(method);
+        if (is_left) return;
 #endif
 #ifdef KEEPS_RATES
         // The failed attempt led to wrong tensions.
@@ -74,7 +84,11 @@ void attempt_all(vec3 head_moved)
 #ifdef HAIR_PINNED
     if (group_any(bvec2(taut, false)).x) count_in(HAIR_SOLVER_STATS_OVEREXTENDED);
 #endif
+#ifdef LEAVES_WHIPS
+    is_left = !accept(method, waits, head_moved);
+#else
     accept(method, waits, head_moved);
+#endif
 }
 
 #include "sim/substeps.glsl"
@@ -82,7 +96,8 @@ void attempt_all(vec3 head_moved)
 
 // Many guides go through two programs. The first knows only the solver's own method. The second
 // knows all methods, and does the guides that the first leaves. The first thus takes fewer
-// registers, and its instructions fit into a GPU's cache.
+// registers, and its instructions fit into a GPU's cache. With HAIR_STIFF the first knows all
+// methods too, but not parts of a substep.
 void main()
 {
     uint first = hair_guide_number(),

@@ -49,7 +49,9 @@ bool solve()
 #endif
     load();
     if (COLLIDERS) begin_colliders();
-#ifdef HAIR_PASS1
+#ifdef LEAVES_WHIPS
+    if (known > 0.0 && known < 1.0) return false;
+#elif defined(HAIR_PASS1)
     if (HAIR_SOLVER == SHAKE ? known != 0.0 && known != 1.0 : known < LEAPS_NEXT) return false;
 #endif
 
@@ -76,7 +78,10 @@ bool solve()
 
         grant_rounds();
         if (COLLIDERS) next_colliders();
-#ifdef HAIR_PASS1
+#ifdef LEAVES_WHIPS
+        attempt_all(head_moved);
+        if (is_left) return false;
+#elif defined(HAIR_PASS1)
         if (!attempt(HAIR_SOLVER, head_moved) || !accept(HAIR_SOLVER, false, head_moved)) return false;
 #elif defined(SPLITS)
         do_substep(head_moved);

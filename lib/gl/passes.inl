@@ -122,7 +122,8 @@ PASS(HAIR_GRID_GATHER, "sim/hair_grid_gather", HAIR_GRID, 0, "HAIR_GRID=1 sim/ha
 PASS(DIRECT, "sim/direct", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
 PASS(ACCURATE, "sim/accurate", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2),
      "HAIR_SOLVER=0 sim/rod.comp")
-PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
+PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2),
+     "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
 PASS(MIXED_SOLVER, "sim/mixed", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
 PASS(FOLLOW, "sim/follow", SOLVE, STRAND_FEATURES, "sim/follow.comp")
 PASS(REDBLACK, "sim/redblack", SOLVE, SIZES | WITH(SKINNED), "sim/redblack.comp")

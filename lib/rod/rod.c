@@ -25,6 +25,12 @@
 #define EXPLICIT_MARGIN 1.15 // Stability margin of explicit bending.
 #define EXPLICIT_MARGIN_BENT 1.5 // Stability margin of strands that are not straight at rest.
 #define STRAIGHT 1e-4 // Maximum sine of half the angle at a vertex of a straight strand.
+// Maximum length of a part of a substep of a guide that whips, in substeps at which explicit
+// bending is just stable.
+#define MAX_WHIP_PART 0.5
+// Minimum length of a part with which a whip may begin. A guide that needs shorter parts would take
+// too long.
+#define MIN_WHIP_PART (1.0 / 32)
 #define MIN_PER_FRAME_DIRECT 4
 // Maximum substeps per frame of direct, for a heavy tip. Beyond that, tip inertia is added: see
 // tip_inertia.c.
@@ -132,6 +138,15 @@ static double longest_explicit(const struct hair_rod_shape* s, const struct band
     return max > 0 ? 2 / ((is_straight(s) ? EXPLICIT_MARGIN : EXPLICIT_MARGIN_BENT) * sqrt(max)) : INFINITY;
 }
 
+// Return the longest part of a substep for a guide that whips, a power of two. `phase` is the
+// substep over that at which explicit bending is stable. Return 0 if no part is short enough.
+static double whip_part(double phase)
+{
+    double part = 1;
+    while (part * phase > MAX_WHIP_PART && part > MIN_WHIP_PART) part /= 2;
+    return part * phase <= MAX_WHIP_PART ? part : 0;
+}
+
 // The two rows of L D L^T above the next row. `one` is the last row, and `two` the row before that.
 // x is D, y is L(i+1,i), and z is L(i+2,i).
 struct rows {
@@ -196,7 +211,8 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
     }
     find_bands(s, stiffness, k);
     int accurate = solver == HAIR_SOLVER_ACCURATE, implicit = solver == HAIR_SOLVER_DIRECT;
-    if (accurate) implicit = longest_explicit(s, k) < h * (1 - 1e-9); // h may be rounded.
+    double phase = h / longest_explicit(s, k);
+    if (accurate) implicit = phase * (1 - 1e-9) > 1; // h may be rounded.
     int taut = accurate && tautness * h > 2 / EXPLICIT_MARGIN;
     double damping = (double)physics->damping, b = 2 * h / 3;
 
@@ -209,6 +225,7 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
         out[i] = (struct hair_rod){.strain = rest_strain(s, i, stiffness[i]),
                                    .segment = {(float)s->length[i], fixed ? 0 : (float)(1 / s->mass[i]),
                                                (float)pull, taut ? 2 : (float)implicit}};
+        if (accurate && i == 1) out[i].segment.w = (float)whip_part(phase);
         if (implicit) out[i].factor = eliminate(&own, of_b, k[i], b * b);
         out[i].factor_euler = eliminate(&euler, of_h, k[i], h * h);
     }

@@ -153,6 +153,7 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int fir
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
     loops.over += 4; // The guide is loaded, accepted or reset, and stored.
+    loops.over += hair_sim_is_stiff(sim); // The first of two programs asks whether it touches.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)
         return around * (loops.over + 2 * loops.rows + loops.along + each) + loops.ends + look + spare + IDLE;

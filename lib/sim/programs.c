@@ -16,6 +16,10 @@
 #define PART_ROUNDS_OF_THREAD 30000
 // Loop iterations for parts of a substep with a work group per guide. They suffice for 71 parts.
 #define PART_ROUNDS_OF_GROUP 9000
+// Loop iterations for parts of a guide whose bending is implicit. They suffice for 128 parts.
+#define PART_ROUNDS_OF_STIFF 18000
+// Maximum vertices of a guide whose parts fit into a thread.
+#define MAX_SPLIT_IN_THREAD 32
 
 // A work group solves a guide that would be too much for a thread.
 bool hair_sim_is_by_thread(const struct hair_sim* sim)
@@ -34,23 +38,40 @@ static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
     return max < 1 ? 1 : max < HAIR_STEP_SUBSTEPS ? max : HAIR_STEP_SUBSTEPS;
 }
 
-// Return whether guides go through two programs. The first only knows SHAKE, and the second solves
-// the guides that the first leaves.
-static bool uses_two_passes_by_shake(const struct hair_sim* sim)
-{
-    return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !hair_sim_is_stiff(sim);
-}
-
-// Return whether the second program may split substeps. See glsl/sim/parts.glsl.
+// Return whether some substeps may be split. See glsl/sim/parts.glsl.
 static bool has_parts(const struct hair_sim* sim)
 {
-    return uses_two_passes_by_shake(sim) && !sim->contacts.any && !sim->pins.count;
+    return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !sim->contacts.any &&
+           !sim->pins.count;
+}
+
+// Return whether guides go through two programs of the accurate solver. The second program solves
+// the guides that the first leaves. The first only knows SHAKE. Where bending is implicit the first
+// knows all methods, and the second splits substeps.
+static bool uses_two_passes_by_shake(const struct hair_sim* sim)
+{
+    bool stiff = hair_sim_is_stiff(sim);
+    return stiff ? has_parts(sim) : sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim);
+}
+
+// Return whether a thread of the second program solves a guide, and not a work group. Parts of long
+// guides need more loop iterations than a thread has.
+static bool is_list_by_thread(const struct hair_sim* sim)
+{
+    bool fits = !has_parts(sim) || sim->max_vertices <= MAX_SPLIT_IN_THREAD;
+    return hair_sim_is_by_thread(sim) && fits;
+}
+
+uint32_t hair_sim_guides_of_list_group(const struct hair_sim* sim)
+{
+    return is_list_by_thread(sim) ? GUIDES_PER_GROUP : 1;
 }
 
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
 {
-    int by_thread = hair_sim_is_by_thread(sim);
-    uint32_t max = by_thread ? PART_ROUNDS_OF_THREAD : PART_ROUNDS_OF_GROUP;
+    int by_thread = is_list_by_thread(sim);
+    uint32_t of_group = hair_sim_is_stiff(sim) ? PART_ROUNDS_OF_STIFF : PART_ROUNDS_OF_GROUP;
+    uint32_t max = by_thread ? PART_ROUNDS_OF_THREAD : of_group;
     if (!has_parts(sim)) return 0;
     if (!sim->gl->software) return max;
     uint32_t whole = hair_sim_rounds_of_substep(sim, by_thread);
@@ -62,8 +83,9 @@ uint32_t hair_sim_part_rounds(const struct hair_sim* sim)
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim)
 {
     int by_thread = hair_sim_is_by_thread(sim);
-    return substeps_of(sim, has_parts(sim) ? hair_sim_rounds_of_pass1(sim, by_thread)
-                                           : hair_sim_rounds_of_substep(sim, by_thread));
+    bool first = has_parts(sim) && !hair_sim_is_stiff(sim);
+    return substeps_of(sim, first ? hair_sim_rounds_of_pass1(sim, by_thread)
+                                  : hair_sim_rounds_of_substep(sim, by_thread));
 }
 
 // Return whether guides are so few that their work groups wait for the memory of colliders. Such
@@ -131,12 +153,20 @@ static bool uses_two_passes(const struct hair_sim* sim, hair_gl_pass pass)
     return sim->two_pass && pass == hair_gl_pass_for(HAIR_GL_DIRECT | HAIR_GL_WITH(COLLIDERS), 1);
 }
 
+// Return the second of the two programs that replace `pass`.
+static hair_gl_pass listed_pass(const struct hair_sim* sim, hair_gl_pass pass)
+{
+    HAIR_ASSERT(uses_two_passes(sim, pass));
+    if (!is_list_by_thread(sim)) pass &= ~HAIR_GL_WITH(THREAD_PER_GUIDE);
+    return pass | HAIR_GL_WITH(PASS2);
+}
+
 // Compile `pass`, or the two programs that replace it.
 static hair_result ensure_solver(const struct hair_sim* sim, hair_gl_pass pass)
 {
     if (!uses_two_passes(sim, pass)) return hair_gl_ensure_program(sim->gl, pass);
     HAIR_TRY(hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS1)));
-    return hair_gl_ensure_program(sim->gl, pass | HAIR_GL_WITH(PASS2));
+    return hair_gl_ensure_program(sim->gl, listed_pass(sim, pass));
 }
 
 hair_result hair_sim_ensure_solver(struct hair_sim* sim)
@@ -155,10 +185,9 @@ static void run_pass2(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_
 {
     HAIR_ASSERT(0 < params->substeps && params->substeps <= HAIR_STEP_SUBSTEPS && params->list < 2);
     uint32_t count = params->substeps;
-    int by_thread = hair_sim_is_by_thread(sim);
-    uint32_t rounds = hair_sim_rounds_of_substep(sim, by_thread) + hair_sim_part_rounds(sim);
+    uint32_t rounds = hair_sim_rounds_of_substep(sim, is_list_by_thread(sim)) + hair_sim_part_rounds(sim);
     uint32_t max = substeps_of(sim, rounds);
-    hair_gl_pass listed = pass | HAIR_GL_WITH(PASS2);
+    hair_gl_pass listed = listed_pass(sim, pass);
     GLuint program = hair_gl_find(sim->gl, listed)->program;
     size_t at = (HAIR_SOLVER_STATS_COUNT + params->list * HAIR_SOLVER_STATS_LIST) * sizeof(uint32_t);
     for (uint32_t done = 0; done < count; done += max) {

@@ -266,6 +266,7 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->vertices = sim->guide_vertices;
     params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
+    params->list_guides = hair_sim_guides_of_list_group(sim);
 }
 
 struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim)

@@ -251,6 +251,8 @@ bool hair_sim_is_by_thread(const struct hair_sim* sim);
 uint32_t hair_sim_substeps_at_once(const struct hair_sim* sim);
 // Return the maximum number of loop iterations for the parts of a substep.
 uint32_t hair_sim_part_rounds(const struct hair_sim* sim);
+// Return how many guides of its list a work group of the second program solves.
+uint32_t hair_sim_guides_of_list_group(const struct hair_sim* sim);
 
 // Functions of loop_budget.c.
 

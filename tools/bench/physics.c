@@ -4,30 +4,12 @@
 
 #include <math.h>
 
-static const char* const columns[] = {"case",
-                                      "method",
-                                      "vertices",
-                                      "gamma",
-                                      "angle",
-                                      "mode",
-                                      "reynolds",
-                                      "rate",
-                                      "substeps",
-                                      "expected",
-                                      "measured",
-                                      "relative_error",
-                                      "limit",
-                                      "pass",
-                                      "reference",
-                                      "friction",
-                                      "load",
-                                      "creep",
-                                      "speed",
-                                      "fallbacks",
-                                      "still_air",
-                                      "drag",
-                                      BENCH_MATERIAL_COLUMNS,
-                                      NULL};
+static const char* const columns[] = {
+    "case",     "method",    "vertices",  "gamma",     "angle",    "mode",
+    "reynolds", "rate",      "substeps",  "expected",  "measured", "relative_error",
+    "limit",    "pass",      "reference", "friction",  "load",     "creep",
+    "speed",    "fallbacks", "peak",      "still_air", "drag",     BENCH_MATERIAL_COLUMNS,
+    NULL};
 
 const hair_solver bench_rod_solvers[BENCH_RODS] = {HAIR_SOLVER_ACCURATE, HAIR_SOLVER_DIRECT};
 
