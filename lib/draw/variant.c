@@ -45,7 +45,7 @@ static hair_gl_pass find_draw_row(const struct hair_draw_plan* plan)
     if (plan->is_computed) return HAIR_GL_RESOLVE_TILES;
     switch (plan->vertices) {
     case HAIR_VERTICES_TESSELLATED: return HAIR_GL_TESSELLATED;
-    case HAIR_VERTICES_PROCEDURAL: return HAIR_GL_INSTANCED;
+    case HAIR_VERTICES_PROCEDURAL: return HAIR_GL_PROCEDURAL;
     case HAIR_VERTICES_PER_VIEW: return HAIR_GL_VIEW_CACHED;
     default: return plan->is_paired ? HAIR_GL_CACHED_PAIRED : HAIR_GL_CACHED;
     }

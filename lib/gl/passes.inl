@@ -151,7 +151,7 @@ PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")
 PASS(CULL_PATCHES, "draw/cull_patches", OCCLUSION, WITH(HITS), "draw/cull_patches.comp")
 PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION),
      "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
-PASS(INSTANCED, "draw/instanced", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
+PASS(PROCEDURAL, "draw/procedural", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
 PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
      "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
 PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),

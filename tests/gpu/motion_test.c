@@ -10,6 +10,7 @@
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
+#include "tests/support/render_paths.h"
 
 #define SIDE 96
 #define SEGMENTS 16u
@@ -355,7 +356,7 @@ static void history_is_not_kept_without_motion_vectors(void** state)
     hair_view view = view_of(HAIR_PASS_COLOR, 0);
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 3; ++i) {
-        view.render_path = (hair_render_path)i;
+        view.render_path = hair_test_paths[i];
         hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
         hair_test_ok(f.test, hair_draw(f.hair, &view));
     }

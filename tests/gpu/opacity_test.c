@@ -11,6 +11,7 @@
 #include "tests/reference/self_shadow.h"
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
+#include "tests/support/render_paths.h"
 
 #define HALF 0.2f // Half of the side of the visible square, in metres.
 #define RAYS 4096
@@ -172,11 +173,11 @@ static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
     part.per_patch = false;
     count_rays(f, -1);
     make_map(f, 256);
-    for (int path = 0; path <= HAIR_RENDER_PATH_CACHED; ++path)
+    for (int path = 0; path <= HAIR_TEST_CACHED; ++path)
         for (int k = 0; k < 4; ++k) {
             static const float fractions[] = {1, 0.5f, 0.2f, 0.1f};
             part.strand_fraction = fractions[k], part.segment_fraction = k ? 0.5f : 1.0f;
-            f->view.render_path = (hair_render_path)path;
+            f->view.render_path = hair_test_paths[path];
             f->view.lod = k ? &part : NULL;
             // The pass draws ribbons with both settings.
             f->view.primitive = k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;

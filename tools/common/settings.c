@@ -175,7 +175,7 @@ static const struct row rows[] = {
      "of drawing",
      COUNT,
      {AT(view.render_path)},
-     {"tessellation", "instanced", "cached", "compute", "auto"}},
+     {"tessellation", "cached", "compute", "auto", "procedural"}},
     {"primitive", "that strands are drawn as", COUNT, {AT(view.primitive)}, {"ribbons", "lines"}},
     {"coverage", "of pixels by thin strands", COUNT, {AT(view.coverage)}, {"msaa", "alpha"}},
     {"opacity", "of shares", FLOAT, {AT(view.opacity)}, {0}},
