@@ -5,13 +5,7 @@
 #include "lib/draw/render_path.h"
 
 // Indices in hair_test_paths. The last of them is the number of paths.
-enum {
-    HAIR_TEST_TESSELLATION,
-    HAIR_TEST_PROCEDURAL,
-    HAIR_TEST_CACHED,
-    HAIR_TEST_COMPUTE,
-    HAIR_TEST_PATHS
-};
+enum { HAIR_TEST_TESSELLATION, HAIR_TEST_PROCEDURAL, HAIR_TEST_CACHED, HAIR_TEST_COMPUTE, HAIR_TEST_PATHS };
 
 static const hair_render_path hair_test_paths[HAIR_TEST_PATHS] = {
     [HAIR_TEST_TESSELLATION] = HAIR_RENDER_PATH_TESSELLATION,

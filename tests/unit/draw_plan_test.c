@@ -115,6 +115,7 @@ static void passes_of_plans_make_what_later_passes_read(void** state)
         assert_int_equal(has_pass(&plan, HAIR_GL_COMPACT_STRANDS), plan.has_strand_list);
         assert_int_equal(has_pass(&plan, HAIR_GL_VERTEX_TRANSMITTANCE), is_lit);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND), is_lit || plan.vertices == HAIR_VERTICES_CACHED);
+        assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND_DRAWN), is_lit && s.view.lod);
         assert_int_equal(has_pass(&plan, HAIR_GL_RASTER), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_RESOLVE_TILES), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_SCATTER), plan.blending == HAIR_BLENDING_SORTED);
