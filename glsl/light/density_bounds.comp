@@ -1,5 +1,5 @@
-// density_bounds.comp - the bounding box of all hair whose vertices are written, in the head's
-// frame. Work groups are those of strands/vertex_range.glsl.
+// density_bounds.comp - the bounding box of the drawn strands, in the head's frame. Work groups are
+// those of strands/vertex_range.glsl.
 #version 450 core
 #include "strands/vertex_range.glsl"
 #include "light/density.glsl"

@@ -106,10 +106,9 @@ struct hair_draw_params {
     hair_uint textured;  // 1 if there is a colour texture.
     hair_uint light_values;       // Numbers per vertex at HAIR_UNIT_LIGHT. 0 if there are none.
     hair_uint culls;     // 1 if patches that are wholly outside `sides` are left out.
-    // 1 if passes over follower vertices leave out followers that the view does not draw.
-    hair_uint drawn_only;
     hair_uint chunks;     // Work groups per patch in passes over follower vertices.
     float     push_out_weight;        // Fraction of the push out of colliders that the view shows.
+    hair_uint unused;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

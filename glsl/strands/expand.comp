@@ -1,5 +1,6 @@
 // expand.comp - the vertex cache of followers, segments + 1 vertices each, to be drawn or read
-// back. Work groups are those of strands/vertex_range.glsl.
+// back. It has all followers with HAIR_EVERY_FOLLOWER, and otherwise those that a view draws. Work
+// groups are those of strands/vertex_range.glsl.
 #version 450 core
 #include "strands/evaluate.glsl"
 #include "strands/vertex_range.glsl"

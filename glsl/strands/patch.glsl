@@ -1,5 +1,5 @@
 // patch.glsl - the number of strands of a patch that are drawn, their width and their number of
-// segments. Every drawing path calls it.
+// segments. Every drawing path calls it. With HAIR_EVERY_FOLLOWER all followers count as drawn.
 //
 // All of these change continuously. The last strand thins out before it disappears. Segments begin
 // at equal distances from the root, and the last segment shrinks.
@@ -41,12 +41,11 @@ hair_patch_lines find_lines(uint number)
 }
 
 // Return the first follower of a patch and the number of followers whose vertices a pass covers.
-// These are all, or those that are drawn. A strand that is about to appear counts as well, because
-// other stages round differently.
+// These are the drawn strands. A strand that is about to appear counts as well, because other
+// stages round differently.
 uvec2 find_strands(uint number)
 {
     uvec2 all = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch
-    if (draw.drawn_only == 0u) return all;
     hair_patch_lines lines = find_lines(number);
     return uvec2(all.x, min(lines.strands + uint(lines.fading > 0.999), all.y));
 }

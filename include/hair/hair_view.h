@@ -43,13 +43,12 @@ typedef enum hair_pass {
 typedef enum hair_render_path {
     /// Tessellation into isolines, from patches of one point.
     HAIR_RENDER_PATH_TESSELLATION = 0,
-    /// Vertices computed from their index in the vertex shader, for the drawn strands only.
-    HAIR_RENDER_PATH_INSTANCED,
     /// Vertex cache, written once for all views until the hair moves. It takes 24 bytes per vertex,
     /// and 8 more for shading per view of HAIR_PASS_COLOR. With a hair_lod, the cache holds the
     /// drawn vertices of one view instead. It takes 40 bytes per vertex, or 24 for lines. This
-    /// applies to HAIR_PASS_COLOR and HAIR_PASS_DEPTH without a shader. Other views with a hair_lod
-    /// use HAIR_RENDER_PATH_INSTANCED.
+    /// applies to HAIR_PASS_COLOR and HAIR_PASS_DEPTH without a shader. For other views with a
+    /// hair_lod, the vertex shader computes the drawn vertices, and hair_report() names the pass
+    /// "procedural".
     HAIR_RENDER_PATH_CACHED,
     /// Rasterization in compute shaders, from the vertex cache, and composition of tiles into the
     /// framebuffer. Fastest on GPUs with few raster units.

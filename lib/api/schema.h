@@ -5,6 +5,7 @@
 #include <hair/hair_asset.h>
 
 #include "lib/base/desc.h"
+#include "lib/draw/render_path.h"
 
 #define BEGIN(S) struct hair_schema hair_schema_of_##S(void);
 #define FIELD(S, member, type, value, min, max)

@@ -124,7 +124,6 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     hair_draw_write_params(renderer, head, view, &params);
     if (plan->vertices == HAIR_VERTICES_TESSELLATED) hair_draw_cull_patches(renderer, view, &params);
     params.textured = plan->is_textured;
-    params.drawn_only = plan->shade != 0;
     hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
     bind(renderer, plan);
     draw_followers(renderer, plan, &params);

@@ -18,7 +18,7 @@ static const struct {
     bool is_computed;
 } methods[METHODS] = {
     [TESS] = {HAIR_RENDER_PATH_TESSELLATION, HAIR_VERTICES_TESSELLATED, false},
-    [PROC] = {HAIR_RENDER_PATH_INSTANCED, HAIR_VERTICES_PROCEDURAL, false},
+    [PROC] = {HAIR_RENDER_PATH_PROCEDURAL, HAIR_VERTICES_PROCEDURAL, false},
     [CACHE] = {HAIR_RENDER_PATH_CACHED, HAIR_VERTICES_CACHED, false},
     [VIEW] = {HAIR_RENDER_PATH_CACHED, HAIR_VERTICES_PER_VIEW, false},
     [COMP] = {HAIR_RENDER_PATH_COMPUTE, HAIR_VERTICES_CACHED, true},
@@ -34,18 +34,19 @@ enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KI
 // it uses per-view vertices. They hold a position, a width and a colour. Other outputs need
 // vertices that the vertex shader computes. Motion vectors compare vertices of the vertex cache,
 // and sorted segments index them. Pixels by compute are opaque, and hold only colour or depth.
-// Lines take the column `cached` in place of `compute`.
+// Lines take the column `cached` in place of `compute`. HAIR_RENDER_PATH_PROCEDURAL has no column.
+// Its vertices are procedural wherever they need not be those of the vertex cache.
 
 // clang-format off
-static const uint8_t method_of[KINDS][4][2] = {
-    //                 tessellation    instanced       cached          compute
-    [PLAIN]         = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, VIEW},  {COMP,  COMPV}},
-    [VERTEX_SHADER] = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {COMP,  COMPV}},
-    [PIXEL_SHADER]  = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [SORTED]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
-    [OPACITY]       = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [IDS]           = {{TESS,  TESS},  {PROC,  PROC},  {CACHE, PROC},  {CACHE, PROC}},
-    [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+static const uint8_t method_of[KINDS][3][2] = {
+    //                 tessellation    cached          compute
+    [PLAIN]         = {{TESS,  TESS},  {CACHE, VIEW},  {COMP,  COMPV}},
+    [VERTEX_SHADER] = {{TESS,  TESS},  {CACHE, PROC},  {COMP,  COMPV}},
+    [PIXEL_SHADER]  = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
+    [SORTED]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+    [OPACITY]       = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
+    [IDS]           = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
+    [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
 };
 // clang-format on
 
@@ -100,6 +101,7 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
 {
     if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
         path = HAIR_RENDER_PATH_CACHED;
+    if (path == HAIR_RENDER_PATH_PROCEDURAL) return kind == SORTED || kind == MOTION ? CACHE : PROC;
     HAIR_ASSERT((unsigned)path < sizeof method_of[0] / sizeof method_of[0][0]);
     return method_of[kind][path][view->lod != NULL];
 }

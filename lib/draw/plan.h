@@ -3,6 +3,7 @@
 #define HAIR_DRAW_PLAN_H
 
 #include "lib/base/pose.h"
+#include "lib/draw/render_path.h"
 #include "lib/gl/gl.h"
 
 #include <stdbool.h>

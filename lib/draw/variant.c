@@ -45,7 +45,7 @@ static hair_gl_pass find_draw_row(const struct hair_draw_plan* plan)
     if (plan->is_computed) return HAIR_GL_RESOLVE_TILES;
     switch (plan->vertices) {
     case HAIR_VERTICES_TESSELLATED: return HAIR_GL_TESSELLATED;
-    case HAIR_VERTICES_PROCEDURAL: return HAIR_GL_INSTANCED;
+    case HAIR_VERTICES_PROCEDURAL: return HAIR_GL_PROCEDURAL;
     case HAIR_VERTICES_PER_VIEW: return HAIR_GL_VIEW_CACHED;
     default: return plan->is_paired ? HAIR_GL_CACHED_PAIRED : HAIR_GL_CACHED;
     }
@@ -69,6 +69,8 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
     if (state & HAIR_GL_WITH(OCCLUSION)) add(plan, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, features);
     if (plan->vertices == HAIR_VERTICES_CACHED || plan->light_values)
         add(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
+    if (plan->light_values && plan->view->lod)
+        add(plan, HAIR_GL_EXPAND_DRAWN, HAIR_GL_EXPAND_DRAWN, features);
     if (plan->light_values) add(plan, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, features);
     if (plan->has_strand_list) add(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);
     if (shade_row >= 0) add(plan, (hair_gl_pass)shade_row, (hair_gl_pass)shade_row, features);

@@ -18,8 +18,8 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
     hair_view whole = *plan->view;
     whole.lod = NULL; // All views of a step share the grid.
     hair_draw_write_params(renderer, plan->head, part ? plan->view : &whole, &params);
-    params.drawn_only = part;
     params.culls = 0; // Hair that is out of view or occluded casts shadows too.
     params.head_sphere.w = 0;
-    return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &params);
+    return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &params,
+                                            part);
 }

@@ -137,7 +137,10 @@ PASS(FEEDBACK_BEND_BLACK, "sim/feedback_bend_black", SOLVE, 0, "HAIR_PHASE=5 sim
 PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", SOLVE, 0, "HAIR_PHASE=6 sim/feedback.vert")
 PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert")
 PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED), "strands/smooth.comp")
-PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED), "HAIR_STORED=1 strands/expand.comp")
+PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED),
+     "HAIR_STORED=1 HAIR_EVERY_FOLLOWER=1 strands/expand.comp")
+PASS(EXPAND_DRAWN, "strands/expand_drawn", EXPAND, WITH(HITS) | WITH(STYLED),
+     "HAIR_STORED=1 strands/expand.comp")
 PASS(HIT, "strands/hit", HIT, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/hit.comp")
 PASS(HIT_GROUP, "strands/hit_group", HIT, WITH(STYLED),
      "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
@@ -152,7 +155,7 @@ PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")
 PASS(CULL_PATCHES, "draw/cull_patches", OCCLUSION, WITH(HITS), "draw/cull_patches.comp")
 PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION),
      "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
-PASS(INSTANCED, "draw/instanced", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
+PASS(PROCEDURAL, "draw/procedural", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
 PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
      "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
 PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),

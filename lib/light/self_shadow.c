@@ -93,12 +93,13 @@ uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view)
 }
 
 hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, struct hair_geometry* geometry,
-                                             const hair_view* view, const struct hair_draw_params* params)
+                                             const hair_view* view, const struct hair_draw_params* params,
+                                             bool is_part)
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     HAIR_ASSERT(params->light_values > 0);
-    hair_result result = hair_geometry_ensure_vertex_cache(geometry, params->drawn_only ? params : NULL);
+    hair_result result = hair_geometry_ensure_vertex_cache(geometry, is_part ? params : NULL);
     if (!result) result = ensure_buffers(lighting, geometry, params->light_values);
     if (result) return result;
     hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
@@ -111,7 +112,7 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
     if (own->filled != geometry->vertex_cache.writes) fill(lighting, geometry, groups);
     if (is_found(lighting, view, params)) return HAIR_OK;
-    if (params->drawn_only) own->frame = 0; // Another view draws other vertices.
+    if (is_part) own->frame = 0; // Another view draws other vertices.
     if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);
     hair_gl_run(gl, past_colliders(geometry, HAIR_GL_NODE_TRANSMITTANCE), NODE_GROUPS);
     hair_gl_run(gl, past_colliders(geometry, HAIR_GL_VERTEX_TRANSMITTANCE), groups);

@@ -71,28 +71,30 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
-    hair_gl_pass pass = hair_geometry_choose_variant(geometry, HAIR_GL_EXPAND);
+    hair_gl_pass pass = hair_geometry_choose_variant(geometry, drawn ? HAIR_GL_EXPAND_DRAWN : HAIR_GL_EXPAND);
     hair_result result = ensure_buffers(geometry);
     if (!result) result = hair_gl_ensure_program(gl, pass);
     if (result || is_fresh(geometry)) return result;
     struct hair_draw_params params;
-    hair_geometry_write_params(geometry, &params);
-    if (!drawn) drawn = &params;
-    hair_gl_write_uniform(gl, geometry->params, sizeof params, drawn);
+    if (drawn)
+        params = *drawn;
+    else
+        hair_geometry_write_params(geometry, &params);
+    hair_gl_write_uniform(gl, geometry->params, sizeof params, &params);
     hair_geometry_bind(geometry);
     hair_geometry_save_history(geometry);
-    HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && drawn->chunks > 0);
+    HAIR_ASSERT(vertex_cache->vertices == hair_geometry_count_vertices(geometry) && params.chunks > 0);
     GLuint buffers[] = {vertex_cache->position, vertex_cache->tangent};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, geometry->smooth.buffer);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &geometry->follower);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, buffers);
-    hair_gl_run(gl, pass, geometry->patches * drawn->chunks);
+    hair_gl_run(gl, pass, geometry->patches * params.chunks);
     // Unbind the buffers before they can be deleted. Mesa unbinds a deleted buffer with
     // glBindBufferBase, which also clears the application's generic binding.
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_CACHED_POSITION, 2, NULL);
     ++vertex_cache->writes;
     HAIR_ASSERT(vertex_cache->writes > 0); // 0 means that no frame was shown.
-    vertex_cache->is_complete = !drawn->drawn_only;
+    vertex_cache->is_complete = !drawn;
     vertex_cache->generation = geometry->follower_collision.generation;
     vertex_cache->program_generation = gl->program_generation;
     return HAIR_OK;

@@ -82,7 +82,7 @@ static void the_nearest_strand_is_in_front(void** state)
     for (int lod = 0; lod < 2; ++lod) {
         hair_lod part = hair_lod_default();
         part.per_patch = false, part.strand_fraction = 0.7f, part.segment_fraction = 0.5f;
-        view.render_path = HAIR_RENDER_PATH_INSTANCED;
+        view.render_path = HAIR_RENDER_PATH_PROCEDURAL;
         view.lod = lod ? &part : NULL;
         view.coverage = HAIR_COVERAGE_MSAA;
         draw(&f, &view, WIDE, 4, opaque);

@@ -1,5 +1,6 @@
 // cull_test.c - hair out of view is not drawn, existing strand lists are not made again, and
 // nothing waits for the GPU.
+#include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -158,7 +159,7 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
     hair_view view = hair_view_default();
     hair_lod lod = hair_lod_default();
     hair_look look = f.hair->geometry.look;
-    view.render_path = HAIR_RENDER_PATH_INSTANCED;
+    view.render_path = HAIR_RENDER_PATH_PROCEDURAL;
     lod.strand_pixels = 4;
     project(0, view.projection);
     for (int i = 0; i < 10; ++i) {
@@ -275,7 +276,7 @@ static void frames_do_not_wait_for_the_gpu(void** state)
     collider.size[0] = 0.05f, collider.position[1] = 0.2f;
     hair_test_ok(f.test, hair_set_colliders(f.hair, &collider, 1, sizeof collider));
     for (int path = 0; path < 3; ++path) {
-        view.render_path = (hair_render_path)path;
+        view.render_path = hair_test_paths[path];
         for (int frame = 0; frame < 40; ++frame) {
             if (frame == 1) hair_test_trace_clear();
             hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));

@@ -15,6 +15,7 @@
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 #include "tests/support/passes.h"
+#include "tests/support/render_paths.h"
 
 struct vertex {
     float x, y, z, radius; // The output strand_position of strand.tese.
@@ -90,24 +91,22 @@ static const struct {
     hair_gl_pass pass[2];
     const char* stages[2];
 } paths[] = {
-    [HAIR_RENDER_PATH_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
-                                        HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
-                                       {"draw/patch.vert draw/patch.tesc draw/strand.tese",
-                                        "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
-    [HAIR_RENDER_PATH_INSTANCED] = {{HAIR_GL_INSTANCED | FIBRES_LINES,
-                                     HAIR_GL_INSTANCED | HITS | FIBRES_LINES},
-                                    {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
-    [HAIR_RENDER_PATH_CACHED] = {{HAIR_GL_CACHED | SHADED_LINES, HAIR_GL_CACHED | SHADED_LINES},
-                                 {"HAIR_VERTEX_CACHE=1 draw/strand.vert",
-                                  "HAIR_VERTEX_CACHE=1 draw/strand.vert"}},
+    [HAIR_TEST_TESSELLATION] = {{HAIR_GL_TESSELLATED | FIBRES_LINES,
+                                 HAIR_GL_TESSELLATED | HITS | FIBRES_LINES},
+                                {"draw/patch.vert draw/patch.tesc draw/strand.tese",
+                                 "HAIR_HITS=1 draw/patch.vert draw/patch.tesc draw/strand.tese"}},
+    [HAIR_TEST_PROCEDURAL] = {{HAIR_GL_PROCEDURAL | FIBRES_LINES, HAIR_GL_PROCEDURAL | HITS | FIBRES_LINES},
+                              {"draw/strand.vert", "HAIR_HITS=1 draw/strand.vert"}},
+    [HAIR_TEST_CACHED] = {{HAIR_GL_CACHED | SHADED_LINES, HAIR_GL_CACHED | SHADED_LINES},
+                          {"HAIR_VERTEX_CACHE=1 draw/strand.vert", "HAIR_VERTEX_CACHE=1 draw/strand.vert"}},
 };
 
 #define PATHS (sizeof paths / sizeof *paths)
 
 // Draw lines by hair_draw, and return the captured vertices instead of pixels. `hits` is 1 if
 // colliders are in reach. The caller frees the vertices.
-static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_render_path path,
-                             size_t max_segments, int hits, const hair_lod* lod)
+static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, size_t path, size_t max_segments,
+                             int hits, const hair_lod* lod)
 {
     struct hair_gl* gl = &test->context->gl;
     hair_gl_pass pass = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
@@ -131,7 +130,7 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_r
     gl->DrawArraysInstanced = capture_patches;
     gl->MultiDrawElementsIndirect = capture_listed;
     hair_view view = hair_view_default();
-    view.render_path = path;
+    view.render_path = hair_test_paths[path];
     view.lod = lod;
     view.primitive = HAIR_PRIMITIVE_LINES;
     hair_result result = hair_draw(hair, &view);
@@ -152,8 +151,8 @@ static struct drawn draw_lod(struct hair_test* test, hair_instance* hair, hair_r
     return drawn;
 }
 
-static struct drawn draw(struct hair_test* test, hair_instance* hair, hair_render_path path,
-                         size_t max_segments, int hits)
+static struct drawn draw(struct hair_test* test, hair_instance* hair, size_t path, size_t max_segments,
+                         int hits)
 {
     return draw_lod(test, hair, path, max_segments, hits, NULL);
 }
@@ -272,10 +271,10 @@ static void check_meeting(struct hair_test* test, uint32_t followers, uint32_t i
     hair_test_ok(test, hair_read_positions(hair, HAIR_READ_FOLLOWERS, expected, count, &count));
     assert_int_equal(count, followers * (segments + 1));
 
-    for (hair_render_path path = 0; path < PATHS; ++path) {
+    for (size_t path = 0; path < PATHS; ++path) {
         struct drawn drawn =
             draw(test, hair, path, (size_t)followers * segments, collision != HAIR_FOLLOWER_COLLISION_NONE);
-        if (path == HAIR_RENDER_PATH_TESSELLATION)
+        if (path == HAIR_TEST_TESSELLATION)
             print_message("    %5u followers, %3u a patch, %3u segments: %3llu draws\n", followers, isolines,
                           segments, (unsigned long long)drawn.draws);
         assert_int_equal(drawn.generated, (uint64_t)followers * segments);
@@ -342,7 +341,7 @@ static void driver_that_loses_isolines_is_detected(void** state)
     assert_int_equal(test->context->gl.lines_level, 0);
 }
 
-static size_t count_drawn(struct hair_test* test, hair_render_path path, float density, uint32_t segments)
+static size_t count_drawn(struct hair_test* test, size_t path, float density, uint32_t segments)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
     wanted.followers = 1000;
@@ -365,15 +364,14 @@ static size_t count_drawn(struct hair_test* test, hair_render_path path, float d
 
 static void density_map_of_0_draws_nothing(void** state)
 {
-    for (hair_render_path path = 0; path < PATHS; ++path)
-        assert_int_equal(count_drawn(*state, path, 0, 8), 0);
+    for (size_t path = 0; path < PATHS; ++path) assert_int_equal(count_drawn(*state, path, 0, 8), 0);
 }
 
 // Check the density. The last isoline of each of the 16 patches is drawn if any part of it is
 // included.
 static void density_map_is_the_drawn_fraction_of_followers(void** state)
 {
-    for (hair_render_path path = 0; path < PATHS; ++path) {
+    for (size_t path = 0; path < PATHS; ++path) {
         for (int i = 1; i <= 16; ++i) {
             size_t drawn = count_drawn(*state, path, (float)i / 16, 8);
             assert_in_range(drawn, (size_t)(1000 * i / 16), (size_t)(1000 * i / 16) + 16);
@@ -393,7 +391,7 @@ static void patch_without_density_draws_nothing(void** state)
     hair_instance* hair = NULL;
     groom->patches[1].density = 1;
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
-    for (hair_render_path path = 0; path < PATHS; ++path) {
+    for (size_t path = 0; path < PATHS; ++path) {
         struct drawn drawn = draw(test, hair, path, 64 * 32, 0);
         assert_int_equal(drawn.segments, groom->patches[1].count * 32);
         free(drawn.vertices);
@@ -425,7 +423,7 @@ static void map_sets_blend_density_and_thickness(void** state)
         float set = 0.25f * (float)(i % 7), blend = fminf(set, 1);
         look.followers.map_set = set;
         hair_test_ok(test, hair_set_look(hair, &look));
-        struct drawn drawn = draw(test, hair, (hair_render_path)(i / 7), (size_t)64 * 4, 0);
+        struct drawn drawn = draw(test, hair, i / 7, (size_t)64 * 4, 0);
         size_t first = (size_t)(32 * (1 - blend)), second = (size_t)(32 * blend);
         assert_int_equal(drawn.segments, 4 * (first + second));
         sort_strands(&drawn);
@@ -458,10 +456,10 @@ static void segment_fraction_is_drawn_equally_by_every_path(void** state)
     hair_test_ok(test, hair_create(test->context, groom, &desc, &hair));
     for (size_t i = 0; i < sizeof fractions / sizeof *fractions; ++i) {
         lod.segment_fraction = fractions[i];
-        struct drawn tessellated = draw_lod(test, hair, HAIR_RENDER_PATH_TESSELLATION, 200 * 32, 0, &lod);
+        struct drawn tessellated = draw_lod(test, hair, HAIR_TEST_TESSELLATION, 200 * 32, 0, &lod);
         assert_int_equal(tessellated.segments, 200 * (size_t)ceilf(32 * fractions[i]));
         sort_strands(&tessellated);
-        struct drawn drawn = draw_lod(test, hair, HAIR_RENDER_PATH_INSTANCED, 200 * 64, 0, &lod);
+        struct drawn drawn = draw_lod(test, hair, HAIR_TEST_PROCEDURAL, 200 * 64, 0, &lod);
         double worst = 0;
         size_t at = 0;
         sort_strands(&drawn);

@@ -285,7 +285,7 @@ static void pass_buffers_are_those_of_shared_h(void** state)
         STORAGE(HAIR_GL_RASTER, "nearest_buffer", NEAREST, 2 * sizeof(hair_uint)),
         STORAGE(HAIR_GL_RASTER | HAIR_GL_WITH(DEPTH), "nearest_buffer", NEAREST, sizeof(hair_uint)),
         STORAGE(HAIR_GL_RASTER, "tile_buffer", TILE, sizeof(hair_uint)),
-        DRAW(HAIR_GL_INSTANCED | HAIR_GL_WITH(FIBRES)),
+        DRAW(HAIR_GL_PROCEDURAL | HAIR_GL_WITH(FIBRES)),
         DRAW(HAIR_GL_CACHED | HAIR_GL_WITH(FIBRES)),
         DRAW(HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES))};
     for (size_t i = 0; i < sizeof uses / sizeof *uses; ++i) {

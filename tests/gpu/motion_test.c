@@ -1,6 +1,7 @@
 // motion_test.c - velocities on the screen. They agree with the strands for moving hair and a
 // moving camera, at every level of detail, and through teleports and resets. Jitter moves pictures,
 // and not velocities.
+#include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -323,7 +324,7 @@ static void history_is_not_kept_without_motion_vectors(void** state)
     hair_view view = view_of(HAIR_PASS_COLOR, 0);
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (int i = 0; i < 3; ++i) {
-        view.render_path = (hair_render_path)i;
+        view.render_path = hair_test_paths[i];
         hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
         hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &view));
     }

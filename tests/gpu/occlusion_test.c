@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "tests/support/haircut.h"
+#include "tests/support/render_paths.h"
 #include "tests/support/trace.h"
 
 #define SIZE 96
@@ -172,7 +173,7 @@ static void occluded_patches_are_culled_without_changing_the_picture(void** stat
     for (int i = 0; i < KINDS * 3 * 3; ++i) {
         int where = i % 3;
         set_kind(&f, (enum kind)(i / 9));
-        f.scene.view.render_path = (hair_render_path)(i / 3 % 3);
+        f.scene.view.render_path = hair_test_paths[i / 3 % 3];
         uint32_t all = draw(&f, 0, places[where], away[where], kept);
         uint32_t primitive = draw(&f, 1, places[where], away[where], some), hidden = read_hidden(&f, NULL);
         if (differ(kept, some) > 0) fail_msg("case %d: pictures differ by %g", i, (double)differ(kept, some));
@@ -220,7 +221,7 @@ static void visible_strands_are_not_occlusion_culled(void** state)
         const int at[4] = {x, y, (int)((float)(SIZE - x) * (0.5f + 0.5f * number[2])), SIZE - y};
         set_kind(&f, (enum kind)(i % KINDS));
         look_from(&f, 6.28f * number[3], 0.4f * number[4] - 0.2f);
-        f.scene.view.render_path = (hair_render_path)(i % 3);
+        f.scene.view.render_path = hair_test_paths[i % 3];
         f.scene.view.primitive = i % 5 ? HAIR_PRIMITIVE_RIBBONS : HAIR_PRIMITIVE_LINES;
         f.scene.view.coverage = i % 7 ? HAIR_COVERAGE_MSAA : HAIR_COVERAGE_ALPHA;
         f.scene.view.lod = i % 2 ? &lod : NULL;
@@ -359,7 +360,7 @@ static void occluded_patches_reappear_when_uncovered(void** state)
     static float kept[VALUES], now[VALUES];
     const int all[4] = {0, 0, SIZE, SIZE};
     struct fixture f = start(state);
-    f.scene.view.render_path = HAIR_RENDER_PATH_INSTANCED;
+    f.scene.view.render_path = HAIR_RENDER_PATH_PROCEDURAL;
     draw(&f, 0, all, 4, kept);
     for (int i = 0; i < 6; ++i) {
         draw(&f, i % 3 < 2, all, i % 3 ? 4 : 0.3f, now);

@@ -1,6 +1,7 @@
 // opacity_test.c - the opacity map of hair for a light. It agrees with counted rays for any size of
 // texels, width of strands, level of detail and render path. Only hair before the first opaque
 // surface counts. The application's state is kept.
+#include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -160,11 +161,11 @@ static void opacity_is_equal_by_every_path_and_level_of_detail(void** state)
     part.per_patch = false;
     count_rays(f, -1);
     make_map(f, 256);
-    for (int path = 0; path <= HAIR_RENDER_PATH_CACHED; ++path)
+    for (int path = 0; path <= HAIR_TEST_CACHED; ++path)
         for (int k = 0; k < 4; ++k) {
             static const float fractions[] = {1, 0.5f, 0.2f, 0.1f};
             part.strand_fraction = fractions[k], part.segment_fraction = k ? 0.5f : 1.0f;
-            f->scene.view.render_path = (hair_render_path)path;
+            f->scene.view.render_path = hair_test_paths[path];
             f->scene.view.lod = k ? &part : NULL;
             // The pass draws ribbons with both settings.
             f->scene.view.primitive = k % 2 ? HAIR_PRIMITIVE_LINES : HAIR_PRIMITIVE_RIBBONS;

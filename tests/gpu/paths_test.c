@@ -6,14 +6,16 @@
 #include <string.h>
 
 #include "tests/support/haircut.h"
+#include "tests/support/render_paths.h"
 
 // Tools are not linked into tests.
 #include "tools/common/flip.c"
 #include "tools/common/image_error.c"
 
-enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_RENDER_PATH_AUTO };
+enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_TEST_PATHS };
 
-static const char* const names[PATHS] = {"tessellated", "instanced", "draw/cached", "resolve_tiles"};
+// Parts of the names of the passes that draw.
+static const char* const names[PATHS] = {"tessellated", "procedural", "draw/cached", "resolve_tiles"};
 
 // Make few strands, each as wide as several. `curly` adds curls, and a ball that many strands hit.
 static struct hair_test_scene start(void** state, int curly)
@@ -94,7 +96,10 @@ static const char* name_of(hair_render_path path, const hair_view* view)
 {
     if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
         path = HAIR_RENDER_PATH_CACHED;
-    return path == HAIR_RENDER_PATH_CACHED && view->lod ? "view_cached" : names[path];
+    if (path == HAIR_RENDER_PATH_CACHED && view->lod) return "view_cached";
+    for (int i = 0; i < PATHS; ++i)
+        if (hair_test_paths[i] == path) return names[i];
+    return "";
 }
 
 static uint32_t count_hits(struct hair_test_scene* f)
@@ -113,18 +118,18 @@ static void curls_on_a_ball_are_drawn_equally_by_all_paths(void** state)
     static struct picture picture[PATHS];
     struct hair_test_scene f = start(state, 1);
     for (hair_primitive primitive = HAIR_PRIMITIVE_RIBBONS; primitive <= HAIR_PRIMITIVE_LINES; ++primitive) {
-        for (hair_render_path path = 0; (int)path < PATHS; ++path) {
+        for (int path = 0; path < PATHS; ++path) {
             struct hair_image_error error;
-            hair_view view = front(path, primitive);
+            hair_view view = front(hair_test_paths[path], primitive);
             draw(&f, &view, &picture[path]);
-            assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
+            assert_non_null(strstr(drawn_by(&f), name_of(view.render_path, &view)));
             assert_true(
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s: FLIP %.5f, %u followers meet the ball\n", names[path],
                           primitive ? "lines" : "ribbons", error.flip, count_hits(&f));
             // ^Samples drawn by OpenGL have the colour at the middle of their pixel. Samples made
             // by compute have their own colour.
-            assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
+            assert_true(error.flip <= (path == HAIR_TEST_COMPUTE ? 0.03 : 0.01));
         }
         assert_true(count_hits(&f) > 100);
     }
@@ -142,20 +147,20 @@ static void levels_of_detail_are_drawn_equally_by_all_paths(void** state)
     lods[1].strand_fraction = 0.1f, lods[1].per_patch = false;
     lods[2].strand_pixels = 3, lods[2].segment_pixels = 20;
     for (int i = 0; i < 12; ++i)
-        for (hair_render_path path = 0; (int)path < PATHS; ++path) {
+        for (int path = 0; path < PATHS; ++path) {
             struct hair_image_error error;
-            hair_view view = front(path, (hair_primitive)(i / 3 % 2));
+            hair_view view = front(hair_test_paths[path], (hair_primitive)(i / 3 % 2));
             int shown = i < 6;
             view.pass = shown ? HAIR_PASS_COLOR : HAIR_PASS_DEPTH;
             view.lod = &lods[i % 3];
             draw(&f, &view, &picture[path]);
-            if (shown) assert_non_null(strstr(drawn_by(&f), name_of(path, &view)));
+            if (shown) assert_non_null(strstr(drawn_by(&f), name_of(view.render_path, &view)));
             assert_true(shown || picture[path].pixels[4 * (PIXELS / 2 + SIDE / 2)] > 0);
             assert_true(
                 hair_image_error(picture[0].shown, picture[path].shown, picture[0].mask, SIDE, SIDE, &error));
             print_message("    %s, %s, level %d%s: FLIP %.5f\n", names[path],
                           view.primitive ? "lines" : "ribbons", i % 3, shown ? "" : ", depth", error.flip);
-            assert_true(error.flip <= (path == HAIR_RENDER_PATH_COMPUTE ? 0.03 : 0.01));
+            assert_true(error.flip <= (path == HAIR_TEST_COMPUTE ? 0.03 : 0.01));
         }
     hair_test_scene_free(&f);
 }
@@ -181,9 +186,9 @@ static void groom_colors_are_drawn_by_all_paths(void** state)
     how.look = &look;
     hair_test_ok(f.test, hair_create(f.test->context, f.groom, &how, &f.hair));
     hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-    for (hair_render_path path = 0; (int)path < PATHS; ++path) {
+    for (int path = 0; path < PATHS; ++path) {
         double sum[2][2] = {{0}};
-        view.render_path = path;
+        view.render_path = hair_test_paths[path];
         draw(&f, &view, &picture[path]);
         for (int i = 0; i < PIXELS; ++i)
             for (int c = 0; c < 2; ++c)

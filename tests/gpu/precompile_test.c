@@ -1,6 +1,7 @@
 // precompile_test.c - programs that a frame runs are compiled before it, in the driver's threads or
 // one per call.
 #include "tests/support/passes.h"
+#include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
 
 #define MAX_CALLS 200
@@ -172,7 +173,7 @@ static const struct {
     void (*set)(struct fixture* f, hair_view* view);
 } ways[] = {
     {"a ball", HAIR_RENDER_PATH_TESSELLATION, put_a_ball_into},
-    {"a ball, instanced", HAIR_RENDER_PATH_INSTANCED, put_a_ball_into},
+    {"a ball, procedural", HAIR_RENDER_PATH_PROCEDURAL, put_a_ball_into},
     {"a ball, expanded", HAIR_RENDER_PATH_CACHED, put_a_ball_into},
     {"a ball, computed", HAIR_RENDER_PATH_COMPUTE, put_a_ball_into},
     {"boxes", HAIR_RENDER_PATH_TESSELLATION, put_boxes_into},
@@ -185,7 +186,7 @@ static const struct {
     {"depth, expanded", HAIR_RENDER_PATH_CACHED, lend_depth},
     {"depth, computed", HAIR_RENDER_PATH_COMPUTE, lend_depth},
     {"depth without order", HAIR_RENDER_PATH_TESSELLATION, lend_depth_without_order},
-    {"depth without order, instanced", HAIR_RENDER_PATH_INSTANCED, lend_depth_without_order},
+    {"depth without order, procedural", HAIR_RENDER_PATH_PROCEDURAL, lend_depth_without_order},
     {"depth without order, expanded", HAIR_RENDER_PATH_CACHED, lend_depth_without_order},
     {"shadows on small hair", HAIR_RENDER_PATH_TESSELLATION, shade_small_hair},
     {"levels of detail, computed", HAIR_RENDER_PATH_COMPUTE, leave_out},
@@ -213,7 +214,7 @@ static void frames_compile_nothing_after_precompile(void** state)
 static void precompile_without_threads_compiles_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
-    hair_view view = view_of(HAIR_RENDER_PATH_INSTANCED);
+    hair_view view = view_of(HAIR_RENDER_PATH_PROCEDURAL);
     f.scene.context->gl.parallel = 0;
     uint32_t before = hair_test_count_programs(&f.scene.context->gl);
     bool ready = false;

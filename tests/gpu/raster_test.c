@@ -1,5 +1,6 @@
 // raster_test.c - pixels that compute makes of segments are those that OpenGL draws, with any state
 // of the application.
+#include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
 
 #include <stdlib.h>
@@ -209,7 +210,7 @@ static void compute_levels_of_detail_equal_drawn_ones(void** state)
         if (i == 0) lod.strand_fraction = 0.37f;
         if (i == 1) lod.segment_fraction = 0.4f;
         if (i >= 2) lod.strand_pixels = 2, lod.segment_pixels = 6;
-        draw_lod(&f, HAIR_RENDER_PATH_INSTANCED, HAIR_PASS_COLOR, away, set_nothing, &lod, &drawn);
+        draw_lod(&f, HAIR_RENDER_PATH_PROCEDURAL, HAIR_PASS_COLOR, away, set_nothing, &lod, &drawn);
         draw_lod(&f, HAIR_RENDER_PATH_COMPUTE, HAIR_PASS_COLOR, away, set_nothing, &lod, &made);
         struct difference d = compare(&drawn, &made);
         print_message("    %d: %u pixels, %u of one alone, %u not alike\n", i, d.covered, d.alone, d.apart);
@@ -275,7 +276,7 @@ static void passes_without_compute_rasterization_are_drawn(void** state)
     view.primitive = HAIR_PRIMITIVE_LINES;
     assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_CACHED);
     view.pass = HAIR_PASS_ID; // This pass needs more than levels of detail write for a vertex.
-    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_INSTANCED);
+    assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_PROCEDURAL);
     view.pass = HAIR_PASS_COLOR;
     view.lod = NULL;
     assert_int_equal(path_of(&f, &view), HAIR_RENDER_PATH_CACHED);

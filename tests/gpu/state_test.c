@@ -11,6 +11,7 @@
 #include "lib/groom/groom.h"
 #include "tests/support/glstate.h"
 #include "tests/support/handmade.h"
+#include "tests/support/render_paths.h"
 #include "tests/support/ways.h"
 
 // An application with a debug context of its own, and odd values for all state.
@@ -144,19 +145,19 @@ static hair_result teleport(struct fixture* f)
     return hair_teleport(f->hair, desc.transform);
 }
 // Number of ways to draw, 5 for each render path. Every pair of path, pass and primitive occurs.
-#define DRAWS (5 * 4)
+#define DRAWS (5 * HAIR_TEST_PATHS)
 static hair_result draw_as(struct fixture* f, int i)
 {
     hair_view view = hair_view_default();
     hair_light lights[4];
     hair_lod lod = hair_lod_default();
     int path = i / 5, lit = i % 5 == 4;
-    view.render_path = (hair_render_path)path;
+    view.render_path = hair_test_paths[path];
     view.pass = (hair_pass)(i % 5 % 4);
     view.primitive =
-        path == HAIR_RENDER_PATH_COMPUTE ? HAIR_PRIMITIVE_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
+        path == HAIR_TEST_COMPUTE ? HAIR_PRIMITIVE_RIBBONS : (hair_primitive)((i % 5 + path) % 2);
     view.slice = (hair_slice)(i % 2);
-    view.lod = path >= HAIR_RENDER_PATH_CACHED && i % 5 == 0 ? &lod : NULL;
+    view.lod = path >= HAIR_TEST_CACHED && i % 5 == 0 ? &lod : NULL;
     for (int k = 0; k < 4; ++k) {
         lights[k] = hair_light_default();
         lights[k].hair_shadow_map = f->shadow;

@@ -1,10 +1,12 @@
 // draw_plan_test.c - plans of views: every combination of a view's settings gives the method that
 // hair_view.h documents, and passes that fit it.
+#include "tests/support/render_paths.h"
 #include "tests/support/support.h"
 
 #include <string.h>
 
 #include "lib/draw/draw.h"
+#include "tests/support/render_paths.h"
 
 static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_MOTION, HAIR_PASS_ID,
                                    HAIR_PASS_OPACITY};
@@ -32,7 +34,7 @@ static struct fixture* start(void)
 }
 
 // Settings of a view, as digits of a number.
-#define VIEWS (PASSES * 4 * 2 * 2 * 2 * 3)
+#define VIEWS (PASSES * HAIR_TEST_PATHS * 2 * 2 * 2 * 3)
 
 struct settings {
     hair_view view;
@@ -44,8 +46,8 @@ static struct settings settings_of(struct fixture* f, int number)
     struct settings s = {hair_view_default(), NULL};
     s.view.pass = passes[number % PASSES];
     number /= PASSES;
-    s.view.render_path = (hair_render_path)(number % 4);
-    number /= 4;
+    s.view.render_path = hair_test_paths[number % HAIR_TEST_PATHS];
+    number /= HAIR_TEST_PATHS;
     s.view.lod = number % 2 ? &f->lod : NULL;
     s.view.primitive = (hair_primitive)(number / 2 % 2);
     s.view.coverage = (hair_coverage)(number / 4 % 2);
@@ -76,7 +78,7 @@ static void plans_take_the_path_that_the_header_documents(void** state)
             (!has_colour_or_depth || view->primitive == HAIR_PRIMITIVE_LINES || by_pixel))
             path = HAIR_RENDER_PATH_CACHED;
         if (path == HAIR_RENDER_PATH_CACHED && view->lod && (!has_colour_or_depth || s.shader))
-            path = HAIR_RENDER_PATH_INSTANCED;
+            path = HAIR_RENDER_PATH_PROCEDURAL;
         if (view->pass == HAIR_PASS_MOTION || is_blended(view)) path = HAIR_RENDER_PATH_CACHED;
         if (plan.path != path) fail_msg("view %d takes path %d, not %d", i, plan.path, path);
         assert_int_equal(plan.is_computed, path == HAIR_RENDER_PATH_COMPUTE);
@@ -113,6 +115,7 @@ static void passes_of_plans_make_what_later_passes_read(void** state)
         assert_int_equal(has_pass(&plan, HAIR_GL_COMPACT_STRANDS), plan.has_strand_list);
         assert_int_equal(has_pass(&plan, HAIR_GL_VERTEX_TRANSMITTANCE), is_lit);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND), is_lit || plan.vertices == HAIR_VERTICES_CACHED);
+        assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND_DRAWN), is_lit && s.view.lod);
         assert_int_equal(has_pass(&plan, HAIR_GL_RASTER), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_RESOLVE_TILES), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_SCATTER), plan.blending == HAIR_BLENDING_SORTED);

@@ -43,7 +43,7 @@ static const struct row {
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
      "                   none, single_guide, push_out, compute or prepass; of render, only this path:\n"
-     "                   tessellation, instanced, cached or compute; of shadow, only depth, strands,\n"
+     "                   tessellation, procedural, cached or compute; of shadow, only depth, strands,\n"
      "                   grid, mean or layers; of wind, only this projection:\n"
      "                   multigrid, relaxation or jacobi"},
     {"thread-mapping", MAPPING, "NAME",
@@ -64,9 +64,9 @@ static const struct row {
 #define SUITE_COUNT (sizeof suites / sizeof *suites)
 
 static const char* const methods[] = {
-    "direct",  "accurate", "follow",       "redblack",  "none",   "single_guide", "push_out",
-    "compute", "prepass",  "tessellation", "instanced", "cached", "multigrid",    "relaxation",
-    "jacobi",  "depth",    "strands",      "grid",      "mean",   "layers",       NULL};
+    "direct",  "accurate", "follow",       "redblack",   "none",   "single_guide", "push_out",
+    "compute", "prepass",  "tessellation", "procedural", "cached", "multigrid",    "relaxation",
+    "jacobi",  "depth",    "strands",      "grid",       "mean",   "layers",       NULL};
 // In the order of hair_thread_mapping.
 static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide", NULL};
 

@@ -3,6 +3,7 @@
 //
 // The paths take turns, so that a slowdown of the machine affects all of them. On a software
 // rasterizer the CPU time of all threads is measured, because other processes affect it less.
+#include "lib/draw/render_path.h"
 #include "tools/bench/studio.h"
 #include "tools/common/stats.h"
 
@@ -24,7 +25,7 @@ static const struct way {
     const char* name;
     hair_render_path path;
 } ways[] = {{"tessellation", HAIR_RENDER_PATH_TESSELLATION},
-            {"instanced", HAIR_RENDER_PATH_INSTANCED},
+            {"procedural", HAIR_RENDER_PATH_PROCEDURAL},
             {"cached", HAIR_RENDER_PATH_CACHED},
             {"compute", HAIR_RENDER_PATH_COMPUTE}};
 

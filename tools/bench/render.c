@@ -5,6 +5,7 @@
 // many pictures that are shifted by fractions of a pixel. Two halves of these pictures are averaged
 // separately. An error is reported only if it is at least five times the difference between the
 // halves.
+#include "lib/draw/render_path.h"
 #include "tools/bench/extent.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/ground_truth.h"
@@ -52,7 +53,7 @@ static const struct path {
     const char* name;
     hair_render_path path;
 } paths[] = {{"tessellation", HAIR_RENDER_PATH_TESSELLATION},
-             {"instanced", HAIR_RENDER_PATH_INSTANCED},
+             {"procedural", HAIR_RENDER_PATH_PROCEDURAL},
              {"cached", HAIR_RENDER_PATH_CACHED},
              {"compute", HAIR_RENDER_PATH_COMPUTE}};
 
@@ -257,7 +258,7 @@ static bool is_wanted_of_width(const struct bench* bench, const struct subject* 
     bool usual = setting->segments == 32, all = setting->lod == lods;
     if (is_wanted_closely(bench, subject, setting)) return true;
     if (is_between(setting->segments)) return false;
-    if (setting->path->path == HAIR_RENDER_PATH_INSTANCED || setting->lod->fraction < 0.25f) return false;
+    if (setting->path->path == HAIR_RENDER_PATH_PROCEDURAL || setting->lod->fraction < 0.25f) return false;
     bool quick = usual && setting->lod->quick && setting->samples->quick &&
                  (setting->path == paths || setting->path->path == HAIR_RENDER_PATH_COMPUTE ||
                   setting->primitive->coverage == HAIR_COVERAGE_ALPHA);

@@ -10,6 +10,7 @@
 // segments, a shadow map scaled down like the picture of the hair, and the minimum of substeps. The
 // paper skipped whole frames. The paper does not state its distance. Here the hair is about 35
 // pixels high for any picture size.
+#include "lib/draw/render_path.h"
 #include "tools/bench/picture.h"
 #include "tools/bench/scene.h"
 #include "tools/bench/studio.h"
@@ -47,14 +48,14 @@ static const struct way {
      HAIR_RENDER_PATH_TESSELLATION,
      {57, 77, 720, 930},
      HAIR_THREAD_MAPPING_AUTO},
-    {"instanced, compute",
+    {"procedural, compute",
      HAIR_SOLVER_REDBLACK,
-     HAIR_RENDER_PATH_INSTANCED,
+     HAIR_RENDER_PATH_PROCEDURAL,
      {44, 60, 624, 77},
      HAIR_THREAD_MAPPING_AUTO},
-    {"instanced, feedback",
+    {"procedural, feedback",
      HAIR_SOLVER_REDBLACK,
-     HAIR_RENDER_PATH_INSTANCED,
+     HAIR_RENDER_PATH_PROCEDURAL,
      {44, 60, 624, 77},
      HAIR_THREAD_MAPPING_FEEDBACK},
     {"default", HAIR_SOLVER_DIRECT, HAIR_RENDER_PATH_TESSELLATION, {0, 0, 0, 0}, HAIR_THREAD_MAPPING_AUTO},
@@ -165,7 +166,7 @@ static bool compare_far(struct bench_studio* studio, const struct bench_shot* sh
 static json_t* add_row(struct column* column, const struct cell* cell, uint32_t frames,
                        const struct bench_times* times)
 {
-    static const char* const paths[] = {"tessellation", "instanced", "cached", "compute", "auto"};
+    static const char* const paths[] = {"tessellation", "cached", "compute", "auto", "procedural"};
     const struct bench_studio* studio = &column->studio;
     const double* paper = column->way->paper;
     size_t number = (size_t)(cell - cells);

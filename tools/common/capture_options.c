@@ -49,7 +49,7 @@ static const struct row rows[] = {
     {"fps", FPS, "N", "frames a second"},
     {"size", SIZE, "WxH", "of the picture, pixels"},
     {"solver", SETTING, "NAME", "direct, accurate, follow or redblack"},
-    {"render-path", SETTING, "NAME", "tessellation, instanced, cached, compute or auto"},
+    {"render-path", SETTING, "NAME", "tessellation, cached, compute, auto or procedural"},
     {"primitive", SETTING, "NAME", "ribbons or lines"},
     {"samples", SAMPLES, "N", "a pixel, as many as the driver has; 4"},
     {"supersample", SUPERSAMPLE, "N", "pixels drawn for one, in each direction, 1 to 8; 2"},

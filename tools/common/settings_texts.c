@@ -71,7 +71,7 @@ static const struct {
     {"drag", "of wind, as a multiple of that of a single hair", NULL},
     {"collision.friction", "Coulomb's coefficient with colliders", NULL},
 
-    {"render_path", "of drawing", "tessellation, instanced, cached, compute, auto"},
+    {"render_path", "of drawing", "tessellation, cached, compute, auto, procedural"},
     {"primitive", "that strands are drawn as", "ribbons, lines"},
     {"coverage", "of pixels by thin strands", "msaa, alpha"},
     {"opacity", "of strands with coverage=alpha", NULL},
