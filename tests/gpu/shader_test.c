@@ -206,7 +206,7 @@ static void append(hair_log_level level, const char* sentence, void* user)
 static void every_error_of_a_shader_has_a_line_in_the_log(void** state)
 {
     static char log[8192];
-    struct fixture f = start(state);
+    struct hair_test_scene f = start(state);
     hair_host host = {.log = append, .user = log};
     hair_context* context = NULL;
     hair_context_desc desc = hair_context_desc_default();
@@ -224,7 +224,7 @@ static void every_error_of_a_shader_has_a_line_in_the_log(void** state)
     assert_non_null(strstr(log, "error: mine:3: "));
     assert_non_null(strstr(log, "info: mine:4: "));
     assert_non_null(strstr(log, "rubbish"));
-    finish(&f);
+    hair_test_scene_free(&f);
 }
 
 static void any_shader_text_is_refused_or_harmless(void** state)
