@@ -37,7 +37,7 @@ static void wrong_use_exits_with_2(void** state)
         {"dance", "no suite dance"},
         {"accuracy physics", "physics is one argument too many"},
         {"accuracy --case dance",
-         "its cases are shake, swing, contact, whip, taut, wave, curl, coil, static"},
+         "its cases are shake, swing, contact, whip, taut, wave, curl, curl contact, coil, static"},
         {"accuracy --case sha", "its cases are"},
         {"accuracy --method dance", "--method is dance"},
         {"accuracy --thread-mapping dance", "--thread-mapping is dance"},

@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 // Tools are not linked into tests.
+#include "lib/draw/render_path.h"
 #include "tools/common/file.c"
 #include "tools/common/settings.c"
 #include "tools/common/settings_fields.c"

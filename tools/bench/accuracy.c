@@ -99,7 +99,7 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     bool whole = half != NULL;
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
         double *ground_truth = motion->truth + run * count, sum = 0;
-        bench_set_shoulder(motion, run);
+        bench_set_place(motion, run);
         whole = run_finely(bench, motion, FINE_SUBSTEPS / 2, half) &&
                 run_finely(bench, motion, FINE_SUBSTEPS, ground_truth);
         for (size_t i = 0; i < count && whole; ++i) sum += pow(ground_truth[i] - half[i], 2);
@@ -175,7 +175,7 @@ static bool run_all(struct bench_live_scene* live, struct bench_motion* motion, 
     bool whole = true;
     *out = (struct error){0};
     for (uint32_t run = motion->runs; run-- > 0 && whole;) {
-        if (motion->collider_count) bench_set_shoulder(motion, run);
+        if (motion->collider_count) bench_set_place(motion, run);
         whole = bench_restart(live) &&
                 !hair_set_colliders(live->hair, motion->colliders, motion->collider_count,
                                     sizeof *motion->colliders) &&
@@ -341,6 +341,8 @@ static void measure_curved(struct bench* bench)
     bench_make_wave(bench, &motion);
     measure_all(bench, &motion);
     bench_make_curl(bench, &motion);
+    if (!bench->options.quick) measure_all(bench, &motion);
+    bench_make_curl_contact(bench, &motion);
     if (!bench->options.quick) measure_all(bench, &motion);
     bench_make_coil(bench, &motion);
     if (!bench->options.quick) measure_all(bench, &motion);

@@ -8,6 +8,11 @@
 #define BENCH_MOTION_FRAMES 60
 #define BENCH_MOTION_FRAME (1.0 / 60) // s
 
+// Place of a collider of a motion, in the plane z = 0.
+struct bench_place {
+    float x, y, radius; // m
+};
+
 // A scene in motion and its reference solution.
 struct bench_motion {
     const char* name;
@@ -18,7 +23,8 @@ struct bench_motion {
     bool moves; // uses `heads`
     hair_collider colliders[2];
     uint32_t collider_count;
-    uint32_t runs; // number of runs, one for each shoulder of contact, else 1
+    const struct bench_place* places; // of the last collider, one for each run
+    uint32_t runs; // number of runs, 1 without colliders
     double* truth; // per run, frame and vertex, NULL until computed
     char reference[96];
 };
@@ -38,10 +44,12 @@ void bench_make_taut(const struct bench* bench, uint32_t vertices, struct bench_
 void bench_make_wave(const struct bench* bench, struct bench_motion* out);
 // Make a clamped curl, as bench_make_wave().
 void bench_make_curl(const struct bench* bench, struct bench_motion* out);
+// Make the curl of bench_make_curl(), which swings onto a level bar.
+void bench_make_curl_contact(const struct bench* bench, struct bench_motion* out);
 // Make a clamped coil, as bench_make_wave().
 void bench_make_coil(const struct bench* bench, struct bench_motion* out);
 
-// Move the shoulder of a contact motion to its position in run `run`.
-void bench_set_shoulder(struct bench_motion* motion, uint32_t run);
+// Move the last collider of a motion to its place in run `run`.
+void bench_set_place(struct bench_motion* motion, uint32_t run);
 
 #endif

@@ -42,21 +42,35 @@ void bench_make_shake(const struct bench* bench, uint32_t vertices, struct bench
 // from half as many substeps by less than 1e-4 of the length for each shoulder. The difference is
 // 2e-3 and 6e-4 if the first shoulder is 2 cm farther out or in. The difference is 6e-4 for 2 cm
 // out and up, and 3e-3 for a radius of 0.25 with the same top.
-static const struct {
-    float x, y, radius; // m
-} shoulders[] = {
+static const struct bench_place shoulders[] = {
     {0.2f, -0.45f, 0.2f},  {0.2f, -0.43f, 0.2f},  {0.2f, -0.47f, 0.2f},  {0.24f, -0.45f, 0.2f},
     {0.16f, -0.45f, 0.2f}, {0.18f, -0.43f, 0.2f}, {0.22f, -0.47f, 0.2f}, {0.18f, -0.47f, 0.2f},
     {0.2f, -0.35f, 0.1f},  {0.22f, -0.35f, 0.1f},
 };
-#define SHOULDERS (sizeof shoulders / sizeof *shoulders)
 
-void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
+static void set_places(struct bench_motion* motion, const struct bench_place* places, uint32_t count)
 {
-    hair_collider* shoulder = &motion->colliders[1];
-    shoulder->position[0] = shoulders[run].x;
-    shoulder->position[1] = shoulders[run].y;
-    shoulder->size[0] = shoulders[run].radius;
+    motion->places = places;
+    motion->runs = count;
+    bench_set_place(motion, 0);
+}
+
+void bench_set_place(struct bench_motion* motion, uint32_t run)
+{
+    const struct bench_place* place = &motion->places[run];
+    hair_collider* last = &motion->colliders[motion->collider_count - 1];
+    last->position[0] = place->x;
+    last->position[1] = place->y;
+    last->size[0] = place->radius;
+}
+
+static hair_collider make_level_capsule(void)
+{
+    hair_collider capsule = hair_collider_default();
+    capsule.shape = HAIR_SHAPE_CAPSULE;
+    capsule.rotation[0] = capsule.rotation[3] = (float)sqrt(0.5); // The axis is along z.
+    capsule.size[1] = 0.12f;
+    return capsule;
 }
 
 // The head is a sphere, and the strand falls on a shoulder and is drawn over it. Other colliders
@@ -65,17 +79,12 @@ void bench_set_shoulder(struct bench_motion* motion, uint32_t run)
 void bench_make_contact(const struct bench* bench, uint32_t vertices, struct bench_motion* out)
 {
     bench_make_shake(bench, vertices, out);
-    hair_collider head = hair_collider_default(), shoulder = head;
-    head.size[0] = 0.095f;
-    shoulder.shape = HAIR_SHAPE_CAPSULE; // The axis is along z.
-    shoulder.rotation[0] = shoulder.rotation[3] = (float)sqrt(0.5);
-    shoulder.size[1] = 0.12f;
     out->name = "contact";
-    out->colliders[0] = head;
-    out->colliders[1] = shoulder;
+    out->colliders[0] = hair_collider_default();
+    out->colliders[0].size[0] = 0.095f;
+    out->colliders[1] = make_level_capsule();
     out->collider_count = 2;
-    out->runs = SHOULDERS;
-    bench_set_shoulder(out, 0);
+    set_places(out, shoulders, sizeof shoulders / sizeof *shoulders);
 }
 
 // Make a chain without bending stiffness that is released horizontally. The whip at 0.25 s
@@ -152,6 +161,17 @@ void bench_make_curl(const struct bench* bench, struct bench_motion* out)
 {
     const struct bench_coil coil = {.radius = 0.012, .pitch = 0.05, .turns = 5, .vertices = 64};
     make_helix(bench, "curl", &coil, out);
+}
+
+void bench_make_curl_contact(const struct bench* bench, struct bench_motion* out)
+{
+    static const struct bench_place bars[] = {
+        {0.06f, -0.12f, 0.03f}, {0.07f, -0.12f, 0.03f}, {0.06f, -0.15f, 0.03f}, {0.08f, -0.18f, 0.04f}};
+    bench_make_curl(bench, out);
+    out->name = "curl contact";
+    out->colliders[0] = make_level_capsule();
+    out->collider_count = 1;
+    set_places(out, bars, sizeof bars / sizeof *bars);
 }
 
 void bench_make_coil(const struct bench* bench, struct bench_motion* out)
