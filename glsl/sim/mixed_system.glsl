@@ -57,7 +57,7 @@ void put_mobility(uint i)
 // no stiffness. The result is relative to the stiffness that inertia gives to other turns.
 float twist_hold(float l, float twist)
 {
-    float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (COLLIDERS || PINNED ? 0.5 / HELD : 1.0);
+    float inertia = l * l * l / (SUBSTEP * SUBSTEP) * (touching ? 0.5 / HELD : 1.0);
     return max(TWIST_HELD * inertia - twist, root_is_clamped ? 0.0 : TWIST_HELD * max(twist, 0.0));
 }
 
