@@ -94,8 +94,8 @@ bool is_within(vec3 e)
            (all(greaterThanEqual(e, vec3(0.0))) || all(lessThanEqual(e, vec3(0.0))));
 }
 
-// Find a ribbon, drawn as two triangles, at a pixel position. `share` is the fraction from one end
-// to the other, and `depth` is the depth there. Return false if neither triangle covers the
+// Find a ribbon, drawn as two triangles, at a pixel position. `fraction` goes from 0 at one end to
+// 1 at the other, and `depth` is the depth there. Return false if neither triangle covers the
 // position.
 bool sees(raster_outline o, vec2 place, out float fraction, out float depth)
 {
