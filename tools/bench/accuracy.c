@@ -11,7 +11,6 @@
 
 #define FRAME BENCH_MOTION_FRAME
 #define MAX_SUBSTEPS 4096
-#define FINE_SUBSTEPS 512
 // Maximum change of the reference when its substep is halved, as a fraction of the length.
 #define TOLERANCE 1e-7
 
@@ -100,8 +99,8 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
         double *ground_truth = motion->truth + run * count, sum = 0;
         bench_set_place(motion, run);
-        whole = run_finely(bench, motion, FINE_SUBSTEPS / 2, half) &&
-                run_finely(bench, motion, FINE_SUBSTEPS, ground_truth);
+        whole = run_finely(bench, motion, motion->fine_substeps / 2, half) &&
+                run_finely(bench, motion, motion->fine_substeps, ground_truth);
         for (size_t i = 0; i < count && whole; ++i) sum += pow(ground_truth[i] - half[i], 2);
         all += sum;
         worst = fmax(worst, sum);
@@ -109,7 +108,7 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     free(half);
     double scale = 3 / (double)count / (motion->length * motion->length);
     snprintf(motion->reference, sizeof motion->reference,
-             "accurate, %d substeps, rms %.1e from half as many, at worst %.1e", FINE_SUBSTEPS,
+             "accurate, %u substeps, rms %.1e from half as many, at worst %.1e", motion->fine_substeps,
              sqrt(scale * all / motion->runs), sqrt(scale * worst));
     return whole;
 }

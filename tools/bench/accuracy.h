@@ -25,6 +25,7 @@ struct bench_motion {
     uint32_t collider_count;
     const struct bench_place* places; // of the last collider, one for each run
     uint32_t runs; // number of runs, 1 without colliders
+    uint32_t fine_substeps; // substeps per frame of the reference with colliders
     double* truth; // per run, frame and vertex, NULL until computed
     char reference[96];
 };

@@ -80,6 +80,7 @@ void bench_make_contact(const struct bench* bench, uint32_t vertices, struct ben
 {
     bench_make_shake(bench, vertices, out);
     out->name = "contact";
+    out->fine_substeps = 512;
     out->colliders[0] = hair_collider_default();
     out->colliders[0].size[0] = 0.095f;
     out->colliders[1] = make_level_capsule();
@@ -169,6 +170,8 @@ void bench_make_curl_contact(const struct bench* bench, struct bench_motion* out
         {0.06f, -0.12f, 0.03f}, {0.07f, -0.12f, 0.03f}, {0.06f, -0.15f, 0.03f}, {0.08f, -0.18f, 0.04f}};
     bench_make_curl(bench, out);
     out->name = "curl contact";
+    // With 256 and more, single precision does not resolve the twist between held vertices.
+    out->fine_substeps = 128;
     out->colliders[0] = make_level_capsule();
     out->collider_count = 1;
     set_places(out, bars, sizeof bars / sizeof *bars);
