@@ -47,8 +47,8 @@ HAIR_SIZE(hair_tint)
 // z: absorption, 1/m. w: index of its shadow map of hair. HAIR_SHADOW_MAPS for none.
 #define HAIR_LIGHT_MORE 3
 // x: index of its depth map of opaque geometry. HAIR_SHADOW_MAPS for none. y: bias of that map, m.
-// Of both maps, z: metres per unit of depth. w: depth of an infinitely distant point in
-// perspective. 0 for an orthographic map.
+// z: metres per unit of depth of both maps. w: depth of an infinitely distant point in the
+// perspective of both maps. 0 for orthographic maps.
 #define HAIR_LIGHT_MAP 4
 #define HAIR_LIGHT_VECTORS 5
 
