@@ -93,14 +93,6 @@ static struct hair_test_scene start(struct hair_test* test, struct cache* cache)
     return f;
 }
 
-static hair_view view_of(hair_render_path path)
-{
-    hair_view view = hair_view_default();
-    view.render_path = path;
-    hair_test_set_orthographic(&view, 3, 3, 0);
-    return view;
-}
-
 static void draw(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
     hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
@@ -112,7 +104,7 @@ static void programs_are_compiled_on_first_use(void** state)
 {
     static float pixels[VALUES];
     struct hair_test_scene f = hair_test_scene_make(*state, NULL);
-    hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
     const float head[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1f, 1};
     f.context = make_context(f.test, NULL);
     assert_int_equal(hair_test_count_programs(&f.context->gl), 0);
@@ -160,7 +152,7 @@ static void cached_programs_are_not_recompiled_and_draw_the_same(void** state)
         hair_test_trace_clear();
         double begin = now_ms();
         struct hair_test_scene f = start(*state, &cache);
-        hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+        hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
         hair_test_ok(f.test, hair_step(f.hair, 0.05f));
         draw(&f, &view, pixels[run]);
         print_message("    the first picture %s the cache after %.0f ms\n", run ? "with" : "without",

@@ -24,14 +24,6 @@ static struct hair_test_scene start(struct hair_test* test)
     return f;
 }
 
-static hair_view view_of(hair_render_path path)
-{
-    hair_view view = hair_view_default();
-    view.render_path = path;
-    hair_test_set_orthographic(&view, 3, 3, 0);
-    return view;
-}
-
 static void draw(const struct hair_test_scene* f, const hair_view* view, float* pixels)
 {
     hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
@@ -57,7 +49,7 @@ static void memory_is_the_sum_of_instances_and_is_all_freed(void** state)
 {
     static float pixels[VALUES];
     struct hair_test_scene f = start(*state);
-    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_CACHED);
     hair_collider collider = hair_collider_default();
     hair_wind wind = hair_wind_default();
     hair_physics physics = hair_physics_default();
@@ -104,7 +96,8 @@ static void memory_over_the_limit_is_refused_and_changes_nothing(void** state)
 {
     static float pixels[2][VALUES];
     struct hair_test_scene f = start(*state);
-    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_view plain = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION),
+              view = hair_test_view_by(HAIR_RENDER_PATH_CACHED);
     hair_instance* other = NULL;
     draw(&f, &plain, pixels[0]);
     uint64_t bytes = memory_of(&f).bytes, used = bytes;
@@ -134,7 +127,8 @@ static void unused_view_memory_is_freed_and_made_again_on_use(void** state)
 {
     static float pixels[2][VALUES];
     struct hair_test_scene f = start(*state);
-    hair_view plain = view_of(HAIR_RENDER_PATH_TESSELLATION), view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_view plain = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION),
+              view = hair_test_view_by(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
     look.shading.model = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));
@@ -172,7 +166,7 @@ static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
 {
     static float pixels[VALUES];
     struct hair_test_scene f = start(*state);
-    hair_view view = view_of(HAIR_RENDER_PATH_CACHED);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_CACHED);
     hair_look look = f.hair->geometry.look;
     look.shading.model = HAIR_SHADING_LINES;
     hair_test_ok(f.test, hair_set_look(f.hair, &look));

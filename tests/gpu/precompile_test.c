@@ -30,14 +30,6 @@ static void finish(struct fixture* f)
     hair_test_scene_free(&f->scene);
 }
 
-static hair_view view_of(hair_render_path path)
-{
-    hair_view view = hair_view_default();
-    view.render_path = path;
-    hair_test_set_orthographic(&view, 3, 3, 0);
-    return view;
-}
-
 // Precompile everything. Return the number of calls.
 static uint32_t prepare(struct fixture* f, const hair_view* view)
 {
@@ -199,7 +191,7 @@ static void frames_compile_nothing_after_precompile(void** state)
 {
     for (size_t i = 0; i < sizeof ways / sizeof *ways; ++i) {
         struct fixture f = start(*state);
-        hair_view view = view_of(ways[i].path);
+        hair_view view = hair_test_view_by(ways[i].path);
         ways[i].set(&f, &view);
         prepare(&f, &view);
         uint32_t before = hair_test_count_programs(&f.scene.context->gl);
@@ -214,7 +206,7 @@ static void frames_compile_nothing_after_precompile(void** state)
 static void precompile_without_threads_compiles_one_program_a_call(void** state)
 {
     struct fixture f = start(*state);
-    hair_view view = view_of(HAIR_RENDER_PATH_PROCEDURAL);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_PROCEDURAL);
     f.scene.context->gl.parallel = 0;
     uint32_t before = hair_test_count_programs(&f.scene.context->gl);
     bool ready = false;
@@ -235,7 +227,7 @@ static void frame_before_precompile_is_ready_draws(void** state)
 {
     for (int lives = 0; lives < 2; ++lives) {
         struct fixture f = start(*state);
-        hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+        hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
         bool ready = false;
         f.scene.context->gl.parallel = 1;
         put_a_ball_into(&f, &view);
@@ -248,7 +240,7 @@ static void frame_before_precompile_is_ready_draws(void** state)
 static void precompile_refuses_null_and_invalid_views(void** state)
 {
     struct fixture f = start(*state);
-    hair_view view = view_of(HAIR_RENDER_PATH_TESSELLATION);
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
     bool ready = true;
     assert_int_equal(hair_precompile(NULL, &view, &ready), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_precompile(f.scene.hair, &view, NULL), HAIR_ERROR_ARGUMENT);

@@ -233,3 +233,26 @@ void hair_test_assert_fit(const struct hair_strands* strands)
     }
     assert_int_equal(first, strands->vertex_count);
 }
+
+hair_asset* hair_test_read_file(struct hair_test_host* test, const hair_import* import,
+                                struct hair_test_file file)
+{
+    hair_asset* asset = NULL;
+    assert_int_equal(hair_test_read(test, import, file.bytes, file.size, &asset), HAIR_OK);
+    free(file.bytes);
+    return asset;
+}
+
+struct hair_test_file hair_test_write_file(const hair_asset* asset, hair_format format)
+{
+    size_t size = 0, again = 0;
+    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
+    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
+    memset(file.bytes, 0x77, size + 8);
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
+    assert_int_equal(again, size);
+    assert_int_equal(file.bytes[0], 0x77); // With too little capacity nothing is written.
+    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
+    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
+    return file;
+}

@@ -44,4 +44,10 @@ void hair_test_assert_fit(const struct hair_strands* strands);
 hair_result hair_test_read(struct hair_test_host* test, const hair_import* import, const void* bytes,
                            size_t size, hair_asset** out);
 
+// Read a file that must be valid by hair_test_read(), and free its bytes.
+hair_asset* hair_test_read_file(struct hair_test_host* test, const hair_import* import,
+                                struct hair_test_file file);
+// Write a haircut. Check that nothing is written with too little capacity, or beyond the file.
+struct hair_test_file hair_test_write_file(const hair_asset* asset, hair_format format);
+
 #endif

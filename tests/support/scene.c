@@ -85,6 +85,14 @@ void hair_test_set_orthographic(hair_view* view, float scale, float depth, float
     memcpy(view->projection, projection, sizeof projection);
 }
 
+hair_view hair_test_view_by(hair_render_path path)
+{
+    hair_view view = hair_view_default();
+    view.render_path = path;
+    hair_test_set_orthographic(&view, 3, 3, 0);
+    return view;
+}
+
 void hair_test_set_perspective(hair_view* view, float scale, float aspect)
 {
     const float projection[16] = {scale / aspect, 0, 0, 0, 0, scale, 0, 0, 0, 0, -1, -1, 0, 0, -0.02f, 0};

@@ -41,6 +41,8 @@ struct hair_reference_sample* hair_test_scene_scatter(const struct hair_test_sce
 // Set an orthographic projection along -z. It scales x and y by `scale` and z by `depth`, and then
 // moves the picture up by `up`.
 void hair_test_set_orthographic(hair_view* view, float scale, float depth, float up);
+// Return an orthographic view along -z by a render path.
+hair_view hair_test_view_by(hair_render_path path);
 // Set a perspective projection with that scale of y and `scale` / `aspect` of x. The depth is -1 at
 // 1 cm and 1 at infinity.
 void hair_test_set_perspective(hair_view* view, float scale, float aspect);

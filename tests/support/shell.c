@@ -78,3 +78,11 @@ void hair_test_shell_expect_full(const char* arguments)
     snprintf(command, sizeof command, "$T %s >/dev/full", arguments);
     hair_test_shell_expect(1, command, "cannot write to the standard output: No space left");
 }
+
+int hair_test_shell_start_capture(const char* tool)
+{
+    if (hair_test_shell_start(tool)) return -1;
+    return hair_test_shell(
+        "echo '{\"head\": false, \"motion\": \"demo\", \"size\": [64, 36], \"settings\":"
+        " {\"followers\": 300, \"guides\": 32, \"redblack.iterations\": 2}}' >$D/small.json");
+}

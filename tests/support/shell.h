@@ -6,6 +6,8 @@
 
 // Create a new folder. For cmocka_run_group_tests(). `tool` is a path.
 int hair_test_shell_start(const char* tool);
+// Create a new folder that holds small.json, a scene that hair-capture renders quickly.
+int hair_test_shell_start_capture(const char* tool);
 // Remove the folder. For cmocka_run_group_tests().
 int hair_test_shell_finish(void** state);
 const char* hair_test_folder(void); // Return the path of the folder.

@@ -11,32 +11,10 @@
 
 static struct hair_test_host test;
 
-static hair_asset* read_with(const hair_import* import, struct hair_test_file file)
-{
-    hair_asset* asset = NULL;
-    assert_int_equal(hair_test_read(&test, import, file.bytes, file.size, &asset), HAIR_OK);
-    free(file.bytes);
-    return asset;
-}
-
 static hair_asset* read_file(struct hair_test_file file)
 {
     hair_import import = hair_test_import();
-    return read_with(&import, file);
-}
-
-static struct hair_test_file write_file(const hair_asset* asset, hair_format format)
-{
-    size_t size = 0, again = 0;
-    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
-    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
-    memset(file.bytes, 0x77, size + 8);
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
-    assert_int_equal(again, size);
-    assert_int_equal(file.bytes[0], 0x77); // With too little capacity nothing is written.
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
-    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
-    return file;
+    return hair_test_read_file(&test, &import, file);
 }
 
 static void assert_same(const hair_asset* a, const hair_asset* b)
@@ -58,7 +36,7 @@ static void hair_reads_back_bit_for_bit(void** state)
         struct hair_test_file file = hair_test_hair(arrays);
         hair_test_set_float(&file, file.size - (arrays & 4 ? 40 : 4), 0.1f / 3);
         hair_asset* asset = read_file(file);
-        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        hair_asset* again = read_file(hair_test_write_file(asset, HAIR_FORMAT_HAIR));
         assert_same(asset, again);
         assert_int_equal(again->format, HAIR_FORMAT_HAIR);
         hair_asset_free(asset);
@@ -72,7 +50,7 @@ static void tfx_reads_back_bit_for_bit(void** state)
     (void)state;
     hair_asset* asset = read_file(hair_test_tfx3());
     asset->strands.positions[4] = 0.1f / 3;
-    struct hair_test_file file = write_file(asset, HAIR_FORMAT_TFX4);
+    struct hair_test_file file = hair_test_write_file(asset, HAIR_FORMAT_TFX4);
     assert_int_equal(file.size, 160 + 12 * 16 + 3 * 8);
     // The two vertices at the root are pinned.
     const unsigned char one[4] = {0, 0, 0x80, 0x3f}, zero[4] = {0};
@@ -100,7 +78,7 @@ static void formats_that_cannot_hold_the_strands_are_refused(void** state)
     for (uint32_t count = 2; count <= 256; ++count) {
         hair_import import = hair_test_import();
         import.strand_vertices = count;
-        asset = read_with(&import, hair_test_hair(1 | 2));
+        asset = hair_test_read_file(&test, &import, hair_test_hair(1 | 2));
         int fits = count == 4 || count == 8 || count == 16 || count == 32 || count == 64;
         assert_int_equal(hair_asset_encode(asset, HAIR_FORMAT_TFX4, NULL, 0, &size),
                          fits ? HAIR_OK : HAIR_ERROR_ARGUMENT);
@@ -139,11 +117,11 @@ static void real_haircuts_are_read(void** state)
         if (!file.bytes) continue;
         hair_import import = hair_test_import();
         import.scale = 0.01f;
-        hair_asset* asset = read_with(&import, file);
+        hair_asset* asset = hair_test_read_file(&test, &import, file);
         assert_int_equal(asset->format, real[i].format);
         assert_int_equal(asset->file_strands, real[i].strands);
         assert_int_equal(asset->file_vertices, real[i].strands * real[i].each);
-        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        hair_asset* again = read_file(hair_test_write_file(asset, HAIR_FORMAT_HAIR));
         assert_same(asset, again);
         hair_asset_free(asset);
         hair_asset_free(again);

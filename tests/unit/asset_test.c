@@ -11,18 +11,10 @@
 
 static struct hair_test_host test;
 
-static hair_asset* read_with(const hair_import* import, struct hair_test_file file)
-{
-    hair_asset* asset = NULL;
-    assert_int_equal(hair_test_read(&test, import, file.bytes, file.size, &asset), HAIR_OK);
-    free(file.bytes);
-    return asset;
-}
-
 static hair_asset* read_file(struct hair_test_file file)
 {
     hair_import import = hair_test_import();
-    return read_with(&import, file);
+    return hair_test_read_file(&test, &import, file);
 }
 
 static void assert_strands(const hair_asset* asset, const uint32_t vertices[3])
@@ -81,7 +73,7 @@ static void radius_is_half_the_thickness_at_the_root(void** state)
         hair_import import = hair_test_import();
         import.tip_first = tip_first;
         import.scale = 0.01f;
-        hair_asset* asset = read_with(&import, hair_test_hair(31));
+        hair_asset* asset = hair_test_read_file(&test, &import, hair_test_hair(31));
         const uint32_t* roots = tip_first ? (uint32_t[3]){2, 4, 8} : (uint32_t[3]){0, 3, 5};
         for (uint32_t i = 0; i < 3; ++i)
             assert_float_equal(asset->strands.radii[i], 0.01f * 0.005f * (float)(1 + roots[i]), 1e-9);
@@ -101,20 +93,6 @@ static void invalid_thickness_drops_radii_with_a_warning(void** state)
         assert_int_equal(test.warnings, i + 1);
         hair_asset_free(asset);
     }
-}
-
-static struct hair_test_file write_file(const hair_asset* asset, hair_format format)
-{
-    size_t size = 0, again = 0;
-    assert_int_equal(hair_asset_encode(asset, format, NULL, 0, &size), HAIR_OK);
-    struct hair_test_file file = {.bytes = malloc(size + 8), .size = size};
-    memset(file.bytes, 0x77, size + 8);
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size - 1, &again), HAIR_OK);
-    assert_int_equal(again, size);
-    assert_int_equal(file.bytes[0], 0x77); // With too little capacity nothing is written.
-    assert_int_equal(hair_asset_encode(asset, format, file.bytes, size, &again), HAIR_OK);
-    for (int i = 0; i < 8; ++i) assert_int_equal(file.bytes[size + i], 0x77);
-    return file;
 }
 
 static float linear(float c)
@@ -137,7 +115,7 @@ static void colors_of_strands_are_read_and_written(void** state)
         import.tip_first = tip_first;
         for (uint32_t i = 0; i < 27; ++i)
             hair_test_set_float(&file, file.size - 4 * (27 - i), color_of(i / 3, i % 3));
-        hair_asset* asset = read_with(&import, file);
+        hair_asset* asset = hair_test_read_file(&test, &import, file);
         uint32_t ends[3][2] = {{0, 2}, {3, 4}, {5, 8}};
         const float* colors = asset->strands.colors;
         assert_non_null(colors);
@@ -147,7 +125,7 @@ static void colors_of_strands_are_read_and_written(void** state)
             assert_float_equal(own[3 * (HAIR_STRAND_COLORS - 1)],
                                linear(color_of(ends[i / 3][1 - tip_first], i % 3)), 1e-6);
         }
-        hair_asset* again = read_file(write_file(asset, HAIR_FORMAT_HAIR));
+        hair_asset* again = read_file(hair_test_write_file(asset, HAIR_FORMAT_HAIR));
         for (uint32_t i = 0; i < 3; ++i)
             // Between the ends, the accuracy is limited by the distance of vertices.
             for (uint32_t k = 0; k < 6; ++k) {
@@ -159,7 +137,7 @@ static void colors_of_strands_are_read_and_written(void** state)
     }
     hair_asset* guides = read_file(hair_test_tfx4());
     assert_float_equal(guides->strands.colors[5], linear(0.25f), 1e-6);
-    hair_asset* again = read_file(write_file(guides, HAIR_FORMAT_TFX4));
+    hair_asset* again = read_file(hair_test_write_file(guides, HAIR_FORMAT_TFX4));
     for (uint32_t i = 0; i < 9 * HAIR_STRAND_COLORS; ++i)
         assert_float_equal(again->strands.colors[i], guides->strands.colors[i], 1e-6);
     hair_asset_free(guides);
@@ -249,7 +227,7 @@ static void import_options_are_applied(void** state)
     import.tip_first = true;
     import.strand_vertices = 16;
     import.keep_fraction = 0.34f;
-    hair_asset* asset = read_with(&import, hair_test_tfx3());
+    hair_asset* asset = hair_test_read_file(&test, &import, hair_test_tfx3());
     assert_int_equal(asset->strands.strand_count, 1);
     assert_int_equal(asset->strands.vertices[0], 16);
     assert_int_equal(asset->file_strands, 3);

@@ -186,10 +186,7 @@ static void stats_contain_what_was_drawn(void** state)
 static int start(void** state)
 {
     (void)state;
-    if (hair_test_shell_start(TOOL)) return -1;
-    return hair_test_shell(
-        "echo '{\"head\": false, \"motion\": \"demo\", \"size\": [64, 36], \"settings\":"
-        " {\"followers\": 300, \"guides\": 32, \"redblack.iterations\": 2}}' >$D/small.json");
+    return hair_test_shell_start_capture(TOOL);
 }
 
 int main(void)
