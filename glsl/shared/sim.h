@@ -139,7 +139,7 @@ struct hair_step_params {
     hair_uint vertices; // Vertices of all guides.
     hair_uint bodies; // One bit per collider that is not a capsule, of HAIR_FEW_COLLIDERS.
     hair_uint rounds; // Rounds of implicit.glsl's cyclic reduction before its last.
-    hair_uint list;   // 0 or 1. This dispatch's header in health[].
+    hair_uint list;   // 0 or 1. This dispatch's header in solver_stats[].
     hair_uint substep_first; // Index in `substep` at which this dispatch begins.
     hair_uint part_rounds; // Loop iterations that parts of a substep may take. See leap_parts.glsl.
     hair_uint list_guides; // Guides of the list per work group of the second program.

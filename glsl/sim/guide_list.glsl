@@ -1,7 +1,7 @@
 // guide_list.glsl - the list of guides that the first of two programs leaves to the second.
 
-// Return the index of a list's length in health[]. The work groups of an indirect dispatch come
-// before it.
+// Return the index of a list's length in solver_stats[]. The work groups of an indirect dispatch
+// come before it.
 uint length_of_list(uint list)
 {
     return uint(HAIR_SOLVER_STATS_COUNT) + uint(HAIR_SOLVER_STATS_LIST) * list + 3u;

@@ -3,7 +3,7 @@
 //
 // A substep by BDF2 that fails is done again in parts. Follow-the-leader does the parts that cannot
 // be solved. A guide that is not finite even then returns to its rest pose. Each of these events is
-// counted in health[].
+// counted in solver_stats[].
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require

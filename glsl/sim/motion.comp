@@ -10,7 +10,7 @@
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 #define RESTLESS_SPEED 0.02 // Speed of a restless guide, m/s: 20 times the maximum of hair at rest
-#define OVERSTRETCHED 0.01  // Relative error of length, as TOO_LONG of rod.glsl
+#define OVERSTRETCHED 0.01  // Relative error of length, as TOO_LONG of length_constraints.glsl
 
 layout(std430, binding = HAIR_BIND_GUIDE) readonly restrict buffer guide_buffer { hair_guide guide[]; };
 layout(std430, binding = HAIR_BIND_REST) readonly restrict buffer rest_buffer { hair_rest rest[]; };

@@ -5,7 +5,7 @@
 // whose bending makes SHAKE unstable at this substep. A substep that the method leaves stretched or
 // not finite is done again by implicit Euler, and then by follow-the-leader, which cannot fail. A
 // guide that is not finite even then returns to its rest pose. Each such substep is counted in
-// health[]. A whip is solved by SHAKE in parts of a substep, as parts.glsl explains.
+// solver_stats[]. A whip is solved by SHAKE in parts of a substep, as parts.glsl explains.
 #version 450 core
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
