@@ -50,7 +50,7 @@ bool accept(int method, bool waits, vec3 head_moved)
         vec3 d = GET(moved), kept = d;
 #if defined(HAIR_PASS1) && defined(WATCHES_TURNS)
         // The second program splits the substep, unless a vertex touched a collider.
-        turns  = turns || turns_at(i, MIN_COSINE);
+        turns  = turns || turns_at(i);
         struck = struck || (COLLIDERS && local(met) != BITS(0u));
         lost   = lost || (!COLLIDERS && turns);
 #endif

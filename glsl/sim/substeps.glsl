@@ -55,6 +55,9 @@ bool solve()
     if (HAIR_SOLVER == SHAKE ? known != 0.0 && known != 1.0 : known < LEAPS_NEXT) return false;
 #endif
 
+#if defined(HAIR_PASS1) && defined(WATCHES_TURNS)
+    begin_turns();
+#endif
     for (uint s = begin; s < params.substeps; ++s) {
         vec3 head_moved = params.substep[s].displacement.xyz;
 #ifdef HAIR_WIND
