@@ -24,7 +24,7 @@
 #endif
 // Rounds of a part, without those of each step of lengths.
 #define LOOPS_OF_PART (15u + 2u * LOOPS_OF_LOOK)
-#define LOOPS_OF_STEP (9u + LOOPS_OF_LOOK)
+#define LOOPS_OF_STEP (10u + LOOPS_OF_LOOK)
 #define LOOPS_OF_ATTEMPT (LOOPS_OF_PART + 3u * LOOPS_OF_STEP)
 
 bool touching; // The last attempt touched a collider.

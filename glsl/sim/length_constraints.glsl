@@ -38,18 +38,19 @@ bool loose, broken; // Results of measure().
 // `tolerance` permits are not slow.
 bool trembles(float tolerance)
 {
-    bool is_rough = false, is_fast = false, touches = false;
-    FOR_VERTICES(guide_count) {
-        if (i < guide_count) {
-            float grant = SLOW_GRANT * length(local(displacement) - root_moved);
-            is_rough = is_rough || (i + 1u < guide_count && bits_of(local(excess)) >
-                                    floatBitsToUint(max(grant, MIN_GRANT * guide_length)));
-            is_fast  = is_fast || grant > tolerance * local(rest_length) && i + 1u < guide_count;
-            touches  = touches || local(touch).w != FREE;
-        }
+    bool is_fast = false, is_rough = false, touches = false;
+    FOR_VERTICES(guide_count - 1u) {
+        float grant = SLOW_GRANT * length(local(displacement) - root_moved);
+        is_fast = is_fast || (i + 1u < guide_count && grant > tolerance * local(rest_length));
     }
-    bvec2 found = group_any(bvec2(is_rough, is_fast));
-    return found.x && !found.y && group_any(bvec2(touches, false)).x;
+    if (group_any(bvec2(is_fast, false)).x) return false;
+    FOR_VERTICES(guide_count) {
+        float grant = max(SLOW_GRANT * length(local(displacement) - root_moved), MIN_GRANT * guide_length);
+        is_rough = is_rough || (i + 1u < guide_count && bits_of(local(excess)) > floatBitsToUint(grant));
+        touches  = touches || (i < guide_count && local(touch).w != FREE);
+    }
+    bvec2 found = group_any(bvec2(is_rough, touches));
+    return found.x && found.y;
 }
 #else
 #define trembles(tolerance) false

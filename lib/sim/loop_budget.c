@@ -96,7 +96,7 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
     struct loops loops = {0};
     loops.over = predicted * (10 + pinned + 3 * met);
     loops.along = predicted * 2;
-    loops.over += tried * (LOOKS * (3 + pinned + met) + STEPS * 4 + stiff * 3);
+    loops.over += tried * (LOOKS * (3 + pinned + 2 * met) + STEPS * 4 + stiff * 3);
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
     return loops;
@@ -152,7 +152,7 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int fir
     uint32_t spare = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
-    loops.over += 4; // The guide is loaded, accepted or reset, and stored.
+    loops.over += 6; // The guide is loaded, accepted or reset, and stored. Its turns begin.
     loops.over += hair_sim_is_stiff(sim); // The first of two programs asks whether it touches.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)

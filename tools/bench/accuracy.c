@@ -90,14 +90,15 @@ static bool run_finely(struct bench* bench, const struct bench_motion* motion, u
     return whole;
 }
 
-static bool find_truth_among_colliders(struct bench* bench, struct bench_motion* motion)
+static bool find_truth_among_colliders(struct bench* bench, struct bench_motion* motion,
+                                       struct bench_truth* truth)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
     double* half = malloc(count * sizeof *half);
     double all = 0, worst = 0;
     bool whole = half != NULL;
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
-        double *ground_truth = motion->truth + run * count, sum = 0;
+        double *ground_truth = truth->positions + run * count, sum = 0;
         bench_set_place(motion, run);
         whole = run_finely(bench, motion, motion->fine_substeps / 2, half) &&
                 run_finely(bench, motion, motion->fine_substeps, ground_truth);
@@ -107,36 +108,43 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
     }
     free(half);
     double scale = 3 / (double)count / (motion->length * motion->length);
-    snprintf(motion->reference, sizeof motion->reference,
+    snprintf(truth->reference, sizeof truth->reference,
              "accurate, %u substeps, rms %.1e from half as many, at worst %.1e", motion->fine_substeps,
              sqrt(scale * all / motion->runs), sqrt(scale * worst));
     return whole;
 }
 
-static bool find_truth_by_reference(struct bench_motion* motion)
+static bool find_truth_by_reference(const struct bench_motion* motion, struct bench_truth* truth)
 {
     struct hair_reference_rod* rod = bench_reference(&motion->scene);
     if (!rod) return false;
     struct hair_reference_rod_report report =
         hair_reference_rod_converge(rod, motion->frames, motion->moves ? motion->heads : NULL, FRAME, 128,
-                                    MAX_SUBSTEPS, TOLERANCE * motion->length, motion->truth);
+                                    MAX_SUBSTEPS, TOLERANCE * motion->length, truth->positions);
     hair_reference_rod_destroy(rod);
-    snprintf(motion->reference, sizeof motion->reference, "rod, double, %u substeps, converged to %.1e",
+    snprintf(truth->reference, sizeof truth->reference, "rod, double, %u substeps, converged to %.1e",
              report.substeps, report.change / motion->length);
     return isfinite(report.change);
 }
 
+// Return which solution has the energy of the solver. Not all solvers have the same.
+static size_t truth_of(const struct bench_motion* motion)
+{
+    return !motion->collider_count && bench_has_chord_energy(&motion->scene);
+}
+
 static bool find_truth(struct bench* bench, struct bench_motion* motion)
 {
-    if (motion->truth) return true;
+    struct bench_truth* truth = motion->truth + truth_of(motion);
+    if (truth->positions) return true;
     size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
-    motion->truth = malloc(count * sizeof *motion->truth);
-    if (motion->truth && (motion->collider_count ? find_truth_among_colliders(bench, motion)
-                                                 : find_truth_by_reference(motion)))
+    truth->positions = malloc(count * sizeof *truth->positions);
+    if (truth->positions && (motion->collider_count ? find_truth_among_colliders(bench, motion, truth)
+                                                    : find_truth_by_reference(motion, truth)))
         return true;
     // An incomplete reference must not be taken for a complete one by the next setting.
-    free(motion->truth);
-    motion->truth = NULL;
+    free(truth->positions);
+    truth->positions = NULL;
     return false;
 }
 
@@ -171,6 +179,7 @@ static bool run_frames(struct bench_live_scene* live, const struct bench_motion*
 static bool run_all(struct bench_live_scene* live, struct bench_motion* motion, struct error* out)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
+    const double* truth = motion->truth[truth_of(motion)].positions;
     bool whole = true;
     *out = (struct error){0};
     for (uint32_t run = motion->runs; run-- > 0 && whole;) {
@@ -178,7 +187,7 @@ static bool run_all(struct bench_live_scene* live, struct bench_motion* motion, 
         whole = bench_restart(live) &&
                 !hair_set_colliders(live->hair, motion->colliders, motion->collider_count,
                                     sizeof *motion->colliders) &&
-                run_frames(live, motion, motion->truth + run * count, out);
+                run_frames(live, motion, truth + run * count, out);
     }
     return whole;
 }
@@ -207,7 +216,7 @@ static void add_row(const struct bench_motion* motion, struct bench_live_scene* 
     bench_set_number(row, "max_stretch", error->stretch);
     if (!setting->substeps) bench_set_flag(row, "default", true);
     bench_set_flag(row, "alike", bench_strands_are_alike(live));
-    bench_set_text(row, "reference", motion->reference);
+    bench_set_text(row, "reference", motion->truth[truth_of(motion)].reference);
     bench_set_text(row, "measured_by", "here");
     bench_set_material(row, live);
 }
@@ -257,7 +266,7 @@ static void measure_all(struct bench* bench, struct bench_motion* motion)
 {
     for (size_t i = 0; i < SETTINGS; ++i)
         if (settings[i].quick || !bench->options.quick) measure(bench, motion, &settings[i]);
-    free(motion->truth);
+    for (int k = 0; k < 2; ++k) free(motion->truth[k].positions);
 }
 
 // Real hair at rest -------------------------------------------------------------------------------

@@ -13,7 +13,13 @@ struct bench_place {
     float x, y, radius; // m
 };
 
-// A scene in motion and its reference solution.
+// A reference solution.
+struct bench_truth {
+    double* positions; // per run, frame and vertex, NULL until computed
+    char reference[96];
+};
+
+// A scene in motion and its reference solutions.
 struct bench_motion {
     const char* name;
     struct bench_scene scene;
@@ -26,8 +32,7 @@ struct bench_motion {
     const struct bench_place* places; // of the last collider, one for each run
     uint32_t runs; // number of runs, 1 without colliders
     uint32_t fine_substeps; // substeps per frame of the reference with colliders
-    double* truth; // per run, frame and vertex, NULL until computed
-    char reference[96];
+    struct bench_truth truth[2]; // the second with the energy of the chord between tangents
 };
 
 // Make straight strands on a head that yaws.

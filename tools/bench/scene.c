@@ -153,6 +153,15 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
     return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, scene->substep);
 }
 
+bool bench_has_chord_energy(const struct bench_scene* scene)
+{
+    double positions[3 * BENCH_MAX_VERTICES], strain[3 * BENCH_MAX_VERTICES], root_frame[4];
+    for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
+    find_root_frame(positions, root_frame);
+    hair_reference_rod_strain(scene->vertices, positions, root_frame, strain);
+    return is_straight(scene, strain) && !is_mixed(scene, root_frame);
+}
+
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
 {
     double positions[3 * BENCH_MAX_VERTICES], strain[3 * BENCH_MAX_VERTICES];
@@ -176,7 +185,7 @@ struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
     desc.twist = section.twist;
     desc.scale = scale;
     desc.rest_strain = is_straight(scene, strain) ? NULL : strain;
-    desc.straight = !desc.rest_strain && !is_mixed(scene, desc.root_frame);
+    desc.straight = bench_has_chord_energy(scene);
     desc.root = (enum hair_reference_rod_root)p->root;
     desc.damping = (double)p->damping;
     desc.pull = pull;

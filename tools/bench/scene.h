@@ -57,6 +57,10 @@ struct bench_section bench_section_of(const hair_physics* physics);
 struct hair_reference_rod_pose bench_pose(const double axis[3], double angle, const double move[3]);
 void bench_matrix(const struct hair_reference_rod_pose* pose, float matrix[16]);
 
+// Return whether the solver has the energy of the chord between tangents. This energy is that of
+// straight strands. It needs no frames, and differs from the energy of turns by discretization.
+bool bench_has_chord_energy(const struct bench_scene* scene);
+
 // Create the strand as a rod in double precision. Return NULL if its numbers do not make a rod.
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene);
 
