@@ -1,6 +1,7 @@
 // rest.c - Speed of hair that should be at rest.
 #include "tools/bench/rest.h"
 
+#include <epoxy/gl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,11 +49,13 @@ static bool read_guides(struct state* state)
     return !hair_read_positions(state->hair, HAIR_READ_GUIDES, state->now, all, &count) && count == all;
 }
 
-// Simulate until the time `until` or until the hair is asleep.
+// Simulate until the time `until` or until the hair is asleep. Wait for each step, because a queue
+// of steps would delay the report of sleep.
 static bool wait_until(struct state* state, double until, struct bench_rest* out)
 {
     while (state->time < until - 1e-6 && !isfinite(out->seconds_asleep)) {
         if (has_to_stop(state) || hair_step(state->hair, (float)FRAME)) return false;
+        glFinish();
         state->time += FRAME;
         if (bench_is_asleep(state->hair)) out->seconds_asleep = state->time;
     }
