@@ -64,8 +64,6 @@ static void find_bounds(hair_instance* hair, const hair_groom* groom)
 {
     hair->longest = hair_find_bounds(groom, hair->bounds);
     HAIR_ASSERT(hair->longest > 0);
-    hair_vec3 middle = hair_lerp(hair->bounds[0], hair->bounds[1], 0.5f);
-    hair->renderer.reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, hair->bounds[1])};
 }
 
 // Create what every room has of the instance.
@@ -83,7 +81,7 @@ static hair_result create_rooms(hair_instance* hair, const hair_groom* groom, co
     HAIR_TRY(hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look,
                                   desc->hit_method == HAIR_HIT_METHOD_PREPASS));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
-    hair_renderer_create(&hair->renderer, gl, groom, &hair->geometry, &hair->lighting);
+    hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting);
     hair_sim_reset(&hair->sim);
     return HAIR_OK;
 }

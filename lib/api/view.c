@@ -154,8 +154,8 @@ static hair_result update_follower_collision(hair_instance* hair)
 // Tell the renderer how far strands may be from where the groom has them. Culling depends on it.
 static void update_attachment(hair_instance* hair)
 {
-    hair->renderer.is_cullable = hair_sim_has_fixed_roots(&hair->sim);
-    hair->renderer.has_attached_roots = hair_sim_has_attached_strands(&hair->sim);
+    hair_renderer_set_attachment(&hair->renderer, hair_sim_has_fixed_roots(&hair->sim),
+                                 hair_sim_has_attached_strands(&hair->sim));
 }
 
 static int is_of_surroundings(const hair_view* view)
@@ -238,11 +238,7 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;
-    HAIR_TRY(hair_draw_precompile(&hair->renderer, plan, colliders));
-    if (!colliders || hair->geometry.look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE) return HAIR_OK;
-    // Colliders block light also where followers pass through them.
-    hair_draw_find_passes(&hair->renderer, HAIR_GL_WITH(COLLIDERS), plan);
-    return hair_draw_compile(&hair->renderer, plan);
+    return hair_draw_precompile(&hair->renderer, plan, colliders);
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)

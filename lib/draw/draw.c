@@ -4,12 +4,15 @@
 #include "lib/draw/params.h"
 
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
-                          struct hair_geometry* geometry, struct hair_lighting* lighting)
+                          const hair_vec3 bounds[2], struct hair_geometry* geometry,
+                          struct hair_lighting* lighting)
 {
+    hair_vec3 middle = hair_lerp(bounds[0], bounds[1], 0.5f);
     renderer->gl = gl;
     renderer->geometry = geometry;
     renderer->lighting = lighting;
     renderer->head_sphere = groom->head_sphere;
+    renderer->reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, bounds[1])};
     hair_draw_find_extent(renderer, groom);
     hair_draw_find_fastest(renderer);
 }
@@ -18,6 +21,13 @@ void hair_renderer_destroy(struct hair_renderer* renderer)
 {
     if (!renderer->gl) return;
     hair_draw_free_resources(renderer);
+}
+
+void hair_renderer_set_attachment(struct hair_renderer* renderer, bool has_fixed_roots,
+                                  bool has_attached_strands)
+{
+    renderer->is_cullable = has_fixed_roots;
+    renderer->has_attached_roots = has_attached_strands;
 }
 
 static void bind(struct hair_renderer* renderer, const struct hair_draw_plan* plan)

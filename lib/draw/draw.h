@@ -62,10 +62,16 @@ struct hair_renderer {
     hair_vec4 reach;
 };
 
-// Create a renderer of strands and lighting, which must outlive it.
+// Create a renderer of strands and lighting, which must outlive it. `bounds` are the lower and upper
+// corner of the hair in the head's frame.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
-                          struct hair_geometry* geometry, struct hair_lighting* lighting);
+                          const hair_vec3 bounds[2], struct hair_geometry* geometry,
+                          struct hair_lighting* lighting);
 void hair_renderer_destroy(struct hair_renderer* renderer);
+// Set whether roots are fixed to the groom, and whether all strands are attached to it. Culling
+// depends on both.
+void hair_renderer_set_attachment(struct hair_renderer* renderer, bool has_fixed_roots,
+                                  bool has_attached_strands);
 
 // Functions of resources.c.
 

@@ -87,19 +87,19 @@ hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_p
     struct hair_gl* gl = renderer->gl;
     // The application's shader runs here.
     hair_gl_pass shaded = plan->shade ? plan->shade : plan->draw;
-    hair_result result = HAIR_OK;
-    GLuint program = 0;
-    for (uint32_t i = 0; i < plan->pass_count && !result; ++i) {
+    for (uint32_t i = 0; i < plan->pass_count; ++i) {
         hair_gl_pass pass = plan->pass[i];
-        if (plan->shader && pass == shaded)
-            result = hair_gl_ensure_user_program(gl, plan->shader, pass, &program);
-        else
-            result = hair_gl_ensure_program(gl, pass);
-        if (result || (pass != plan->draw && pass != plan->shade)) continue;
-        if (!plan->shader || pass != shaded) program = hair_gl_find(gl, pass)->program;
-        *(pass == plan->draw ? &plan->draw_program : &plan->shade_program) = program;
+        GLuint program = 0;
+        if (plan->shader && pass == shaded) {
+            HAIR_TRY(hair_gl_ensure_user_program(gl, plan->shader, pass, &program));
+        } else {
+            HAIR_TRY(hair_gl_ensure_program(gl, pass));
+            program = hair_gl_find(gl, pass)->program;
+        }
+        if (pass == plan->draw) plan->draw_program = program;
+        if (pass == plan->shade) plan->shade_program = program;
     }
-    return result;
+    return HAIR_OK;
 }
 
 // Compile the passes for a state of the hair, with and without occlusion culling. Only the draw
@@ -107,11 +107,9 @@ hair_result hair_draw_compile(struct hair_renderer* renderer, struct hair_draw_p
 static hair_result compile_state(struct hair_renderer* renderer, hair_gl_pass state,
                                  struct hair_draw_plan* plan)
 {
-    hair_result result = HAIR_OK;
     if (hair_draw_uses_occlusion(plan->view)) {
         hair_draw_find_passes(renderer, state | HAIR_GL_WITH(OCCLUSION), plan);
-        result = hair_draw_compile(renderer, plan);
-        if (result) return result;
+        HAIR_TRY(hair_draw_compile(renderer, plan));
     }
     hair_draw_find_passes(renderer, state, plan);
     return hair_draw_compile(renderer, plan);
@@ -120,13 +118,13 @@ static hair_result compile_state(struct hair_renderer* renderer, hair_gl_pass st
 hair_result hair_draw_precompile(struct hair_renderer* renderer, struct hair_draw_plan* plan,
                                  bool may_collide)
 {
-    const struct hair_geometry* geometry = renderer->geometry;
-    hair_result result = compile_state(renderer, 0, plan);
-    if (result || !may_collide) return result;
-    // Colliders block light also where a level of detail shows no displacement of followers.
-    if (plan->view->lod) result = compile_state(renderer, HAIR_GL_WITH(COLLIDERS), plan);
-    if (result || geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_NONE) return result;
-    result = hair_geometry_ensure_hit_programs(renderer->geometry);
-    if (result) return result;
+    bool hits = renderer->geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_NONE;
+    HAIR_TRY(compile_state(renderer, 0, plan));
+    if (!may_collide) return HAIR_OK;
+    // Colliders block light also where followers pass through them, and where a level of detail
+    // shows no displacement of followers.
+    if (plan->view->lod || !hits) HAIR_TRY(compile_state(renderer, HAIR_GL_WITH(COLLIDERS), plan));
+    if (!hits) return HAIR_OK;
+    HAIR_TRY(hair_geometry_ensure_hit_programs(renderer->geometry));
     return compile_state(renderer, HAIR_GL_WITH(HITS) | HAIR_GL_WITH(COLLIDERS), plan);
 }

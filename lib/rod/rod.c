@@ -17,7 +17,6 @@
 
 #include <string.h>
 
-#define FRAME (1.0 / 60) // s
 // Minimum substeps per frame of the accurate solver, for an error of a whip of half a millimetre.
 #define MIN_PER_FRAME 18
 #define MIN_PER_FRAME_MIXED 24 // Substeps per frame with which BDF2 has that accuracy.
@@ -31,7 +30,6 @@
 // Minimum length of a part with which a whip may begin. A guide that needs shorter parts would take
 // too long.
 #define MIN_WHIP_PART (1.0 / 32)
-#define MIN_PER_FRAME_DIRECT 4
 // Maximum substeps per frame of direct, for a heavy tip. Beyond that, tip inertia is added: see
 // tip_inertia.c.
 #define MAX_PER_FRAME_DIRECT 16
@@ -64,9 +62,7 @@ static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
     return (hair_dvec3){before, -before - after, after};
 }
 
-// Return the maximum stiffness at vertex i that can be solved in single precision with substeps of
-// length h.
-static double max_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
+double hair_rod_max_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
     HAIR_ASSERT(h > 0);
     hair_dvec3 row = row_of(s, i);
@@ -183,7 +179,7 @@ static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_
     double softest = 1, stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
     for (uint32_t i = 0; i < s->count; ++i) {
         double full = hair_rod_stiffness(s, i), k = full, over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
-        if (i + 1 < s->count) k = fmin(k, stiffer * max_stiffness(s, i, h));
+        if (i + 1 < s->count) k = fmin(k, stiffer * hair_rod_max_stiffness(s, i, h));
         if (k < full) softest = fmin(softest, k / full);
         out[i] = (struct hair_rod){
             .strain = rest_strain(s, i, k),
@@ -206,7 +202,7 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
     double stiffness[HAIR_MAX_GUIDE_VERTICES] = {0}, softest = 1;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         double full = hair_rod_stiffness(s, i);
-        stiffness[i] = fmin(full, max_stiffness(s, i, h));
+        stiffness[i] = fmin(full, hair_rod_max_stiffness(s, i, h));
         if (stiffness[i] < full) softest = fmin(softest, stiffness[i] / full);
     }
     find_bands(s, stiffness, k);
@@ -256,9 +252,9 @@ void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hai
     }
 }
 
-static void find_borne(const struct hair_guide* guide, const struct hair_rest* rest,
-                       const struct hair_rod_borne* borne, const hair_physics* physics,
-                       struct hair_rod_shape* out)
+void hair_rod_shape_with(const struct hair_guide* guide, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, const hair_physics* physics,
+                         struct hair_rod_shape* out)
 {
     hair_rod_shape_of(guide, rest + guide->first, physics, out);
     hair_rod_bear(out, borne + guide->first);
@@ -292,7 +288,7 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
     struct hair_rods_softened softened = {.factor = 1};
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
-        find_borne(guides + i, rest, borne, physics, &shape);
+        hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
         HAIR_ASSERT(0 <= own && own <= 1);
         softened.guides += own < 1;
@@ -311,7 +307,7 @@ void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest
     for (uint32_t i = 0; i < count;) {
         const struct hair_guide* guide = guides + resolved_pin[i].guide;
         struct hair_rod_shape shape;
-        find_borne(guide, rest, borne, physics, &shape);
+        hair_rod_shape_with(guide, rest, borne, physics, &shape);
         HAIR_ASSERT(resolved_pin[i].vertex < shape.count);
         for (uint32_t same = resolved_pin[i].guide; i < count && resolved_pin[i].guide == same; ++i)
             shape.pinned[resolved_pin[i].vertex] = i + 1;
@@ -326,7 +322,7 @@ static double min_explicit(const struct hair_rod_shape* s)
     double stiffness[HAIR_MAX_GUIDE_VERTICES] = {0};
     for (uint32_t i = 0; i + 1 < s->count; ++i) stiffness[i] = hair_rod_stiffness(s, i);
     find_bands(s, stiffness, k);
-    return ceil(FRAME / longest_explicit(s, k));
+    return ceil(HAIR_ROD_FRAME / longest_explicit(s, k));
 }
 
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
@@ -334,74 +330,17 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
                          hair_solver solver, int mixed)
 {
     int direct = solver == HAIR_SOLVER_DIRECT;
-    if (mixed) return FRAME / (direct ? MIN_PER_FRAME_DIRECT : MIN_PER_FRAME_MIXED);
-    if (!direct && solver != HAIR_SOLVER_ACCURATE) return FRAME / 2;
-    double max = direct ? MIN_PER_FRAME_DIRECT : MIN_PER_FRAME;
+    if (mixed) return HAIR_ROD_FRAME / (direct ? HAIR_ROD_PER_FRAME_DIRECT : MIN_PER_FRAME_MIXED);
+    if (!direct && solver != HAIR_SOLVER_ACCURATE) return HAIR_ROD_FRAME / 2;
+    double max = direct ? HAIR_ROD_PER_FRAME_DIRECT : MIN_PER_FRAME;
     for (uint32_t i = 0; i < count && (!direct || physics->tip_mass > 0); ++i) {
         struct hair_rod_shape shape;
-        find_borne(guides + i, rest, borne, physics, &shape);
-        double own = direct
-                         ? fmin(ceil(2 * FRAME / (3 * hair_rod_longest_taut(&shape))), MAX_PER_FRAME_DIRECT)
-                         : min_explicit(&shape);
+        hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
+        double own = direct ? fmin(ceil(2 * HAIR_ROD_FRAME / (3 * hair_rod_longest_taut(&shape))),
+                                   MAX_PER_FRAME_DIRECT)
+                            : min_explicit(&shape);
         if (own <= MAX_PER_FRAME) max = fmax(max, own);
     }
-    HAIR_ASSERT(max >= MIN_PER_FRAME_DIRECT);
-    return FRAME / max;
-}
-
-// Maximum strain at a vertex of a straight strand, in radians. Rounding leaves this much of a
-// straight strand in any direction.
-#define STRAIGHT_STRAIN 5e-5
-// Maximum vertices of a guide for the scheme of straight rods. A longer guide loses its length when
-// a spinning head pulls it taut.
-#define MAX_STRAIGHT 32
-
-static bool is_curved(const struct hair_rod_shape* s)
-{
-    for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
-        double stiffness = hair_rod_stiffness(s, i);
-        if (stiffness > 0) strain = hair_dadd(strain, hair_dscale(hair_rod_excess(s, i, stiffness), -1));
-        if (hair_dlength(strain) > STRAIGHT_STRAIN) return true;
-    }
-    return false;
-}
-
-// Return whether some stiffness is too large to factor the matrix of straight rods in single
-// precision.
-static bool is_fine(const struct hair_rod_shape* s, double h)
-{
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (hair_rod_stiffness(s, i) > max_stiffness(s, i, h)) return true;
-    return false;
-}
-
-bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
-                         const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                         hair_solver solver, double substep)
-{
-    double h = substep > 0 ? substep : FRAME / MIN_PER_FRAME_DIRECT;
-    if (physics->fiber.flatness < 1) return true;
-    for (uint32_t i = 0; i < count; ++i) {
-        struct hair_rod_shape shape;
-        if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MAX_STRAIGHT) return true;
-        find_borne(guides + i, rest, borne, physics, &shape);
-        if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return true;
-    }
-    return false;
-}
-
-bool hair_rods_differ(const hair_physics* a, const hair_physics* b)
-{
-    for (int k = 0; k < 3; ++k)
-        if (a->gravity[k] != b->gravity[k]) return true;
-    return a->damping != b->damping || a->shape.frequency_root != b->shape.frequency_root ||
-           a->shape.frequency_tip != b->shape.frequency_tip ||
-           a->fiber.youngs_modulus != b->fiber.youngs_modulus ||
-           a->fiber.poisson_ratio != b->fiber.poisson_ratio || a->fiber.radius != b->fiber.radius ||
-           a->fiber.density != b->fiber.density || a->fiber.flatness != b->fiber.flatness ||
-           a->shape.stiffness_root != b->shape.stiffness_root ||
-           a->shape.stiffness_tip != b->shape.stiffness_tip ||
-           a->shape.gravity_preload != b->shape.gravity_preload || a->root != b->root ||
-           a->tip_mass != b->tip_mass;
+    HAIR_ASSERT(max >= HAIR_ROD_PER_FRAME_DIRECT);
+    return HAIR_ROD_FRAME / max;
 }

@@ -84,6 +84,18 @@ struct hair_rod_shape {
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out);
 
+// Compute the shape of a guide that holds its groom by `borne`. `rest` and `borne` are those of all
+// guides.
+void hair_rod_shape_with(const struct hair_guide* guide, const struct hair_rest* rest,
+                         const struct hair_rod_borne* borne, const hair_physics* physics,
+                         struct hair_rod_shape* out);
+
+#define HAIR_ROD_FRAME (1.0 / 60) // s
+#define HAIR_ROD_PER_FRAME_DIRECT 4 // Minimum substeps of the solver direct in a frame.
+// Return the maximum stiffness at vertex i that can be solved in single precision with substeps of
+// length h, by the scheme of straight rods.
+double hair_rod_max_stiffness(const struct hair_rod_shape* shape, uint32_t i, double h);
+
 // Return the bending stiffness at vertex i, divided by the length of rod that bends there. Return 0
 // where vertex i does not resist bending.
 double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i);
