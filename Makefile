@@ -250,11 +250,14 @@ consumer: install-tree ## Build and run tests/consumer out of an installed tree:
 install-tree: libraries
 	@rm -rf $(B)/installed && $(MAKE) install DESTDIR=$(abspath $(B))/installed PREFIX=/usr >/dev/null
 
-install: libraries ## Headers, libraries and pkg-config files into DESTDIR/PREFIX
-	install -d $(DESTDIR)$(PREFIX)/include/hair $(DESTDIR)$(PREFIX)/lib/pkgconfig
+# The links of the installed guide lead to the installed headers.
+install: libraries ## Headers, libraries, pkg-config files and the guide into DESTDIR/PREFIX
+	install -d $(DESTDIR)$(PREFIX)/include/hair $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/share/doc/hair
 	install -m 644 include/hair/*.h $(DESTDIR)$(PREFIX)/include/hair
 	install -m 644 $(filter %.a,$(LIBRARIES)) $(DESTDIR)$(PREFIX)/lib
-	cp -P $(patsubst %.so,%.so*,$(filter %.so,$(LIBRARIES))) $(DESTDIR)$(PREFIX)/lib
+	cp -P $(foreach so,$(filter %.so,$(LIBRARIES)),$(so) $(so).$(MAJOR) $(so).$(VERSION)) $(DESTDIR)$(PREFIX)/lib
+	install -m 644 LICENSE tests/consumer/hello.c $(DESTDIR)$(PREFIX)/share/doc/hair
+	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](|' include/hair/README.md > $(DESTDIR)$(PREFIX)/share/doc/hair/guide.md
 	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)

@@ -62,8 +62,8 @@ struct hair_renderer {
     hair_vec4 reach;
 };
 
-// Create a renderer of strands and lighting, which must outlive it. `bounds` are the lower and upper
-// corner of the hair in the head's frame.
+// Create a renderer of strands and lighting, which must outlive it. `bounds` are the lower and the
+// upper corner of the hair in the head's frame.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
                           const hair_vec3 bounds[2], struct hair_geometry* geometry,
                           struct hair_lighting* lighting);

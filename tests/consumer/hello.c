@@ -75,7 +75,7 @@ int main(void)
     if (!file) return 1;
     glReadPixels(0, 0, SIZE, SIZE, GL_RGB, GL_UNSIGNED_BYTE, pixels);
     fprintf(file, "P6\n%d %d\n255\n", SIZE, SIZE);
-    for (int y = SIZE; y--;) fwrite(pixels[y], 1, sizeof pixels[y], file); // OpenGL's row 0 is below.
+    for (int y = SIZE; y--;) fwrite(pixels[y], 1, sizeof pixels[y], file); // OpenGL begins below.
     printf("wrote hello.ppm\n");
     hair_destroy(hair), hair_groom_destroy(groom), hair_asset_destroy(asset);
     hair_context_destroy(context), hair_egl_destroy(egl);
