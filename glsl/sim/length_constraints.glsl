@@ -29,23 +29,19 @@ LOCAL(float, hinge_along);
 #define MIN_GRANT 6e-8  // Fraction of the guide's length, the rounding of its positions.
 #define SLOW_GRANT 0.02 // Fraction of the displacement of a vertex.
 
-bool loose, broken; // Results of measure().
+bool loose; // Result of measure().
 
 #ifdef HAIR_COLLIDERS
-// Return whether a slow guide in contact has an error of length above SLOW_GRANT of a displacement.
-// The error that a Newton step leaves differs between substeps, so that a span between the root and
-// a sticking vertex would tremble. Guides with a vertex whose displacement hides the errors that
-// `tolerance` permits are not slow.
-bool trembles(float tolerance)
+#define GRANT (SLOW_GRANT * length(local(displacement) - root_moved))
+
+// Return whether a guide in contact, all of whose vertices are slow, has an error of length above
+// SLOW_GRANT of a displacement. The error that a Newton step leaves differs between substeps, so
+// that a span between the root and a sticking vertex would tremble.
+bool trembles()
 {
-    bool is_fast = false, is_rough = false, touches = false;
-    FOR_VERTICES(guide_count - 1u) {
-        float grant = SLOW_GRANT * length(local(displacement) - root_moved);
-        is_fast = is_fast || (i + 1u < guide_count && grant > tolerance * local(rest_length));
-    }
-    if (group_any(bvec2(is_fast, false)).x) return false;
+    bool is_rough = false, touches = false;
     FOR_VERTICES(guide_count) {
-        float grant = max(SLOW_GRANT * length(local(displacement) - root_moved), MIN_GRANT * guide_length);
+        float grant = max(GRANT, MIN_GRANT * guide_length);
         is_rough = is_rough || (i + 1u < guide_count && bits_of(local(excess)) > floatBitsToUint(grant));
         touches  = touches || (i < guide_count && local(touch).w != FREE);
     }
@@ -53,24 +49,37 @@ bool trembles(float tolerance)
     return found.x && found.y;
 }
 #else
-#define trembles(tolerance) false
+#define GRANT 0.0
+#define trembles() false
 #endif
 
-// Compute unit edges. Set `broken` if a method has failed. From the first step on, set `loose` if
-// the error of a length exceeds what the relative `tolerance` permits, or makes the guide tremble.
+// Compute unit edges. Set `loose` if the error of a length exceeds what the relative `tolerance`
+// permits. From the first step on, set `loose` also if the guide trembles. The displacement of a
+// fast vertex hides errors within the tolerance.
 void measure(float tolerance, uint steps)
 {
-    bool is_loose = false, is_broken = false;
+    bool is_loose = false, is_fast = false;
     find_edges();
     FOR_VERTICES(guide_count - 1u) {
         if (i + 1u < guide_count) {
-            is_loose  = is_loose || bits_of(local(excess)) > floatBitsToUint(tolerance * local(rest_length));
-            is_broken = is_broken || bits_of(local(excess)) > floatBitsToUint(TOO_LONG * local(rest_length));
+            float max_error = tolerance * local(rest_length);
+            is_loose = is_loose || bits_of(local(excess)) > floatBitsToUint(max_error);
+            is_fast  = is_fast || GRANT > max_error;
         }
     }
-    bvec2 found = group_any(bvec2(is_loose, is_broken));
-    broken = found.y;
-    loose  = found.x || (steps > 0u && trembles(tolerance));
+    bvec2 found = group_any(bvec2(is_loose, is_fast));
+    loose = found.x || (COLLIDERS && steps > 0u && !found.y && trembles());
+}
+
+// Return whether an error of length means that the method has failed.
+bool is_broken()
+{
+    bool broken = false;
+    FOR_VERTICES(guide_count - 1u) {
+        if (i + 1u < guide_count)
+            broken = broken || bits_of(local(excess)) > floatBitsToUint(TOO_LONG * local(rest_length));
+    }
+    return group_any(bvec2(broken, false)).x;
 }
 
 // Turn the solution with J M^-1 J^T into that with J A^-1 J^T. Add b^2 times the effect of K along
@@ -175,7 +184,8 @@ bool fit_lengths(int method, float tolerance, vec3 head_moved)
             measure(tolerance, n);
             // Do at least one step. Skipped errors would add up over substeps, and then leave at
             // once with a jerk.
-            if ((n > 0u && !loose) || n == MAX_STEPS || !has_rounds()) return !broken;
+            if (n > 0u && !loose) return true;
+            if (n == MAX_STEPS || !has_rounds()) return !is_broken();
             correct_lengths(method, n);
         }
     }

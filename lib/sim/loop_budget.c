@@ -96,7 +96,7 @@ static struct loops loops_of_methods(const struct hair_sim* sim, int by_thread, 
     struct loops loops = {0};
     loops.over = predicted * (10 + pinned + 3 * met);
     loops.along = predicted * 2;
-    loops.over += tried * (LOOKS * (3 + pinned + 2 * met) + STEPS * 4 + stiff * 3);
+    loops.over += tried * (LOOKS * (3 + pinned + met) + STEPS * 4 + stiff * 3 + 1);
     loops.rows += tried * STEPS;
     loops.along += tried * stiff * 2;
     return loops;
