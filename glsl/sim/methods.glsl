@@ -30,11 +30,12 @@ LOCAL(float, touched);    // 1 if the vertex touched a collider at the end of th
 LOCAL(float, tension);
 
 #define GUESSED 0.5      // Minimum fraction of the last tension that guessed_part() returns
-#define SLOW 0.3         // w h up to which the whole tension is guessed
-#define FAST 1.0         // w h from which on the fraction GUESSED is guessed
+#define SLOW 0.6         // w h up to which the whole tension is guessed
+#define FAST 2.0         // w h from which on the fraction GUESSED is guessed
 #define STILL 0.05       // Speed relative to the root at which a vertex counts as still, m/s
 #define MOVING 0.2       // Speed from which on the vertex counts as moving, m/s
-// Maximum displacement by the guessed tension, as a fraction of the distance to a neighbour.
+// Maximum displacement of a chain by the guessed tension, as a fraction of the distance to a
+// neighbour.
 #define MAX_GUESSED 0.5
 #define FIND_TENSION(part) local(tension) -= (part) * local(solution) / of_force
 #define KEEPS_TENSION

@@ -71,41 +71,7 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 }
 
 #ifdef KEEPS_RATES
-// Return the fraction of the last substep's tension that is applied in advance. pull_on() applies
-// the tension along the directions that segments will have if they continue their motion.
-// fit_lengths() finds the rest along the resulting directions.
-//
-// Tension applied in advance feeds transverse oscillations of frequency w. The tension from
-// fit_lengths() damps them. Half of each does not feed them up to w h = 3, and damps them by (w
-// h)^4 / 100 per substep. fit_lengths() alone feeds them from w h = 1.6 on, and damps them by (w
-// h)^4 / 5. The whole tension in advance is right to a higher order, but feeds them soonest, and
-// lets vertices creep that friction holds. It is therefore applied only to vertices that move and
-// oscillate slowly.
-//
-// The frequency is that of waves of tension as short as those of bending, tension /
-// sqrt(stiffness). Bending itself is implicit.
-float guessed_part(uint i)
-{
-    float h = params.gravity.w,
-          stiffness = local(strain).w * local(rest_length) * min(params.ratio.x, params.ratio.z);
-    float w = abs(local(tension)) * inversesqrt(max(stiffness, 1e-20)),
-          d = length(local(displacement) - root_moved);
-    return mix(1.0, GUESSED, max(smoothstep(SLOW, FAST, w * h), 1.0 - smoothstep(STILL * h, MOVING * h, d)));
-}
-
-void pull_on()
-{
-    FOR_VERTICES(guide_count) { PUT(moved, local(slack) == 0.0 ? held_move(i) : local(displacement)); }
-    GROUP_BARRIER;
-    FOR_VERTICES(guide_count - 1u) {
-        vec3  to   = BETWEEN + (AFTER_VEC3(moved) - GET(moved));
-        float max_value = MAX_GUESSED * local(rest_length) * local(rest_length) / of_force;
-        // An impact leaves no tension.
-        local(tension) = known < 2.0 ? 0.0 : clamp(guessed_part(i) * local(tension), -max_value, max_value);
-        PUT(handed, GET(handed) + local(tension) / max(length(to), 1e-9) * to);
-    }
-    GROUP_BARRIER;
-}
+#include "sim/tension.glsl"
 #endif
 
 // True if a program keeps the clamp's direction at rest in registers. Programs do so if registers

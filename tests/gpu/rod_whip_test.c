@@ -148,7 +148,7 @@ static void cracking_whip_is_equal_in_longer_steps(void** state)
     if (!((struct hair_test*)*state)->context->gl.software) return;
     for (int k = 0; k < 3; ++k) {
         uint32_t vertices = k < 2 ? 32 : 64;
-        int substeps = k < 2 ? 2048 : 704;
+        int substeps = k < 2 ? 2048 : 960;
         struct hair_state* one = whip_in_steps(*state, mappings[k % 2], vertices, 1, substeps, 1);
         struct hair_state* many = whip_in_steps(*state, mappings[k % 2], vertices, 1, substeps, 16);
         assert_true(one[0].position.w < 1); // The last substep was taken in parts.
@@ -163,7 +163,7 @@ static void whips_of_many_guides_are_equal(void** state)
 {
     enum { VERTICES = 64, GUIDES = 9 };
     for (int k = 0; k < 2; ++k) {
-        struct hair_state* at = whip_in_steps(*state, mappings[k], VERTICES, GUIDES, 704, 16);
+        struct hair_state* at = whip_in_steps(*state, mappings[k], VERTICES, GUIDES, 960, 16);
         assert_true(at[0].position.w < 1);
         for (int i = 1; i < GUIDES; ++i) assert_memory_equal(at, at + i * VERTICES, VERTICES * sizeof *at);
         free(at);
