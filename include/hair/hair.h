@@ -26,8 +26,9 @@
 /// and shaders.
 ///
 /// Errors. A call that can fail returns a hair_result. After any result but HAIR_OK, the object is
-/// as it was, and one sentence has been sent to hair_host.log. The comment of each call lists its
-/// results other than HAIR_OK after "Errors:". No call throws, exits or prints.
+/// as it was, and one sentence has been sent to hair_host.log of the object or the desc, if there
+/// is one. The comment of each call lists its results other than HAIR_OK after "Errors:". No call
+/// throws, exits or prints.
 ///
 /// Threads. There are no globals. A context and its instances belong to one thread at a time.
 /// Different contexts may be used in parallel, and calls marked "Any thread" too.

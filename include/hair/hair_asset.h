@@ -76,7 +76,9 @@ HAIR_API const char* hair_format_name(hair_format format);
 
 // Built-in haircuts -------------------------------------------------------------------------------
 
-/// Built-in haircuts, on the built-in scalp.
+/// Built-in haircuts, on the built-in scalp. Guides of HAIR_STYLE_CURLY and HAIR_STYLE_AFRO are
+/// curled and simulated as such. HAIR_LOOK_CURLY curls any haircut while drawing. A haircut with
+/// both is curled twice.
 typedef enum hair_style {
     HAIR_STYLE_LONG = 0,
     HAIR_STYLE_BOB,

@@ -165,8 +165,8 @@ typedef enum hair_skip_reason {
     HAIR_SKIP_REASON_OUT_OF_VIEW,
     /// No collider is near the hair.
     HAIR_SKIP_REASON_NONE_NEAR,
-    /// The settings do not need the stage, for example without wind, without cohesion, with a rigid
-    /// head, or on another render path.
+    /// The settings do not need the stage, for example without cohesion, with a rigid head, on
+    /// another render path, or with wind that is not HAIR_WIND_FLUID.
     HAIR_SKIP_REASON_NOT_WANTED,
     /// The hair is in motion, but no substep was due.
     HAIR_SKIP_REASON_NOT_DUE,

@@ -69,7 +69,7 @@ HAIR_DESC(hair_desc)
 ///
 /// @param context Context, which must outlive the instance.
 /// @param groom Haircut. It may be destroyed after this call.
-/// @param desc Settings, copied.
+/// @param desc Settings, copied. Not NULL.
 /// @param out Receives the instance.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
 /// OpenGL: required. Does not wait for the GPU.

@@ -60,7 +60,7 @@ typedef enum hair_render_path {
     /// takes 8 bytes per sample of every pixel that the hair can reach, or 4 for depth, plus one
     /// half of this.
     HAIR_RENDER_PATH_COMPUTE,
-    /// The path that was measured as fastest on drivers of this name, never by timing.
+    /// The path that a built-in table has as the fastest on drivers of this name. Nothing is timed.
     /// hair_report() tells which path it is.
     HAIR_RENDER_PATH_AUTO
 } hair_render_path;
@@ -73,14 +73,15 @@ typedef enum hair_primitive {
 
 /// Antialiasing of strands that are thinner than a pixel.
 typedef enum hair_coverage {
-    /// Multisampling of opaque ribbons of true width. Default.
+    /// Multisampling of opaque ribbons of true width. With one sample a pixel, thin hair is noisy.
+    /// Default.
     HAIR_COVERAGE_MSAA = 0,
     /// Analytic coverage, the fraction of a pixel that a ribbon covers, whatever the number of
     /// samples. Applies to ribbons of HAIR_PASS_COLOR. Segments are sorted from far to near and
-    /// blended over the image where the depth test passes. Draw opaque geometry first. The pass
-    /// does not write depth. Colours are premultiplied by alpha. Needs 32 bytes per vertex of all
-    /// followers, whatever the image size. Segments whose depth differs by less than 1/16384 of the
-    /// hair's extent may be in any order.
+    /// blended over the image where the depth test passes. Draw opaque geometry first, and
+    /// instances from far to near, because the pass does not write depth. Colours are premultiplied
+    /// by alpha. Needs 32 bytes per vertex of all followers, whatever the image size. Segments
+    /// whose depth differs by less than 1/16384 of the hair's extent may be in any order.
     HAIR_COVERAGE_ALPHA
 } hair_coverage;
 
