@@ -325,6 +325,13 @@ static double min_explicit(const struct hair_rod_shape* s)
     return ceil(HAIR_ROD_FRAME / longest_explicit(s, k));
 }
 
+double hair_rod_substeps_of_straight(uint32_t vertices)
+{
+    const uint32_t each = HAIR_ROD_MAX_PLAIN / HAIR_ROD_PER_FRAME_DIRECT;
+    uint32_t count = (vertices + each - 1) / each;
+    return count > HAIR_ROD_PER_FRAME_DIRECT ? count : HAIR_ROD_PER_FRAME_DIRECT;
+}
+
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
                          const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
                          hair_solver solver, int mixed)
@@ -333,6 +340,8 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
     if (mixed) return HAIR_ROD_FRAME / (direct ? HAIR_ROD_PER_FRAME_DIRECT : MIN_PER_FRAME_MIXED);
     if (!direct && solver != HAIR_SOLVER_ACCURATE) return HAIR_ROD_FRAME / 2;
     double max = direct ? HAIR_ROD_PER_FRAME_DIRECT : MIN_PER_FRAME;
+    for (uint32_t i = 0; direct && i < count; ++i)
+        max = fmax(max, hair_rod_substeps_of_straight(guides[i].count));
     for (uint32_t i = 0; i < count && (!direct || physics->tip_mass > 0); ++i) {
         struct hair_rod_shape shape;
         hair_rod_shape_with(guides + i, rest, borne, physics, &shape);

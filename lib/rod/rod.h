@@ -88,16 +88,20 @@ void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest
 
 // Return whether the mixed scheme is to solve the guides under direct and accurate. The mixed
 // scheme is needed when some guides are curved at rest. It is also needed when segments are too
-// short or a tip is too heavy for the scheme of straight rods. Under direct it is needed for more
-// than 32 vertices too. A substep of 0 stands for direct's own substep.
+// short or a tip is too heavy for the scheme of straight rods. Under direct it is also needed for
+// more than 32 vertices where colliders or pins hold hair, or where the substep is longer than
+// direct's own. `is_held` tells of colliders and pins. A substep of 0 stands for direct's own.
 bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
                          const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                         hair_solver solver, double substep);
+                         hair_solver solver, bool is_held, double substep);
 
-// Return a solver's own substep length, s. Direct takes 1/240, and down to 1/960 for heavy tips.
-// Accurate takes 1/1080, or less where explicit bending is only stable with less, down to 1/6000.
-// Guides that need even shorter substeps are solved by BDF2. The mixed scheme takes 1/240 under
-// direct and 1/1440 under accurate.
+// Return whether colliders and pins may decide the scheme under direct.
+bool hair_rods_are_long(const struct hair_guide* guides, uint32_t count);
+
+// Return a solver's own substep length, s. Direct takes 1/240, down to 1/960 for heavy tips, and
+// 1/240 times 32 / N for straight guides of N > 32 vertices. Accurate takes 1/1080, or less where
+// explicit bending is only stable with less, down to 1/6000. Guides that need even shorter substeps
+// are solved by BDF2. The mixed scheme takes 1/240 under direct and 1/1440 under accurate.
 double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest* rest,
                          const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
                          hair_solver solver, int mixed);

@@ -92,6 +92,11 @@ void hair_rod_shape_with(const struct hair_guide* guide, const struct hair_rest*
 
 #define HAIR_ROD_FRAME (1.0 / 60) // s
 #define HAIR_ROD_PER_FRAME_DIRECT 4 // Minimum substeps of the solver direct in a frame.
+// Maximum vertices of a straight guide for which direct needs no more substeps than that.
+#define HAIR_ROD_MAX_PLAIN 32
+// Return the number of substeps per frame that direct needs for a straight guide, so that it keeps
+// its length when a spinning head pulls it taut.
+double hair_rod_substeps_of_straight(uint32_t vertices);
 // Return the maximum stiffness at vertex i that can be solved in single precision with substeps of
 // length h, by the scheme of straight rods.
 double hair_rod_max_stiffness(const struct hair_rod_shape* shape, uint32_t i, double h);

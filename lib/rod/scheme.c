@@ -4,9 +4,6 @@
 // Maximum strain at a vertex of a straight strand, in radians. Rounding leaves this much of a
 // straight strand in any direction.
 #define STRAIGHT_STRAIN 5e-5
-// Maximum vertices of a guide for the scheme of straight rods. A longer guide loses its length when
-// a spinning head pulls it taut.
-#define MAX_STRAIGHT 32
 
 static bool is_curved(const struct hair_rod_shape* s)
 {
@@ -28,15 +25,31 @@ static bool is_fine(const struct hair_rod_shape* s, double h)
     return false;
 }
 
+// Return whether a guide has too many vertices for the scheme of straight rods under direct. A
+// guide of more than HAIR_ROD_MAX_PLAIN vertices loses its length when a spinning head pulls it
+// taut, unless its substeps are as many times shorter. Even then, friction may make it tremble.
+static bool is_long(uint32_t vertices, bool is_held, double substep)
+{
+    double longest = HAIR_ROD_FRAME / hair_rod_substeps_of_straight(vertices);
+    return vertices > HAIR_ROD_MAX_PLAIN && (is_held || substep > longest * (1 + 1e-6));
+}
+
+bool hair_rods_are_long(const struct hair_guide* guides, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; ++i)
+        if (guides[i].count > HAIR_ROD_MAX_PLAIN) return true;
+    return false;
+}
+
 bool hair_rods_are_mixed(const struct hair_guide* guides, const struct hair_rest* rest,
                          const struct hair_rod_borne* borne, uint32_t count, const hair_physics* physics,
-                         hair_solver solver, double substep)
+                         hair_solver solver, bool is_held, double substep)
 {
     double h = substep > 0 ? substep : HAIR_ROD_FRAME / HAIR_ROD_PER_FRAME_DIRECT;
     if (physics->fiber.flatness < 1) return true;
     for (uint32_t i = 0; i < count; ++i) {
         struct hair_rod_shape shape;
-        if (solver == HAIR_SOLVER_DIRECT && guides[i].count > MAX_STRAIGHT) return true;
+        if (solver == HAIR_SOLVER_DIRECT && is_long(guides[i].count, is_held, substep)) return true;
         hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
         if (is_curved(&shape) || is_fine(&shape, h) || hair_rod_tautness(&shape) > 0) return true;
     }

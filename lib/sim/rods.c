@@ -72,12 +72,12 @@ static uint32_t find_substep_scale(const struct hair_sim* sim)
 }
 
 // Return whether the mixed scheme solves the guides.
-static bool are_mixed(const struct hair_sim* sim)
+static bool are_mixed(const struct hair_sim* sim, bool had_contact)
 {
     const struct hair_rods* rods = sim->rods;
     if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return false;
     return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver,
-                               sim->asked_substep);
+                               had_contact || sim->pins.count > 0, sim->asked_substep);
 }
 
 // Return the size of forces and turns, in bytes. Include the rows if they do not fit into the
@@ -152,7 +152,7 @@ static hair_result create(struct hair_sim* sim, int had_contact)
     struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
     hold(sim);
-    int mixed = are_mixed(sim);
+    int mixed = are_mixed(sim, had_contact);
     uint32_t substep_scale = find_substep_scale(sim);
     double substep = find_substep(sim, mixed, had_contact, substep_scale);
     struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
@@ -207,11 +207,14 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     return hair_sim_ensure_hair_grid(sim);
 }
 
-// Return whether the presence of colliders has changed the accurate solver's own substep.
+// Return whether the presence of colliders has changed the accurate solver's own substep, or the
+// scheme of direct.
 static bool is_first_contact(const struct hair_sim* sim, int had_contact)
 {
-    return sim->solver == HAIR_SOLVER_ACCURATE && sim->asked_substep == 0 &&
-           had_contact != sim->rods->had_contact;
+    const struct hair_rods* rods = sim->rods;
+    if (had_contact == rods->had_contact) return false;
+    if (sim->solver == HAIR_SOLVER_ACCURATE) return sim->asked_substep == 0;
+    return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->guides, sim->guides);
 }
 
 bool hair_sim_is_other_rate(const struct hair_sim* sim)

@@ -78,6 +78,12 @@ void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double sub
     hair_rods_write(&f->guide, f->rest, f->borne, 1, &f->physics, solver, 0, substep, f->rod);
 }
 
+bool hair_test_rod_is_mixed(struct hair_test_rod* f, hair_solver solver, bool is_held, double substep)
+{
+    hair_test_rod_hold(f);
+    return hair_rods_are_mixed(&f->guide, f->rest, f->borne, 1, &f->physics, solver, is_held, substep);
+}
+
 double hair_test_rod_substep(struct hair_test_rod* f, hair_solver solver)
 {
     hair_test_rod_hold(f);

@@ -27,6 +27,8 @@ void hair_test_rod_curl(struct hair_test_rod* f, uint32_t count, double segment)
 void hair_test_rod_hold(struct hair_test_rod* f);
 // Holds it first.
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep);
+// Return whether the mixed scheme is to solve the rod.
+bool hair_test_rod_is_mixed(struct hair_test_rod* f, hair_solver solver, bool is_held, double substep);
 // Return the solver's own choice.
 double hair_test_rod_substep(struct hair_test_rod* f, hair_solver solver);
 // Return bending stiffness over mass per length, m^4/s^2.

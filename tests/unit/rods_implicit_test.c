@@ -235,10 +235,33 @@ static void the_substep_of_the_accurate_solver_is_stable(void** state)
     double before = hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE);
     f->physics.shape.gravity_preload = 1;
     assert_true(hair_test_rod_substep(f, HAIR_SOLVER_ACCURATE) < before / 1.7);
-    hair_test_near("direct", 0, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), 1.0 / 240, 1e-12);
     hair_test_near("follow", 0, hair_test_rod_substep(f, HAIR_SOLVER_FOLLOW), 1.0 / 120, 1e-12);
     hair_test_near("redblack", 0, hair_test_rod_substep(f, HAIR_SOLVER_REDBLACK), 1.0 / 120, 1e-12);
     free(a);
+    free(f);
+}
+
+// Check the substeps of direct for straight guides, and the scheme that solves long ones.
+static void long_straight_guides_take_shorter_substeps_until_something_holds_them(void** state)
+{
+    (void)state;
+    const uint32_t counts[] = {2, 32, 33, 64, 100, 256};
+    const double per_frame[] = {4, 4, 5, 8, 13, 32};
+    struct hair_test_rod* f = hair_test_rod_make();
+    for (int k = 0; k < 6; ++k) {
+        double own = 1 / (60 * per_frame[k]);
+        bool is_long = counts[k] > 32;
+        hair_test_rod_straight(f, counts[k], 0.3, PI / 2);
+        f->physics.shape.gravity_preload = 0; // Rest strain would make the guide a curved one.
+        f->physics.fiber.radius = 1e-5f; // Segments of a thicker fiber would be too short.
+        hair_test_near("direct", k, hair_test_rod_substep(f, HAIR_SOLVER_DIRECT), own, 1e-12);
+        assert_false(hair_test_rod_is_mixed(f, HAIR_SOLVER_DIRECT, false, 0));
+        assert_false(hair_test_rod_is_mixed(f, HAIR_SOLVER_DIRECT, false, own));
+        assert_int_equal(hair_test_rod_is_mixed(f, HAIR_SOLVER_DIRECT, true, 0), is_long);
+        assert_int_equal(hair_test_rod_is_mixed(f, HAIR_SOLVER_DIRECT, false, 1.01 * own), is_long);
+        assert_false(hair_test_rod_is_mixed(f, HAIR_SOLVER_ACCURATE, true, 0));
+        assert_int_equal(hair_rods_are_long(&f->guide, 1), is_long);
+    }
     free(f);
 }
 
@@ -372,6 +395,7 @@ int main(void)
         cmocka_unit_test(factors_are_those_of_the_implicit_systems),
         cmocka_unit_test(terms_dropped_by_cyclic_reduction_are_negligible),
         cmocka_unit_test(the_substep_of_the_accurate_solver_is_stable),
+        cmocka_unit_test(long_straight_guides_take_shorter_substeps_until_something_holds_them),
         cmocka_unit_test(a_solve_in_single_precision_is_good_at_any_stiffness),
         cmocka_unit_test(stiffness_is_limited_to_single_precision),
         cmocka_unit_test(strand_with_a_heavy_tip_has_added_inertia),

@@ -150,7 +150,7 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
         guide.arc_length += rest[i].position.w;
     }
     hair_rods_preload_gravity(&guide, rest, 1, &scene->physics, borne, &report);
-    return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, scene->substep);
+    return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, false, scene->substep);
 }
 
 bool bench_has_chord_energy(const struct bench_scene* scene)
