@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 """plot.py - plots of time against error, as SVG, from the CSV and JSON files of hair-bench
 
 plot.py accuracy OUT.svg TITLE=FILE:CASE:VERTICES[:stretch]...   every solver at every setting, beside other libraries
