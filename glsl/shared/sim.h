@@ -55,7 +55,8 @@ struct hair_rod {
     // Row of L D L^T of the implicit system of the solver's own method. x: 1/D. y: L(i+1,i). z:
     // L(i+2,i). w: number of the first pin beyond this vertex, counted from 1. 0 if there is none.
     hair_vec4 factor;
-    // Row of L D L^T of implicit Euler, the fallback method.
+    // Row of L D L^T of implicit Euler, the fallback method. In the mixed scheme, xyz: stiffness
+    // about the axes of the section, as multiples of strain.w.
     hair_vec4 factor_euler;
 };
 HAIR_SIZE(hair_rod)

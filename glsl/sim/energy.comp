@@ -52,7 +52,8 @@ vec4 bend_of(uint i, vec4 before)
     q *= q.w < 0.0 ? -1.0 : 1.0;
     vec3  off = 2.0 * q.xyz - strain.xyz;
     float real = 2.0 * q.w - rod[i].segment.w;
-    return vec4(off, 0.5 * strain.w * (dot(off, params.ratio.xyz * off) + params.ratio.z * real * real));
+    vec3  ratio = rod[i].factor_euler.xyz;
+    return vec4(off, 0.5 * strain.w * (dot(off, ratio * off) + ratio.z * real * real));
 }
 #else
 // Return the difference of the directions at vertex i. w is its energy. bending.glsl has the

@@ -45,6 +45,7 @@ void load()
     }
 #ifdef HAIR_MIXED
     root_is_clamped = rod[guide_first].strain.w > 0.0;
+    root_ratio      = rod[guide_first].factor_euler.xyz;
     GROUP_BARRIER;
     if (!are_aligned()) align_frames();
 #endif

@@ -64,6 +64,7 @@ LOCAL(vec2, mobilities); // Fractions of `mobility` across and along the strand
 
 bool touching;        // Some vertex can touch a collider in this substep.
 bool root_is_clamped; // The hinge at the root has a stiffness.
+vec3 root_ratio;      // Value of params.ratio for the hinge at the root
 
 vec4 turn_by(vec3 v) { return normalize(vec4(0.5 * v, 1.0)); }
 vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }

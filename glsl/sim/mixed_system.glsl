@@ -13,14 +13,15 @@ void put_hinge(uint i, bool exact, vec4 a)
     vec4  r = quat_multiply(quat_conjugate(a), SHARED_READ(tried));
     if (r.w < 0.0) r = -r;
     float k      = i + 1u < guide_count ? local(strain).w : 0.0;
-    vec3  s      = r.xyz, g = k * params.ratio.xyz * (2.0 * s - local(strain).xyz);
+    vec3  ratio  = i == 0u ? root_ratio : params.ratio.xyz;
+    vec3  s      = r.xyz, g = k * ratio * (2.0 * s - local(strain).xyz);
     // For a round section, `even` is the stiffness about both axes.
-    float even   = k * params.ratio.z;
+    float even   = k * ratio.z;
     float opens  = even * (2.0 * r.w - local(rest_real));
     symmetric c  = multiple_of_one(even - (exact ? 0.5 * (dot(g, s) + opens * r.w) : 0.0));
-    c = plus(c, times(k * params.ratio.y - even, outer(rotate(a, vec3(-s.z, r.w, s.x)))));
+    c = plus(c, times(k * ratio.y - even, outer(rotate(a, vec3(-s.z, r.w, s.x)))));
     if (params.ratio.x != params.ratio.z)
-        c = plus(c, times(k * params.ratio.x - even, outer(rotate(a, vec3(r.w, s.z, -s.y)))));
+        c = plus(c, times(k * ratio.x - even, outer(rotate(a, vec3(r.w, s.z, -s.y)))));
     PUT_ROW(hinge_diagonal, i, c.diagonal);
     PUT_ROW(hinge_beside, i, c.beside);
     PUT_ROW(hinge_moment, i, rotate(a, r.w * g + cross(s, g) - opens * s));

@@ -70,7 +70,7 @@ static hair_dvec3 moment_of_stress(const struct hair_rod_shape* s, uint32_t i)
 {
     hair_dquat turn = s->turn[i];
     hair_dvec3 v = {turn.x, turn.y, turn.z};
-    double real = hair_rod_stiffness(s, i) * s->ratio[2] * (2 * turn.w - s->rest_real[i]);
+    double real = hair_rod_stiffness(s, i) * hair_rod_ratios_at(s, i).z * (2 * turn.w - s->rest_real[i]);
     hair_dvec3 part = hair_dadd(hair_dcross(v, s->stress[i]), hair_dscale(v, real));
     return hair_drotate(s->frame[i], hair_dadd(hair_dscale(s->stress[i], turn.w), hair_dscale(part, -1)));
 }

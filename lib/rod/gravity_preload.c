@@ -84,9 +84,10 @@ static bool holds(struct search* a, double margin)
     hair_rod_balance(s, &a->pose);
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
+        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
         hair_dquat t = a->pose.turn[i];
-        a->rest[i] = (hair_rod_rest){2 * t.x - g.x / s->ratio[0], 2 * t.y - g.y / s->ratio[1],
-                                     2 * t.z - g.z / s->ratio[2], 2 * t.w};
+        a->rest[i] = (hair_rod_rest){2 * t.x - g.x / ratio.x, 2 * t.y - g.y / ratio.y,
+                                     2 * t.z - g.z / ratio.z, 2 * t.w};
         if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MAX_STRAIN)) return false;
     }
     hair_rod_load(s, margin, &a->pose);
@@ -201,7 +202,8 @@ static void finish(struct search* a)
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dvec3 u = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
-        s->stress[i] = (hair_dvec3){s->ratio[0] * u.x, s->ratio[1] * u.y, s->ratio[2] * u.z};
+        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
+        s->stress[i] = (hair_dvec3){ratio.x * u.x, ratio.y * u.y, ratio.z * u.z};
         s->rest_real[i] = a->rest[i].w;
     }
 }

@@ -172,8 +172,8 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }
 
-// Write a guide of the mixed scheme, which has no factors. Return the smallest stiffness factor of
-// a vertex.
+// Write a guide of the mixed scheme. Ratios of stiffness take the place of factors. Return the
+// smallest stiffness factor of a vertex.
 static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_rod* out)
 {
     double softest = 1, stiffer = s->held ? MIXED_STIFFER : MIXED_STIFFER_FREE;
@@ -181,8 +181,10 @@ static double write_mixed(const struct hair_rod_shape* s, double h, struct hair_
         double full = hair_rod_stiffness(s, i), k = full, over_mass = is_fixed(s, i) ? 0 : 1 / s->mass[i];
         if (i + 1 < s->count) k = fmin(k, stiffer * hair_rod_max_stiffness(s, i, h));
         if (k < full) softest = fmin(softest, k / full);
+        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
         out[i] = (struct hair_rod){
             .strain = rest_strain(s, i, k),
+            .factor_euler = {(float)ratio.x, (float)ratio.y, (float)ratio.z, 0},
             .segment = {(float)s->length[i], (float)over_mass, (float)s->pull[i], (float)s->rest_real[i]}};
     }
     return softest;

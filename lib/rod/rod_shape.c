@@ -116,8 +116,7 @@ void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* r
 // hinge then stands for half a segment. A chain under tension that leaves the clamp at a small
 // angle straightens by the factor r per segment, where r + 1/r = 2 + p^2 and p = l sqrt(T / B). The
 // result gives the chain the moment of a continuous rod at the clamp, sqrt(B T) times the angle.
-// The tension is taken to be the whole weight, whichever way the strand hangs. The section is taken
-// to be round.
+// The tension is taken to be the whole weight, whichever way the strand hangs.
 //
 // Large angles a, from the clamp to straight down, need no other factor. The continuous rod turns
 // by the moment 2 sqrt(B T) sin(a / 2). Its curvature k along the arc length s satisfies
@@ -147,12 +146,23 @@ double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i)
     return shape->clamped ? clamp_factor(shape->length[0], shape->weight, bend) * bend / shape->length[0] : 0;
 }
 
+// Tension does not change twist, so that the clamp resists twist as half a segment does.
+hair_dvec3 hair_rod_ratios_at(const struct hair_rod_shape* shape, uint32_t i)
+{
+    const double* ratio = shape->ratio;
+    double length = shape->length[0], weight = shape->weight, bend = shape->bend[0];
+    if (i > 0 || !shape->clamped || !(bend > 0)) return (hair_dvec3){ratio[0], ratio[1], ratio[2]};
+    double factor = clamp_factor(length, weight, bend);
+    return (hair_dvec3){ratio[0] * clamp_factor(length, weight, ratio[0] * bend) / factor,
+                        ratio[1] * 2 / factor,
+                        ratio[2] * clamp_factor(length, weight, ratio[2] * bend) / factor};
+}
+
 hair_dvec3 hair_rod_excess(const struct hair_rod_shape* shape, uint32_t i, double stiffness)
 {
     HAIR_ASSERT(i + 1 < shape->count && stiffness > 0);
-    const double* ratio = shape->ratio;
-    hair_dvec3 g = hair_dscale(shape->stress[i], 1 / stiffness);
-    return (hair_dvec3){g.x / ratio[0], g.y / ratio[1], g.z / ratio[2]};
+    hair_dvec3 ratio = hair_rod_ratios_at(shape, i), g = hair_dscale(shape->stress[i], 1 / stiffness);
+    return (hair_dvec3){g.x / ratio.x, g.y / ratio.y, g.z / ratio.z};
 }
 
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne)

@@ -105,6 +105,10 @@ double hair_rod_max_stiffness(const struct hair_rod_shape* shape, uint32_t i, do
 // where vertex i does not resist bending.
 double hair_rod_stiffness(const struct hair_rod_shape* shape, uint32_t i);
 
+// Return the stiffness at vertex i about the axes of its section, as multiples of
+// hair_rod_stiffness().
+hair_dvec3 hair_rod_ratios_at(const struct hair_rod_shape* shape, uint32_t i);
+
 // Maximum length of hair_rod_excess().
 #define HAIR_ROD_MAX_STRAIN 1.0
 // Return the strain of the groom less the rest strain that balances the stress, at vertex i. The

@@ -102,9 +102,9 @@ void hair_rod_strain(const struct hair_rod_shape* s, const hair_rod_rest* rest, 
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat u = excess_of(rest[i], pose->turn[i]);
         double k = hair_rod_stiffness(s, i);
-        const double* r = s->ratio;
-        pose->stress[i] = (hair_dvec3){k * r[0] * u.x, k * r[1] * u.y, k * r[2] * u.z};
-        pose->real_stress[i] = k * r[2] * u.w;
+        hair_dvec3 r = hair_rod_ratios_at(s, i);
+        pose->stress[i] = (hair_dvec3){k * r.x * u.x, k * r.y * u.y, k * r.z * u.z};
+        pose->real_stress[i] = k * r.z * u.w;
     }
 }
 
@@ -114,9 +114,9 @@ static double energy_of(const struct hair_rod_shape* s, const hair_rod_rest* res
     double energy = 0;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         hair_dquat u = excess_of(rest[i], pose->turn[i]);
+        hair_dvec3 r = hair_rod_ratios_at(s, i);
         hair_dvec3 back = hair_dadd(s->place[i + 1], hair_dscale(pose->place[i + 1], -1));
-        double bent =
-            s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * (u.z * u.z + u.w * u.w);
+        double bent = r.x * u.x * u.x + r.y * u.y * u.y + r.z * (u.z * u.z + u.w * u.w);
         energy += hair_rod_stiffness(s, i) / 2 * bent;
         energy -= s->mass[i + 1] * gravity * hair_ddot(s->load, pose->place[i + 1]);
         energy += s->mass[i + 1] * s->pull[i + 1] / 2 * hair_ddot(back, back);

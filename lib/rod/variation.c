@@ -110,19 +110,21 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_r
     const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
     const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
     const double strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
+    const hair_dvec3 ratios = hair_rod_ratios_at(s, i);
+    const double ratio[3] = {ratios.x, ratios.y, ratios.z};
     // Stiffness times the derivative of du by -a, and by b.
     double by_a[3][3], with_b[3][3];
     struct hinge h;
     for (int n = 0; n < 3; ++n)
         for (int c = 0; c < 3; ++c) {
-            by_a[n][c] = stiffness * s->ratio[n] * by_b[c][n];
-            with_b[n][c] = stiffness * s->ratio[n] * by_b[n][c];
+            by_a[n][c] = stiffness * ratio[n] * by_b[c][n];
+            with_b[n][c] = stiffness * ratio[n] * by_b[n][c];
         }
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c) {
             const double* row = by_b[r];
             double same = r == c ? strained / 2 : 0, self = r == c ? (strained + e * w) / 2 : 0;
-            double real = stiffness * s->ratio[2] * v[r] * v[c];
+            double real = stiffness * ratio[2] * v[r] * v[c];
             double aa = row[0] * by_a[0][c] + row[1] * by_a[1][c] + row[2] * by_a[2][c];
             double ab = row[0] * with_b[0][c] + row[1] * with_b[1][c] + row[2] * with_b[2][c];
             double bb = by_b[0][r] * with_b[0][c] + by_b[1][r] * with_b[1][c] + by_b[2][r] * with_b[2][c];

@@ -294,9 +294,8 @@ static void cantilever_hangs_like_the_reference(void** state)
     compare_at_rest(*state, "heavy at the tip", &physics, 0.05f, 2e-2, 5e-3);
 }
 
-// Check a coarse curl. By the strain alone, its hinges would be 4.5 times as soft. The limit allows
-// for twist at the clamp. The reference multiplies its stiffness by 2, and solvers multiply it by
-// the factor of bending.
+// Check a coarse curl. By the strain alone, its hinges would be 4.5 times as soft. A clamp that
+// resists twist by its factor of bending would leave 9e-4 of the length.
 static void coarse_curl_hangs_like_the_reference(void** state)
 {
     hair_physics physics = hair_physics_default();
@@ -305,9 +304,9 @@ static void coarse_curl_hangs_like_the_reference(void** state)
     physics.shape.gravity_preload = 0;
     physics.fiber.youngs_modulus = 4e10f;
     physics.damping = 8;
-    compare_at_rest(*state, "coarse curl", &physics, 0, 2e-3, 2e-3);
+    compare_at_rest(*state, "coarse curl", &physics, 0, 1e-5, 1e-5);
     physics.fiber.flatness = 0.5f;
-    compare_at_rest(*state, "flat coarse curl", &physics, 0, 2e-3, 2e-3);
+    compare_at_rest(*state, "flat coarse curl", &physics, 0, 1e-5, 1e-5);
 }
 
 // Check a flat section. The root frame of a strand along x has its x axis along -y and its z axis

@@ -65,8 +65,9 @@ static double energy_of(const struct held* h, const double* turns)
         double sign = r.w < 0 ? -2 : 2;
         hair_dquat u = {sign * r.x - h->rest[i].x, sign * r.y - h->rest[i].y, sign * r.z - h->rest[i].z,
                         sign * r.w - h->rest[i].w};
+        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
         energy += h->stiffness[i] / 2 *
-                  (s->ratio[0] * u.x * u.x + s->ratio[1] * u.y * u.y + s->ratio[2] * (u.z * u.z + u.w * u.w));
+                  (ratio.x * u.x * u.x + ratio.y * u.y * u.y + ratio.z * (u.z * u.z + u.w * u.w));
         at = hair_dadd(at, hair_dscale(hair_drotate(q, (hair_dvec3){0, 1, 0}), s->length[i]));
         hair_dvec3 away = hair_dadd(at, hair_dscale(s->place[i + 1], -1));
         energy -= s->mass[i + 1] * hair_ddot(h->gravity, at);

@@ -103,6 +103,38 @@ static void stiffness_is_per_length_and_tapers(void** state)
     free(f);
 }
 
+// Check the stiffness about the axes of an elliptic section in the mixed scheme. The weight on the
+// clamp makes the clamp stiffer against bending, but not against twist.
+static void clamp_resists_twist_as_half_a_segment_does(void** state)
+{
+    (void)state;
+    struct hair_test_rod* f = hair_test_rod_make();
+    f->physics.shape.gravity_preload = 0;
+    f->physics.fiber.flatness = 0.5f;
+    hair_test_rod_curl(f, 12, 0.01);
+    hair_test_rod_hold(f);
+    hair_rods_write(&f->guide, f->rest, f->borne, 1, &f->physics, HAIR_SOLVER_DIRECT, 1, STEP, f->rod);
+    double bend = hair_test_rod_bend(&f->physics), weight = 0, ratio[3],
+           length = (double)f->rest[0].position.w;
+    hair_rods_ratios(&f->physics, ratio);
+    for (uint32_t i = 1; i < 12; ++i) weight += 9.81 / (double)f->rod[i].segment.y;
+    const hair_vec4 clamp = f->rod[0].factor_euler;
+    const double own[3] = {(double)clamp.x, (double)clamp.y, (double)clamp.z},
+                 across[3] = {ratio[0] * bend, 0, ratio[2] * bend};
+    for (int k = 0; k < 3; ++k) {
+        double expected = k == 1 ? 2 * ratio[1] * bend
+                                 : hair_reference_rod_clamp_factor(length, weight, across[k]) * across[k];
+        hair_test_near("clamp", k, own[k] * (double)f->rod[0].strain.w * length / expected, 1, 1e-6);
+    }
+    assert_true(own[1] < 0.99 * ratio[1]);
+    for (uint32_t i = 1; i < 12; ++i) {
+        hair_test_near("about x", i, (double)f->rod[i].factor_euler.x, ratio[0], 1e-6);
+        hair_test_near("twist", i, (double)f->rod[i].factor_euler.y, ratio[1], 1e-6);
+        hair_test_near("about z", i, (double)f->rod[i].factor_euler.z, ratio[2], 1e-6);
+    }
+    free(f);
+}
+
 static float within(uint32_t* random, double min, double max)
 {
     double t = (double)hair_random(random);
@@ -252,6 +284,7 @@ int main(void)
         cmocka_unit_test(shape_frequency_is_linear_from_root_to_tip),
         cmocka_unit_test(stiffness_ratios_are_those_of_an_ellipse),
         cmocka_unit_test(stiffness_is_per_length_and_tapers),
+        cmocka_unit_test(clamp_resists_twist_as_half_a_segment_does),
         cmocka_unit_test(rods_of_any_settings_are_finite),
         cmocka_unit_test(guides_are_written_in_order_and_counted),
         cmocka_unit_test(rods_are_rebuilt_only_when_their_numbers_change),
