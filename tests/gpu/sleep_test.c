@@ -170,7 +170,7 @@ static void check_waking(struct hair_test* test, hair_context* context, hair_sol
     assert_true(slept > FPS);
     assert_false(hair[0]->sim.sleep.asleep);
     assert_true(asleep <= bound);
-    assert_true(awake <= bound);
+    assert_true(awake <= 2 * bound); // The shake enlarges the difference.
     assert_true(hair[0]->sim.accumulator == hair[1]->sim.accumulator);
     for (int i = 0; i < 2; ++i) hair_destroy(hair[i]);
 }
