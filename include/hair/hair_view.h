@@ -10,7 +10,7 @@
 typedef enum hair_pass {
     /// Shaded colour, with depth.
     HAIR_PASS_COLOR = 0,
-    /// Depth only, for shadow maps and depth pre-passes.
+    /// Depth only, for shadow maps and depth pre-passes. Colour attachments stay unchanged.
     HAIR_PASS_DEPTH,
     /// Debug view of the guides as lines. The colour shows the stretch, from blue at -2 % to red at
     /// +2 %.

@@ -53,6 +53,7 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
     hair_vec4 turn = {head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     struct hair_debug_params params = {.rotation = turn};
     struct hair_draw_params own;
+    struct hair_outputs outputs;
     hair_result result = hair_gl_ensure_program(gl, HAIR_GL_AIR);
     if (!result) result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_AIR, "hair shown", sizeof params, &buffer);
     if (result) return result;
@@ -66,9 +67,11 @@ hair_result hair_draw_air(struct hair_renderer* renderer, const struct hair_wind
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
     gl->BindVertexArray(gl->vertex_array);
     gl->Disable(GL_CULL_FACE);
+    hair_draw_begin_outputs(gl, HAIR_DRAW_FIRST_BUFFER, &outputs);
     hair_gl_begin(gl, HAIR_GL_AIR);
     gl->DrawArraysInstanced(GL_TRIANGLES, 0, 3, (GLsizei)arrows);
     hair_gl_end(gl, HAIR_GL_AIR);
+    hair_draw_end_outputs(gl, &outputs);
     // Unbind the buffer before it is deleted. See state.c.
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, NULL);
     hair_gl_free_buffer(gl, &buffer);

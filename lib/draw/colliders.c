@@ -88,6 +88,7 @@ hair_result hair_draw_colliders(struct hair_renderer* renderer, const struct hai
     result = hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLLIDERS, "hair shown", sizeof *params, &buffer);
     if (!result) {
         struct hair_draw_params own;
+        struct hair_outputs outputs;
         hair_draw_write_params(renderer, head, view, &own);
         hair_gl_write_uniform(gl, renderer->geometry->params, sizeof own, &own);
         params->rotation =
@@ -98,9 +99,11 @@ hair_result hair_draw_colliders(struct hair_renderer* renderer, const struct hai
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1, &buffer);
         gl->BindVertexArray(gl->vertex_array);
         gl->Disable(GL_CULL_FACE);
+        hair_draw_begin_outputs(gl, HAIR_DRAW_FIRST_BUFFER, &outputs);
         draw_slice(renderer, field, view, buffer, params);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
         draw_shapes(renderer, field, colliders, count, head, buffer, params);
+        hair_draw_end_outputs(gl, &outputs);
         gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DEBUG, 1,
                             NULL); // Unbind the buffer before it is deleted. See state.c.
     }

@@ -48,16 +48,19 @@ static hair_result draw_guides(struct hair_renderer* renderer, const struct hair
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_draw_params params;
+    struct hair_outputs outputs;
     hair_result result = hair_gl_ensure_program(gl, HAIR_GL_GUIDES);
     if (result) return result;
     hair_draw_write_params(renderer, head, view, &params);
     hair_gl_write_uniform(gl, renderer->geometry->params, sizeof params, &params);
     hair_geometry_bind(renderer->geometry);
     gl->BindVertexArray(gl->vertex_array);
+    hair_draw_begin_outputs(gl, HAIR_DRAW_FIRST_BUFFER, &outputs);
     hair_gl_begin(gl, HAIR_GL_GUIDES);
     gl->DrawArraysInstanced(GL_LINE_STRIP, 0, (GLsizei)renderer->geometry->smooth_vertices,
                             (GLsizei)renderer->geometry->guides);
     hair_gl_end(gl, HAIR_GL_GUIDES);
+    hair_draw_end_outputs(gl, &outputs);
     return HAIR_OK;
 }
 
@@ -92,6 +95,7 @@ static void draw_followers(struct hair_renderer* renderer, struct hair_draw_plan
 {
     struct hair_gl* gl = renderer->gl;
     struct hair_blend was;
+    struct hair_outputs outputs;
     HAIR_ASSERT(plan->draw_program && (plan->shade_program != 0) == (plan->shade != 0));
     prepare_vertices(renderer, plan, params);
     gl->BindVertexArray(gl->vertex_array);
@@ -99,7 +103,9 @@ static void draw_followers(struct hair_renderer* renderer, struct hair_draw_plan
     hair_gl_begin(gl, plan->draw);
     gl->UseProgram(plan->draw_program);
     if (plan->blending) hair_draw_begin_blend(gl, &was);
+    hair_draw_begin_outputs(gl, hair_draw_find_outputs(gl, plan), &outputs);
     submit(renderer, plan);
+    hair_draw_end_outputs(gl, &outputs);
     if (plan->blending) hair_draw_end_blend(gl, &was);
     hair_gl_end(gl, plan->draw);
 }

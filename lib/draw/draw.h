@@ -203,4 +203,20 @@ struct hair_blend {
 void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was);
 void hair_draw_end_blend(struct hair_gl* gl, const struct hair_blend* was);
 
+#define HAIR_DRAW_BUFFERS 16 // Draw buffers whose colour masks are saved. Drivers have 8.
+#define HAIR_DRAW_FIRST_BUFFER 1u // The draw buffer 0, which all passes but depth write, as a bit.
+
+// Colour masks of the application. Functions of outputs.c.
+struct hair_outputs {
+    uint32_t closed; // Draw buffers whose masks are changed, as bits.
+    GLboolean mask[HAIR_DRAW_BUFFERS][4];
+};
+// Return the draw buffers that the compiled pass of a plan writes, as bits. A pixel shader of the
+// application may declare more than the first.
+uint32_t hair_draw_find_outputs(struct hair_gl* gl, const struct hair_draw_plan* plan);
+// Keep all draw buffers unchanged but those of the bits `written`, until hair_draw_end_outputs()
+// restores the masks saved in *was.
+void hair_draw_begin_outputs(struct hair_gl* gl, uint32_t written, struct hair_outputs* was);
+void hair_draw_end_outputs(struct hair_gl* gl, const struct hair_outputs* was);
+
 #endif
