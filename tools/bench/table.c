@@ -99,6 +99,7 @@ static bool ensure(struct bench* bench, struct column* column)
     struct hair_settings* settings = &column->studio.scene.settings;
     settings->wind.velocity[0] = WIND;
     settings->physics.redblack.iterations = 20;
+    settings->physics.sleep_threshold = 0; // Hair at rest in even wind would fall asleep.
     return !hair_set_physics(column->studio.hair, &settings->physics) &&
            !hair_set_wind(column->studio.hair, &settings->wind);
 }
