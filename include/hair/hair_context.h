@@ -70,7 +70,8 @@ HAIR_DESC(hair_context_desc)
 /// OpenGL: required. Waits for the GPU.
 HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
 
-/// Destroy a context. Destroy its instances and shaders first. NULL does nothing.
+/// Destroy a context. NULL does nothing. All its OpenGL objects are deleted, with those of its
+/// instances and shaders. Instances and shaders that are left are orphans, as hair.h says.
 /// OpenGL: required. Does not wait for the GPU.
 HAIR_API void hair_context_destroy(hair_context* context);
 
