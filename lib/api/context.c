@@ -73,6 +73,13 @@ void hair_context_destroy(hair_context* context)
     let_go(context);
 }
 
+void hair_context_abandon(hair_context* context)
+{
+    if (!context || context->is_dead) return;
+    hair_gl_ignore_deletions(&context->gl);
+    end(context);
+}
+
 hair_result hair_check_context(const hair_context* context)
 {
     if (!context) return HAIR_ERROR_ARGUMENT;

@@ -13,6 +13,35 @@ static bool find(const hair_context_desc* desc, const char* name, void* function
     return address != NULL;
 }
 
+static void APIENTRY ignore_names(GLsizei count, const GLuint* names)
+{
+    (void)count, (void)names;
+}
+
+static void APIENTRY ignore_name(GLuint name)
+{
+    (void)name;
+}
+
+static void APIENTRY ignore_sync(GLsync sync)
+{
+    (void)sync;
+}
+
+void hair_gl_ignore_deletions(struct hair_gl* gl)
+{
+    gl->DeleteBuffers = ignore_names;
+    gl->DeleteFramebuffers = ignore_names;
+    gl->DeleteQueries = ignore_names;
+    gl->DeleteSamplers = ignore_names;
+    gl->DeleteTextures = ignore_names;
+    gl->DeleteTransformFeedbacks = ignore_names;
+    gl->DeleteVertexArrays = ignore_names;
+    gl->DeleteProgram = ignore_name;
+    gl->DeleteShader = ignore_name;
+    gl->DeleteSync = ignore_sync;
+}
+
 static bool has_extension(const struct hair_gl* gl, const char* name)
 {
     GLint count = 0;

@@ -148,6 +148,8 @@ struct hair_gl {
 // Load the functions, check the version and test for driver bugs.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
 void hair_gl_destroy(struct hair_gl* gl);
+// Make every later deletion of an OpenGL object do nothing. Freeing then calls no OpenGL.
+void hair_gl_ignore_deletions(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // Compile the program of a pass unless it exists. Every pass needs this before it runs.

@@ -141,6 +141,57 @@ static void orphans_of_a_destroyed_context_are_inert(void** state)
     }
 }
 
+static void abandoned_context_is_inert_without_opengl(void** state)
+{
+    struct fixture f;
+    hair_desc desc = hair_desc_default();
+    hair_shader_desc shader = hair_shader_desc_default();
+    hair_memory memory = hair_memory_default();
+    hair_instance* other = NULL;
+    hair_shader* other_shader = NULL;
+    const char* words = "the context is abandoned";
+    start(&f, *state, 0);
+    shader.glsl = frost;
+    hair_egl_make_current(NULL);
+    hair_context_abandon(f.context);
+    hair_context_abandon(f.context);
+    hair_context_abandon(NULL);
+    check_refused(&f);
+    hair_test_refused(f.test, hair_context_reload(f.context), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_get_memory(f.context, &memory), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_set_memory_limit(f.context, 1), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_create(f.context, f.groom, &desc, &other), HAIR_ERROR_ARGUMENT, words);
+    hair_test_refused(f.test, hair_shader_create(f.context, &shader, &other_shader), HAIR_ERROR_ARGUMENT,
+                      words);
+    assert_int_equal(hair_get_timings(f.context, NULL, 0), 0);
+    hair_test_forgive(f.test);
+    hair_context_destroy(f.context);
+    if (hair_test_trace_count("")) fail_msg("abandoned objects called OpenGL:%s", hair_test_trace_list());
+    hair_egl_make_current(f.test->egl);
+    assert_true(hair_test_count_objects() > f.objects); // Nothing was deleted.
+    finish(&f);
+}
+
+static void context_of_a_lost_opengl_context_can_be_replaced(void** state)
+{
+    struct hair_test* test = *state;
+    hair_egl* lost = NULL;
+    struct fixture f;
+    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &lost));
+    start(&f, test, 0);
+    hair_egl_destroy(lost);
+    hair_context_abandon(f.context);
+    hair_egl_make_current(test->egl);
+    struct hair_test_scene scene = hair_test_scene_of(test, NULL, NULL);
+    hair_test_ok(test, hair_step(scene.hair, 1.0f / 60));
+    hair_test_scene_free(&scene);
+    hair_context_destroy(f.context);
+    hair_destroy(f.hair);
+    hair_shader_destroy(f.shader);
+    assert_int_equal(hair_test_blocks(test), f.blocks - 1); // hair_egl is gone too.
+    hair_groom_destroy(f.groom);
+}
+
 static void orphaned_shader_is_of_another_context(void** state)
 {
     struct hair_test_scene scene = hair_test_scene_of(*state, NULL, NULL);
@@ -185,6 +236,8 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(orphans_of_a_destroyed_context_are_inert),
+        HAIR_TEST(abandoned_context_is_inert_without_opengl),
+        HAIR_TEST(context_of_a_lost_opengl_context_can_be_replaced),
         HAIR_TEST(orphaned_shader_is_of_another_context),
         HAIR_TEST(objects_may_go_in_any_order),
     };
