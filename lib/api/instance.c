@@ -123,6 +123,7 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look));
     HAIR_TRY(hair_check_transform(hair, "hair_desc.transform", desc->transform, &sim.head));
     HAIR_TRY(hair_check_current(context));
+    if (sim.uses_feedback) HAIR_TRY(hair_gl_check_capture(&context->gl, hair->label));
     hair_enter_unprofiled(hair);
     hair_result result = create_rooms(hair, groom, desc, &sim);
     hair_gl_leave(&context->gl);
@@ -266,6 +267,8 @@ hair_result hair_step(hair_instance* hair, float dt)
         return HAIR_OK;
     }
     hair_result result = hair_check_current(context);
+    if (!result && hair->sim.feedback.wanted && !hair_scalp_motion_is_on(&hair->sim))
+        result = hair_gl_check_capture(&context->gl, hair->label);
     if (result) {
         hair_sim_set_unseen_time(&hair->sim, unseen);
         return result;

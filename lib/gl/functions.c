@@ -131,6 +131,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
         memcpy(gl->glsl_dir, desc->glsl_dir, size);
     }
     hair_result result = hair_gl_load(gl, desc);
+    if (!result) result = hair_gl_check_capture(gl, "a new context");
     if (!result) {
         hair_gl_enter(gl);
         result = make_objects(gl);
@@ -145,6 +146,7 @@ void hair_gl_destroy(struct hair_gl* gl)
 {
     hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
+    if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
     hair_free(&gl->host, gl->memory.allocations);
     hair_free(&gl->host, gl->glsl_dir);
