@@ -70,9 +70,22 @@ HAIR_DESC(hair_context_desc)
 /// OpenGL: required. Waits for the GPU.
 HAIR_API hair_result hair_context_create(const hair_context_desc* desc, hair_context** out);
 
-/// Destroy a context. Destroy its instances and shaders first. NULL does nothing.
-/// OpenGL: required. Does not wait for the GPU.
+/// Destroy a context. NULL does nothing. All its OpenGL objects are deleted, with those of its
+/// instances and shaders. Instances and shaders that are left are orphans, as hair.h says.
+/// OpenGL: required, unless the context is abandoned. Does not wait for the GPU.
 HAIR_API void hair_context_destroy(hair_context* context);
+
+/// Abandon the OpenGL objects of a context, for an OpenGL context that is lost or destroyed. Memory
+/// of the CPU is freed, and no OpenGL function is called. An OpenGL context that lives on keeps the
+/// objects until it ends.
+///
+/// The context, its instances and its shaders are then orphans, as hair.h says. Later calls on the
+/// context fail with HAIR_ERROR_ARGUMENT, and hair_get_timings() returns 0. The orphans and the
+/// context are still to be destroyed, which needs no OpenGL any more.
+///
+/// @param context Context. NULL, or a context that is abandoned already, does nothing.
+/// OpenGL: none, and no context need be current.
+HAIR_API void hair_context_abandon(hair_context* context);
 
 /// Compile all programs in use again, from hair_context_desc.glsl_dir. A program that fails to
 /// compile keeps its last valid version.

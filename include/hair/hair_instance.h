@@ -67,7 +67,7 @@ HAIR_DESC(hair_desc)
 
 /// Create an instance in its rest pose.
 ///
-/// @param context Context, which must outlive the instance.
+/// @param context Context. The instance is of no use after it.
 /// @param groom Haircut. It may be destroyed after this call.
 /// @param desc Settings, copied. Not NULL.
 /// @param out Receives the instance.
@@ -77,7 +77,7 @@ HAIR_API hair_result hair_create(hair_context* context, const hair_groom* groom,
                                  const hair_desc* desc, hair_instance** out);
 
 /// Destroy an instance. NULL does nothing.
-/// OpenGL: required. Does not wait for the GPU.
+/// OpenGL: required, but not for an orphan. Does not wait for the GPU.
 HAIR_API void hair_destroy(hair_instance* hair);
 
 // Saved states ------------------------------------------------------------------------------------

@@ -194,7 +194,7 @@ HAIR_DESC(hair_shader_desc)
 /// Create a shader and compile the variant that most views use. Other variants are compiled when a
 /// view first needs them.
 ///
-/// @param context Context, which must outlive the shader.
+/// @param context Context. The shader is of no use after it.
 /// @param desc Text and name, copied.
 /// @param out Receives the shader.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL if the text does not compile,
@@ -203,8 +203,8 @@ HAIR_DESC(hair_shader_desc)
 HAIR_API hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc,
                                         hair_shader** out);
 
-/// Destroy a shader, before its context. NULL does nothing.
-/// OpenGL: required. Does not wait for the GPU.
+/// Destroy a shader. NULL does nothing.
+/// OpenGL: required, but not for an orphan. Does not wait for the GPU.
 HAIR_API void hair_shader_destroy(hair_shader* shader);
 
 // Lights ------------------------------------------------------------------------------------------

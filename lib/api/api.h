@@ -7,13 +7,24 @@
 #include "lib/field/field.h"
 #include "lib/gl/frame_profiler.h"
 
+// Instance or shader in the list of its context. It is the first member of its struct.
+struct hair_context_member {
+    struct hair_context_member *prev, *next;
+    // Function that frees everything that the struct owns, but not the struct.
+    void (*empty)(struct hair_context_member* member);
+};
+
 struct hair_context {
     hair_host host;
     struct hair_gl gl;
     struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
+    struct hair_context_member* members; // all that own something, newest first
+    uint32_t holder_count; // the application, until it destroys the context, and all members
+    bool is_dead; // true once its OpenGL objects and those of its members are gone
 };
 
 struct hair_shader {
+    struct hair_context_member member;
     hair_context* context;
     struct hair_gl_shader gl;
 };
@@ -29,6 +40,7 @@ struct hair_frame_requests {
 };
 
 struct hair_instance {
+    struct hair_context_member member;
     hair_context* context;
     char label[64];
     double max_dt; // s
@@ -51,6 +63,16 @@ struct hair_instance {
 // Compute the bounds of a groom's strands in its space. Return their maximum length.
 float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2]);
 
+// Add a member to its context, and hold the context for it. `empty` frees what the member owns.
+void hair_context_add(hair_context* context, struct hair_context_member* member,
+                      void (*empty)(struct hair_context_member* member));
+// Empty a member unless that has been done, and let go of its context. The context may be freed.
+void hair_context_remove(hair_context* context, struct hair_context_member* member);
+
+// Return HAIR_ERROR_ARGUMENT if a context is NULL or dead.
+hair_result hair_check_context(const hair_context* context);
+// Return HAIR_ERROR_ARGUMENT if an instance is NULL or its context is dead.
+hair_result hair_check_instance(const hair_instance* hair);
 // Return HAIR_ERROR_OPENGL unless a context is current, because OpenGL without a context is
 // undefined.
 hair_result hair_check_current(const hair_context* context);

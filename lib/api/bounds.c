@@ -39,7 +39,7 @@ static void include_pins(const hair_instance* hair, int world, hair_vec3 bounds[
 
 hair_result hair_get_bounds(const hair_instance* hair, float lower[3], float upper[3])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     if (!lower || !upper)
         return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: lower or upper is NULL",
                          hair->label);

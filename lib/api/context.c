@@ -14,6 +14,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     hair_context* context = hair_alloc(&host, 1, sizeof *context);
     if (!context) return hair_fail_memory(&host, "a context");
     context->host = host;
+    context->holder_count = 1;
     hair_sdf_pool_init(&context->sdf_pool, &context->gl);
     hair_result result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
@@ -24,12 +25,66 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     return HAIR_OK;
 }
 
+void hair_context_add(hair_context* context, struct hair_context_member* member,
+                      void (*empty)(struct hair_context_member* member))
+{
+    HAIR_ASSERT(!context->is_dead && context->holder_count > 0);
+    *member = (struct hair_context_member){.next = context->members, .empty = empty};
+    if (member->next) member->next->prev = member;
+    context->members = member;
+    ++context->holder_count;
+}
+
+static void empty_member(hair_context* context, struct hair_context_member* member)
+{
+    *(member->prev ? &member->prev->next : &context->members) = member->next;
+    if (member->next) member->next->prev = member->prev;
+    member->empty(member);
+}
+
+// Let go of a context. The last holder frees its struct.
+static void let_go(hair_context* context)
+{
+    HAIR_ASSERT(context->holder_count > 0);
+    if (--context->holder_count) return;
+    hair_host host = context->host;
+    HAIR_ASSERT(context->is_dead);
+    hair_free(&host, context);
+}
+
+void hair_context_remove(hair_context* context, struct hair_context_member* member)
+{
+    if (!context->is_dead) empty_member(context, member);
+    let_go(context);
+}
+
+// Free everything in a context but the structs that the application knows.
+static void end(hair_context* context)
+{
+    while (context->members) empty_member(context, context->members);
+    hair_gl_destroy(&context->gl);
+    context->is_dead = true;
+}
+
 void hair_context_destroy(hair_context* context)
 {
     if (!context) return;
-    hair_host host = context->host;
-    hair_gl_destroy(&context->gl);
-    hair_free(&host, context);
+    if (!context->is_dead) end(context);
+    let_go(context);
+}
+
+void hair_context_abandon(hair_context* context)
+{
+    if (!context || context->is_dead) return;
+    hair_gl_ignore_deletions(&context->gl);
+    end(context);
+}
+
+hair_result hair_check_context(const hair_context* context)
+{
+    if (!context) return HAIR_ERROR_ARGUMENT;
+    if (!context->is_dead) return HAIR_OK;
+    return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "the context is abandoned");
 }
 
 hair_result hair_check_current(const hair_context* context)
@@ -40,7 +95,7 @@ hair_result hair_check_current(const hair_context* context)
 
 hair_result hair_context_reload(hair_context* context)
 {
-    if (!context) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_context(context));
     HAIR_TRY(hair_check_current(context));
     hair_gl_enter(&context->gl);
     hair_result result = hair_gl_compile(&context->gl);
@@ -50,7 +105,7 @@ hair_result hair_context_reload(hair_context* context)
 
 hair_result hair_get_memory(const hair_context* context, hair_memory* out)
 {
-    if (!context) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_context(context));
     const struct hair_gl_memory* memory = &context->gl.memory;
     hair_memory own = hair_memory_default();
     own.bytes = memory->bytes;
@@ -61,14 +116,14 @@ hair_result hair_get_memory(const hair_context* context, hair_memory* out)
 
 hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 {
-    if (!context) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_context(context));
     hair_gl_memory_set_limit(&context->gl, bytes);
     return HAIR_OK;
 }
 
 uint32_t hair_get_timings(hair_context* context, hair_timing* out, uint32_t capacity)
 {
-    if (!context) return 0;
+    if (hair_check_context(context)) return 0;
     for (uint32_t i = 0; out && i < capacity && i < context->gl.programs; ++i) {
         struct hair_gl_program* of = context->gl.program[i];
         out[i].pass = of->label;

@@ -36,7 +36,7 @@ hair_result hair_update_field(hair_instance* hair)
 
 hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     hair_field_info own = hair_field_info_default();
     HAIR_TRY(HAIR_COPY_OUT(&context->host, hair_field_info, &own, out));

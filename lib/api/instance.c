@@ -5,6 +5,14 @@
 
 #define SHORTEST 1e-5f // Minimum substep, s, which bounds the time of a step.
 
+hair_result hair_check_instance(const hair_instance* hair)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    if (!hair->context->is_dead) return HAIR_OK;
+    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: its context is destroyed or abandoned",
+                     hair->label);
+}
+
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out)
 {
@@ -90,7 +98,6 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                         const hair_desc* desc)
 {
     const hair_host* host = &context->host;
-    hair->context = context;
     hair->max_dt = (double)desc->max_dt;
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
@@ -116,16 +123,29 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look));
     HAIR_TRY(hair_check_transform(hair, "hair_desc.transform", desc->transform, &sim.head));
     HAIR_TRY(hair_check_current(context));
+    if (sim.uses_feedback) HAIR_TRY(hair_gl_check_capture(&context->gl, hair->label));
     hair_enter_unprofiled(hair);
     hair_result result = create_rooms(hair, groom, desc, &sim);
     hair_gl_leave(&context->gl);
     return result;
 }
 
+static void empty(struct hair_context_member* member)
+{
+    hair_instance* hair = (hair_instance*)member;
+    hair_gl_profiler_free(&hair->context->gl, &hair->profiler);
+    hair_renderer_destroy(&hair->renderer);
+    hair_lighting_destroy(&hair->lighting);
+    hair_geometry_destroy(&hair->geometry);
+    hair_field_destroy(&hair->field);
+    hair_sim_destroy(&hair->sim);
+    for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
+}
+
 hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
                         hair_instance** out)
 {
-    if (!context) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_context(context));
     const hair_host* host = &context->host;
     hair_desc own;
     HAIR_TRY(HAIR_COPY_IN(host, hair_desc, desc, &own));
@@ -133,6 +153,8 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     if (!out) return hair_fail(host, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_instance* hair = hair_alloc(host, 1, sizeof *hair);
     if (!hair) return hair_fail_memory(host, "an instance");
+    hair->context = context;
+    hair_context_add(context, &hair->member, empty);
     hair_result result = fill(hair, context, groom, &own);
     if (result) {
         hair_destroy(hair);
@@ -145,19 +167,14 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
-    hair_gl_profiler_free(&hair->context->gl, &hair->profiler);
-    hair_renderer_destroy(&hair->renderer);
-    hair_lighting_destroy(&hair->lighting);
-    hair_geometry_destroy(&hair->geometry);
-    hair_field_destroy(&hair->field);
-    hair_sim_destroy(&hair->sim);
-    for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
-    hair_free(&hair->context->host, hair);
+    hair_host host = hair->context->host;
+    hair_context_remove(hair->context, &hair->member);
+    hair_free(&host, hair);
 }
 
 hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_physics own;
     HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_physics, physics, &own));
     if (own.collision.margin != hair->sim.physics.collision.margin) hair_geometry_invalidate(&hair->geometry);
@@ -167,13 +184,13 @@ hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
 
 hair_result hair_get_physics(const hair_instance* hair, hair_physics* out)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     return HAIR_COPY_OUT(&hair->context->host, hair_physics, &hair->sim.physics, out);
 }
 
 hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_look own;
     HAIR_TRY(HAIR_COPY_IN(&hair->context->host, hair_look, look, &own));
     hair->look = own;
@@ -184,13 +201,13 @@ hair_result hair_set_look(hair_instance* hair, const hair_look* look)
 
 hair_result hair_get_look(const hair_instance* hair, hair_look* out)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     return HAIR_COPY_OUT(&hair->context->host, hair_look, &hair->look, out);
 }
 
 hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     struct hair_pose pose;
     HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
     hair_sim_set_head(&hair->sim, &pose);
@@ -199,7 +216,7 @@ hair_result hair_set_transform(hair_instance* hair, const float transform[16])
 
 hair_result hair_get_transform(const hair_instance* hair, float transform[16])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     if (!transform)
         return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: transform is NULL", hair->label);
     hair_pose_to_matrix(&hair->sim.head, transform);
@@ -209,7 +226,7 @@ hair_result hair_get_transform(const hair_instance* hair, float transform[16])
 hair_result hair_set_colliders(hair_instance* hair, const hair_collider* colliders, uint32_t count,
                                size_t stride)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     hair_result result = hair_sim_set_colliders(&hair->sim, colliders, count, stride);
     uint32_t contacts = hair_sim_contacts(&hair->sim);
@@ -226,7 +243,7 @@ hair_result hair_set_colliders(hair_instance* hair, const hair_collider* collide
 
 hair_result hair_step(hair_instance* hair, float dt)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     if (!(dt >= 0)) // NaN fails too.
         return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: dt is %g, not 0 or more", hair->label,
@@ -250,6 +267,8 @@ hair_result hair_step(hair_instance* hair, float dt)
         return HAIR_OK;
     }
     hair_result result = hair_check_current(context);
+    if (!result && hair->sim.feedback.wanted && !hair_scalp_motion_is_on(&hair->sim))
+        result = hair_gl_check_capture(&context->gl, hair->label);
     if (result) {
         hair_sim_set_unseen_time(&hair->sim, unseen);
         return result;
@@ -278,7 +297,7 @@ hair_result hair_step(hair_instance* hair, float dt)
 
 hair_result hair_reset(hair_instance* hair)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     HAIR_TRY(hair_check_current(hair->context));
     hair_enter(hair);
     hair_sim_reset(&hair->sim);
@@ -290,7 +309,7 @@ hair_result hair_reset(hair_instance* hair)
 
 hair_result hair_teleport(hair_instance* hair, const float transform[16])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     struct hair_pose pose;
     HAIR_TRY(hair_check_transform(hair, "transform", transform, &pose));
     HAIR_TRY(hair_check_current(hair->context));

@@ -3,5 +3,6 @@
 
 hair_result hair_set_pins(hair_instance* hair, const hair_pin* pins, uint32_t count, size_t stride)
 {
-    return hair ? hair_pins_set(&hair->sim, pins, count, stride) : HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
+    return hair_pins_set(&hair->sim, pins, count, stride);
 }

@@ -153,7 +153,7 @@ static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_fr
 hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info, hair_report_row* rows,
                         size_t stride, uint32_t capacity, uint32_t* count)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     hair_report_info own = hair_report_info_default();
     float ms[HAIR_GL_CATEGORIES];

@@ -3,7 +3,7 @@
 
 hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t* size)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     if (!size) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: size is NULL", hair->label);
     if (!bytes && capacity)
@@ -21,7 +21,7 @@ hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t*
 
 hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     if (!bytes) return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "%s: bytes is NULL", hair->label);
     HAIR_TRY(hair_check_current(context));

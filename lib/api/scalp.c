@@ -44,7 +44,7 @@ static float* take(const hair_instance* hair, const float* positions, uint32_t c
 hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t count, size_t stride,
                            const float to_world[16])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     struct hair_pose space;
     if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
@@ -104,7 +104,7 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
 hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset, size_t stride,
                                   const float to_world[16])
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     struct hair_pose space;
     size_t from = 0, size = 0;
     HAIR_TRY(check(hair, stride, to_world, &space));

@@ -5,7 +5,6 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
 {
     struct hair_gl* gl = &context->gl;
     GLuint program = 0;
-    shader->context = context;
     HAIR_TRY(hair_gl_create_shader(gl, desc->label ? desc->label : "shader", desc->glsl,
                                    desc->at == HAIR_SHADE_PIXELS, &shader->gl));
     // Compile the variant that most views use. Errors of other variants show here too.
@@ -16,9 +15,15 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
     return result;
 }
 
+static void empty(struct hair_context_member* member)
+{
+    hair_shader* shader = (hair_shader*)member;
+    hair_gl_free_shader(&shader->context->gl, &shader->gl);
+}
+
 hair_result hair_shader_create(hair_context* context, const hair_shader_desc* desc, hair_shader** out)
 {
-    if (!context) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_context(context));
     const hair_host* host = &context->host;
     hair_shader_desc own;
     HAIR_TRY(HAIR_COPY_IN(host, hair_shader_desc, desc, &own));
@@ -27,6 +32,8 @@ hair_result hair_shader_create(hair_context* context, const hair_shader_desc* de
     HAIR_TRY(hair_check_current(context));
     hair_shader* shader = hair_alloc(host, 1, sizeof *shader);
     if (!shader) return hair_fail_memory(host, "a shader");
+    shader->context = context;
+    hair_context_add(context, &shader->member, empty);
     hair_result result = fill(shader, context, &own);
     if (result) {
         hair_shader_destroy(shader);
@@ -39,7 +46,7 @@ hair_result hair_shader_create(hair_context* context, const hair_shader_desc* de
 void hair_shader_destroy(hair_shader* shader)
 {
     if (!shader) return;
-    hair_context* context = shader->context;
-    hair_gl_free_shader(&context->gl, &shader->gl);
-    hair_free(&context->host, shader);
+    hair_host host = shader->context->host;
+    hair_context_remove(shader->context, &shader->member);
+    hair_free(&host, shader);
 }

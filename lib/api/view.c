@@ -195,7 +195,7 @@ static void make_plan(const hair_instance* hair, const hair_view* view, struct h
 
 hair_result hair_draw(hair_instance* hair, const hair_view* view)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     hair_context* context = hair->context;
     hair_view own;
     struct storage storage;
@@ -243,7 +243,8 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)
 {
-    if (!hair || !ready) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
+    if (!ready) return HAIR_ERROR_ARGUMENT;
     struct hair_gl* gl = &hair->context->gl;
     hair_view own;
     struct storage storage;
@@ -310,7 +311,7 @@ static hair_result read_smooth(hair_instance* hair, uint32_t count, float* posit
 hair_result hair_read_positions(hair_instance* hair, hair_read_source what, float* positions,
                                 uint32_t capacity, uint32_t* count)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     if (!count) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is NULL", hair->label);
     if (!positions && capacity)
@@ -344,7 +345,7 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
 
 hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     HAIR_TRY(hair_check_current(hair->context));
     hair_solver_stats own = hair_solver_stats_default();
     hair_enter_unprofiled(hair);

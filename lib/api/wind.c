@@ -36,7 +36,7 @@ static hair_result check_texture(const hair_instance* hair, GLuint texture)
 
 hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     hair_wind own;
     hair_wind_source sources[HAIR_WIND_SOURCES] = {0};
@@ -57,6 +57,6 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
 
 hair_result hair_get_wind(const hair_instance* hair, hair_wind* out)
 {
-    if (!hair) return HAIR_ERROR_ARGUMENT;
+    HAIR_TRY(hair_check_instance(hair));
     return HAIR_COPY_OUT(&hair->context->host, hair_wind, &hair->sim.wind, out);
 }

@@ -13,6 +13,35 @@ static bool find(const hair_context_desc* desc, const char* name, void* function
     return address != NULL;
 }
 
+static void APIENTRY ignore_names(GLsizei count, const GLuint* names)
+{
+    (void)count, (void)names;
+}
+
+static void APIENTRY ignore_name(GLuint name)
+{
+    (void)name;
+}
+
+static void APIENTRY ignore_sync(GLsync sync)
+{
+    (void)sync;
+}
+
+void hair_gl_ignore_deletions(struct hair_gl* gl)
+{
+    gl->DeleteBuffers = ignore_names;
+    gl->DeleteFramebuffers = ignore_names;
+    gl->DeleteQueries = ignore_names;
+    gl->DeleteSamplers = ignore_names;
+    gl->DeleteTextures = ignore_names;
+    gl->DeleteTransformFeedbacks = ignore_names;
+    gl->DeleteVertexArrays = ignore_names;
+    gl->DeleteProgram = ignore_name;
+    gl->DeleteShader = ignore_name;
+    gl->DeleteSync = ignore_sync;
+}
+
 static bool has_extension(const struct hair_gl* gl, const char* name)
 {
     GLint count = 0;
@@ -102,6 +131,7 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
         memcpy(gl->glsl_dir, desc->glsl_dir, size);
     }
     hair_result result = hair_gl_load(gl, desc);
+    if (!result) result = hair_gl_check_capture(gl, "a new context");
     if (!result) {
         hair_gl_enter(gl);
         result = make_objects(gl);
@@ -116,6 +146,7 @@ void hair_gl_destroy(struct hair_gl* gl)
 {
     hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
+    if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
     hair_free(&gl->host, gl->memory.allocations);
     hair_free(&gl->host, gl->glsl_dir);

@@ -57,6 +57,8 @@ struct hair_gl_timer {
 struct hair_gl_saved {
     GLint program, vertex_array, patch_vertices, active_texture, cull, restarts;
     GLint draw_indirect, dispatch_indirect;
+    bool is_feedback_aside; // True if transform feedback of the application is active.
+    GLint feedback, feedback_paused; // Its object, and whether the application has paused it.
     GLint texture[HAIR_GL_UNITS], sampler[HAIR_GL_UNITS];
     // Name, level, layered, layer, access and format of each image unit.
     GLint image[HAIR_IMAGE_COLLIDER + 1][6];
@@ -132,6 +134,8 @@ struct hair_gl {
     struct hair_gl_owner* owner; // Owner of what is created. NULL if it is no instance.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
     GLuint shadow_sampler;
+    // Transform feedback object that is bound in place of one that is active. 0 until needed.
+    GLuint idle_feedback;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
     uint32_t max_draw_vertices;
     // Outer tessellation level that holds the number of isolines, 0. It is 1 on a driver that swaps
@@ -148,6 +152,8 @@ struct hair_gl {
 // Load the functions, check the version and test for driver bugs.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
 void hair_gl_destroy(struct hair_gl* gl);
+// Make every later deletion of an OpenGL object do nothing. Freeing then calls no OpenGL.
+void hair_gl_ignore_deletions(struct hair_gl* gl);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // Compile the program of a pass unless it exists. Every pass needs this before it runs.
@@ -244,6 +250,10 @@ struct hair_gl_capture {
     GLint framebuffer, feedback;
     int discard;
 };
+// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, even if it is paused.
+// Mesa has one primitive mode for all transform feedback, so a capture would spoil that of the
+// application. `name` is what captures.
+hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 // Begin transform feedback without rasterisation.
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);

@@ -72,8 +72,45 @@ static void restore_units(struct hair_gl* gl)
     }
 }
 
+hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name)
+{
+    GLint is_active = 0;
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &is_active);
+    if (!is_active) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
+                     "%s captures by transform feedback itself, but that of the application is active", name);
+}
+
+// Put active transform feedback of the application aside. Programs cannot change while it is not
+// paused, and cannot be linked for transform feedback while it is bound.
+static void put_feedback_aside(struct hair_gl* gl)
+{
+    struct hair_gl_saved* saved = &gl->saved;
+    GLint is_active = 0;
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_ACTIVE, &is_active);
+    saved->is_feedback_aside = is_active != 0;
+    if (!is_active) return;
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_PAUSED, &saved->feedback_paused);
+    gl->GetIntegerv(GL_TRANSFORM_FEEDBACK_BINDING, &saved->feedback);
+    gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
+    if (!saved->feedback_paused) gl->PauseTransformFeedback();
+    if (!gl->idle_feedback) gl->CreateTransformFeedbacks(1, &gl->idle_feedback);
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, gl->idle_feedback);
+}
+
+// Restore transform feedback of the application. OpenGL resumes it only with its program.
+static void restore_feedback(struct hair_gl* gl)
+{
+    const struct hair_gl_saved* saved = &gl->saved;
+    if (!saved->is_feedback_aside) return;
+    gl->BindTransformFeedback(GL_TRANSFORM_FEEDBACK, (GLuint)saved->feedback);
+    gl->UseProgram((GLuint)saved->program);
+    if (!saved->feedback_paused) gl->ResumeTransformFeedback();
+}
+
 void hair_gl_enter(struct hair_gl* gl)
 {
+    put_feedback_aside(gl);
     if (gl->state_policy == HAIR_GL_STATE_CLOBBER) return;
     struct hair_gl_saved* saved = &gl->saved;
     gl->GetIntegerv(GL_CURRENT_PROGRAM, &saved->program);
@@ -119,6 +156,7 @@ void hair_gl_leave(struct hair_gl* gl)
     gl->owner = NULL;
     if (gl->state_policy == HAIR_GL_STATE_CLOBBER) {
         unbind(gl);
+        restore_feedback(gl);
         return;
     }
     struct hair_gl_saved* saved = &gl->saved;
@@ -134,6 +172,7 @@ void hair_gl_leave(struct hair_gl* gl)
                     saved->storage_first, saved->storage_size);
     restore_buffers(gl, GL_UNIFORM_BUFFER, HAIR_BIND_FIELD + 1, saved->uniform, saved->uniform_first,
                     saved->uniform_size);
+    restore_feedback(gl);
 }
 
 GLuint hair_gl_blank_framebuffer(struct hair_gl* gl)

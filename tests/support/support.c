@@ -64,13 +64,22 @@ uint32_t hair_test_blocks(const struct hair_test* test)
     return test->host.blocks - gl->programs - (gl->program != NULL);
 }
 
+// Return 1 for a program or a shader that is not deleted. Mesa keeps the program of the last draw
+// until the next draw, and a program keeps its shaders.
+static uint32_t is_kept(GLuint name)
+{
+    GLint deleted = 1;
+    if (glIsProgram(name)) glGetProgramiv(name, GL_DELETE_STATUS, &deleted);
+    if (glIsShader(name)) glGetShaderiv(name, GL_DELETE_STATUS, &deleted);
+    return !deleted;
+}
+
 uint32_t hair_test_count_objects(void)
 {
     uint32_t count = 0;
     for (GLuint name = 1; name < 8192; ++name)
-        count += (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsProgram(name) + glIsShader(name) +
-                 glIsVertexArray(name) + glIsSampler(name) + glIsFramebuffer(name) +
-                 glIsTransformFeedback(name) + glIsQuery(name);
+        count += is_kept(name) + (uint32_t)glIsBuffer(name) + glIsTexture(name) + glIsVertexArray(name) +
+                 glIsSampler(name) + glIsFramebuffer(name) + glIsTransformFeedback(name) + glIsQuery(name);
     return count;
 }
 

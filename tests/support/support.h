@@ -37,7 +37,7 @@ int hair_test_end(void** state);
 // Return the number of blocks that the host has lent, without those that the context keeps for
 // passes used so far.
 uint32_t hair_test_blocks(const struct hair_test* test);
-// Count the OpenGL objects that exist, by trying all names.
+// Count the OpenGL objects that are not deleted, by trying all names.
 uint32_t hair_test_count_objects(void);
 
 // Create a context of a test's own, which times its passes. Destroy it with hair_context_destroy().
