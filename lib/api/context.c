@@ -87,6 +87,14 @@ hair_result hair_check_context(const hair_context* context)
     return hair_fail(&context->host, HAIR_ERROR_ARGUMENT, "the context is abandoned");
 }
 
+hair_result hair_check_instance(const hair_instance* hair)
+{
+    if (!hair) return HAIR_ERROR_ARGUMENT;
+    if (!hair->context->is_dead) return HAIR_OK;
+    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: its context is destroyed or abandoned",
+                     hair->label);
+}
+
 hair_result hair_check_current(const hair_context* context)
 {
     if (context->gl.GetString(GL_VERSION)) return HAIR_OK;

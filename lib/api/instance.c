@@ -5,14 +5,6 @@
 
 #define SHORTEST 1e-5f // Minimum substep, s, which bounds the time of a step.
 
-hair_result hair_check_instance(const hair_instance* hair)
-{
-    if (!hair) return HAIR_ERROR_ARGUMENT;
-    if (!hair->context->is_dead) return HAIR_OK;
-    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: its context is destroyed or abandoned",
-                     hair->label);
-}
-
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out)
 {
