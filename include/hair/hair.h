@@ -22,8 +22,8 @@
 ///
 /// Ownership. Arrays and strings that are passed in are copied before the call returns, unless the
 /// comment says otherwise. X_create() is undone by X_destroy(), which accepts NULL. A groom or a
-/// collision mesh may be destroyed while instances use it. A context may be destroyed or
-/// abandoned before its instances and shaders, which are orphans then. Every call on an orphan fails with
+/// collision mesh may be destroyed while instances use it. A context may be destroyed or abandoned
+/// before its instances and shaders, which are orphans then. Every call on an orphan fails with
 /// HAIR_ERROR_ARGUMENT. Destroying an orphan frees its memory and needs no OpenGL. Callbacks of
 /// hair_host must work until the last orphan is destroyed.
 ///

@@ -250,9 +250,9 @@ struct hair_gl_capture {
     GLint framebuffer, feedback;
     int discard;
 };
-// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, even if it is paused.
-// Mesa has one primitive mode for all transform feedback, so a capture would spoil that of the
-// application. `name` is what captures.
+// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, even if it is
+// paused. Mesa has one primitive mode for all transform feedback, so a capture would spoil that of
+// the application. `name` is what captures.
 hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 // Begin transform feedback without rasterisation.
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
