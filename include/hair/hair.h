@@ -22,8 +22,8 @@
 ///
 /// Ownership. Arrays and strings that are passed in are copied before the call returns, unless the
 /// comment says otherwise. X_create() is undone by X_destroy(), which accepts NULL. A groom or a
-/// collision mesh may be destroyed while instances use it. A context may be destroyed or
-/// abandoned before its instances and shaders, which are orphans then. Every call on an orphan fails with
+/// collision mesh may be destroyed while instances use it. A context may be destroyed or abandoned
+/// before its instances and shaders, which are orphans then. Every call on an orphan fails with
 /// HAIR_ERROR_ARGUMENT. Destroying an orphan frees its memory and needs no OpenGL. Callbacks of
 /// hair_host must work until the last orphan is destroyed.
 ///
@@ -36,9 +36,12 @@
 /// Different contexts may be used in parallel, and calls marked "Any thread" too.
 ///
 /// OpenGL. The comment of each call tells its needs after "OpenGL:". "required" means that the
-/// OpenGL context of the hair_context is current on the calling thread. Calls keep the OpenGL state
-/// as hair_gl_state says, and leave the error flag alone. A call that waits for the GPU stalls
-/// until the GPU has finished the work so far.
+/// OpenGL context of the hair_context is current on the calling thread. Calls fail with
+/// HAIR_ERROR_OPENGL if none or another is current, even one that shares objects with it, because
+/// vertex arrays, framebuffers and queries are never shared. Destroying then frees memory, leaves
+/// the OpenGL objects and logs that. Calls keep the OpenGL state as hair_gl_state says, and leave
+/// the error flag alone. A call that waits for the GPU stalls until the GPU has finished the work
+/// so far.
 ///
 /// Comments of fields. The range is in brackets, and then comes the default. A field with a range
 /// is checked, and a value outside it is refused with HAIR_ERROR_ARGUMENT.

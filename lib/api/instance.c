@@ -5,14 +5,6 @@
 
 #define SHORTEST 1e-5f // Minimum substep, s, which bounds the time of a step.
 
-hair_result hair_check_instance(const hair_instance* hair)
-{
-    if (!hair) return HAIR_ERROR_ARGUMENT;
-    if (!hair->context->is_dead) return HAIR_OK;
-    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: its context is destroyed or abandoned",
-                     hair->label);
-}
-
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out)
 {
@@ -142,6 +134,13 @@ static void empty(struct hair_context_member* member)
     for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
 }
 
+static void release(hair_instance* hair)
+{
+    hair_host host = hair->context->host;
+    hair_context_remove(hair->context, &hair->member);
+    hair_free(&host, hair);
+}
+
 hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
                         hair_instance** out)
 {
@@ -157,7 +156,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     hair_context_add(context, &hair->member, empty);
     hair_result result = fill(hair, context, groom, &own);
     if (result) {
-        hair_destroy(hair);
+        release(hair);
         return result;
     }
     *out = hair;
@@ -167,9 +166,8 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
-    hair_host host = hair->context->host;
-    hair_context_remove(hair->context, &hair->member);
-    hair_free(&host, hair);
+    if (!hair->context->is_dead) hair_check_current(hair->context); // Only for the log.
+    release(hair);
 }
 
 hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)
