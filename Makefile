@@ -15,7 +15,7 @@ BULLET    ?= 1
 filter    ?=
 B         := build/$(config)
 
-opt.release  := -O2 -DNDEBUG
+opt.release  := -O2 -DNDEBUG -fstack-protector-strong -fstack-clash-protection
 opt.debug    := -O0
 opt.asan     := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 opt.tsan     := -O1 -fsanitize=thread
@@ -23,7 +23,10 @@ opt.coverage := -O0 --coverage
 Q := $(if $(filter 0,$(V)),@)
 say = $(if $(filter 0,$(V)),@echo '  $(1)')
 WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
-FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -MMD -MP $(opt.$(config))
+# Builds in any folder are equal, because files have no paths outside of the project.
+FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. -MMD -MP $(opt.$(config))
+FLAGS += $(if $(filter release,$(config)),-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+LINK_FLAGS := -Wl,-z,relro,-z,now -Wl,-z,noexecstack $(LDFLAGS)
 C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
 CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLAGS) $(CXXFLAGS)
 
@@ -117,7 +120,7 @@ $(B)/libhair_bullet.so: $(BUL:.o=.shared.o) $(B)/lib/base/host.c.shared.o $(B)/l
 $(B)/libhair_bullet.so: private LINK = -L$(B) -lhair $(BULLET_LIBS) -lstdc++
 $(B)/%.so:
 	$(call say,$@)
-	$(Q)$(CC) -shared $(opt.$(config)) $(LDFLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
+	$(Q)$(CC) -shared $(opt.$(config)) $(LINK_FLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
 	@ln -sf $*.so.$(VERSION) $@.$(MAJOR) && ln -sf $*.so.$(MAJOR) $@
 
 $(B)/gen/sources.c: $(B)/embed $(GLSL)
@@ -180,24 +183,24 @@ $(B)/%.c.shared.o: %.c
 COMMON := $(call objects,tools/common/*.c)
 $(B)/hair-%: $(B)/tools/%.c.o $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $^ $(TOOL_LIBS) -o $@
 # Bullet objects of a scene, or a stub without Bullet.
 WORLD := $(if $(filter 0,$(BULLET)),$(B)/tools/bullet/bullet_stub.c.o,$(B)/tools/bullet/world.cpp.o $(B)/libhair_bullet.a)
 $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
 $(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
 
 $(B)/examples/bullet_world: $(B)/tools/examples/bullet_world.cpp.o $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $(LDFLAGS) $^ $(BULLET_LIBS) $(EXAMPLE_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(BULLET_LIBS) $(EXAMPLE_LIBS) -o $@
 $(B)/examples/%: $(B)/tools/examples/%.c.o $(B)/libhair_egl.a $(B)/libhair.a
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CC) $(opt.$(config)) $(LDFLAGS) $^ $(EXAMPLE_LIBS) -o $@
+	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $^ $(EXAMPLE_LIBS) -o $@
 
 SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
@@ -228,7 +231,7 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles symbols comments lines functions words formatted ## Check the order of folders, circles of files, exported names and style
+check: rooms circles symbols hardened comments lines functions words formatted ## Check the order of folders, circles of files, exported names and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
@@ -244,6 +247,9 @@ symbols: $(LIBRARIES)
 	@! objdump -t $(B)/libhair.a | grep -E ' O (\.t?bss|\.t?data|\*COM\*)' | grep -vE '\.data\.rel\.ro|asan|ubsan|gcov' || \
 	  { echo "libhair has writable globals (above)"; exit 1; }
 	@! nm -u $(filter %.a,$(LIBRARIES)) | grep -wE 'exit|_exit|abort|printf|puts|putchar|fprintf|fputs|fwrite|perror' || { echo "the libraries call these (above)"; exit 1; }
+
+hardened: $(LIBRARIES) $(TOOLS)
+	@[ "$(config)" != release ] || sh tools/check/hardened.sh $(filter %.so,$(LIBRARIES)) $(TOOLS)
 
 consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
 	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
@@ -288,4 +294,4 @@ clean: ## Remove build/
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols comments lines functions words formatted consumer install install-tree format help clean
+.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install install-tree format help clean

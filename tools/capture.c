@@ -23,6 +23,7 @@
 #define MAX_SHADER ((size_t)1 << 20) // bytes
 // Maximum step, s, the default of hair_desc.max_dt. A longer frame is stepped in parts.
 #define LONGEST_STEP 0.1f
+#define GRACE 1u // Time that a frame has to end after a signal, s.
 
 static volatile sig_atomic_t interrupted;
 
@@ -47,10 +48,23 @@ struct capture {
     double started; // ms
 };
 
+// End the program at once, in a signal handler.
+static void give_up(int number)
+{
+    static const char sentence[] = TOOL ": interrupted within a frame\n";
+    (void)number;
+    hair_output_remove_all();
+    if (write(STDERR_FILENO, sentence, sizeof sentence - 1) < 0) {} // Nobody is left to tell.
+    _exit(HAIR_EXIT_RUNTIME);
+}
+
+// End after the current frame. A frame that takes longer than GRACE, and a second signal, end the
+// program at once.
 static void interrupt(int number)
 {
-    (void)number;
+    if (interrupted) give_up(number);
     interrupted = 1;
+    alarm(GRACE);
 }
 
 static void catch_signals(void)
@@ -60,6 +74,8 @@ static void catch_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
+    action.sa_handler = give_up;
+    sigaction(SIGALRM, &action, NULL);
     action.sa_handler = SIG_IGN; // A failed write reports a reader that went away.
     sigaction(SIGPIPE, &action, NULL);
 }
@@ -393,6 +409,8 @@ int main(int count, char** arguments)
         capture->host.log = capture->options.verbose ? say_all : hair_print_log;
         capture->host.user = (void*)(uintptr_t)TOOL;
         code = run(capture);
+        // The library refuses what the file says.
+        if (code == HAIR_EXIT_USAGE && capture->options.is_of_file) code = HAIR_EXIT_INPUT;
     }
     destroy(capture);
     return code;

@@ -43,7 +43,7 @@ static const struct row {
     {"guides", GUIDES, GENERATE, "N", "strands to make; 166"},
     {"length", LENGTH, GENERATE, "X", "times the style's own lengths; 1"},
     {"seed", SEED, INFO | CONVERT | GENERATE, "N", "of every random choice; 1"},
-    {"format", FORMAT, CONVERT | GENERATE, "NAME", "of OUT: hair or tfx4; as its name ends, else hair"},
+    {"format", FORMAT, CONVERT | GENERATE, "NAME", "of OUT: hair or tfx4; as its name ends"},
     {"help", HELP, INFO | CONVERT | GENERATE, NULL, "(also -h) this"},
     {"version", VERSION, INFO | CONVERT | GENERATE, NULL, "the version of the library"},
 };
@@ -147,7 +147,9 @@ static bool parse_style(const char* text, hair_style* out)
             *out = (hair_style)i;
             return true;
         }
-    fprintf(stderr, TOOL ": %s is not a style; there are ", text);
+    char escaped[256];
+    hair_escape(text, escaped, sizeof escaped);
+    fprintf(stderr, TOOL ": %s is not a style; there are ", escaped);
     print_names(stderr);
     fprintf(stderr, "\n");
     return false;
@@ -250,7 +252,7 @@ static int exit_code(hair_result result)
 static int read_asset(const char* path, const struct said* said, hair_asset** out)
 {
     struct hair_bytes bytes;
-    if (!hair_file_read(TOOL, path, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
+    if (!hair_file_read_haircut(TOOL, path, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
     hair_host named = {NULL, NULL, hair_print_log, (void*)hair_log_name(TOOL, path)};
     hair_asset_desc desc = hair_asset_desc_default();
     desc.host = &named;
@@ -260,10 +262,15 @@ static int read_asset(const char* path, const struct said* said, hair_asset** ou
     return exit_code(result);
 }
 
-static bool ends_in(const char* path, const char* ending)
+// Find the format by the end of a name. A name without an end is taken for .hair.
+static bool find_format(const char* path, hair_format* out)
 {
-    size_t length = strlen(path), tail = strlen(ending);
-    return length >= tail && !strcasecmp(path + length - tail, ending);
+    const char *slash = strrchr(path, '/'), *end = strrchr(slash ? slash : path, '.');
+    bool is_tfx = end && !strcasecmp(end, ".tfx"), is_hair = !end || !strcasecmp(end, ".hair");
+    *out = is_tfx ? HAIR_FORMAT_TFX4 : HAIR_FORMAT_HAIR;
+    if (!is_tfx && !is_hair)
+        hair_complain(TOOL, "%s ends in neither .hair nor .tfx: --format names the format", path);
+    return is_tfx || is_hair;
 }
 
 static int write_bytes(const char* path, const void* bytes, size_t size)
@@ -278,7 +285,7 @@ static int write_asset(const hair_asset* asset, const struct said* said)
 {
     const char* path = said->operand[1];
     hair_format format = said->format;
-    if (!format) format = ends_in(path, ".tfx") ? HAIR_FORMAT_TFX4 : HAIR_FORMAT_HAIR;
+    if (!format && !find_format(path, &format)) return misuse();
     size_t size = 0;
     hair_result result = hair_asset_write(asset, format, NULL, 0, &size);
     if (result == HAIR_ERROR_ARGUMENT)

@@ -51,6 +51,16 @@ HAIR_DESC(hair_asset_desc)
 HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size,
                                      hair_asset** out);
 
+/// Return an upper bound on the size of a file of strands by its beginning, in bytes. A pipe or a
+/// device without an end need not be read further. hair_asset_read() does not read more.
+///
+/// @param bytes The first bytes of the file: 296 or more, or all of a shorter file.
+/// @param size Number of those bytes.
+/// @return The bound. 0 if the beginning is of no known format or `bytes` is NULL. UINT64_MAX if
+///     the beginning does not tell, as that of text.
+/// OpenGL: not used. Any thread.
+HAIR_API uint64_t hair_asset_max_size(const void* bytes, size_t size);
+
 /// Destroy an asset. NULL does nothing.
 /// OpenGL: not used. Any thread.
 HAIR_API void hair_asset_destroy(hair_asset* asset);

@@ -15,6 +15,11 @@ hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size
     return hair_asset_decode(&host, &import, bytes, size, out);
 }
 
+uint64_t hair_asset_max_size(const void* bytes, size_t size)
+{
+    return bytes ? hair_asset_find_max_size(bytes, size) : 0;
+}
+
 void hair_asset_destroy(hair_asset* asset)
 {
     if (asset) hair_asset_free(asset);

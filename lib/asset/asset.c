@@ -7,14 +7,17 @@
 static const struct format {
     hair_format format;
     bool (*is)(const unsigned char* bytes, size_t size);
+    uint64_t (*max_size)(const unsigned char* bytes, size_t size); // NULL if no header tells.
     hair_result (*decode)(const struct hair_source* source, hair_asset* asset);
     hair_result (*measure)(const hair_asset* asset, size_t* size);
     void (*encode)(const hair_asset* asset, unsigned char* bytes);
 } formats[] = {
-    {HAIR_FORMAT_HAIR, hair_is_hairfile, hair_decode_hairfile, hair_size_hairfile, hair_encode_hairfile},
-    {HAIR_FORMAT_TFX4, hair_is_tfx4, hair_decode_tfx4, hair_size_tfx4, hair_encode_tfx4},
-    {HAIR_FORMAT_TFX3, hair_is_tfx3, hair_decode_tfx3, NULL, NULL},
-    {HAIR_FORMAT_TFX2, hair_is_tfx_text, hair_decode_tfx_text, NULL, NULL},
+    {HAIR_FORMAT_HAIR, hair_is_hairfile, hair_max_size_of_hairfile, hair_decode_hairfile, hair_size_hairfile,
+     hair_encode_hairfile},
+    {HAIR_FORMAT_TFX4, hair_is_tfx4, hair_max_size_of_tfx4, hair_decode_tfx4, hair_size_tfx4,
+     hair_encode_tfx4},
+    {HAIR_FORMAT_TFX3, hair_is_tfx3, hair_max_size_of_tfx3, hair_decode_tfx3, NULL, NULL},
+    {HAIR_FORMAT_TFX2, hair_is_tfx_text, NULL, hair_decode_tfx_text, NULL, NULL},
 };
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -25,6 +28,15 @@ static hair_result refuse(const struct hair_source* source)
     return hair_fail(
         source->host, HAIR_ERROR_FILE,
         "at byte 0 stands neither \"HAIR\" nor a version of .tfx that can be read (3, 4, or 2 as text)");
+}
+
+uint64_t hair_asset_find_max_size(const void* bytes, size_t size)
+{
+    for (size_t i = 0; i < FORMATS; ++i) {
+        if (!formats[i].is(bytes, size)) continue;
+        return formats[i].max_size ? formats[i].max_size(bytes, size) : UINT64_MAX;
+    }
+    return 0;
 }
 
 static hair_result decode_raw(const struct hair_source* source, hair_asset* asset)

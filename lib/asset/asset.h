@@ -17,6 +17,8 @@ struct hair_asset {
     hair_import_stats repairs;
 };
 
+// Return the size that a file with this beginning can have. See hair_asset_max_size().
+uint64_t hair_asset_find_max_size(const void* bytes, size_t size);
 // Decode a file. `import` has been checked. On failure *out is untouched.
 hair_result hair_asset_decode(const hair_host* host, const hair_import* import, const void* bytes,
                               size_t size, hair_asset** out);

@@ -22,6 +22,12 @@ bool hair_is_tfx3(const unsigned char* bytes, size_t size);
 bool hair_is_tfx4(const unsigned char* bytes, size_t size);
 bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
 
+// Return the size that a file with this header can have. Return UINT64_MAX if the header does not
+// tell.
+uint64_t hair_max_size_of_hairfile(const unsigned char* bytes, size_t size);
+uint64_t hair_max_size_of_tfx3(const unsigned char* bytes, size_t size);
+uint64_t hair_max_size_of_tfx4(const unsigned char* bytes, size_t size);
+
 // Fill the asset's strands as the file has them. On failure the caller frees what they contain.
 hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset);

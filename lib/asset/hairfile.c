@@ -30,6 +30,19 @@ bool hair_is_hairfile(const unsigned char* bytes, size_t size)
     return size >= 4 && memcmp(bytes, "HAIR", 4) == 0;
 }
 
+uint64_t hair_max_size_of_hairfile(const unsigned char* bytes, size_t size)
+{
+    if (size < HEADER) return HEADER;
+    uint64_t strands = hair_read_u32(bytes + 4), vertices = hair_read_u32(bytes + 8), end = HEADER;
+    uint32_t arrays = hair_read_u32(bytes + 12);
+    if (arrays & ~(uint32_t)KNOWN) return UINT64_MAX;
+    if (arrays & SEGMENTS) end += 2 * strands;
+    if (arrays & POINTS) end += 12 * vertices;
+    if (arrays & THICKNESS) end += 4 * vertices;
+    if (arrays & TRANSPARENCY) end += 4 * vertices;
+    return arrays & COLORS ? end + 12 * vertices : end;
+}
+
 static hair_result check_counts(const struct hair_source* source, const struct header* header)
 {
     if (header->strands == 0)

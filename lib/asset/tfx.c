@@ -67,6 +67,31 @@ bool hair_is_tfx4(const unsigned char* bytes, size_t size)
     return size >= 4 && hair_read_float(bytes) >= 4 && hair_read_float(bytes) < 5;
 }
 
+static uint64_t max_size(const unsigned char* bytes, size_t size, const struct layout* layout)
+{
+    uint64_t max = layout->header;
+    if (size < layout->header) return max;
+    uint64_t strands = hair_read_u32(bytes + 4), each = hair_read_u32(bytes + 8);
+    if (strands && each > UINT32_MAX / strands) return max; // Too many vertices.
+    for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i) {
+        const struct section* section = &layout->sections[i];
+        uint64_t offset = hair_read_u32(bytes + section->at),
+                 count = strands * (section->per_vertex ? each : 1);
+        if (offset && offset + count * section->size > max) max = offset + count * section->size;
+    }
+    return max;
+}
+
+uint64_t hair_max_size_of_tfx3(const unsigned char* bytes, size_t size)
+{
+    return max_size(bytes, size, &version3);
+}
+
+uint64_t hair_max_size_of_tfx4(const unsigned char* bytes, size_t size)
+{
+    return max_size(bytes, size, &version4);
+}
+
 static hair_result check_section(const struct hair_source* source, const struct layout* layout,
                                  const struct section* section, uint64_t strands, uint64_t vertices)
 {

@@ -10,10 +10,11 @@
 // loop_budget.c.
 #define MAX_ROUNDS 630
 
-static struct hair_collider_grid_desc describe(const struct hair_sim* sim, double dt, float fraction_start)
+static struct hair_collider_grid_desc describe(const struct hair_sim* sim, double dt, float fraction_start,
+                                               double longest)
 {
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->head_at_last_step);
-    float h = (float)sim->substep, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
+    float h = (float)longest, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = HAIR_SIM_LOOSE * sim->reach;
     // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
     int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim);
@@ -109,9 +110,9 @@ static hair_result find(struct hair_sim* sim, const struct hair_collider_grid_de
     return others ? upload(sim) : HAIR_OK;
 }
 
-hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start)
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start, double longest)
 {
-    struct hair_collider_grid_desc desc = describe(sim, dt, fraction_start);
+    struct hair_collider_grid_desc desc = describe(sim, dt, fraction_start, longest);
     hair_result result = find(sim, &desc);
     if (result) sim->contacts.grid.entries = 0; // The lists on the GPU may be incomplete.
     return result;

@@ -114,67 +114,83 @@ static double find_substep(const struct hair_sim* sim, int mixed, int had_contac
     return substep;
 }
 
-// Buffers that depend on physics.
-struct buffers {
-    GLuint rod, reduction, bend;
-    uint32_t rounds; // Rounds of `reduction` before its last.
-};
-
-// Upload rods to new buffers. On failure the caller frees `rod` and `reduction`.
-static hair_result upload(struct hair_sim* sim, const struct hair_rod* rod, int mixed, double substep,
-                          struct buffers* out)
+// Upload rods to the buffers of a set. The set has the simulation's buffer of forces and turns
+// where there is one.
+static hair_result upload(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
 {
-    out->bend = sim->bend;
-    HAIR_TRY(make_reduction(sim, rod, substep, &out->reduction, &out->rounds));
+    HAIR_TRY(make_reduction(sim, rod, out->substep, &out->reduction, &out->rounds));
     HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", sim->guide_vertices * sizeof *rod,
                              rod, &out->rod));
-    if (!mixed || out->bend) return HAIR_OK;
+    if (out->mixed) out->bend = sim->bend;
+    if (!out->mixed || out->bend) return HAIR_OK;
     return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &out->bend);
 }
 
-// Replace the buffers of the simulation.
-static void replace(struct hair_sim* sim, const struct buffers* now, int mixed)
+void hair_sim_free_rod_set(struct hair_sim* sim, const struct hair_rod_set* set)
 {
-    hair_gl_free_buffer(sim->gl, &sim->rod);
-    hair_gl_free_buffer(sim->gl, &sim->reduction);
-    sim->rod = now->rod;
-    sim->reduction = now->reduction;
-    sim->rounds = now->rounds;
-    sim->bend = now->bend;
-    if (!mixed) hair_gl_free_buffer(sim->gl, &sim->bend);
+    GLuint rod = set->rod, reduction = set->reduction, bend = set->bend == sim->bend ? 0 : set->bend;
+    hair_gl_free_buffer(sim->gl, &rod);
+    hair_gl_free_buffer(sim->gl, &reduction);
+    hair_gl_free_buffer(sim->gl, &bend);
+}
+
+void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
+{
+    struct hair_rods* rods = sim->rods;
+    if (!set->rod) return;
+    const struct hair_rod_set now = *set;
+    *set = (struct hair_rod_set){.rod = sim->rod,
+                                 .reduction = sim->reduction,
+                                 .bend = sim->bend,
+                                 .rounds = sim->rounds,
+                                 .mixed = rods->mixed,
+                                 .stiff = rods->stiff,
+                                 .had_contact = rods->had_contact,
+                                 .made_for = rods->made_for,
+                                 .softened = rods->report.softened,
+                                 .pinned = rods->pinned,
+                                 .substep_scale = rods->substep_scale,
+                                 .last_scale = sim->substep_scale,
+                                 .substep = sim->substep};
+    sim->rod = now.rod;
+    sim->reduction = now.reduction;
+    sim->bend = now.bend;
+    sim->rounds = now.rounds;
+    sim->substep = now.substep;
+    rods->mixed = now.mixed;
+    rods->stiff = now.stiff;
+    rods->had_contact = now.had_contact;
+    rods->made_for = now.made_for;
+    rods->report.softened = now.softened;
+    rods->pinned = now.pinned;
+    rods->substep_scale = now.substep_scale;
+    sim->substep_scale = now.last_scale;
 }
 
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
-static hair_result create(struct hair_sim* sim, int had_contact)
+static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod_set* out)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_rods* rods = sim->rods;
     struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!rod) return hair_fail_memory(host, "the guides as rods");
     hold(sim);
-    int mixed = are_mixed(sim, had_contact);
-    uint32_t substep_scale = find_substep_scale(sim);
-    double substep = find_substep(sim, mixed, had_contact, substep_scale);
-    struct hair_rods_softened softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides,
-                                                         &sim->physics, sim->solver, mixed, substep, rod);
+    *out = (struct hair_rod_set){.mixed = are_mixed(sim, had_contact),
+                                 .had_contact = had_contact,
+                                 .made_for = sim->physics,
+                                 .pinned = sim->pins.vertex_hash,
+                                 .substep_scale = find_substep_scale(sim)};
+    out->last_scale = out->substep_scale;
+    out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
+    out->softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
+                                    sim->solver, out->mixed, out->substep, rod);
     hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
-                  &sim->physics, sim->solver, mixed, substep, rod);
-    struct buffers now = {0};
-    hair_result result = upload(sim, rod, mixed, substep, &now);
+                  &sim->physics, sim->solver, out->mixed, out->substep, rod);
+    out->stiff = is_stiff(sim, rod);
+    hair_result result = upload(sim, rod, out);
     if (result) {
-        hair_gl_free_buffer(sim->gl, &now.reduction);
-        hair_gl_free_buffer(sim->gl, &now.rod);
-    } else {
-        replace(sim, &now, mixed);
-        rods->mixed = mixed;
-        rods->made_for = sim->physics;
-        rods->report.softened = softened;
-        rods->had_contact = had_contact;
-        rods->pinned = sim->pins.vertex_hash;
-        rods->substep_scale = substep_scale;
-        sim->substep_scale = substep_scale;
-        rods->stiff = is_stiff(sim, rod);
-        sim->substep = substep;
+        hair_sim_free_rod_set(sim, out);
+        *out = (struct hair_rod_set){0};
     }
     hair_free(host, rod);
     return result;
@@ -203,7 +219,9 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
     HAIR_TRY(make_buffers(sim));
-    HAIR_TRY(create(sim, 0));
+    struct hair_rod_set first;
+    HAIR_TRY(create(sim, 0, &first));
+    hair_sim_swap_rods(sim, &first);
     return hair_sim_ensure_hair_grid(sim);
 }
 
@@ -217,25 +235,33 @@ static bool is_first_contact(const struct hair_sim* sim, int had_contact)
     return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->guides, sim->guides);
 }
 
+static bool had_contact_now(const struct hair_sim* sim)
+{
+    return sim->had_contact || hair_sim_contacts(sim) > 0;
+}
+
 bool hair_sim_is_other_rate(const struct hair_sim* sim)
 {
     const struct hair_rods* rods = sim->rods;
     if (!rods || rods->substep_scale == find_substep_scale(sim)) return false;
-    return sim->pins.vertex_hash == rods->pinned &&
-           !is_first_contact(sim, sim->had_contact || hair_sim_contacts(sim) > 0) &&
+    return sim->pins.vertex_hash == rods->pinned && !is_first_contact(sim, had_contact_now(sim)) &&
            !hair_rods_differ(&rods->made_for, &sim->physics);
 }
 
-hair_result hair_sim_rebuild_rods(struct hair_sim* sim)
+hair_result hair_sim_make_rods(struct hair_sim* sim, struct hair_rod_set* out)
 {
     const struct hair_rods* rods = sim->rods;
+    *out = (struct hair_rod_set){0};
     if (!rods) return HAIR_OK;
-    int had_contact = sim->had_contact || hair_sim_contacts(sim) > 0;
+    int had_contact = had_contact_now(sim);
     int other = rods->substep_scale != find_substep_scale(sim) || is_first_contact(sim, had_contact) ||
                 sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
-    if (other) HAIR_TRY(create(sim, had_contact));
-    sim->had_contact = had_contact;
-    return HAIR_OK;
+    return other ? create(sim, had_contact, out) : HAIR_OK;
+}
+
+void hair_sim_note_contact(struct hair_sim* sim)
+{
+    if (sim->rods) sim->had_contact = had_contact_now(sim);
 }
 
 void hair_sim_free_rods(struct hair_sim* sim)

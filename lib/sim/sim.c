@@ -102,8 +102,9 @@ static float fraction_of(double from, double dt)
     return (float)fmin(fmax(from / dt, -1), 1);
 }
 
-// Ensure everything that a step needs. The coming substeps begin `from` seconds into the step.
-static hair_result prepare(struct hair_sim* sim, double from, double dt)
+// Ensure everything that a step needs. The coming substeps begin `from` seconds into the step, and
+// none is longer than `longest`.
+static hair_result prepare(struct hair_sim* sim, double from, double dt, double longest)
 {
     sim->contacts.any = hair_contacts_are_any(sim);
     HAIR_TRY(hair_pins_write(sim));
@@ -111,7 +112,7 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt)
     if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
     if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
-    if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of(from, dt)));
+    if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of(from, dt), longest));
     return hair_sim_ensure_solver(sim);
 }
 
@@ -272,21 +273,41 @@ static double finish_substep(struct hair_sim* sim, double from, double dt)
     return end;
 }
 
+// Ensure everything that a step needs with the rods of a set. On failure the simulation is as it
+// was. If `again`, a substep with the simulation's own rods comes first, and the simulation keeps
+// them. Otherwise the set then has the rods that the step replaces.
+static hair_result prepare_all(struct hair_sim* sim, struct hair_rod_set* other, bool again, bool disturbed,
+                               double dt)
+{
+    double from = -sim->accumulator, longest = fmax(sim->substep, other->substep);
+    hair_sim_swap_rods(sim, other);
+    hair_result result = prepare(sim, from, dt, longest);
+    if (!result) result = hair_sleep_ensure(sim, disturbed, dt);
+    if (!result) result = hair_diagnosis_ensure(sim, disturbed);
+    if (result || again) hair_sim_swap_rods(sim, other);
+    return !result && again ? hair_sim_ensure_solver(sim) : result;
+}
+
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     HAIR_ASSERT(dt > 0);
     double from = -sim->accumulator;
     bool waits = must_finish_substep(sim), disturbed = hair_sleep_is_disturbed(sim);
-    if (!waits) HAIR_TRY(hair_sim_rebuild_rods(sim));
-    HAIR_TRY(prepare(sim, from, dt));
-    HAIR_TRY(hair_sleep_ensure(sim, disturbed, dt));
-    HAIR_TRY(hair_diagnosis_ensure(sim, disturbed));
     bool again = waits && count_substeps(sim, dt - from) > 0;
+    struct hair_rod_set other = {0};
+    if (!waits || again) HAIR_TRY(hair_sim_make_rods(sim, &other));
+    hair_result result = prepare_all(sim, &other, again, disturbed, dt);
+    if (result) {
+        hair_sim_free_rod_set(sim, &other);
+        return result;
+    }
+    // Nothing fails from here on, so that a step that fails changes nothing.
     if (again) {
         from = finish_substep(sim, from, dt);
-        HAIR_TRY(hair_sim_rebuild_rods(sim));
-        HAIR_TRY(prepare(sim, from, dt));
+        hair_sim_swap_rods(sim, &other);
     }
+    hair_sim_free_rod_set(sim, &other);
+    if (!waits || again) hair_sim_note_contact(sim);
     uint32_t total = count_substeps(sim, dt - from);
     sim->accumulator = fmax(dt - from - total * sim->substep, 0);
     HAIR_ASSERT(sim->accumulator < (1 + EARLY) * sim->substep);

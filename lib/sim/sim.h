@@ -52,6 +52,19 @@ struct hair_rods {
     uint32_t substep_scale;
 };
 
+// Rods for one length of substep, and everything that depends on them. hair_sim and its hair_rods
+// have values of the same names.
+struct hair_rod_set {
+    GLuint rod, reduction, bend; // `rod` is 0 in an empty set.
+    uint32_t rounds;
+    int mixed, stiff, had_contact;
+    hair_physics made_for;
+    struct hair_rods_softened softened;
+    uint32_t pinned, substep_scale;
+    uint32_t last_scale; // Value of hair_sim.substep_scale. Loading sets it apart from the rods.
+    double substep;
+};
+
 struct hair_sim {
     struct hair_gl* gl;
     hair_solver solver;
@@ -214,8 +227,8 @@ bool hair_grid_is_on(const struct hair_sim* sim);
 // Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
 bool hair_contacts_are_any(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `fraction_start` is the fraction of the step
-// that has been done, and may be negative.
-hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start);
+// that has been done, and may be negative. No substep is longer than `longest`, s.
+hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start, double longest);
 // Write the parameters that hair_contacts_find() found.
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params);
 void hair_contacts_bind(const struct hair_sim* sim);
@@ -223,8 +236,15 @@ void hair_contacts_free(struct hair_sim* sim);
 
 // Functions of rods.c, for what the solvers of rods need beside the state.
 hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom);
-// Make the rods again if the physics, the pinned vertices or the substep length need other rods.
-hair_result hair_sim_rebuild_rods(struct hair_sim* sim);
+// Make other rods if the physics, the pinned vertices or the substep length need them. The
+// simulation keeps its own. Otherwise the set is empty.
+hair_result hair_sim_make_rods(struct hair_sim* sim, struct hair_rod_set* out);
+// Exchange the rods of the simulation for those of a set. An empty set changes nothing.
+void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set);
+// Free what a set does not have in common with the simulation.
+void hair_sim_free_rod_set(struct hair_sim* sim, const struct hair_rod_set* set);
+// Note whether there have been colliders.
+void hair_sim_note_contact(struct hair_sim* sim);
 // Return whether the rods must be made again for a changed rate, and for nothing else.
 bool hair_sim_is_other_rate(const struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);

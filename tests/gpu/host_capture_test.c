@@ -274,8 +274,8 @@ static void discarded_steps_are_mended_by_a_reset(void** state)
         glEndConditionalRender();
         assert_int_equal(glGetError(), GL_NO_ERROR);
         hair_test_read_points(f.test, other, HAIR_READ_FOLLOWERS, &points); // They are finite.
-        // Steps were discarded.
         hair_test_read_points(f.test, hair, HAIR_READ_FOLLOWERS, &free_points);
+        // Steps were discarded.
         assert_true(hair_test_points_distance(&points, &free_points) > 1e-4);
         step_and_draw(&f, other, 2);
         step_and_draw(&f, hair, 2);

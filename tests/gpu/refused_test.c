@@ -6,72 +6,8 @@
 
 #include "lib/api/api.h"
 #include "tests/support/handmade.h"
+#include "tests/support/refusal.h"
 #include "tests/support/ways.h"
-
-// A driver that refuses ---------------------------------------------------------------------------
-
-// Number of objects created, and number of the creation that fails, from 1. 0 refuses none.
-static uint32_t creations, refused_creation;
-
-static int refuses(void)
-{
-    return ++creations == refused_creation;
-}
-
-static void APIENTRY create_buffers(GLsizei count, GLuint* out)
-{
-    if (!refuses()) glCreateBuffers(count, out);
-}
-static void APIENTRY create_textures(GLenum target, GLsizei count, GLuint* out)
-{
-    if (!refuses()) glCreateTextures(target, count, out);
-}
-static void APIENTRY create_vertex_arrays(GLsizei count, GLuint* out)
-{
-    if (!refuses()) glCreateVertexArrays(count, out);
-}
-static void APIENTRY create_samplers(GLsizei count, GLuint* out)
-{
-    if (!refuses()) glCreateSamplers(count, out);
-}
-static GLuint APIENTRY create_program(void)
-{
-    return refuses() ? 0 : glCreateProgram();
-}
-static GLuint APIENTRY create_shader(GLenum stage)
-{
-    return refuses() ? 0 : glCreateShader(stage);
-}
-static void APIENTRY buffer_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags)
-{
-    if (!refuses()) glNamedBufferStorage(buffer, size, data, flags);
-}
-static void APIENTRY buffer_data(GLuint buffer, GLsizeiptr size, const void* data, GLenum usage)
-{
-    if (data || !refuses())
-        // A call with data only writes an existing buffer.
-        glNamedBufferData(buffer, size, data, usage);
-}
-
-static void* find(const char* name, void* user)
-{
-#define REPLACE(gl_name, type, own)                                                                          \
-    if (strcmp(name, gl_name) == 0) {                                                                        \
-        type function = own;                                                                                 \
-        void* address;                                                                                       \
-        memcpy(&address, &function, sizeof address);                                                         \
-        return address;                                                                                      \
-    }
-    REPLACE("glCreateBuffers", PFNGLCREATEBUFFERSPROC, create_buffers)
-    REPLACE("glCreateTextures", PFNGLCREATETEXTURESPROC, create_textures)
-    REPLACE("glCreateVertexArrays", PFNGLCREATEVERTEXARRAYSPROC, create_vertex_arrays)
-    REPLACE("glCreateSamplers", PFNGLCREATESAMPLERSPROC, create_samplers)
-    REPLACE("glCreateProgram", PFNGLCREATEPROGRAMPROC, create_program)
-    REPLACE("glCreateShader", PFNGLCREATESHADERPROC, create_shader)
-    REPLACE("glNamedBufferStorage", PFNGLNAMEDBUFFERSTORAGEPROC, buffer_storage)
-    REPLACE("glNamedBufferData", PFNGLNAMEDBUFFERDATAPROC, buffer_data)
-    return hair_egl_get_proc(name, user);
-}
 
 // Calls -------------------------------------------------------------------------------------------
 
@@ -88,7 +24,7 @@ static hair_result make_context(struct user* user, hair_context** out)
 {
     hair_context_desc desc = hair_context_desc_default();
     desc.host = &user->test->host.host;
-    desc.get_proc = find;
+    desc.get_proc = hair_test_refusing_proc;
     desc.glsl_dir = "glsl";
     return hair_context_create(&desc, out);
 }
@@ -176,10 +112,12 @@ static void torture(struct user* user, hair_result (*call)(struct user*), struct
             assert_true(*of.done >= of.min);
             return;
         }
-        if (result != HAIR_ERROR_MEMORY && (result != HAIR_ERROR_OPENGL || of.done != &creations))
+        if (result != HAIR_ERROR_MEMORY &&
+            (result != HAIR_ERROR_OPENGL || of.done != &hair_test_refusal.creations))
             fail_msg("%u of %s: %s", n, of.what, hair_result_string(result));
         assert_true(hair_test_forgive(test) >= 1);
-        if (of.done != &creations) assert_non_null(strstr(test->host.sentence, "out of memory for "));
+        if (of.done != &hair_test_refusal.creations)
+            assert_non_null(strstr(test->host.sentence, "out of memory for "));
         if (n % 32 == 1) hair_test_ok(test, call(user));
         assert_int_equal(hair_test_blocks(test), blocks);
     }
@@ -194,7 +132,8 @@ static struct refusal of_memory(struct user* user, uint32_t min)
 
 static struct refusal of_objects(uint32_t min)
 {
-    return (struct refusal){&creations, &refused_creation, "objects of OpenGL", min};
+    return (struct refusal){&hair_test_refusal.creations, &hair_test_refusal.refuse, "objects of OpenGL",
+                            min};
 }
 
 static struct user start(void** state, int way)

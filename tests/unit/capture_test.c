@@ -184,6 +184,9 @@ static void unusable_input_exits_with_4_and_its_position(void** state)
         {"{\"settings\": {\"damping\": null}}", "damping must be a number"},
         {"{\"groom\": \"\"}", "the name of a file"},
         {"{\"groom\": \"no/such.hair\"}", "no/such.hair"},
+        {"{\"lights\": [{\"direction\": [0, 0, 0]}]}", "has no direction"},
+        {"{\"settings\": {\"substep\": 1e-6}}", "hair_desc.substep is 1e-06"},
+        {"{\"\\u001b]0;owned\": 1}", "there is no \\x1b]0;owned"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[512];

@@ -75,6 +75,28 @@ static void haircuts_are_read_from_pipes_and_written_to_them(void** state)
         "");
 }
 
+// Check inputs without an end. Their beginning tells how much to read.
+static void inputs_without_an_end_are_read_as_far_as_their_format_goes(void** state)
+{
+    (void)state;
+    const char* few = "ulimit -v 400000; ";
+    char command[256];
+    snprintf(command, sizeof command, "%s timeout 20 $T info /dev/zero", few);
+    expect(4, command, "neither");
+    snprintf(command, sizeof command, "%s (cat $D/a.hair; cat /dev/zero) | timeout 20 $T info -", few);
+    expect(0, command, "is not read");
+    snprintf(command, sizeof command, "%s (cat $D/a3.tfx; yes) | timeout 20 $T info -", few);
+    expect(0, command, "tfx3");
+}
+
+// Check that text of files and arguments cannot command a terminal.
+static void text_that_is_printed_is_escaped(void** state)
+{
+    (void)state;
+    expect(2, "$T generate \"$(printf '\\033]0;owned\\007')\" $D/x.hair", "\\x1b]0;owned\\x07");
+    expect(4, "$T info \"$D/$(printf 'caf\\303\\251 \\302\\233 \\377')\"", "caf\303\251 \\xc2\\x9b \\xff");
+}
+
 static void every_format_converts_to_every_writable_format(void** state)
 {
     (void)state;
@@ -127,6 +149,9 @@ static void wrong_use_exits_with_2(void** state)
                            "generate mullet $D/x.hair",
                            "generate long $D/x.hair --guides 1",
                            "generate long $D/x.hair --length 99",
+                           "generate long $D/x.groom",
+                           "generate long $D/x.",
+                           "convert $D/a.hair $D/x.obj",
                            "convert --format tfx3 $D/a.hair $D/x.tfx"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[256];
@@ -190,6 +215,8 @@ int main(void)
         cmocka_unit_test(info_prints_the_contents_of_a_haircut),
         cmocka_unit_test(info_prints_repairs),
         cmocka_unit_test(haircuts_are_read_from_pipes_and_written_to_them),
+        cmocka_unit_test(inputs_without_an_end_are_read_as_far_as_their_format_goes),
+        cmocka_unit_test(text_that_is_printed_is_escaped),
         cmocka_unit_test(every_format_converts_to_every_writable_format),
         cmocka_unit_test(built_in_haircuts_are_written),
         cmocka_unit_test(wrong_use_exits_with_2),

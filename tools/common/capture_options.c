@@ -290,6 +290,7 @@ static int open_scene(const char* tool, const struct said* said, struct hair_cap
     const char* path = said->scene_file;
     if (path) {
         out->name = path;
+        out->is_of_file = said->changes == 0;
         return hair_scene_read(tool, path, &out->scene) ? -1 : HAIR_EXIT_INPUT;
     }
     bool none = !said->scene_name && said->groom;

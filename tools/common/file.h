@@ -23,7 +23,12 @@ const char* hair_log_name(const char* tool, const char* path);
 // Flush the standard output. Return HAIR_EXIT_OK, or HAIR_EXIT_RUNTIME if any output was lost.
 int hair_flush(const char* tool);
 
+// Print "TOOL: sentence" to stderr, escaped as hair_escape() does.
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
+
+// Write `text` with control characters and bytes that are not UTF-8 as \x1b, so that text of a file
+// cannot command a terminal. The result ends at `size`.
+void hair_escape(const char* text, char* out, size_t size);
 
 struct hair_bytes {
     unsigned char* data; // release with free()
@@ -33,6 +38,9 @@ struct hair_bytes {
 // Read all of a file, pipe or device. "-" is the standard input. More than `limit` bytes are an
 // error.
 bool hair_file_read(const char* tool, const char* path, size_t limit, struct hair_bytes* out);
+
+// Read a haircut. Do not read beyond the size that its beginning allows, plus one byte.
+bool hair_file_read_haircut(const char* tool, const char* path, size_t limit, struct hair_bytes* out);
 
 // An output file. A regular file appears under its name only when it is committed. A pipe, a device
 // or "-" (the standard output) is written in place.
@@ -48,5 +56,9 @@ struct hair_output {
 bool hair_output_open(const char* tool, const char* path, struct hair_output* out);
 bool hair_output_commit(struct hair_output* output); // A failure discards the output.
 void hair_output_discard(struct hair_output* output);
+
+// Remove the temporary files of all open outputs. A signal handler that ends the program may call
+// this.
+void hair_output_remove_all(void);
 
 #endif

@@ -68,7 +68,7 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
                      hair_groom** out)
 {
     struct hair_bytes bytes;
-    if (!hair_file_read(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
+    if (!hair_file_read_haircut(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
     hair_host named = *host;
     named.user = (void*)hair_log_name(tool, scene->groom);
     hair_import import = scene->settings.import;

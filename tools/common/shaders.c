@@ -2,6 +2,8 @@
 #include "tools/common/shaders.h"
 #include "tools/common/file.h"
 
+#include <string.h>
+
 #include <epoxy/gl.h>
 
 #define TEXT(x) #x
@@ -163,7 +165,8 @@ static GLuint compile(const char* tool, GLenum stage, const char* text)
     if (good) return shader;
     char reason[512] = "";
     glGetShaderInfoLog(shader, sizeof reason, NULL, reason);
-    hair_complain(tool, "a shader does not compile: %s", reason);
+    hair_complain(tool, "a shader does not compile");
+    for (char* line = strtok(reason, "\n"); line; line = strtok(NULL, "\n")) hair_complain(tool, "%s", line);
     glDeleteShader(shader);
     return 0;
 }
