@@ -36,9 +36,12 @@
 /// Different contexts may be used in parallel, and calls marked "Any thread" too.
 ///
 /// OpenGL. The comment of each call tells its needs after "OpenGL:". "required" means that the
-/// OpenGL context of the hair_context is current on the calling thread. Calls keep the OpenGL state
-/// as hair_gl_state says, and leave the error flag alone. A call that waits for the GPU stalls
-/// until the GPU has finished the work so far.
+/// OpenGL context of the hair_context is current on the calling thread. Calls fail with
+/// HAIR_ERROR_OPENGL if none or another is current, even one that shares objects with it, because
+/// vertex arrays, framebuffers and queries are never shared. Destroying then frees memory, leaves
+/// the OpenGL objects and logs that. Calls keep the OpenGL state as hair_gl_state says, and leave
+/// the error flag alone. A call that waits for the GPU stalls until the GPU has finished the work
+/// so far.
 ///
 /// Comments of fields. The range is in brackets, and then comes the default. A field with a range
 /// is checked, and a value outside it is refused with HAIR_ERROR_ARGUMENT.

@@ -41,7 +41,9 @@ typedef struct hair_context_desc {
     hair_struct_header header;
     /// Callbacks. NULL selects the allocator of the C library and disables the log.
     const hair_host* host; ///< Default NULL.
-    /// Function that returns the address of an OpenGL function, or NULL. Required.
+    /// Function that returns the address of an OpenGL function, or NULL. Required. It is also asked
+    /// for eglGetCurrentContext, wglGetCurrentContext and glXGetCurrentContext. If it has none of
+    /// them, calls do not notice a current context that shares objects with the right one.
     void* (*get_proc)(const char* name, void* user);
     /// Pointer passed to get_proc.
     void* get_proc_user; ///< Default NULL.

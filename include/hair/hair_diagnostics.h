@@ -144,7 +144,8 @@ typedef struct hair_timing {
 } hair_timing;
 
 /// Write the GPU time of every pass that a call has needed so far, if hair_context_desc.timings is
-/// true. A pass keeps its index. Return the number of passes, or 0 if `context` is NULL.
+/// true. A pass keeps its index. Return the number of passes. Return 0 if `context` is
+/// NULL or abandoned, or if its OpenGL context is not current.
 ///
 /// @param out Receives the timings. NULL only counts the passes.
 /// @param capacity Maximum number of timings to write.

@@ -67,14 +67,15 @@ float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2]);
 void hair_context_add(hair_context* context, struct hair_context_member* member,
                       void (*empty)(struct hair_context_member* member));
 // Empty a member unless that has been done, and let go of its context. The context may be freed.
+// OpenGL objects are left if the OpenGL context is not current.
 void hair_context_remove(hair_context* context, struct hair_context_member* member);
 
 // Return HAIR_ERROR_ARGUMENT if a context is NULL or dead.
 hair_result hair_check_context(const hair_context* context);
 // Return HAIR_ERROR_ARGUMENT if an instance is NULL or its context is dead.
 hair_result hair_check_instance(const hair_instance* hair);
-// Return HAIR_ERROR_OPENGL unless a context is current, because OpenGL without a context is
-// undefined.
+// Return HAIR_ERROR_OPENGL unless the OpenGL context of a context is current. OpenGL without one is
+// undefined, and names of objects mean others in another one.
 hair_result hair_check_current(const hair_context* context);
 
 // Check that a transform is rigid and not too far from the origin. Convert it to a pose.

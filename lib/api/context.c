@@ -54,7 +54,13 @@ static void let_go(hair_context* context)
 
 void hair_context_remove(hair_context* context, struct hair_context_member* member)
 {
-    if (!context->is_dead) empty_member(context, member);
+    if (!context->is_dead) {
+        struct hair_gl was = context->gl;
+        // Names of the OpenGL objects mean others in another OpenGL context.
+        if (!hair_gl_is_current(&context->gl)) hair_gl_ignore_deletions(&context->gl);
+        empty_member(context, member);
+        hair_gl_copy_deletions(&was, &context->gl);
+    }
     let_go(context);
 }
 
@@ -69,7 +75,10 @@ static void end(hair_context* context)
 void hair_context_destroy(hair_context* context)
 {
     if (!context) return;
-    if (!context->is_dead) end(context);
+    if (!context->is_dead) {
+        if (hair_check_current(context)) hair_gl_ignore_deletions(&context->gl);
+        end(context);
+    }
     let_go(context);
 }
 
@@ -97,8 +106,11 @@ hair_result hair_check_instance(const hair_instance* hair)
 
 hair_result hair_check_current(const hair_context* context)
 {
-    if (context->gl.GetString(GL_VERSION)) return HAIR_OK;
-    return hair_fail(&context->host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
+    if (hair_gl_is_current(&context->gl)) return HAIR_OK;
+    if (!context->gl.GetString(GL_VERSION))
+        return hair_fail(&context->host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
+    return hair_fail(&context->host, HAIR_ERROR_OPENGL,
+                     "the current OpenGL context is not that of hair_context_create()");
 }
 
 hair_result hair_context_reload(hair_context* context)
@@ -131,7 +143,7 @@ hair_result hair_set_memory_limit(hair_context* context, uint64_t bytes)
 
 uint32_t hair_get_timings(hair_context* context, hair_timing* out, uint32_t capacity)
 {
-    if (hair_check_context(context)) return 0;
+    if (hair_check_context(context) || (out && hair_check_current(context))) return 0;
     for (uint32_t i = 0; out && i < capacity && i < context->gl.programs; ++i) {
         struct hair_gl_program* of = context->gl.program[i];
         out[i].pass = of->label;

@@ -134,6 +134,13 @@ static void empty(struct hair_context_member* member)
     for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
 }
 
+static void release(hair_instance* hair)
+{
+    hair_host host = hair->context->host;
+    hair_context_remove(hair->context, &hair->member);
+    hair_free(&host, hair);
+}
+
 hair_result hair_create(hair_context* context, const hair_groom* groom, const hair_desc* desc,
                         hair_instance** out)
 {
@@ -149,7 +156,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     hair_context_add(context, &hair->member, empty);
     hair_result result = fill(hair, context, groom, &own);
     if (result) {
-        hair_destroy(hair);
+        release(hair);
         return result;
     }
     *out = hair;
@@ -159,9 +166,8 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
-    hair_host host = hair->context->host;
-    hair_context_remove(hair->context, &hair->member);
-    hair_free(&host, hair);
+    if (!hair->context->is_dead) hair_check_current(hair->context); // Only for the log.
+    release(hair);
 }
 
 hair_result hair_set_physics(hair_instance* hair, const hair_physics* physics)

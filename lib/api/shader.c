@@ -47,6 +47,7 @@ void hair_shader_destroy(hair_shader* shader)
 {
     if (!shader) return;
     hair_host host = shader->context->host;
+    if (!shader->context->is_dead) hair_check_current(shader->context); // Only for the log.
     hair_context_remove(shader->context, &shader->member);
     hair_free(&host, shader);
 }

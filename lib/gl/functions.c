@@ -28,18 +28,48 @@ static void APIENTRY ignore_sync(GLsync sync)
     (void)sync;
 }
 
+// clang-format off
+#define DELETIONS(DELETION)                                                                 \
+    DELETION(DeleteBuffers, ignore_names) DELETION(DeleteFramebuffers, ignore_names)        \
+    DELETION(DeleteQueries, ignore_names) DELETION(DeleteSamplers, ignore_names)            \
+    DELETION(DeleteTextures, ignore_names) DELETION(DeleteTransformFeedbacks, ignore_names) \
+    DELETION(DeleteVertexArrays, ignore_names) DELETION(DeleteProgram, ignore_name)         \
+    DELETION(DeleteShader, ignore_name) DELETION(DeleteSync, ignore_sync)
+// clang-format on
+
 void hair_gl_ignore_deletions(struct hair_gl* gl)
 {
-    gl->DeleteBuffers = ignore_names;
-    gl->DeleteFramebuffers = ignore_names;
-    gl->DeleteQueries = ignore_names;
-    gl->DeleteSamplers = ignore_names;
-    gl->DeleteTextures = ignore_names;
-    gl->DeleteTransformFeedbacks = ignore_names;
-    gl->DeleteVertexArrays = ignore_names;
-    gl->DeleteProgram = ignore_name;
-    gl->DeleteShader = ignore_name;
-    gl->DeleteSync = ignore_sync;
+#define DELETION(name, ignore) gl->name = ignore;
+    DELETIONS(DELETION)
+#undef DELETION
+}
+
+void hair_gl_copy_deletions(const struct hair_gl* from, struct hair_gl* to)
+{
+#define DELETION(name, ignore) to->name = from->name;
+    DELETIONS(DELETION)
+#undef DELETION
+}
+
+// Find how to tell later whether the context that is current now is current again.
+static void find_own_context(struct hair_gl* gl, const hair_context_desc* desc)
+{
+    static const char* const names[] = {"eglGetCurrentContext", "wglGetCurrentContext",
+                                        "glXGetCurrentContext"};
+    // Some drivers have a function for every name that begins with "gl". It returns nonsense.
+    int count = desc->get_proc("glXHairIsThere", desc->get_proc_user) ? 2 : 3;
+    for (int i = 0; i < count; ++i) {
+        if (find(desc, names[i], &gl->get_current)) gl->own_context = gl->get_current();
+        if (gl->own_context) return;
+    }
+    gl->get_current = NULL;
+    gl->own_fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+bool hair_gl_is_current(const struct hair_gl* gl)
+{
+    if (gl->get_current) return gl->get_current() == gl->own_context;
+    return gl->GetString(GL_VERSION) && gl->IsSync(gl->own_fence);
 }
 
 static bool has_extension(const struct hair_gl* gl, const char* name)
@@ -87,6 +117,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
         return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find gl" #name);
 #include "lib/gl/functions.inl"
 #undef FUNCTION
+    find_own_context(gl, desc);
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
     gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
@@ -146,6 +177,7 @@ void hair_gl_destroy(struct hair_gl* gl)
 {
     hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
+    if (gl->own_fence) gl->DeleteSync(gl->own_fence);
     if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
     hair_free(&gl->host, gl->memory.allocations);

@@ -134,6 +134,10 @@ struct hair_gl {
     struct hair_gl_owner* owner; // Owner of what is created. NULL if it is no instance.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
     GLuint shadow_sampler;
+    // Function of the window system that returns the current context, and its result at creation.
+    void*(APIENTRY* get_current)(void);
+    void* own_context;
+    GLsync own_fence; // Fence that exists only in this context, if there is no such function.
     // Transform feedback object that is bound in place of one that is active. 0 until needed.
     GLuint idle_feedback;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
@@ -152,8 +156,12 @@ struct hair_gl {
 // Load the functions, check the version and test for driver bugs.
 hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair_context_desc* desc);
 void hair_gl_destroy(struct hair_gl* gl);
+// Return whether the OpenGL context of hair_gl_create() is current.
+bool hair_gl_is_current(const struct hair_gl* gl);
 // Make every later deletion of an OpenGL object do nothing. Freeing then calls no OpenGL.
 void hair_gl_ignore_deletions(struct hair_gl* gl);
+// Copy the functions that delete OpenGL objects.
+void hair_gl_copy_deletions(const struct hair_gl* from, struct hair_gl* to);
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc);
 
 // Compile the program of a pass unless it exists. Every pass needs this before it runs.
@@ -250,9 +258,9 @@ struct hair_gl_capture {
     GLint framebuffer, feedback;
     int discard;
 };
-// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, even if it is
-// paused. Mesa has one primitive mode for all transform feedback, so a capture would spoil that of
-// the application. `name` is what captures.
+// Return HAIR_ERROR_OPENGL if transform feedback of the application is active, paused or not. Mesa
+// has one primitive mode for all transform feedback, and a capture would change the application's.
+// `name` is what captures.
 hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 // Begin transform feedback without rasterisation.
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
