@@ -235,13 +235,14 @@ typedef struct hair_light {
     /// Half angle of the cone outside which a spot does not shine. It is greater than inner_angle.
     float outer_angle; ///< Radians. [0, 1.57]. Default 0.5.
     /// 2D depth texture of the hair, rendered from the light with HAIR_PASS_DEPTH. It attenuates
-    /// the light. Opaque geometry in the texture attenuates only as hair would. 0 disables it.
+    /// the light. Opaque geometry in the texture attenuates only as hair would. A red channel of 16
+    /// bits or more may hold the depth too. 0 disables it.
     uint32_t hair_shadow_map; ///< Default 0.
     /// Transform from the world to the clip space of both shadow maps. It is orthographic or, for
     /// points and spots, in perspective. Depth grows away from the light.
     float shadow_matrix[16]; ///< Default identity.
     /// 2D depth texture of opaque geometry, such as head, clothes and walls, rendered from the
-    /// light. It blocks the light. 0 disables it.
+    /// light. It blocks the light. Its format is as that of hair_shadow_map. 0 disables it.
     uint32_t opaque_shadow_map; ///< Default 0.
     /// Distance behind opaque_shadow_map up to which hair is lit.
     float opaque_bias; ///< m. [0, 1]. Default 0.003.

@@ -14,7 +14,7 @@ const char* hair_result_string(hair_result result)
     case HAIR_ERROR_MEMORY: return "out of memory";
     case HAIR_ERROR_OPENGL: return "OpenGL is missing, too old or refused a shader";
     case HAIR_ERROR_FILE: return "the file is unreadable or not in the format it claims";
-    case HAIR_ERROR_VERSION: return "the caller was compiled against another version";
+    case HAIR_ERROR_VERSION: return "a struct is not from its default function, or is from another version";
     }
     return "an unknown result";
 }

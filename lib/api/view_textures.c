@@ -14,12 +14,34 @@ static GLenum find_target(const struct hair_gl* gl, GLuint texture)
     return (GLenum)target;
 }
 
+// Return whether shaders read depth from the texture.
+static int is_depth(const struct hair_gl* gl, GLuint texture)
+{
+    GLint base = 0, type = GL_NONE, stencil = 0, reads = GL_DEPTH_COMPONENT;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_TYPE, &type);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_STENCIL_SIZE, &stencil);
+    if (stencil) gl->GetTextureParameteriv(texture, GL_DEPTH_STENCIL_TEXTURE_MODE, &reads);
+    return type != GL_NONE && reads == GL_DEPTH_COMPONENT;
+}
+
+// Return whether the texture may hold depth in its red channel, as maps of some renderers do.
+static bool has_depth_in_red(const struct hair_gl* gl, GLuint texture)
+{
+    GLint base = 0, bits = 0;
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_RED_SIZE, &bits);
+    return bits >= 16;
+}
+
 static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
 {
     const struct hair_gl* gl = &hair->context->gl;
-    if (!texture || find_target(gl, texture) == GL_TEXTURE_2D) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture",
-                     hair->label, light, name, texture);
+    if (!texture) return HAIR_OK;
+    bool is_flat = find_target(gl, texture) == GL_TEXTURE_2D;
+    if (is_flat && (is_depth(gl, texture) || has_depth_in_red(gl, texture))) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture%s",
+                     hair->label, light, name, texture, is_flat ? " of depth" : "");
 }
 
 static hair_result check_maps(const hair_instance* hair, const hair_view* view)
@@ -38,17 +60,6 @@ static hair_result check_color(const hair_instance* hair, const hair_view* view)
     if (find_target(gl, view->color_texture) == GL_TEXTURE_2D) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
                      hair->label, view->color_texture);
-}
-
-// Return whether shaders read depth from the texture.
-static int is_depth(const struct hair_gl* gl, GLuint texture)
-{
-    GLint base = 0, type = GL_NONE, stencil = 0, reads = GL_DEPTH_COMPONENT;
-    gl->GetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
-    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_DEPTH_TYPE, &type);
-    gl->GetTextureLevelParameteriv(texture, base, GL_TEXTURE_STENCIL_SIZE, &stencil);
-    if (stencil) gl->GetTextureParameteriv(texture, GL_DEPTH_STENCIL_TEXTURE_MODE, &reads);
-    return type != GL_NONE && reads == GL_DEPTH_COMPONENT;
 }
 
 static hair_result check_depth(const hair_instance* hair, const hair_view* view)

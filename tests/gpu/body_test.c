@@ -303,7 +303,8 @@ static void odd_maps_and_matrices_give_finite_colors(void** state)
     glCreateTextures(GL_TEXTURE_2D, 3, odd);
     glTextureStorage2D(odd[0], 1, GL_R32F, 1, 1);
     glClearTexImage(odd[0], 0, GL_RED, GL_FLOAT, nan_);
-    glTextureStorage2D(odd[1], 3, GL_RGBA8, 5, 3); // The third texture has no storage.
+    glTextureStorage2D(odd[1], 3, GL_RGBA16F, 5, 3);
+    glTextureStorage2D(odd[2], 1, GL_DEPTH24_STENCIL8, 1, 7);
     for (int i = 0; i < 3 * 6; ++i) {
         hair_light* light = &f->light[0];
         light->kind = HAIR_LIGHT_DIRECTIONAL;

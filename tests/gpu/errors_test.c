@@ -210,6 +210,13 @@ static void invalid_views_are_refused(void** state)
     refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
     glDeleteTextures(1, &cube);
     refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture");
+    GLuint flat;
+    glCreateTextures(GL_TEXTURE_2D, 1, &flat);
+    light[0].hair_shadow_map = flat;
+    refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture of depth");
+    glTextureStorage2D(flat, 1, GL_R8, 8, 8);
+    refused(f.test, hair_draw(f.hair, &view), HAIR_ERROR_ARGUMENT, "not a 2D texture of depth");
+    glDeleteTextures(1, &flat);
     hair_test_scene_free(&f);
 }
 
