@@ -107,7 +107,8 @@ typedef struct hair_style_desc {
     hair_style style; ///< Default HAIR_STYLE_LONG.
     /// Number of guides, spread evenly over the scalp.
     uint32_t guide_count; ///< [16, 4096]. Default 166.
-    /// Number of vertices per guide, at least 2. HAIR_AUTO selects the number by `style`.
+    /// Number of vertices per guide, at least 2. HAIR_AUTO selects the number by `style`. A groom
+    /// keeps at most hair_groom_desc.guide_vertices of them.
     uint32_t strand_vertices; ///< [0, 256]. Default HAIR_AUTO.
     /// Multiple of the lengths of the style.
     float length; ///< [0.1, 4]. Default 1.

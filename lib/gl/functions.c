@@ -4,6 +4,10 @@
 
 #include <string.h>
 
+#include "lib/base/math.h"
+
+#define MAX_OWN_SIZE 65521u // Bytes. See hair_gl.own_buffer.
+
 // Load one function. ISO C has no cast from void* to a function pointer, but both have the same
 // bytes wherever there is OpenGL.
 static bool find(const hair_context_desc* desc, const char* name, void* function)
@@ -63,13 +67,19 @@ static void find_own_context(struct hair_gl* gl, const hair_context_desc* desc)
         if (gl->own_context) return;
     }
     gl->get_current = NULL;
-    gl->own_fence = gl->FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    // A fence would not do: NVIDIA's driver knows the fence of one context in another.
+    gl->own_size = 1 + (GLint)(hair_hash((uint32_t)(uintptr_t)gl) % MAX_OWN_SIZE);
+    gl->CreateBuffers(1, &gl->own_buffer);
+    if (gl->own_buffer) gl->NamedBufferStorage(gl->own_buffer, gl->own_size, NULL, 0);
 }
 
 bool hair_gl_is_current(const struct hair_gl* gl)
 {
     if (gl->get_current) return gl->get_current() == gl->own_context;
-    return gl->GetString(GL_VERSION) && gl->IsSync(gl->own_fence);
+    GLint size = 0;
+    if (!gl->GetString(GL_VERSION) || !gl->IsBuffer(gl->own_buffer)) return false;
+    gl->GetNamedBufferParameteriv(gl->own_buffer, GL_BUFFER_SIZE, &size);
+    return size == gl->own_size;
 }
 
 static bool has_extension(const struct hair_gl* gl, const char* name)
@@ -177,7 +187,7 @@ void hair_gl_destroy(struct hair_gl* gl)
 {
     hair_gl_free_programs(gl);
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
-    if (gl->own_fence) gl->DeleteSync(gl->own_fence);
+    if (gl->own_buffer) gl->DeleteBuffers(1, &gl->own_buffer);
     if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);
     if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
     hair_free(&gl->host, gl->memory.allocations);

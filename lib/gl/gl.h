@@ -137,7 +137,10 @@ struct hair_gl {
     // Function of the window system that returns the current context, and its result at creation.
     void*(APIENTRY* get_current)(void);
     void* own_context;
-    GLsync own_fence; // Fence that exists only in this context, if there is no such function.
+    // Buffer that exists only in this context, if there is no such function. Another context may
+    // have a buffer of the same name, but hardly of the same odd size.
+    GLuint own_buffer;
+    GLint own_size;
     // Transform feedback object that is bound in place of one that is active. 0 until needed.
     GLuint idle_feedback;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
