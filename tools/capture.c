@@ -86,13 +86,20 @@ static void say_all(hair_log_level level, const char* sentence, void* tool)
     hair_complain(tool, "%s", sentence);
 }
 
+// Return the exit status for a status of a call that applies settings. If the library refuses what
+// a scene file says, the input cannot be used.
+static int exit_for_settings(const struct capture* capture, int status)
+{
+    return status == HAIR_EXIT_USAGE && capture->options.is_of_file ? HAIR_EXIT_INPUT : status;
+}
+
 // Making ------------------------------------------------------------------------------------------
 
 static int make_groom(struct capture* capture)
 {
     struct hair_scene* scene = &capture->options.scene;
     int code = hair_groom_source_load(TOOL, &capture->host, scene, &capture->groom);
-    if (code) return code;
+    if (code) return exit_for_settings(capture, code);
     hair_groom_info* info = &capture->stats.groom;
     *info = hair_groom_info_default();
     hair_groom_describe(capture->groom, info);
@@ -209,7 +216,7 @@ static int make_hair(struct capture* capture)
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_set_wind(capture->hair, &wind);
     if (!result) result = set_colliders(capture, 0, desc.transform);
-    return hair_exit_for(result);
+    return exit_for_settings(capture, hair_exit_for(result));
 }
 
 static int make_hashes(struct capture* capture)
@@ -279,6 +286,7 @@ static int show(struct capture* capture, uint32_t frame)
     double before = hair_now();
     hair_motion_at(&scene->motion, time_of(capture, frame), transform);
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
+    code = exit_for_settings(capture, code);
     if (code) return code;
     hair_clock_add(&capture->stats.draw, hair_now() - before);
     if (capture->options.hash) code = hair_exit_for(hash(capture, image));
@@ -299,11 +307,11 @@ static int run_frames(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
     capture->started = hair_now();
-    int settled = hair_exit_for(settle(capture));
+    int settled = exit_for_settings(capture, hair_exit_for(settle(capture)));
     if (settled) return settled;
     for (uint32_t frame = 0; frame < options->end; ++frame) {
         double before = hair_now();
-        int code = frame ? hair_exit_for(step(capture, frame)) : HAIR_EXIT_OK;
+        int code = frame ? exit_for_settings(capture, hair_exit_for(step(capture, frame))) : HAIR_EXIT_OK;
         if (frame && options->stats) {
             glFinish();
             hair_clock_add(&capture->stats.step, hair_now() - before);
@@ -409,8 +417,6 @@ int main(int count, char** arguments)
         capture->host.log = capture->options.verbose ? say_all : hair_print_log;
         capture->host.user = (void*)(uintptr_t)TOOL;
         code = run(capture);
-        // The library refuses what the file says.
-        if (code == HAIR_EXIT_USAGE && capture->options.is_of_file) code = HAIR_EXIT_INPUT;
     }
     destroy(capture);
     return code;

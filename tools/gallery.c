@@ -289,7 +289,12 @@ int main(int count, char** arguments)
     gallery.jobs = cores > 0 && cores < 256 ? (uint32_t)cores : 1;
     snprintf(gallery.capture, sizeof gallery.capture, "%.*shair-capture",
              slash ? (int)(slash - arguments[0]) + 1 : 0, arguments[0]);
+    opterr = 0;
     for (int found; (found = getopt_long(count, arguments, "ho:", table, NULL)) != -1;) {
+        if (found == '?') {
+            hair_complain_option(TOOL, arguments[optind - 1]);
+            return HAIR_EXIT_USAGE;
+        }
         if (found == 'h') return print_help();
         if (found == 'v') {
             printf(TOOL " %d.%d.%d\n", HAIR_VERSION_MAJOR, HAIR_VERSION_MINOR, HAIR_VERSION_PATCH);

@@ -224,11 +224,15 @@ static int parse(int count, char** arguments, struct said* said)
                           .style = hair_style_desc_default(),
                           .given = INFO | CONVERT | GENERATE};
     said->style.host = &host;
+    opterr = 0;
     int index;
     for (int option; (option = getopt_long(count, arguments, "h", options, &index)) != -1;) {
         if (option == 'h' || option == HELP) return print_help();
         if (option == VERSION) return print_version();
-        if (option == '?') return misuse();
+        if (option == '?') {
+            hair_complain_option(TOOL, arguments[optind - 1]);
+            return misuse();
+        }
         if (!take_option(&rows[option - SCALE], optarg, said)) return misuse();
     }
     return take_operands(count - optind, arguments + optind, said);

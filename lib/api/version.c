@@ -12,7 +12,8 @@ const char* hair_result_string(hair_result result)
     case HAIR_OK: return "no error";
     case HAIR_ERROR_ARGUMENT: return "a value outside its documented range";
     case HAIR_ERROR_MEMORY: return "out of memory";
-    case HAIR_ERROR_OPENGL: return "OpenGL is missing, too old or refused a shader";
+    case HAIR_ERROR_OPENGL:
+        return "no OpenGL context that can be used, or OpenGL refused an object or a shader";
     case HAIR_ERROR_FILE: return "the file is unreadable or not in the format it claims";
     case HAIR_ERROR_VERSION: return "a struct is not from its default function, or is from another version";
     }

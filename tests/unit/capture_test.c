@@ -200,6 +200,7 @@ static void unusable_input_exits_with_4_and_its_position(void** state)
     expect(4, "$T --shader $D/s.json -o $D/a.png", "s.json:1: ");
     expect(1, "test -e $D/a.png", "");
     expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null: the file ends at byte 0");
+    expect(2, "echo '{}' >$D/s.json; $T $D/s.json --frames 0:1 -o $D/a.jpg", "a.jpg");
 }
 
 static void driver_older_than_4_5_exits_with_3(void** state)

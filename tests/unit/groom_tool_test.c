@@ -94,6 +94,7 @@ static void text_that_is_printed_is_escaped(void** state)
 {
     (void)state;
     expect(2, "$T generate \"$(printf '\\033]0;owned\\007')\" $D/x.hair", "\\x1b]0;owned\\x07");
+    expect(2, "$T \"--$(printf '\\033')]0;\" info a", "--\\x1b]0; is not an option");
     expect(4, "$T info \"$D/$(printf 'caf\\303\\251 \\302\\233 \\377')\"", "caf\303\251 \\xc2\\x9b \\xff");
 }
 

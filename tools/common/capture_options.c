@@ -259,9 +259,10 @@ static int read_line(const char* tool, int count, char** arguments, struct said*
     for (int i = 0; i < ROW_COUNT; ++i)
         table[i] =
             (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, 1000 + i};
-    optind = 0;
+    optind = opterr = 0;
     for (int found; (found = getopt_long(count, arguments, "ho:", table, NULL)) != -1;) {
         if (found == '?') {
+            hair_complain_option(tool, arguments[optind - 1]);
             hair_complain(tool, "--help lists the options");
             return HAIR_EXIT_USAGE;
         }

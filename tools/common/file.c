@@ -63,6 +63,11 @@ void hair_complain(const char* tool, const char* format, ...)
     fprintf(stderr, "%s: %s\n", name, escaped); // One call keeps the lines of two threads apart.
 }
 
+void hair_complain_option(const char* tool, const char* argument)
+{
+    hair_complain(tool, "%s is not an option, or its argument is missing or too many", argument);
+}
+
 void hair_print_log(hair_log_level level, const char* sentence, void* tool)
 {
     if (level < HAIR_LOG_INFO) hair_complain(tool, "%s", sentence);

@@ -26,6 +26,10 @@ int hair_flush(const char* tool);
 // Print "TOOL: sentence" to stderr, escaped as hair_escape() does.
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
+// Say that getopt_long() cannot use the argument before optind. Its own message would not be
+// escaped, so set opterr to 0.
+void hair_complain_option(const char* tool, const char* argument);
+
 // Write `text` with control characters and bytes that are not UTF-8 as \x1b, so that text of a file
 // cannot command a terminal. The result ends at `size`.
 void hair_escape(const char* text, char* out, size_t size);
