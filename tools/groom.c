@@ -246,6 +246,7 @@ static int exit_code(hair_result result)
     case HAIR_OK: return HAIR_EXIT_OK;
     case HAIR_ERROR_ARGUMENT: return HAIR_EXIT_USAGE;
     case HAIR_ERROR_FILE: return HAIR_EXIT_INPUT;
+    case HAIR_ERROR_CONTEXT_LOST:
     case HAIR_ERROR_OPENGL: return HAIR_EXIT_OPENGL;
     case HAIR_ERROR_MEMORY:
     case HAIR_ERROR_VERSION: break;

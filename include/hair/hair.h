@@ -27,10 +27,10 @@
 /// HAIR_ERROR_ARGUMENT. Destroying an orphan frees its memory and needs no OpenGL. Callbacks of
 /// hair_host must work until the last orphan is destroyed.
 ///
-/// Errors. A call that can fail returns a hair_result. After any result but HAIR_OK, the object is
-/// as it was, and one sentence has been sent to hair_host.log of the object or the desc, if there
-/// is one. The comment of each call lists its results other than HAIR_OK after "Errors:". No call
-/// throws, exits or prints.
+/// Errors. A call that can fail returns a hair_result. After any result but HAIR_OK and
+/// HAIR_ERROR_CONTEXT_LOST, the object is as it was, and one sentence has been sent to
+/// hair_host.log of the object or the desc, if there is one. The comment of each call lists its
+/// results other than HAIR_OK after "Errors:". No call throws, exits or prints.
 ///
 /// Threads. There are no globals. A context and its instances belong to one thread at a time.
 /// Different contexts may be used in parallel, and calls marked "Any thread" too.
@@ -42,6 +42,11 @@
 /// the OpenGL objects and logs that. Calls keep the OpenGL state as hair_gl_state says, and leave
 /// the error flag alone. A call that waits for the GPU stalls until the GPU has finished the work
 /// so far.
+///
+/// Loss. A driver may lose an OpenGL context that was created with reset notification. Calls that
+/// need OpenGL then fail with HAIR_ERROR_CONTEXT_LOST, and make no OpenGL calls once one has failed
+/// so. That call itself may have changed the object. hair_context_restore() brings back everything
+/// in a new OpenGL context. Destroying and hair_context_abandon() work without one.
 ///
 /// Comments of fields. The range is in brackets, and then comes the default. A field with a range
 /// is checked, and a value outside it is refused with HAIR_ERROR_ARGUMENT.

@@ -69,7 +69,10 @@ typedef enum hair_result {
     HAIR_ERROR_FILE,
     /// The caller was compiled against another major version or a version before 0.2, or a desc
     /// does not come from its default function.
-    HAIR_ERROR_VERSION
+    HAIR_ERROR_VERSION,
+    /// The driver has lost the OpenGL context with all its objects, for example after a GPU fault.
+    /// See hair_context_restore().
+    HAIR_ERROR_CONTEXT_LOST
 } hair_result;
 
 /// Return the HAIR_VERSION with which the library was compiled.

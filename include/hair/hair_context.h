@@ -57,6 +57,9 @@ typedef struct hair_context_desc {
     /// Cache of program binaries. The struct is copied. `get` and `put` are required. NULL disables
     /// the cache.
     const hair_cache* cache; ///< Default NULL.
+    /// Preparation for hair_context_restore(). True makes each instance keep its groom, and every
+    /// hair_step() begin an asynchronous copy of the state to the CPU.
+    bool restorable; ///< Default false.
 } hair_context_desc;
 HAIR_DESC(hair_context_desc)
 
@@ -88,6 +91,23 @@ HAIR_API void hair_context_destroy(hair_context* context);
 /// @param context Context. NULL, or a context that is abandoned already, does nothing.
 /// OpenGL: none, and no context need be current.
 HAIR_API void hair_context_abandon(hair_context* context);
+
+/// Make everything in a context again, in the OpenGL context that is current now. This is for an
+/// OpenGL context that is lost or destroyed. Instances and shaders stay valid.
+///
+/// hair_context_desc.restorable must have been true. Each instance then has its settings, colliders
+/// and pins as they were set last. The motion continues from the last state that had arrived on the
+/// CPU, at most some steps old. An instance without such a state is at rest under its transform.
+/// hair_load() brings back a state that the application has saved.
+///
+/// Names of the application's OpenGL objects are not kept: hair_wind.texture becomes 0. Programs
+/// are compiled when they are needed again. Objects are left in an OpenGL context that lives on.
+///
+/// On failure the context stays as it was, and the call may be repeated.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_CONTEXT_LOST.
+/// OpenGL: required, but the current context need not be that of hair_context_create(). Waits for
+/// the GPU.
+HAIR_API hair_result hair_context_restore(hair_context* context);
 
 /// Compile all programs in use again, from hair_context_desc.glsl_dir. A program that fails to
 /// compile keeps its last valid version.

@@ -12,6 +12,9 @@ typedef struct hair_egl hair_egl;
 /// The call tries every EGL device, hardware first, and then the surfaceless platform of Mesa. The
 /// log tells which device is used, and why each other device is not.
 ///
+/// The context reports its loss if the driver can: its reset notification strategy is
+/// EGL_LOSE_CONTEXT_ON_RESET. A context that shares objects with it must have the same strategy.
+///
 /// @param host Callbacks. NULL selects the allocator of the C library and disables the log.
 /// @param device Index of a device in the order of EGL. -1 tries all devices.
 /// @param out Receives the context.

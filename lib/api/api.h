@@ -16,6 +16,7 @@ struct hair_context_member {
 
 struct hair_context {
     hair_host host;
+    hair_context_desc desc; // of the creation. The memory behind its pointers may be gone.
     struct hair_gl gl;
     struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
     struct hair_context_member* members; // all that own something, newest first
@@ -39,11 +40,20 @@ struct hair_frame_requests {
     int occlusion; // 1 if a view uses occlusion culling
 };
 
+// Settings of hair_desc that an instance is created with.
+struct hair_creation {
+    hair_thread_mapping thread_mapping;
+    bool uses_prepass; // true if a prepass finds followers inside colliders
+    float field_voxel; // m
+};
+
 struct hair_instance {
     struct hair_context_member member;
     hair_context* context;
     char label[64];
     double max_dt; // s
+    struct hair_creation creation; // settings that cannot change
+    hair_groom* groom; // NULL unless the context is restorable
     int has_slowed; // 1 if dt has exceeded max_dt and the log has said so
     struct hair_rods_softened told; // state of softened guides that was logged last
     int has_left_out; // 1 if guides pass through some colliders and the log has said so
@@ -60,12 +70,22 @@ struct hair_instance {
     struct hair_frame_requests requests[HAIR_GL_FRAMES]; // per frame of the ledger
 };
 
+// Create what every room has of an instance, whose `label`, `look` and `creation` are set. On
+// failure hair_instance_empty() frees what there is. [GL], with the context entered.
+hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* groom,
+                                       struct hair_sim_desc* sim);
+// Free everything that an instance owns. Function of hair_context_member.
+void hair_instance_empty(struct hair_context_member* member);
+
 // Compute the bounds of a groom's strands in its space. Return their maximum length.
 float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2]);
 
 // Add a member to its context, and hold the context for it. `empty` frees what the member owns.
 void hair_context_add(hair_context* context, struct hair_context_member* member,
                       void (*empty)(struct hair_context_member* member));
+// Log that OpenGL objects are left, if the OpenGL context is not current. Those of a lost context
+// are gone.
+void hair_context_tell_left(hair_context* context);
 // Empty a member unless that has been done, and let go of its context. The context may be freed.
 // OpenGL objects are left if the OpenGL context is not current.
 void hair_context_remove(hair_context* context, struct hair_context_member* member);
@@ -74,9 +94,15 @@ void hair_context_remove(hair_context* context, struct hair_context_member* memb
 hair_result hair_check_context(const hair_context* context);
 // Return HAIR_ERROR_ARGUMENT if an instance is NULL or its context is dead.
 hair_result hair_check_instance(const hair_instance* hair);
-// Return HAIR_ERROR_OPENGL unless the OpenGL context of a context is current. OpenGL without one is
-// undefined, and names of objects mean others in another one.
-hair_result hair_check_current(const hair_context* context);
+// Return HAIR_ERROR_OPENGL unless the OpenGL context of a context is current, and
+// HAIR_ERROR_CONTEXT_LOST if the driver has lost it. OpenGL without one is undefined, and names of
+// objects mean others in another one.
+hair_result hair_check_current(hair_context* context);
+// Return `result` at the end of work with OpenGL, or HAIR_ERROR_CONTEXT_LOST if the context was
+// lost meanwhile.
+hair_result hair_check_lost(hair_context* context, hair_result result);
+// Leave the context, and return like hair_check_lost().
+hair_result hair_leave(hair_context* context, hair_result result);
 
 // Check that a transform is rigid and not too far from the origin. Convert it to a pose.
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,

@@ -16,6 +16,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
     context->host = host;
     context->holder_count = 1;
     hair_sdf_pool_init(&context->sdf_pool, &context->gl);
+    context->desc = own;
     hair_result result = hair_gl_create(&context->gl, &host, &own);
     if (result) {
         hair_free(&host, context);
@@ -57,7 +58,7 @@ void hair_context_remove(hair_context* context, struct hair_context_member* memb
     if (!context->is_dead) {
         struct hair_gl was = context->gl;
         // Names of the OpenGL objects mean others in another OpenGL context.
-        if (!hair_gl_is_current(&context->gl)) hair_gl_ignore_deletions(&context->gl);
+        if (context->gl.is_lost || !hair_gl_is_current(&context->gl)) hair_gl_ignore_deletions(&context->gl);
         empty_member(context, member);
         hair_gl_copy_deletions(&was, &context->gl);
     }
@@ -72,11 +73,16 @@ static void end(hair_context* context)
     context->is_dead = true;
 }
 
+void hair_context_tell_left(hair_context* context)
+{
+    if (!context->is_dead && !context->gl.is_lost) hair_check_current(context);
+}
+
 void hair_context_destroy(hair_context* context)
 {
     if (!context) return;
     if (!context->is_dead) {
-        if (hair_check_current(context)) hair_gl_ignore_deletions(&context->gl);
+        if (context->gl.is_lost || hair_check_current(context)) hair_gl_ignore_deletions(&context->gl);
         end(context);
     }
     let_go(context);
@@ -104,13 +110,31 @@ hair_result hair_check_instance(const hair_instance* hair)
                      hair->label);
 }
 
-hair_result hair_check_current(const hair_context* context)
+static hair_result fail_lost(const hair_context* context)
 {
-    if (hair_gl_is_current(&context->gl)) return HAIR_OK;
+    return hair_fail(&context->host, HAIR_ERROR_CONTEXT_LOST,
+                     "the OpenGL context is lost: see hair_context_restore()");
+}
+
+hair_result hair_check_current(hair_context* context)
+{
+    if (context->gl.is_lost) return fail_lost(context);
+    if (hair_gl_is_current(&context->gl)) return hair_check_lost(context, HAIR_OK);
     if (!context->gl.GetString(GL_VERSION))
         return hair_fail(&context->host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
     return hair_fail(&context->host, HAIR_ERROR_OPENGL,
                      "the current OpenGL context is not that of hair_context_create()");
+}
+
+hair_result hair_check_lost(hair_context* context, hair_result result)
+{
+    return hair_gl_find_loss(&context->gl) ? fail_lost(context) : result;
+}
+
+hair_result hair_leave(hair_context* context, hair_result result)
+{
+    hair_gl_leave(&context->gl);
+    return hair_check_lost(context, result);
 }
 
 hair_result hair_context_reload(hair_context* context)
@@ -118,9 +142,7 @@ hair_result hair_context_reload(hair_context* context)
     HAIR_TRY(hair_check_context(context));
     HAIR_TRY(hair_check_current(context));
     hair_gl_enter(&context->gl);
-    hair_result result = hair_gl_compile(&context->gl);
-    hair_gl_leave(&context->gl);
-    return result;
+    return hair_leave(context, hair_gl_compile(&context->gl));
 }
 
 hair_result hair_get_memory(const hair_context* context, hair_memory* out)

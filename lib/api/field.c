@@ -42,9 +42,7 @@ hair_result hair_get_field(hair_instance* hair, hair_field_info* out)
     HAIR_TRY(HAIR_COPY_OUT(&context->host, hair_field_info, &own, out));
     HAIR_TRY(hair_check_current(context));
     hair_enter(hair);
-    hair_result result = hair_update_field(hair);
-    hair_gl_leave(&context->gl);
-    HAIR_TRY(result);
+    HAIR_TRY(hair_leave(context, hair_update_field(hair)));
 
     const struct hair_field_box* box = &hair->field.box;
     if (hair_field_is_near(&hair->field)) {

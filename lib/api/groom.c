@@ -56,7 +56,7 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
 
 void hair_groom_destroy(hair_groom* groom)
 {
-    if (groom) hair_groom_free(groom);
+    hair_groom_release(groom);
 }
 
 hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out)

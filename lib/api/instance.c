@@ -66,20 +66,27 @@ static void find_bounds(hair_instance* hair, const hair_groom* groom)
     HAIR_ASSERT(hair->longest > 0);
 }
 
-// Create what every room has of the instance.
-static hair_result create_rooms(hair_instance* hair, const hair_groom* groom, const hair_desc* desc,
-                                const struct hair_sim_desc* sim)
+hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* groom,
+                                       struct hair_sim_desc* sim)
 {
-    struct hair_gl* gl = &hair->context->gl;
+    hair_context* context = hair->context;
+    struct hair_gl* gl = &context->gl;
     hair_look look = wetted(&hair->look);
+    hair_thread_mapping mapping = hair->creation.thread_mapping;
+    sim->is_by_thread =
+        mapping == HAIR_THREAD_MAPPING_AUTO ? gl->software : mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE;
+    sim->uses_feedback = mapping == HAIR_THREAD_MAPPING_FEEDBACK;
+    sim->has_snapshots = context->desc.restorable;
+    sim->sdf_pool = &context->sdf_pool;
+    sim->field = &hair->field;
     find_bounds(hair, groom);
-    hair_field_create(&hair->field, sim->sdf_pool, groom, desc->field_voxel);
+    hair_field_create(&hair->field, sim->sdf_pool, groom, hair->creation.field_voxel);
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
     tell_held(hair);
     tell_softened(hair);
-    HAIR_TRY(hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look,
-                                  desc->hit_method == HAIR_HIT_METHOD_PREPASS));
+    HAIR_TRY(
+        hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));
     HAIR_TRY(hair_lighting_create(&hair->lighting, gl, groom));
     hair_renderer_create(&hair->renderer, gl, groom, hair->bounds, &hair->geometry, &hair->lighting);
     hair_sim_reset(&hair->sim);
@@ -91,6 +98,9 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
 {
     const hair_host* host = &context->host;
     hair->max_dt = (double)desc->max_dt;
+    hair->creation = (struct hair_creation){.thread_mapping = desc->thread_mapping,
+                                            .uses_prepass = desc->hit_method == HAIR_HIT_METHOD_PREPASS,
+                                            .field_voxel = desc->field_voxel};
     strncpy(hair->label, desc->label ? desc->label : "hair", sizeof hair->label - 1);
     if (desc->substep > 0 && desc->substep < SHORTEST)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: hair_desc.substep is %g, not 0 or in [%g, 0.1]",
@@ -102,27 +112,20 @@ static hair_result fill(hair_instance* hair, hair_context* context, const hair_g
                          hair->label);
     struct hair_sim_desc sim = {.solver = desc->solver,
                                 .substep = (double)desc->substep,
-                                .is_by_thread =
-                                    desc->thread_mapping == HAIR_THREAD_MAPPING_AUTO
-                                        ? context->gl.software
-                                        : desc->thread_mapping == HAIR_THREAD_MAPPING_THREAD_PER_GUIDE,
-                                .uses_feedback = desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK,
                                 .is_diagnosed = desc->diagnose,
-                                .wind = hair_wind_default(),
-                                .sdf_pool = &context->sdf_pool,
-                                .field = &hair->field};
+                                .wind = hair_wind_default()};
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_physics, desc->physics, &sim.physics));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(host, hair_look, desc->look, &hair->look));
     HAIR_TRY(hair_check_transform(hair, "hair_desc.transform", desc->transform, &sim.head));
     HAIR_TRY(hair_check_current(context));
-    if (sim.uses_feedback) HAIR_TRY(hair_gl_check_capture(&context->gl, hair->label));
+    if (desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK)
+        HAIR_TRY(hair_gl_check_capture(&context->gl, hair->label));
     hair_enter_unprofiled(hair);
-    hair_result result = create_rooms(hair, groom, desc, &sim);
-    hair_gl_leave(&context->gl);
-    return result;
+    if (context->desc.restorable) hair->groom = hair_groom_retain((hair_groom*)groom);
+    return hair_leave(context, hair_instance_create_rooms(hair, groom, &sim));
 }
 
-static void empty(struct hair_context_member* member)
+void hair_instance_empty(struct hair_context_member* member)
 {
     hair_instance* hair = (hair_instance*)member;
     hair_gl_profiler_free(&hair->context->gl, &hair->profiler);
@@ -131,6 +134,8 @@ static void empty(struct hair_context_member* member)
     hair_geometry_destroy(&hair->geometry);
     hair_field_destroy(&hair->field);
     hair_sim_destroy(&hair->sim);
+    hair_groom_release(hair->groom);
+    hair->groom = NULL;
     for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
 }
 
@@ -153,7 +158,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     hair_instance* hair = hair_alloc(host, 1, sizeof *hair);
     if (!hair) return hair_fail_memory(host, "an instance");
     hair->context = context;
-    hair_context_add(context, &hair->member, empty);
+    hair_context_add(context, &hair->member, hair_instance_empty);
     hair_result result = fill(hair, context, groom, &own);
     if (result) {
         release(hair);
@@ -166,7 +171,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
 void hair_destroy(hair_instance* hair)
 {
     if (!hair) return;
-    if (!hair->context->is_dead) hair_check_current(hair->context); // Only for the log.
+    hair_context_tell_left(hair->context);
     release(hair);
 }
 
@@ -255,6 +260,7 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair->has_slowed = 1;
         time = hair->max_dt;
     }
+    if (context->gl.is_lost) return hair_check_current(context); // Sleeping hair needs no OpenGL.
     double unseen = hair->sim.unseen;
     HAIR_ASSERT(time > 0);
     hair_sim_set_unseen_time(&hair->sim, unseen + time);
@@ -283,7 +289,7 @@ hair_result hair_step(hair_instance* hair, float dt)
         hair_geometry_invalidate_guides(&hair->geometry);
         hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     }
-    hair_gl_leave(&context->gl);
+    result = hair_leave(context, result);
     if (result) { // The frame is undone.
         HAIR_ASSERT(hair->profiler.number == was.number + 1);
         *hair_current_requests(hair) = requests;
@@ -301,8 +307,7 @@ hair_result hair_reset(hair_instance* hair)
     hair_sim_reset(&hair->sim);
     hair_geometry_invalidate_guides(&hair->geometry);
     hair_geometry_forget_history(&hair->geometry);
-    hair_gl_leave(&hair->context->gl);
-    return HAIR_OK;
+    return hair_leave(hair->context, HAIR_OK);
 }
 
 hair_result hair_teleport(hair_instance* hair, const float transform[16])
@@ -318,6 +323,5 @@ hair_result hair_teleport(hair_instance* hair, const float transform[16])
         hair_geometry_teleport_history(&hair->geometry, &was, &pose);
         hair_geometry_invalidate_guides(&hair->geometry);
     }
-    hair_gl_leave(&hair->context->gl);
-    return result;
+    return hair_leave(hair->context, result);
 }

@@ -167,6 +167,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
                          stride, sizeof *rows);
     HAIR_TRY(hair_check_current(hair->context));
     const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
+    HAIR_TRY(hair_check_lost(hair->context, HAIR_OK));
     *count = 0;
     if (!frame) return HAIR_OK;
     own.frame = frame->number;

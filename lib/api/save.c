@@ -16,7 +16,7 @@ hair_result hair_save(hair_instance* hair, void* bytes, size_t capacity, size_t*
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: capacity is %zu, less than the state's %zu bytes",
                          hair->label, capacity, *size);
     hair_sim_save(&hair->sim, bytes);
-    return HAIR_OK;
+    return hair_check_lost(hair->context, HAIR_OK);
 }
 
 hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
@@ -31,6 +31,5 @@ hair_result hair_load(hair_instance* hair, const void* bytes, size_t size)
         hair_geometry_invalidate_guides(&hair->geometry);
         hair_geometry_forget_history(&hair->geometry);
     }
-    hair_gl_leave(&context->gl);
-    return result;
+    return hair_leave(context, result);
 }

@@ -59,9 +59,8 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     hair_enter(hair);
     result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result) hair_scalp_motion_set(&hair->sim, packed, &space);
-    hair_gl_leave(&hair->context->gl);
     hair_free(host, packed);
-    return result;
+    return hair_leave(hair->context, result);
 }
 
 // Check a buffer of positions. `from` receives the aligned offset at which it is bound, and `size`
@@ -114,6 +113,5 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     if (!result)
         hair_scalp_motion_set_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
                                      (uint32_t)(stride / 4), &space);
-    hair_gl_leave(&hair->context->gl);
-    return result;
+    return hair_leave(hair->context, result);
 }

@@ -11,8 +11,7 @@ static hair_result fill(hair_shader* shader, hair_context* context, const hair_s
     hair_gl_enter(gl);
     hair_result result =
         hair_gl_ensure_user_program(gl, &shader->gl, HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES), &program);
-    hair_gl_leave(gl);
-    return result;
+    return hair_leave(context, result);
 }
 
 static void empty(struct hair_context_member* member)
@@ -47,7 +46,7 @@ void hair_shader_destroy(hair_shader* shader)
 {
     if (!shader) return;
     hair_host host = shader->context->host;
-    if (!shader->context->is_dead) hair_check_current(shader->context); // Only for the log.
+    hair_context_tell_left(shader->context);
     hair_context_remove(shader->context, &shader->member);
     hair_free(&host, shader);
 }

@@ -16,6 +16,7 @@ const char* hair_result_string(hair_result result)
         return "no OpenGL context that can be used, or OpenGL refused an object or a shader";
     case HAIR_ERROR_FILE: return "the file is unreadable or not in the format it claims";
     case HAIR_ERROR_VERSION: return "a struct is not from its default function, or is from another version";
+    case HAIR_ERROR_CONTEXT_LOST: return "the OpenGL context is lost";
     }
     return "an unknown result";
 }

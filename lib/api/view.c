@@ -219,7 +219,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
-    hair_gl_leave(&context->gl);
+    result = hair_leave(context, result);
     if (!result) hair_sim_set_unseen_time(&hair->sim, 0);
     return result;
 }
@@ -257,7 +257,7 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     hair_result result = hair_sim_ensure_programs(&hair->sim);
     if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
-    hair_gl_leave(gl);
+    result = hair_leave(hair->context, result);
     if (!result) *ready = pending == 0;
     return result;
 }
@@ -281,7 +281,7 @@ static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t coun
     gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * stride * sizeof *copy), copy);
     copy_to_world(copy, stride, count, head, positions);
     hair_free(&gl->host, copy);
-    return HAIR_OK;
+    return hair_check_lost(hair->context, HAIR_OK);
 }
 
 static hair_result read_followers(hair_instance* hair, uint32_t count, float* positions)
@@ -292,7 +292,8 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
     hair_result result = update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
-    hair_gl_leave(&hair->context->gl);
+    result = hair_leave(hair->context, result);
+    if (result) hair_free(&hair->context->host, vertices);
     HAIR_TRY(result);
     copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
@@ -303,7 +304,7 @@ static hair_result read_smooth(hair_instance* hair, uint32_t count, float* posit
 {
     hair_enter_unprofiled(hair);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
-    hair_gl_leave(&hair->context->gl);
+    HAIR_TRY(hair_leave(hair->context, HAIR_OK));
     return read_buffer(hair, hair_geometry_smoothed_positions(&hair->geometry), count, 4,
                        &hair->sim.head_at_last_step, positions);
 }
@@ -349,8 +350,6 @@ hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)
     HAIR_TRY(hair_check_current(hair->context));
     hair_solver_stats own = hair_solver_stats_default();
     hair_enter_unprofiled(hair);
-    hair_result result = hair_sim_solver_stats(&hair->sim, &own);
-    hair_gl_leave(&hair->context->gl);
-    HAIR_TRY(result);
+    HAIR_TRY(hair_leave(hair->context, hair_sim_solver_stats(&hair->sim, &own)));
     return HAIR_COPY_OUT(&hair->context->host, hair_solver_stats, &own, out);
 }

@@ -112,8 +112,15 @@ static void find_devices(struct search* search)
 // Create a context and make it current. Return NULL on success, or the reason of the failure.
 static const char* make_context(hair_egl* egl)
 {
-    // The core profile is the default.
-    static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
+    // The core profile is the default. Older drivers refuse to report resets.
+    static const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                        4,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        5,
+                                        EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                        EGL_LOSE_CONTEXT_ON_RESET,
+                                        EGL_NONE};
+    static const EGLint silent[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
 
     HAIR_ASSERT(egl->display != EGL_NO_DISPLAY && egl->context == EGL_NO_CONTEXT);
     const char* offered = eglQueryString(egl->display, EGL_EXTENSIONS);
@@ -124,6 +131,8 @@ static const char* make_context(hair_egl* egl)
     if (!eglBindAPI(EGL_OPENGL_API)) return "no OpenGL, only OpenGL ES";
 
     egl->context = eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes);
+    if (egl->context == EGL_NO_CONTEXT)
+        egl->context = eglCreateContext(egl->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, silent);
     if (egl->context == EGL_NO_CONTEXT) {
         EGLint error = eglGetError();
         return error == EGL_BAD_MATCH ? "its driver is older than OpenGL 4.5 core" : error_name(error);

@@ -82,6 +82,12 @@ bool hair_gl_is_current(const struct hair_gl* gl)
     return size == gl->own_size;
 }
 
+bool hair_gl_find_loss(struct hair_gl* gl)
+{
+    gl->is_lost = gl->is_lost || gl->GetGraphicsResetStatus() != GL_NO_ERROR;
+    return gl->is_lost;
+}
+
 static bool has_extension(const struct hair_gl* gl, const char* name)
 {
     GLint count = 0;
@@ -172,6 +178,8 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
         memcpy(gl->glsl_dir, desc->glsl_dir, size);
     }
     hair_result result = hair_gl_load(gl, desc);
+    if (!result && hair_gl_find_loss(gl))
+        result = hair_fail(host, HAIR_ERROR_CONTEXT_LOST, "the OpenGL context is lost");
     if (!result) result = hair_gl_check_capture(gl, "a new context");
     if (!result) {
         hair_gl_enter(gl);

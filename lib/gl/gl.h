@@ -141,6 +141,7 @@ struct hair_gl {
     // have a buffer of the same name, but hardly of the same odd size.
     GLuint own_buffer;
     GLint own_size;
+    bool is_lost; // True once the driver has said that the OpenGL context is lost.
     // Transform feedback object that is bound in place of one that is active. 0 until needed.
     GLuint idle_feedback;
     // Maximum vertices that one tessellated draw may generate. UINT32_MAX if unlimited.
@@ -161,6 +162,9 @@ hair_result hair_gl_create(struct hair_gl* gl, const hair_host* host, const hair
 void hair_gl_destroy(struct hair_gl* gl);
 // Return whether the OpenGL context of hair_gl_create() is current.
 bool hair_gl_is_current(const struct hair_gl* gl);
+// Ask the driver whether the OpenGL context is lost, and note that. Return whether it is. A context
+// without reset notification never is.
+bool hair_gl_find_loss(struct hair_gl* gl);
 // Make every later deletion of an OpenGL object do nothing. Freeing then calls no OpenGL.
 void hair_gl_ignore_deletions(struct hair_gl* gl);
 // Copy the functions that delete OpenGL objects.
@@ -197,6 +201,8 @@ hair_result hair_gl_find_driver_quirks(struct hair_gl* gl);
 hair_result hair_gl_create_shader(struct hair_gl* gl, const char* label, const char* text, int pixels,
                                   struct hair_gl_shader* out);
 void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader);
+// Delete the programs of a shader. Each is compiled again when it is needed.
+void hair_gl_free_shader_programs(struct hair_gl* gl, struct hair_gl_shader* shader);
 // Find or compile the program of a pass with the application's shading.
 hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shader* shader, hair_gl_pass pass,
                                         GLuint* out);

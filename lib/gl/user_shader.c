@@ -18,7 +18,7 @@ hair_result hair_gl_create_shader(struct hair_gl* gl, const char* label, const c
     return HAIR_OK;
 }
 
-static void free_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
+void hair_gl_free_shader_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
     for (uint32_t i = 0; i < shader->count; ++i) gl->DeleteProgram(shader->programs[i].program);
     shader->count = 0;
@@ -26,7 +26,7 @@ static void free_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
 
 void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
-    free_programs(gl, shader);
+    hair_gl_free_shader_programs(gl, shader);
     hair_free(&gl->host, shader->programs);
     hair_free(&gl->host, shader->label);
     hair_free(&gl->host, shader->text);
@@ -52,7 +52,7 @@ hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shade
     // The run time counts as that of the pass.
     if (!hair_gl_get_or_add(gl, pass)) return HAIR_ERROR_MEMORY;
     // All shaders have been compiled again.
-    if (shader->program_generation != gl->program_generation) free_programs(gl, shader);
+    if (shader->program_generation != gl->program_generation) hair_gl_free_shader_programs(gl, shader);
     shader->program_generation = gl->program_generation;
     for (uint32_t i = 0; i < shader->count; ++i)
         if (shader->programs[i].pass == pass) {

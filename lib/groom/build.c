@@ -107,20 +107,29 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     struct hair_groom* groom = hair_alloc(host, 1, sizeof *groom);
     if (!groom) return hair_fail_memory(host, "a groom");
     groom->host = *host;
+    atomic_init(&groom->holders, 1);
     struct hair_groom_builder builder = {
         .host = &groom->host, .desc = desc, .import = import, .groom = groom};
     hair_result result = build(&builder);
     free_builder(&builder);
     if (result)
-        hair_groom_free(groom);
+        hair_groom_release(groom);
     else
         *out = groom;
     return result;
 }
 
-void hair_groom_free(hair_groom* groom)
+hair_groom* hair_groom_retain(hair_groom* groom)
 {
-    if (!groom) return;
+    HAIR_ASSERT(atomic_load(&groom->holders) > 0);
+    atomic_fetch_add_explicit(&groom->holders, 1, memory_order_relaxed);
+    return groom;
+}
+
+void hair_groom_release(hair_groom* groom)
+{
+    HAIR_ASSERT(!groom || atomic_load(&groom->holders) > 0);
+    if (!groom || atomic_fetch_sub_explicit(&groom->holders, 1, memory_order_acq_rel) != 1) return;
     hair_host host = groom->host;
     hair_free(&host, groom->guides);
     hair_free(&host, groom->rest);

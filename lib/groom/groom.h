@@ -8,6 +8,7 @@
 
 struct hair_groom {
     hair_host host;
+    atomic_uint holders; // the application, and instances that can be restored
     hair_groom_info info;
     struct hair_guide* guides; // info.guide_count
     struct hair_rest* rest; // info.guide_vertex_count
@@ -29,7 +30,10 @@ struct hair_groom {
 // is untouched.
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              hair_groom** out);
-void hair_groom_free(hair_groom* groom);
+// Add a reference. Any thread. Return `groom`.
+hair_groom* hair_groom_retain(hair_groom* groom);
+// Remove a reference, and free the groom with the last one. Any thread. NULL is ignored.
+void hair_groom_release(hair_groom* groom);
 
 // Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);

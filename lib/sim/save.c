@@ -15,36 +15,42 @@
 
 #include "lib/base/bytes.h"
 
-#define HEADER 20
-#define TRAILER 8
 #define MAGIC "hairsave"
 
 size_t hair_sim_save_size(struct hair_sim* sim)
 {
-    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
+    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .at = HAIR_SAVE_HEADER};
     struct hair_loaded none = {0}; // Nothing is read.
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
-    return s.at + TRAILER;
+    return s.at + HAIR_SAVE_TRAILER;
+}
+
+void hair_sim_seal_state(unsigned char* bytes, size_t size)
+{
+    HAIR_ASSERT(size >= HAIR_SAVE_HEADER + HAIR_SAVE_TRAILER);
+    memcpy(bytes, MAGIC, 8);
+    hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
+    hair_write_u64(bytes + 12, size);
+    hair_write_u64(bytes + size - HAIR_SAVE_TRAILER,
+                   hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - HAIR_SAVE_TRAILER));
 }
 
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
-    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
+    struct hair_serializer s = {
+        .host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HAIR_SAVE_HEADER};
     struct hair_loaded none = {0}; // Nothing is read.
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
-    memcpy(bytes, MAGIC, 8);
-    hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
-    hair_write_u64(bytes + 12, s.at + TRAILER);
-    hair_write_u64(bytes + s.at, hair_hash_bytes(HAIR_HASH_BEGIN, bytes, s.at));
+    hair_sim_seal_state(bytes, s.at + HAIR_SAVE_TRAILER);
 }
 
 static hair_result check_frame(const hair_host* host, const unsigned char* bytes, size_t size)
 {
-    if (size < HEADER + TRAILER || memcmp(bytes, MAGIC, 8) != 0)
+    if (size < HAIR_SAVE_HEADER + HAIR_SAVE_TRAILER || memcmp(bytes, MAGIC, 8) != 0)
         return hair_fail(host, HAIR_ERROR_FILE,
                          "the %zu bytes are no saved state: it is longer, with \"" MAGIC "\" at byte 0",
                          size);
@@ -57,10 +63,11 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
         return hair_fail(host, HAIR_ERROR_FILE,
                          "the saved state ends at byte %zu, not at byte %llu as byte 12 says", size,
                          (unsigned long long)whole);
-    if (hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER) != hair_read_u64(bytes + size - TRAILER))
+    if (hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - HAIR_SAVE_TRAILER) !=
+        hair_read_u64(bytes + size - HAIR_SAVE_TRAILER))
         return hair_fail(host, HAIR_ERROR_FILE,
                          "the saved state is damaged: the hash at byte %zu is not that of the bytes before",
-                         size - TRAILER);
+                         size - HAIR_SAVE_TRAILER);
     return HAIR_OK;
 }
 
@@ -100,7 +107,8 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     // The state may contain accelerations of the hair-hair grid and the air of a fluid.
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
-    int skinned = size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
+    int skinned =
+        size >= HAIR_SAVE_HEADER + 4 + HAIR_SAVE_TRAILER && hair_read_u32(bytes + HAIR_SAVE_HEADER) == 1;
     if (skinned && !sim->scalp_motion.root_bindings)
         return hair_fail(
             host, HAIR_ERROR_ARGUMENT,
@@ -109,7 +117,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     struct hair_sim own = *sim; // Copy that receives the loaded state.
     struct hair_loaded loaded = {0};
     struct hair_serializer s = {
-        .host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
+        .host = host, .gl = sim->gl, .read = bytes, .at = HAIR_SAVE_HEADER, .end = size - HAIR_SAVE_TRAILER};
     own.sleep.fence = NULL;
     s.native = hair_alloc(host, 1, s.end);
     if (!s.native) return hair_fail_memory(host, "the state to load");

@@ -108,25 +108,36 @@ void hair_serialize_skipped(struct hair_serializer* s, const char* name, size_t 
     }
 }
 
+void hair_serialize_native(unsigned char* bytes, size_t size)
+{
+    HAIR_ASSERT(size % 4 == 0);
+    for (size_t i = 0; i < size / 4; ++i) {
+        uint32_t bits;
+        memcpy(&bits, bytes, sizeof bits);
+        bytes = hair_write_u32(bytes, bits);
+    }
+}
+
+static void add_buffer(struct hair_serializer* s, GLuint buffer, size_t size)
+{
+    HAIR_ASSERT(s->buffers < HAIR_SERIALIZER_BUFFERS);
+    s->buffer[s->buffers++] = (struct hair_serialized_buffer){buffer, s->at, size};
+}
+
 void hair_serialize_buffer(struct hair_serializer* s, const char* name, GLuint buffer, size_t size)
 {
-    HAIR_ASSERT(size % 4 == 0 && s->buffers < HAIR_SERIALIZER_BUFFERS);
+    HAIR_ASSERT(size % 4 == 0);
     size_t end = s->at + size;
     if (!buffer) return;
-    if (s->write) {
-        unsigned char* at = s->write + s->at;
-        s->gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, at);
-        for (size_t i = 0; i < size / 4; ++i) { // Convert from native byte order in place.
-            uint32_t bits;
-            memcpy(&bits, at, sizeof bits);
-            at = hair_write_u32(at, bits);
-        }
+    if (s->write && s->copies) {
+        add_buffer(s, buffer, size);
+        s->gl->CopyNamedBufferSubData(buffer, s->copies, 0, (GLintptr)s->at, (GLsizeiptr)size);
+    } else if (s->write) {
+        s->gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, s->write + s->at);
+        hair_serialize_native(s->write + s->at, size);
     }
     if (s->read) {
-        s->buffer[s->buffers].buffer = buffer;
-        s->buffer[s->buffers].at = s->at;
-        s->buffer[s->buffers].size = size;
-        ++s->buffers;
+        add_buffer(s, buffer, size);
         while (s->at < end && !s->result) {
             float number = 0;
             size_t at = s->at;

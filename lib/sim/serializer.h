@@ -15,15 +15,18 @@ struct hair_serializer {
     struct hair_gl* gl;
     const unsigned char* read; // All bytes of the state to read. NULL reads nothing.
     unsigned char* write; // Room for all bytes of the state. NULL writes nothing.
+    // Buffer that receives the contents of buffers at their offsets, instead of `write`. They are
+    // there when the GPU has done so. 0 reads buffers at once.
+    GLuint copies;
     unsigned char* native; // Numbers read for buffers, in native byte order, at their offsets.
     size_t at, end; // Offset of the next field, and of the end of the fields to read.
     hair_result result; // First failure. Nothing is read after a failure.
     int lacks_bend; // The state that is read has no forces of segments.
-    uint32_t buffers; // Number of buffers read so far.
-    struct {
+    uint32_t buffers; // Number of buffers read or copied so far.
+    struct hair_serialized_buffer {
         GLuint buffer;
         size_t at, size;
-    } buffer[HAIR_SERIALIZER_BUFFERS]; // The buffers read so far.
+    } buffer[HAIR_SERIALIZER_BUFFERS];
 };
 
 // Serialize a number from 0 to `max`.
@@ -41,6 +44,9 @@ void hair_serialize_same(struct hair_serializer* c, const char* name, double val
 
 // Serialize a buffer of floats, whatever they mean to a solver. A buffer of 0 is skipped.
 void hair_serialize_buffer(struct hair_serializer* c, const char* name, GLuint buffer, size_t size);
+
+// Convert `size` bytes of floats from native byte order in place.
+void hair_serialize_native(unsigned char* bytes, size_t size);
 
 // Serialize `size` bytes of floats that the instance has no buffer for.
 void hair_serialize_skipped(struct hair_serializer* c, const char* name, size_t size);

@@ -16,6 +16,7 @@ static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
     sim->by_thread = desc->is_by_thread && desc->solver != HAIR_SOLVER_REDBLACK;
     sim->feedback.wanted = desc->uses_feedback;
     sim->diagnosis.wanted = desc->is_diagnosed;
+    sim->snapshots.is_wanted = desc->has_snapshots;
     sim->physics = desc->physics;
     sim->wind = desc->wind;
     sim->head = desc->head;
@@ -95,6 +96,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_scalp_motion_free(sim);
     hair_sleep_free(sim);
     hair_diagnosis_free(sim);
+    hair_snapshots_free(sim);
 }
 
 static float fraction_of(double from, double dt)
@@ -291,6 +293,7 @@ static hair_result prepare_all(struct hair_sim* sim, struct hair_rod_set* other,
 hair_result hair_sim_step(struct hair_sim* sim, double dt)
 {
     HAIR_ASSERT(dt > 0);
+    HAIR_TRY(hair_snapshots_update(sim));
     double from = -sim->accumulator;
     bool waits = must_finish_substep(sim), disturbed = hair_sleep_is_disturbed(sim);
     bool again = waits && count_substeps(sim, dt - from) > 0;

@@ -11,6 +11,7 @@
 #include "lib/sim/wind_coupling.h"
 #include "lib/sim/hair_grid.h"
 #include "lib/sim/feedback.h"
+#include "lib/sim/snapshot.h"
 #include "lib/sim/solver_stats.h"
 #include "lib/rod/rod.h"
 #include "lib/sim/scalp_motion.h"
@@ -106,6 +107,7 @@ struct hair_sim {
     struct hair_wind_coupling wind_coupling;
     struct hair_feedback feedback;
     struct hair_diagnosis diagnosis;
+    struct hair_snapshots snapshots;
 };
 
 // Settings with which a simulation is created.
@@ -115,6 +117,7 @@ struct hair_sim_desc {
     bool is_by_thread; // True prefers a thread per guide. Ignored under redblack.
     bool uses_feedback; // True runs redblack by transform feedback.
     bool is_diagnosed; // True watches the energy of guides.
+    bool has_snapshots; // True keeps copies of the state for hair_sim_restore().
     hair_physics physics;
     hair_wind wind;
     struct hair_pose head;

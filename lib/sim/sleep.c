@@ -291,12 +291,16 @@ bool hair_sleep_through(const struct hair_sim* sim)
 
 // Saved states ------------------------------------------------------------------------------------
 
+void hair_sleep_settle(struct hair_sim* sim)
+{
+    if (!hair_sleep_is_disturbed(sim)) return;
+    reset_quiet_time(sim);
+    hair_sleep_wake(sim);
+}
+
 void hair_sleep_resolve_query(struct hair_sim* sim)
 {
-    if (hair_sleep_is_disturbed(sim)) {
-        reset_quiet_time(sim);
-        hair_sleep_wake(sim);
-    }
+    hair_sleep_settle(sim);
     if (sim->sleep.waits) read_answer(sim, LONGEST_WAIT);
 }
 

@@ -66,6 +66,8 @@ hair_result hair_sleep_ensure(struct hair_sim* sim, int disturbed, double dt);
 // due.
 void hair_sleep_submit_query(struct hair_sim* sim, int disturbed, double dt);
 
+// Restart the quiet time if an event has disturbed the hair since the last step.
+void hair_sleep_settle(struct hair_sim* sim);
 // Settle the sleep state before a save. Wait for a pending measurement. Discard it if an event has
 // disturbed the hair since the last step.
 void hair_sleep_resolve_query(struct hair_sim* sim);

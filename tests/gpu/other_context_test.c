@@ -31,7 +31,14 @@ static void make_current(const struct fixture* f, EGLContext context)
 static void start(struct fixture* f, struct hair_test* test, void* (*get_proc)(const char*, void*),
                   bool shares)
 {
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
+    // Contexts that share objects report resets in the same way.
+    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                    4,
+                                    EGL_CONTEXT_MINOR_VERSION,
+                                    5,
+                                    EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                    EGL_LOSE_CONTEXT_ON_RESET,
+                                    EGL_NONE};
     static const unsigned char filled[BYTES] = {1, 2, 3, 4, 5, 6, 7, 8};
     *f = (struct fixture){.scene = hair_test_scene_make(test, get_proc)};
     hair_test_scene_add(&f->scene, NULL, NULL);

@@ -142,6 +142,7 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     uint32_t patches = (wanted.followers + wanted.each - 1) / wanted.each;
     hair_groom* groom = take(host, 1, sizeof *groom);
     groom->host = *host;
+    atomic_init(&groom->holders, 1);
     groom->guides = take(host, wanted.guides, sizeof *groom->guides);
     groom->rest = take(host, vertices, sizeof *groom->rest);
     groom->followers = take(host, wanted.followers, sizeof *groom->followers);

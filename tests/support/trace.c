@@ -15,7 +15,9 @@ enum function {
     CALLS
 };
 
-static uint32_t counts[CALLS], waits;
+static uint32_t counts[CALLS], waits, total;
+static uint32_t losing_call; // Number of the first call that is lost. 0 if there is none.
+static GLenum loss_status;
 static int is_behind;
 static void* reals[CALLS];
 
@@ -24,6 +26,13 @@ static const char* const names[] = {
 #include "lib/gl/functions.inl"
 #undef FUNCTION
 };
+
+// Count a call, and return whether its context is lost.
+static int is_lost(void)
+{
+    ++total;
+    return losing_call && total >= losing_call;
+}
 
 // Wrappers with as many parameters as each function has. The table has only the types of
 // parameters.
@@ -70,6 +79,7 @@ static const char* const names[] = {
         type(APIENTRY* real) parameters;                      \
         memcpy(&real, &reals[CALL_##name], sizeof real);      \
         ++counts[CALL_##name];                                \
+        if (is_lost()) return (type)0;                        \
         return real(passed);                                  \
     }
 #include "lib/gl/functions.inl"
@@ -81,7 +91,8 @@ static GLenum APIENTRY ask_sync(GLsync sync, GLbitfield flags, GLuint64 timeout)
 {
     if (timeout > 0) ++waits;
     if (timeout == 0 && is_behind) return GL_TIMEOUT_EXPIRED;
-    return call_ClientWaitSync(sync, flags, timeout);
+    GLenum status = call_ClientWaitSync(sync, flags, timeout);
+    return status ? status : GL_ALREADY_SIGNALED; // A lost context passes all fences.
 }
 
 static void APIENTRY ask_query(GLuint query, GLenum what, GLuint64* out)
@@ -89,7 +100,14 @@ static void APIENTRY ask_query(GLuint query, GLenum what, GLuint64* out)
     GLuint64 there = 1;
     if (what == GL_QUERY_RESULT) call_GetQueryObjectui64v(query, GL_QUERY_RESULT_AVAILABLE, &there);
     if (!there) ++waits;
+    *out = 1; // Queries of a lost context are available.
     call_GetQueryObjectui64v(query, what, out);
+}
+
+static GLenum APIENTRY ask_reset(void)
+{
+    GLenum status = call_GetGraphicsResetStatus();
+    return losing_call && total >= losing_call ? loss_status : status;
 }
 
 static void APIENTRY read_buffer(GLuint buffer, GLintptr at, GLsizeiptr size, void* out)
@@ -113,6 +131,7 @@ void* hair_test_trace_proc(const char* name, void* user)
     } wrappers[] = {
         {"glClientWaitSync", (void (*)(void))ask_sync},
         {"glGetQueryObjectui64v", (void (*)(void))ask_query},
+        {"glGetGraphicsResetStatus", (void (*)(void))ask_reset},
         {"glGetNamedBufferSubData", (void (*)(void))read_buffer},
         {"glMapNamedBufferRange", (void (*)(void))map_buffer},
 #define FUNCTION(type, name, parameters) {"gl" #name, (void (*)(void))call_##name},
@@ -133,7 +152,13 @@ void* hair_test_trace_proc(const char* name, void* user)
 void hair_test_trace_clear(void)
 {
     memset(counts, 0, sizeof counts);
-    waits = 0;
+    waits = total = 0;
+}
+
+void hair_test_trace_lose(uint32_t call, uint32_t status)
+{
+    losing_call = call;
+    loss_status = status;
 }
 
 void hair_test_trace_hold(int behind)

@@ -19,6 +19,10 @@ uint32_t hair_test_trace_count(const char* begin);
 // passed.
 void hair_test_trace_hold(int behind);
 
+// Let the OpenGL context be lost from the `call`-th call since the last clear on, from 1. Calls
+// then do nothing, and glGetGraphicsResetStatus returns `status`. 0 loses none.
+void hair_test_trace_lose(uint32_t call, uint32_t status);
+
 // Return the calls since the last clear that may wait for the GPU, because they read its results or
 // wait for its progress.
 uint32_t hair_test_trace_waits(void);

@@ -14,6 +14,7 @@ int hair_exit_for(hair_result result)
     case HAIR_OK: return HAIR_EXIT_OK;
     case HAIR_ERROR_ARGUMENT: return HAIR_EXIT_USAGE;
     case HAIR_ERROR_FILE: return HAIR_EXIT_INPUT;
+    case HAIR_ERROR_CONTEXT_LOST:
     case HAIR_ERROR_OPENGL: return HAIR_EXIT_OPENGL;
     default: return HAIR_EXIT_RUNTIME;
     }
