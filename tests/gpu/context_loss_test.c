@@ -255,7 +255,7 @@ static void lose_at(struct hair_test* test, int way, uint32_t call, const struct
         hair_test_trace_clear();
         hair_test_trace_lose(1, GL_GUILTY_CONTEXT_RESET);
         destroy(&f);
-        if (hair_test_trace_count("")) fail_msg("destruction called OpenGL:%s", hair_test_trace_list());
+        if (hair_test_trace_count("")) fail_msg("a lost context was used:%s", hair_test_trace_list());
     }
     finish(&f);
 }
@@ -297,11 +297,34 @@ static void destroyed_opengl_context_can_be_replaced(void** state)
     hair_test_ok(f.test, run_frame(&f, 2));
     hair_egl_destroy(f.egl);
     f.egl = NULL;
-    hair_test_refused(f.test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_OPENGL, "no OpenGL context is current");
+    hair_test_refused(f.test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_OPENGL,
+                      "no OpenGL context is current");
     hair_test_refused(f.test, hair_context_restore(f.context), HAIR_ERROR_OPENGL,
                       "no OpenGL context is current");
     replace_egl(&f);
     check_restored(&f, &run);
+    finish(&f);
+}
+
+// A context that is lost passes the fence of a copy that was never made.
+static void snapshot_that_a_loss_cuts_off_is_not_used(void** state)
+{
+    static const float garbage = 1;
+    static struct run run;
+    struct fixture f;
+    run_all(*state, 0, &run);
+    start(&f, *state, 0);
+    hair_test_ok(f.test, run_frame(&f, 1));
+    glClearNamedBufferData(f.hair->sim.snapshots.buffer, GL_R32F, GL_RED, GL_FLOAT, &garbage);
+    glFinish();
+    hair_test_ok(f.test, set(&f, 2));
+    hair_test_trace_clear();
+    // After the check at the start of the call.
+    hair_test_trace_lose(20, GL_INNOCENT_CONTEXT_RESET);
+    assert_int_equal(hair_step(f.hair, 1.0f / 60), HAIR_ERROR_CONTEXT_LOST);
+    hair_test_forgive(f.test); // Creations may have failed before.
+    replace_egl(&f);
+    assert_int_equal(check_restored(&f, &run), -1);
     finish(&f);
 }
 
@@ -436,6 +459,7 @@ int main(void)
         HAIR_TEST(loss_at_any_call_is_told_and_restored),
         HAIR_TEST(restored_hair_is_at_most_two_steps_old),
         HAIR_TEST(destroyed_opengl_context_can_be_replaced),
+        HAIR_TEST(snapshot_that_a_loss_cuts_off_is_not_used),
         HAIR_TEST(second_loss_restores_the_same_state),
         HAIR_TEST(hair_without_a_snapshot_is_at_rest),
         HAIR_TEST(failed_restoration_changes_nothing),
