@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_BYTES ((size_t)2 << 30)
+#define MAX_BYTES ((size_t)256 << 20)
 #define MAX 16777216u // maximum number of vertices and of triangles
 
 // State of the parser.

@@ -11,7 +11,7 @@ struct hair_obj {
     uint32_t vertex_count, triangle_count;
 };
 
-// Read a mesh. Faces with more than three corners become fans. Return false after printing an error
+// Read a mesh from a file of at most 256 MiB. Faces with more than three corners become fans. Return false after printing an error
 // that names the line. Release the mesh with hair_obj_free().
 bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out);
 void hair_obj_free(struct hair_obj* obj);
