@@ -135,8 +135,8 @@ static bool take(const struct row* row, const char* value, struct bench_options*
 {
     uint32_t number = 0;
     switch (row->option) {
-    case JSON: out->json = value; return true;
-    case CSV: out->csv = value; return true;
+    case JSON: out->json = value; return hair_output_has_ending(BENCH_TOOL, value, ".json");
+    case CSV: out->csv = value; return hair_output_has_ending(BENCH_TOOL, value, ".csv");
     case QUICK: out->quick = true; return true;
     case CASE: out->only_case = value; return true;
     case METHOD: out->only_method = value; return parse_name(row->name, value, methods, &number);
