@@ -15,8 +15,8 @@
 
 #include "lib/base/bytes.h"
 
-#define HEADER 20
-#define TRAILER 8
+#define HEADER HAIR_SAVE_HEADER
+#define TRAILER HAIR_SAVE_TRAILER
 #define MAGIC "hairsave"
 
 size_t hair_sim_save_size(struct hair_sim* sim)
@@ -29,6 +29,14 @@ size_t hair_sim_save_size(struct hair_sim* sim)
     return s.at + TRAILER;
 }
 
+void hair_save_seal(unsigned char* bytes, size_t end)
+{
+    memcpy(bytes, MAGIC, 8);
+    hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
+    hair_write_u64(bytes + 12, end + TRAILER);
+    hair_write_u64(bytes + end, hair_hash_bytes(HAIR_HASH_BEGIN, bytes, end));
+}
+
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
     struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
@@ -36,13 +44,10 @@ void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
-    memcpy(bytes, MAGIC, 8);
-    hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
-    hair_write_u64(bytes + 12, s.at + TRAILER);
-    hair_write_u64(bytes + s.at, hair_hash_bytes(HAIR_HASH_BEGIN, bytes, s.at));
+    hair_save_seal(bytes, s.at);
 }
 
-static hair_result check_frame(const hair_host* host, const unsigned char* bytes, size_t size)
+hair_result hair_save_check(const hair_host* host, const unsigned char* bytes, size_t size)
 {
     if (size < HEADER + TRAILER || memcmp(bytes, MAGIC, 8) != 0)
         return hair_fail(host, HAIR_ERROR_FILE,
@@ -64,9 +69,8 @@ static hair_result check_frame(const hair_host* host, const unsigned char* bytes
     return HAIR_OK;
 }
 
-// Read and check a state. Fill in `sim`, which is a copy, and `loaded`, `colliders` and c->own.
-static hair_result read(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded,
-                        struct hair_colliders* colliders)
+hair_result hair_save_read(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded,
+                           struct hair_colliders* colliders)
 {
     hair_sim_serialize(s, sim, loaded);
     if (!s->result && s->at != s->end)
@@ -96,7 +100,7 @@ static hair_result upload(const struct hair_serializer* s)
 hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
 {
     const hair_host* host = &sim->gl->host;
-    HAIR_TRY(check_frame(host, bytes, size));
+    HAIR_TRY(hair_save_check(host, bytes, size));
     // The state may contain accelerations of the hair-hair grid and the air of a fluid.
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
@@ -115,7 +119,11 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (!s.native) return hair_fail_memory(host, "the state to load");
     struct hair_colliders colliders = {0};
     GLuint still = 0;
-    hair_result result = read(&s, &own, &loaded, &colliders);
+    hair_result result = hair_save_read(&s, &own, &loaded, &colliders);
+    if (!result && loaded.has_anchors) {
+        result = hair_sleep_create(&own);
+        s.buffer[loaded.anchors].buffer = own.sleep.anchor;
+    }
     if (!result && !skinned && hair_scalp_motion_is_on(sim))
         result = hair_scalp_motion_make_rest(sim, &still);
     if (!result) result = upload(&s);

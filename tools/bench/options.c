@@ -182,7 +182,7 @@ int bench_parse(int count, char** arguments, struct bench_options* out)
         table[i] =
             (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, 1000 + i};
     *out = (struct bench_options){.device = -1};
-    opterr = 0;
+    optind = opterr = 0;
     for (int found; (found = getopt_long(count, arguments, "h", table, NULL)) != -1;) {
         if (found == '?') {
             hair_complain_option(BENCH_TOOL, arguments[optind - 1]);
