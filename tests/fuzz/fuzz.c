@@ -73,9 +73,9 @@ void hair_fuzz_host_init(struct hair_fuzz_host* host)
 
 // Allocations of the tools. The linker's option --wrap leads them here.
 void *__real_malloc(size_t size), *__real_calloc(size_t count, size_t size),
-    *__real_realloc(void* memory, size_t size);
+    *__real_realloc(void*memory, size_t size);
 void *__wrap_malloc(size_t size), *__wrap_calloc(size_t count, size_t size),
-    *__wrap_realloc(void* memory, size_t size);
+    *__wrap_realloc(void*memory, size_t size);
 void* __wrap_malloc(size_t size)
 {
     return is_refused() ? NULL : __real_malloc(size);

@@ -101,8 +101,8 @@ static void check_round_trip(struct hair_sim* sim, const struct hair_serializer*
     HAIR_FUZZ_CHECK(s.write);
     hair_sim_serialize(&s, sim, &none);
     HAIR_FUZZ_CHECK(!s.result && s.at == read->end);
-    HAIR_FUZZ_CHECK(!memcmp(s.write + HAIR_SAVE_HEADER, read->read + HAIR_SAVE_HEADER,
-                            read->end - HAIR_SAVE_HEADER));
+    HAIR_FUZZ_CHECK(
+        !memcmp(s.write + HAIR_SAVE_HEADER, read->read + HAIR_SAVE_HEADER, read->end - HAIR_SAVE_HEADER));
     free(s.write);
 }
 
