@@ -63,6 +63,12 @@ static void serialize_collider(struct hair_serializer* s, const struct hair_coll
     collider->mesh = NULL;
     if (collider->shape == HAIR_SHAPE_MESH)
         collider->mesh = find_mesh(there, hashes[0] | (uint64_t)hashes[1] << 32);
+    else if ((hashes[0] || hashes[1]) && !s->result)
+        s->result =
+            hair_fail(s->host, HAIR_ERROR_FILE,
+                      "the collider before byte %zu of the saved state names a collision mesh, but its "
+                      "shape is %u",
+                      s->at, (unsigned)collider->shape);
 }
 
 // Serialize a list of colliders. Read into `loaded`, and fail if the count exceeds the bytes

@@ -16,6 +16,13 @@ void hair_fuzz_fail(const char* condition, const char* file, int line)
     abort();
 }
 
+// Options of the address sanitizer that make allocations fast. ASAN_OPTIONS overrides them.
+const char* __asan_default_options(void);
+const char* __asan_default_options(void)
+{
+    return "malloc_context_size=2:quarantine_size_mb=8:thread_local_quarantine_size_kb=64";
+}
+
 // Memory ------------------------------------------------------------------------------------------
 
 static uint32_t refuse_after; // Number of allocations until one fails. 0 refuses none.
