@@ -182,7 +182,7 @@ char* hair_fuzz_split(const char* tool, const uint8_t* bytes, size_t size, int* 
                       int room)
 {
     size_t used = strlen(tool) + 1;
-    char* text = malloc(used + size + 1);
+    char* text = __real_malloc(used + size + 1); // Never refused.
     HAIR_FUZZ_CHECK(text);
     memcpy(text, tool, used);
     memcpy(text + used, bytes, size);

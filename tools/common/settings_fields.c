@@ -157,11 +157,25 @@ static bool make_setting(const struct field* field, struct hair_setting* out)
     return true;
 }
 
+// Return all settings, which are made at the first call, and their number in *count.
+static const struct hair_setting* get_settings(size_t* count)
+{
+    static struct hair_setting settings[COUNT(fields)];
+    static size_t made;
+    static bool is_made;
+    for (size_t i = 0; !is_made && i < COUNT(fields); ++i) made += make_setting(&fields[i], &settings[made]);
+    is_made = true;
+    *count = made;
+    return settings;
+}
+
 bool hair_setting_next(size_t* at, struct hair_setting* out)
 {
-    while (*at < COUNT(fields))
-        if (make_setting(&fields[(*at)++], out)) return true;
-    return false;
+    size_t count;
+    const struct hair_setting* settings = get_settings(&count);
+    if (*at >= count) return false;
+    *out = settings[(*at)++];
+    return true;
 }
 
 bool hair_setting_find(const char* key, struct hair_setting* out)
