@@ -191,8 +191,7 @@ hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)
     uint64_t needed = version4.header + (strands->colors ? 32u : 16u) * (uint64_t)strands->vertex_count +
                       8 * (uint64_t)strands->strand_count;
     if (needed > UINT32_MAX)
-        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
-                         "%llu bytes are more than the offsets of .tfx can reach, %u",
+        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "a .tfx of %llu bytes is longer than %u",
                          (unsigned long long)needed, UINT32_MAX);
     *size = (size_t)needed;
     return HAIR_OK;

@@ -28,7 +28,7 @@ struct hair_loaded {
 // depends on. Arrays are read into `loaded`, which the caller frees.
 void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded);
 
-// Functions of save.c, which need no OpenGL.
+// Functions of save_check.c, which need no OpenGL.
 
 // Check the header of a saved state, its size and its hash.
 hair_result hair_save_check(const hair_host* host, const unsigned char* bytes, size_t size);

@@ -153,6 +153,7 @@ size_t hair_fuzz_printed(void)
 // Small files that scenes and settings name. Any other name is that of no file, as the fuzzer must
 // not read the machine's files.
 static const char obj[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+static const char points[] = "v 0 0 0\nv 1 0 0\n";
 static const char tfx[] = "version 2\nnumStrands 1\nstrand 0 numVerts 5\n0 0 0\n.01 0 .01\n.02 0 0\n"
                           ".03 0 -.01\n.04 0 0\n";
 
@@ -161,7 +162,10 @@ static bool read_small(const char* tool, const char* path, struct hair_bytes* ou
 {
     const char* name = strrchr(path, '/');
     name = name ? name + 1 : path;
-    const char* text = !strcmp(name, "a.obj") ? obj : !strcmp(name, "a.tfx") ? tfx : NULL;
+    const char* text = !strcmp(name, "a.obj")   ? obj
+                       : !strcmp(name, "b.obj") ? points
+                       : !strcmp(name, "a.tfx") ? tfx
+                                                : NULL;
     if (!text) {
         hair_complain(tool, "cannot read %s", path);
         return false;

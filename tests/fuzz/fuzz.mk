@@ -95,11 +95,11 @@ fuzz: $(parser:%=$(FUZZ_DIR)/%) ## Fuzz every parser: seconds=60 each, or runs=N
 
 # Keep the committed inputs below 4 KiB, and add only those that run more of the code.
 fuzz-merge: $(parser:%=$(FUZZ_DIR)/%)
-	@$(foreach f,$(parser),mkdir -p tests/fuzz/corpus/$(f); $(FUZZ_DIR)/$(f) $(call FUZZ_OPTIONS,$(f)) -merge=1 \
+	@$(foreach f,$(parser),mkdir -p tests/fuzz/corpus/$(f); $(FUZZ_DIR)/$(f) $(call FUZZ_OPTIONS,$(f)) -merge=1 -use_counters=0 \
 	  tests/fuzz/corpus/$(f) build/fuzz/corpus/$(f) 2>&1 | tail -1;)
 
 # Coverage -------------------------------------------------------------------------------------------------
-FUZZ_COVERED := lib/asset/%.c lib/sim/save.c lib/sim/save_fields.c lib/sim/serializer.c tools/common/obj.c \
+FUZZ_COVERED := lib/asset/%.c lib/sim/save_check.c lib/sim/save_fields.c lib/sim/serializer.c tools/common/obj.c \
   tools/common/json.c tools/common/scene.c tools/common/scene_%.c tools/common/settings.c \
   tools/common/settings_fields.c tools/common/groom_options.c tools/common/capture_options.c tools/bench/options.c
 build/fuzz/coverage/%.o: %.c | fuzz-needs

@@ -25,6 +25,17 @@ static void check_strands(const hair_asset* asset)
         HAIR_FUZZ_CHECK(strands->colors[i] >= 0 && strands->colors[i] <= 1);
 }
 
+// Check that the colours at even distances are those that the strands have.
+static void check_colors(const struct hair_strands* strands)
+{
+    float even[3 * HAIR_STRAND_COLORS];
+    for (uint32_t i = 0; strands->colors && i < strands->strand_count; ++i) {
+        const float* colors = strands->colors + 3 * HAIR_STRAND_COLORS * (size_t)i;
+        hair_strand_even_colors(colors, HAIR_STRAND_COLORS, even);
+        HAIR_FUZZ_CHECK(!memcmp(even, colors, sizeof even));
+    }
+}
+
 // Decode with a host of its own, and check the rules of success and failure. Return NULL on failure.
 static hair_asset* decode(struct hair_fuzz_host* host, const hair_import* import, const uint8_t* bytes,
                           size_t size)
@@ -70,6 +81,7 @@ static void check_round_trip(const hair_asset* asset, hair_format format)
 {
     const hair_import import = {.scale = 1, .keep_fraction = 1, .seed = 1};
     size_t needed = 0, size = 0;
+    HAIR_FUZZ_CHECK(hair_asset_encode(asset, HAIR_FORMAT_TFX3, NULL, 0, &needed) == HAIR_ERROR_ARGUMENT);
     if (hair_asset_encode(asset, format, NULL, 0, &needed)) return;
     unsigned char* bytes = malloc(needed);
     HAIR_FUZZ_CHECK(bytes && !hair_asset_encode(asset, format, bytes, needed, &size) && size == needed);
@@ -111,9 +123,12 @@ static void add(uint64_t* hash, const hair_asset* asset)
 static bool run(const hair_import* import, const uint8_t* bytes, size_t size, uint64_t* hash)
 {
     struct hair_fuzz_host host;
+    uint64_t max = hair_asset_find_max_size(bytes, size);
     hair_asset* asset = decode(&host, import, bytes, size);
+    HAIR_FUZZ_CHECK(!asset || max);
     if (!asset) return false;
     hair_fuzz_end_refusals();
+    check_colors(&asset->strands);
     check_max_size(asset, import, bytes, size);
     check_round_trip(asset, HAIR_FORMAT_HAIR);
     check_round_trip(asset, HAIR_FORMAT_TFX4);

@@ -142,7 +142,7 @@ static void free_loaded(const struct hair_host* host, struct hair_loaded* loaded
     hair_free(host, native);
 }
 
-// Read sealed bytes. The parts that hair_sim_load() does without OpenGL are those of save.c.
+// Read sealed bytes. The parts that hair_sim_load() does without OpenGL are those of save_check.c.
 static bool read_sealed(const struct hair_fuzz_host* host, const unsigned char* bytes, size_t size,
                         unsigned kind, uint64_t* hash)
 {

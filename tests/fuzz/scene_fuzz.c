@@ -135,6 +135,28 @@ static void add_maps_and_lights(uint64_t* hash, const struct hair_scene* scene)
     }
 }
 
+// Check that the tools get finite values of the scene: its wind, its colliders over time, and its
+// maps on a scalp.
+static void check_use(const struct hair_scene* scene)
+{
+    static const float scalp[] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
+    uint64_t unused = 0;
+    hair_wind wind = hair_scene_wind_of(&scene->settings, &scene->wind);
+    HAIR_FUZZ_CHECK(wind.source_count == scene->wind.count);
+    for (uint32_t i = 0; i < scene->collider_count; ++i) {
+        hair_collider collider = hair_scene_collider_at(&scene->colliders[i], 0.5f);
+        add_floats(&unused, collider.position, 3);
+        add_floats(&unused, collider.rotation, 4);
+    }
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_map_set sets[HAIR_SCENE_SETS];
+    float uvs[6];
+    desc.scalp_positions = scalp;
+    desc.scalp_vertex_count = 3;
+    hair_scene_put_maps(&scene->maps, sets, uvs, &desc);
+    add_floats(&unused, uvs, 6);
+}
+
 static uint64_t check(const struct hair_scene* scene)
 {
     uint64_t hash = 0;
@@ -182,6 +204,7 @@ HAIR_FUZZ(scene)
     if (!parse((const char*)bytes, size, &scene)) return false;
     hair_fuzz_end_refusals();
     uint64_t own = check(&scene);
+    check_use(&scene);
     check_round_trip(bytes, size, own);
     hair_fuzz_add(hash, (uint32_t)own);
     hair_fuzz_add(hash, (uint32_t)(own >> 32));

@@ -157,7 +157,7 @@ static bool take_option(const struct row* row, const char* text, struct said* sa
     switch ((enum choice)row->option) {
     case SCALE: return parse_number(row->name, text, &out->import.scale);
     case UP: return parse_up(text, &out->import.up);
-    case TIP_FIRST: out->import.tip_first = true; return true;
+    case TIP_FIRST: out->import.tip_first = true; break;
     case FRACTION: return parse_number(row->name, text, &out->import.keep_fraction);
     case VERTICES:
         if (!parse_count(row->name, text, &out->import.strand_vertices)) return false;
