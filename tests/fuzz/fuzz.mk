@@ -135,11 +135,12 @@ fuzz-static: $(FUZZERS:%=build/fuzz/address/%)
 FUZZ_PORTABLE := $(filter-out %scene_fuzz.c %capture_arguments_fuzz.c %bench_arguments_fuzz.c tools/bench/%, \
   $(filter tests/fuzz/%,$(FUZZ_REPLAY))) tools/common/file.c tools/common/obj.c tools/common/groom_options.c
 FUZZ_PORTABLE += tests/fuzz/replay.c $(FUZZ_LIB)
-FUZZ_PORTABLE_FLAGS := -std=c17 -Iinclude -I. -O1 -g -ffp-contract=off -DHAIR_FUZZ_PORTABLE -MMD -MP
+FUZZ_PORTABLE_FLAGS := -std=c17 -Iinclude -I. -O1 -g -ffp-contract=off -DHAIR_FUZZ_PORTABLE -D_FILE_OFFSET_BITS=64 -MMD -MP
 FUZZ_CC.64  := gcc
-FUZZ_CC.32  := gcc -m32 -msse2 -mfpmath=sse
+FUZZ_CC.32  := gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/x86_64-linux-gnu
 FUZZ_CC.ppc := powerpc-linux-gnu-gcc-12
 FUZZ_RUN.ppc := qemu-ppc -L /usr/powerpc-linux-gnu
+FUZZ_MORE.ppc := tests/fuzz/qemu_ppc.c
 define fuzz_portable
 build/fuzz/$(1)/%.o: %.c
 	@mkdir -p $$(@D)
@@ -148,7 +149,7 @@ build/fuzz/$(1)/%.o: %.c
 build/fuzz/$(1)/gen/sources.o: $(B)/gen/sources.c
 	@mkdir -p $$(@D)
 	$$(Q)$(FUZZ_CC.$(1)) $(FUZZ_PORTABLE_FLAGS) -c $$< -o $$@
-build/fuzz/$(1)/replay: $(patsubst %.c,build/fuzz/$(1)/%.o,$(FUZZ_PORTABLE)) build/fuzz/$(1)/gen/sources.o
+build/fuzz/$(1)/replay: $(patsubst %.c,build/fuzz/$(1)/%.o,$(FUZZ_PORTABLE) $(FUZZ_MORE.$(1))) build/fuzz/$(1)/gen/sources.o
 	$$(call say,$$@)
 	$$(Q)$(FUZZ_CC.$(1)) $(FUZZ_WRAPS) $$^ -lm -o $$@
 $(patsubst %.c,build/fuzz/$(1)/%.o,$(FUZZ_PORTABLE)): | build/fuzz/headers/GL
@@ -158,7 +159,7 @@ $(foreach a,64 32 ppc,$(eval $(call fuzz_portable,$(a))))
 build/fuzz/headers/GL:
 	@mkdir -p build/fuzz/headers && cp -rL /usr/include/GL /usr/include/KHR build/fuzz/headers
 fuzz-portable: build/fuzz/64/replay build/fuzz/32/replay build/fuzz/ppc/replay ## Replay the corpus in 32 bits and on big-endian PowerPC
-	@$(foreach a,64 32 ppc,echo "== $(a)"; $(FUZZ_RUN.$(a)) build/fuzz/$(a)/replay | tee build/fuzz/$(a)/hashes || exit 1;)
+	@$(foreach a,64 32 ppc,echo "== $(a)"; $(FUZZ_RUN.$(a)) build/fuzz/$(a)/replay >build/fuzz/$(a)/hashes && cat build/fuzz/$(a)/hashes || exit 1;)
 	@cmp build/fuzz/64/hashes build/fuzz/32/hashes && cmp build/fuzz/64/hashes build/fuzz/ppc/hashes && echo "All hashes are equal."
 
 .PHONY: fuzz fuzz-needs fuzz-merge fuzz-coverage fuzz-static fuzz-portable
