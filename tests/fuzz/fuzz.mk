@@ -87,7 +87,7 @@ $(foreach f,$(FUZZERS),$(eval $(call fuzz_program,$(f))))
 
 # A program adds what it finds to build/fuzz/corpus/PARSER, and begins with the committed inputs.
 FUZZ_OPTIONS = -max_len=$(or $(FUZZ_MAX.$(1)),1024) -timeout=10 -rss_limit_mb=1024 -print_final_stats=1 -verbosity=0 \
-  -artifact_prefix=build/fuzz/found/$(1)- $(if $(wildcard tests/fuzz/$(1).dict),-dict=tests/fuzz/$(1).dict)
+  -artifact_prefix=build/fuzz/found/$(1)-
 fuzz: $(parser:%=$(FUZZ_DIR)/%) ## Fuzz every parser: seconds=60 each, or runs=N; needs clang-14
 	@mkdir -p build/fuzz/found $(parser:%=build/fuzz/corpus/%)
 	@$(foreach f,$(parser),echo "== $(f)"; $(FUZZ_DIR)/$(f) $(call FUZZ_OPTIONS,$(f)) -runs=$(runs) \
@@ -121,14 +121,13 @@ fuzz-coverage: build/fuzz/coverage/replay ## Lines of the parsers that the corpu
 # They bring the C library and its loader, and run in their folder.
 FUZZ_CARRIED := build/fuzz-static
 fuzz-static: $(FUZZERS:%=build/fuzz/address/%)
-	@rm -rf $(FUZZ_CARRIED) && mkdir -p $(FUZZ_CARRIED)/lib $(FUZZ_CARRIED)/found
+	@rm -rf $(FUZZ_CARRIED) && mkdir -p $(FUZZ_CARRIED)/lib
 	@$(foreach f,$(FUZZERS),clang++-14 -fsanitize=fuzzer $(FUZZ_SAN.address) $(FUZZ_WRAPS) -s -static-libstdc++ \
 	  -static-libgcc -Wl$(comma)--dynamic-linker=lib/ld-linux-x86-64.so.2 -Wl$(comma)-rpath$(comma)'$$ORIGIN/lib' \
 	  $(patsubst %.c,build/fuzz/address/%.o,$(call fuzz_sources,$(f))) build/fuzz/address/libhair.a -l:libjansson.a -lm \
-	  -o $(FUZZ_CARRIED)/$(f) && mkdir -p $(FUZZ_CARRIED)/work/$(f) || exit 1;)
-	@cp -L $$(ldd $(FUZZ_CARRIED)/scene | grep -o '/[^ ]*') $(FUZZ_CARRIED)/lib
-	@cp -L /lib64/ld-linux-x86-64.so.2 $(FUZZ_CARRIED)/lib
-	@cp -r tests/fuzz/corpus $(FUZZ_CARRIED) && cp tests/fuzz/*.dict tests/fuzz/run.sh $(FUZZ_CARRIED)
+	  -o $(FUZZ_CARRIED)/$(f) || exit 1;)
+	@cp -L $$(ldd build/fuzz/address/scene | grep -oE '/[^ ]*/(libc|libm|ld-linux-x86-64)\.so\.[0-9]') $(FUZZ_CARRIED)/lib
+	@cp -r tests/fuzz/corpus tests/fuzz/run.sh $(FUZZ_CARRIED)
 	@du -sh $(FUZZ_CARRIED)
 
 # Other architectures ------------------------------------------------------------------------------------------
