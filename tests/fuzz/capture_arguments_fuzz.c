@@ -30,6 +30,7 @@ HAIR_FUZZ(capture_arguments)
 {
     static struct hair_capture_options options;
     char* arguments[24];
+    json_set_alloc_funcs(hair_fuzz_alloc, free);
     int count;
     char* text = hair_fuzz_split("hair-capture", bytes, size, &count, arguments, 24);
     size_t printed = hair_fuzz_printed();

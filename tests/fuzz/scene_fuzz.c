@@ -201,6 +201,7 @@ static void check_round_trip(const uint8_t* bytes, size_t size, uint64_t hash)
 HAIR_FUZZ(scene)
 {
     static struct hair_scene scene;
+    json_set_alloc_funcs(hair_fuzz_alloc, free);
     if (!parse((const char*)bytes, size, &scene)) return false;
     hair_fuzz_end_refusals();
     uint64_t own = check(&scene);
