@@ -41,10 +41,9 @@ FUZZ_REPLAY += $(FUZZ_ALL_TOOLS:%=tools/common/%.c) tools/bench/options.c
 FUZZ_WRAPS := $(addprefix -Wl$(comma)--wrap=,malloc calloc realloc hair_file_read hair_frame_writer_is_picture)
 
 # The replay among the unit tests, which gcc builds.
-$(B)/tests/unit/fuzz_corpus_test: private LDFLAGS += $(FUZZ_WRAPS)
 $(B)/tests/unit/fuzz_corpus_test: $(B)/tests/unit/fuzz_corpus_test.c.o $(FUZZ_REPLAY:%=$(B)/%.o) $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $^ $(TEST_LIBS) -o $@
+	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $(FUZZ_WRAPS) $^ $(TEST_LIBS) -o $@
 
 # Programs of libFuzzer, built by clang from the same sources -----------------------------------------------
 FUZZ_DIR := build/fuzz/$(sanitizer)
