@@ -1,5 +1,5 @@
-// fuzz.h - support of the fuzz programs: a target per parser, memory that is refused, and a sink for
-// the text that parsers print.
+// fuzz.h - support of the fuzz programs: a target per parser, memory that is refused, and a sink
+// for the text that parsers print.
 //
 // A target is written once. With HAIR_FUZZ_PROGRAM it is the only one of a libFuzzer program.
 // Without it, all targets are linked into a program that replays the corpus.
@@ -64,8 +64,8 @@ void hair_fuzz_host_init(struct hair_fuzz_host* host);
 
 // Return whether an allocation has been refused since the target began.
 bool hair_fuzz_was_refused(void);
-// Allocate memory that is never refused. json_set_alloc_funcs() gives it to libjansson, which frees an
-// invalid pointer if it runs out of memory within a string (version 2.14).
+// Allocate memory that is never refused. json_set_alloc_funcs() gives it to libjansson, which frees
+// an invalid pointer if it runs out of memory within a string (version 2.14).
 void* hair_fuzz_alloc(size_t size);
 // Refuse no further allocation. A target calls this before it checks properties.
 void hair_fuzz_end_refusals(void);
@@ -86,7 +86,7 @@ size_t hair_fuzz_printed(void);
 char* hair_fuzz_split(const char* tool, const uint8_t* bytes, size_t size, int* count, char* arguments[],
                       int room);
 
-// Hashes of accepted content, equal on all machines --------------------------------------------------
+// Hashes of accepted content, equal on all machines ----------------------------------------------
 
 void hair_fuzz_add(uint64_t* hash, uint32_t value);
 void hair_fuzz_add_floats(uint64_t* hash, const float* values, size_t count);

@@ -36,7 +36,8 @@ static void check_colors(const struct hair_strands* strands)
     }
 }
 
-// Decode with a host of its own, and check the rules of success and failure. Return NULL on failure.
+// Decode with a host of its own, and check the rules of success and failure. Return NULL on
+// failure.
 static hair_asset* decode(struct hair_fuzz_host* host, const hair_import* import, const uint8_t* bytes,
                           size_t size)
 {

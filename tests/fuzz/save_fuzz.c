@@ -1,7 +1,7 @@
 // save_fuzz.c - fuzz target of saved states, from the header to the last field.
 //
-// The simulation is a stub that has every buffer a field can be for. Uploads need OpenGL and are not
-// part of the target: tests/gpu/save_hostile_test.c has them.
+// The simulation is a stub that has every buffer a field can be for. Uploads need OpenGL and are
+// not part of the target. tests/gpu/save_hostile_test.c has them.
 #include "tests/fuzz/fuzz.h"
 #include "lib/base/bytes.h"
 #include "lib/sim/save_fields.h"

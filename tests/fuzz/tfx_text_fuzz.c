@@ -1,4 +1,4 @@
-// tfx_text_fuzz.c - fuzz target of text .tfx files, versions 1 and 2, with and without a byte order mark.
+// tfx_text_fuzz.c - fuzz target of text .tfx files, versions 1 and 2, with or without a BOM.
 #include "tests/fuzz/fuzz_asset.h"
 
 HAIR_FUZZ(tfx_text)

@@ -1,5 +1,5 @@
-// fuzz_corpus_test.c - the inputs of tests/fuzz/corpus, cut off and with flipped bits, are refused or
-// keep the properties of the fuzz targets.
+// fuzz_corpus_test.c - the inputs of tests/fuzz/corpus, cut off and with flipped bits, are refused
+// or keep the properties of the fuzz targets.
 #include "tests/fuzz/corpus.h"
 
 #include <setjmp.h>
