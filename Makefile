@@ -223,6 +223,8 @@ run-tests: $(TESTS)
 	    printf "== %s, %d s\n%s\n" "$$0" $$(($$(date +%s) - start)) "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
 
+include tests/fuzz/fuzz.mk
+
 glsl: ## Compile every shader offline, without a GPU
 	@{ { printf '#define FEATURE(name, define) @define name;\n#define TEXT(x) #x\n' ; \
 	     printf '#define PASS(name, label, category, features, stages) TEXT((features)) stages;\n#include "lib/gl/passes.inl"\n'; } | \

@@ -251,7 +251,7 @@ static bool take(struct gallery* gallery, int option, const char* text)
 {
     int end = 0, read = 0;
     switch (option) {
-    case 'o': gallery->out = text; return true;
+    case 'o': gallery->out = text; return hair_output_has_ending(TOOL, text, ".png");
     case 'r': gallery->only = text; return true;
     case 's':
         read = sscanf(text, "%5ux%5u%n", &gallery->width, &gallery->height, &end);

@@ -39,7 +39,8 @@ HAIR_DESC(hair_asset_desc)
 /// Read strands from the bytes of a file. The first bytes determine the format.
 ///
 /// Any bytes may be passed. Memory stays below 4 times `size` plus 64 MiB, whatever the bytes
-/// claim, plus 12 bytes per vertex that hair_import.strand_vertices asks for.
+/// claim, plus 12 bytes per vertex that hair_import.strand_vertices asks for. A file may have at
+/// most 16,777,216 strands and 67,108,864 vertices. A text has at most 256 MiB.
 ///
 /// @param desc Callbacks and import settings.
 /// @param bytes Content of the file.
@@ -51,13 +52,14 @@ HAIR_DESC(hair_asset_desc)
 HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size,
                                      hair_asset** out);
 
-/// Return an upper bound on the size of a file of strands by its beginning, in bytes. A pipe or a
-/// device without an end need not be read further. hair_asset_read() does not read more.
+/// Return an upper bound on the bytes of a file of strands that hair_asset_read() can need, by the
+/// beginning of the file. A pipe or a device without an end need not be read further. A beginning
+/// that is refused needs no more bytes than its header.
 ///
 /// @param bytes The first bytes of the file: 296 or more, or all of a shorter file.
 /// @param size Number of those bytes.
-/// @return The bound. 0 if the beginning is of no known format or `bytes` is NULL. UINT64_MAX if
-///     the beginning does not tell, as that of text.
+/// @return The bound, which is 256 MiB for text. 0 if the beginning is of no known format or
+///     `bytes` is NULL.
 /// OpenGL: not used. Any thread.
 HAIR_API uint64_t hair_asset_max_size(const void* bytes, size_t size);
 

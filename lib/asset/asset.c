@@ -7,7 +7,7 @@
 static const struct format {
     hair_format format;
     bool (*is)(const unsigned char* bytes, size_t size);
-    uint64_t (*max_size)(const unsigned char* bytes, size_t size); // NULL if no header tells.
+    uint64_t (*max_size)(const unsigned char* bytes, size_t size);
     hair_result (*decode)(const struct hair_source* source, hair_asset* asset);
     hair_result (*measure)(const hair_asset* asset, size_t* size);
     void (*encode)(const hair_asset* asset, unsigned char* bytes);
@@ -17,7 +17,7 @@ static const struct format {
     {HAIR_FORMAT_TFX4, hair_is_tfx4, hair_max_size_of_tfx4, hair_decode_tfx4, hair_size_tfx4,
      hair_encode_tfx4},
     {HAIR_FORMAT_TFX3, hair_is_tfx3, hair_max_size_of_tfx3, hair_decode_tfx3, NULL, NULL},
-    {HAIR_FORMAT_TFX2, hair_is_tfx_text, NULL, hair_decode_tfx_text, NULL, NULL},
+    {HAIR_FORMAT_TFX2, hair_is_tfx_text, hair_max_size_of_tfx_text, hair_decode_tfx_text, NULL, NULL},
 };
 #define FORMATS (sizeof formats / sizeof *formats)
 
@@ -33,8 +33,7 @@ static hair_result refuse(const struct hair_source* source)
 uint64_t hair_asset_find_max_size(const void* bytes, size_t size)
 {
     for (size_t i = 0; i < FORMATS; ++i) {
-        if (!formats[i].is(bytes, size)) continue;
-        return formats[i].max_size ? formats[i].max_size(bytes, size) : UINT64_MAX;
+        if (formats[i].is(bytes, size)) return formats[i].max_size(bytes, size);
     }
     return 0;
 }

@@ -1,6 +1,20 @@
 // formats.c - functions shared by the readers and writers of the formats.
 #include "lib/asset/formats.h"
 
+bool hair_counts_are_allowed(uint64_t strands, uint64_t vertices)
+{
+    return strands <= HAIR_FILE_MAX_STRANDS && vertices <= HAIR_FILE_MAX_VERTICES;
+}
+
+hair_result hair_check_counts(const struct hair_source* source, uint64_t strands, uint64_t vertices)
+{
+    if (hair_counts_are_allowed(strands, vertices)) return HAIR_OK;
+    return hair_fail(source->host, HAIR_ERROR_FILE,
+                     "the counts at byte 4 make %llu strands and %llu vertices, more than %u and %u",
+                     (unsigned long long)strands, (unsigned long long)vertices, HAIR_FILE_MAX_STRANDS,
+                     HAIR_FILE_MAX_VERTICES);
+}
+
 hair_result hair_check_section(const struct hair_source* source, const char* what, uint64_t offset,
                                uint64_t count, uint32_t size)
 {

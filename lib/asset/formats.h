@@ -8,6 +8,11 @@
 #include <stdbool.h>
 #include <string.h>
 
+// Maximum counts that a file may claim, and the maximum size of a text. hair_asset.h states them.
+#define HAIR_FILE_MAX_STRANDS 16777216u
+#define HAIR_FILE_MAX_VERTICES 67108864u
+#define HAIR_TEXT_MAX_BYTES ((size_t)256 << 20)
+
 // A file being read.
 struct hair_source {
     const hair_host* host;
@@ -22,11 +27,12 @@ bool hair_is_tfx3(const unsigned char* bytes, size_t size);
 bool hair_is_tfx4(const unsigned char* bytes, size_t size);
 bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
 
-// Return the size that a file with this header can have. Return UINT64_MAX if the header does not
-// tell.
+// Return the number of bytes that the reader of the format can need, by the header. If the header
+// is refused, that is the size of the header.
 uint64_t hair_max_size_of_hairfile(const unsigned char* bytes, size_t size);
 uint64_t hair_max_size_of_tfx3(const unsigned char* bytes, size_t size);
 uint64_t hair_max_size_of_tfx4(const unsigned char* bytes, size_t size);
+uint64_t hair_max_size_of_tfx_text(const unsigned char* bytes, size_t size);
 
 // Fill the asset's strands as the file has them. On failure the caller frees what they contain.
 hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset);
@@ -40,6 +46,11 @@ hair_result hair_size_hairfile(const hair_asset* asset, size_t* size);
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size);
 void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
 void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
+
+// Return whether a file may claim these counts.
+bool hair_counts_are_allowed(uint64_t strands, uint64_t vertices);
+// Fail unless the file may claim these counts, which its header has from byte 4 on.
+hair_result hair_check_counts(const struct hair_source* source, uint64_t strands, uint64_t vertices);
 
 // Fail, naming `what`, unless `count` items of `size` bytes each lie within the file from `offset`
 // on.

@@ -35,7 +35,7 @@ uint64_t hair_max_size_of_hairfile(const unsigned char* bytes, size_t size)
     if (size < HEADER) return HEADER;
     uint64_t strands = hair_read_u32(bytes + 4), vertices = hair_read_u32(bytes + 8), end = HEADER;
     uint32_t arrays = hair_read_u32(bytes + 12);
-    if (arrays & ~(uint32_t)KNOWN) return UINT64_MAX;
+    if (!hair_counts_are_allowed(strands, vertices)) return HEADER;
     if (arrays & SEGMENTS) end += 2 * strands;
     if (arrays & POINTS) end += 12 * vertices;
     if (arrays & THICKNESS) end += 4 * vertices;
@@ -49,6 +49,7 @@ static hair_result check_counts(const struct hair_source* source, const struct h
         return hair_fail(source->host, HAIR_ERROR_FILE, "the count of strands at byte 4 is 0");
     if (header->vertices == 0)
         return hair_fail(source->host, HAIR_ERROR_FILE, "the count of points at byte 8 is 0");
+    HAIR_TRY(hair_check_counts(source, header->strands, header->vertices));
     if (!(header->arrays & POINTS))
         return hair_fail(source->host, HAIR_ERROR_FILE, "the arrays 0x%x at byte 12 lack the points",
                          header->arrays);

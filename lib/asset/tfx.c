@@ -25,6 +25,7 @@
 #include "lib/asset/formats.h"
 
 #define SECTIONS 6
+#define MAX_GAP 65536 // Maximum number of bytes before a section that belong to no section.
 
 struct section {
     uint32_t at; // byte of the offset
@@ -67,17 +68,36 @@ bool hair_is_tfx4(const unsigned char* bytes, size_t size)
     return size >= 4 && hair_read_float(bytes) >= 4 && hair_read_float(bytes) < 5;
 }
 
+// Return the bytes of the section at an offset that is not 0.
+static uint64_t size_of(const struct section* section, uint64_t strands, uint64_t vertices)
+{
+    return (section->per_vertex ? vertices : strands) * section->size;
+}
+
+// Return the maximum offset of a section: the header, all sections and a gap lie before it.
+static uint64_t find_max_offset(const unsigned char* bytes, const struct layout* layout, uint64_t strands,
+                                uint64_t vertices)
+{
+    uint64_t max = layout->header + MAX_GAP;
+    for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i)
+        if (hair_read_u32(bytes + layout->sections[i].at))
+            max += size_of(&layout->sections[i], strands, vertices);
+    return max;
+}
+
 static uint64_t max_size(const unsigned char* bytes, size_t size, const struct layout* layout)
 {
     uint64_t max = layout->header;
     if (size < layout->header) return max;
-    uint64_t strands = hair_read_u32(bytes + 4), each = hair_read_u32(bytes + 8);
-    if (strands && each > UINT32_MAX / strands) return max; // Too many vertices.
+    uint64_t strands = hair_read_u32(bytes + 4), vertices = strands * hair_read_u32(bytes + 8);
+    if (!hair_counts_are_allowed(strands, vertices)) return layout->header;
+    uint64_t max_offset = find_max_offset(bytes, layout, strands, vertices);
     for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i) {
         const struct section* section = &layout->sections[i];
         uint64_t offset = hair_read_u32(bytes + section->at),
-                 count = strands * (section->per_vertex ? each : 1);
-        if (offset && offset + count * section->size > max) max = offset + count * section->size;
+                 end = offset + size_of(section, strands, vertices);
+        if (offset > max_offset) return layout->header;
+        if (offset && end > max) max = end;
     }
     return max;
 }
@@ -101,12 +121,16 @@ static hair_result check_section(const struct hair_source* source, const struct 
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the offset of the %s at byte %u is %u, which is not a multiple of 4 from %u on",
                          section->what, section->at, offset, layout->header);
+    uint64_t max = find_max_offset(source->bytes, layout, strands, vertices);
+    if (offset > max)
+        return hair_fail(source->host, HAIR_ERROR_FILE,
+                         "the offset of the %s at byte %u is %u, but all sections fit before byte %llu",
+                         section->what, section->at, offset, (unsigned long long)max);
     return hair_check_section(source, section->what, offset, section->per_vertex ? vertices : strands,
                               section->size);
 }
 
-// Read the header. On success all sections lie in the file, so `strands` times `each` fits in 32
-// bits for any real file.
+// Read the header. On success all sections lie in the file.
 static hair_result read_header(const struct hair_source* source, const struct layout* layout,
                                uint32_t* strands, uint32_t* each)
 {
@@ -118,11 +142,10 @@ static hair_result read_header(const struct hair_source* source, const struct la
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the vertices of each strand at byte 8 are %u, fewer than 2", *each);
     uint64_t vertices = (uint64_t)*strands * *each;
+    HAIR_TRY(hair_check_counts(source, *strands, vertices));
     for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i)
         HAIR_TRY(check_section(source, layout, &layout->sections[i], *strands, vertices));
-    if (vertices <= UINT32_MAX) return HAIR_OK;
-    return hair_fail(source->host, HAIR_ERROR_FILE, "the counts at byte 4 make %llu vertices, more than %u",
-                     (unsigned long long)vertices, UINT32_MAX);
+    return HAIR_OK;
 }
 
 static hair_result decode(const struct hair_source* source, const struct layout* layout, hair_asset* asset)
@@ -168,8 +191,7 @@ hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)
     uint64_t needed = version4.header + (strands->colors ? 32u : 16u) * (uint64_t)strands->vertex_count +
                       8 * (uint64_t)strands->strand_count;
     if (needed > UINT32_MAX)
-        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT,
-                         "%llu bytes are more than the offsets of .tfx can reach, %u",
+        return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "a .tfx of %llu bytes is longer than %u",
                          (unsigned long long)needed, UINT32_MAX);
     *size = (size_t)needed;
     return HAIR_OK;

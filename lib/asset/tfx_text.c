@@ -208,9 +208,20 @@ bool hair_is_tfx_text(const unsigned char* bytes, size_t size)
            (hair_token_is(&name, "version") || hair_token_is(&name, "numStrands"));
 }
 
+uint64_t hair_max_size_of_tfx_text(const unsigned char* bytes, size_t size)
+{
+    (void)bytes;
+    (void)size;
+    return HAIR_TEXT_MAX_BYTES;
+}
+
 hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset)
 {
     struct reader reader = {.source = source, .scale = 1};
+    if (source->size > HAIR_TEXT_MAX_BYTES)
+        return hair_fail(source->host, HAIR_ERROR_FILE,
+                         "the text goes on after byte %zu, which is the maximum of a text",
+                         HAIR_TEXT_MAX_BYTES);
     rewind_to_start(&reader, NULL);
     HAIR_TRY(read_all(&reader));
     HAIR_TRY(check_counts(&reader));

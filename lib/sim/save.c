@@ -15,75 +15,27 @@
 
 #include "lib/base/bytes.h"
 
-#define MAGIC "hairsave"
+#define HEADER HAIR_SAVE_HEADER
+#define TRAILER HAIR_SAVE_TRAILER
 
 size_t hair_sim_save_size(struct hair_sim* sim)
 {
-    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .at = HAIR_SAVE_HEADER};
+    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .at = HEADER};
     struct hair_loaded none = {0}; // Nothing is read.
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
-    return s.at + HAIR_SAVE_TRAILER;
-}
-
-void hair_sim_seal_state(unsigned char* bytes, size_t size)
-{
-    HAIR_ASSERT(size >= HAIR_SAVE_HEADER + HAIR_SAVE_TRAILER);
-    memcpy(bytes, MAGIC, 8);
-    hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
-    hair_write_u64(bytes + 12, size);
-    hair_write_u64(bytes + size - HAIR_SAVE_TRAILER,
-                   hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - HAIR_SAVE_TRAILER));
+    return s.at + TRAILER;
 }
 
 void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 {
-    struct hair_serializer s = {
-        .host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HAIR_SAVE_HEADER};
+    struct hair_serializer s = {.host = &sim->gl->host, .gl = sim->gl, .write = bytes, .at = HEADER};
     struct hair_loaded none = {0}; // Nothing is read.
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
-    hair_sim_seal_state(bytes, s.at + HAIR_SAVE_TRAILER);
-}
-
-static hair_result check_frame(const hair_host* host, const unsigned char* bytes, size_t size)
-{
-    if (size < HAIR_SAVE_HEADER + HAIR_SAVE_TRAILER || memcmp(bytes, MAGIC, 8) != 0)
-        return hair_fail(host, HAIR_ERROR_FILE,
-                         "the %zu bytes are no saved state: it is longer, with \"" MAGIC "\" at byte 0",
-                         size);
-    uint32_t version = hair_read_u32(bytes + 8);
-    uint64_t whole = hair_read_u64(bytes + 12);
-    if (version != HAIR_SAVE_VERSION)
-        return hair_fail(host, HAIR_ERROR_FILE, "the version at byte 8 of the saved state is %u, not %d",
-                         version, HAIR_SAVE_VERSION);
-    if (whole != size)
-        return hair_fail(host, HAIR_ERROR_FILE,
-                         "the saved state ends at byte %zu, not at byte %llu as byte 12 says", size,
-                         (unsigned long long)whole);
-    if (hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - HAIR_SAVE_TRAILER) !=
-        hair_read_u64(bytes + size - HAIR_SAVE_TRAILER))
-        return hair_fail(host, HAIR_ERROR_FILE,
-                         "the saved state is damaged: the hash at byte %zu is not that of the bytes before",
-                         size - HAIR_SAVE_TRAILER);
-    return HAIR_OK;
-}
-
-// Read and check a state. Fill in `sim`, which is a copy, and `loaded`, `colliders` and c->own.
-static hair_result read(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded,
-                        struct hair_colliders* colliders)
-{
-    hair_sim_serialize(s, sim, loaded);
-    if (!s->result && s->at != s->end)
-        s->result =
-            hair_fail(s->host, HAIR_ERROR_FILE,
-                      "the fields of the saved state end at byte %zu, not at byte %zu", s->at, s->end);
-    if (!s->result) s->result = hair_pins_check(sim, loaded->resolved_pin, loaded->pins);
-    if (s->result) return s->result;
-    return hair_colliders_restore(s->host, colliders, loaded->now.collider, loaded->now.count,
-                                  loaded->before.collider, loaded->before.count);
+    hair_save_seal(bytes, s.at);
 }
 
 // Upload the buffers by GPU copies, which run in order with dispatches. One driver was seen to lose
@@ -103,12 +55,11 @@ static hair_result upload(const struct hair_serializer* s)
 hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
 {
     const hair_host* host = &sim->gl->host;
-    HAIR_TRY(check_frame(host, bytes, size));
+    HAIR_TRY(hair_save_check(host, bytes, size));
     // The state may contain accelerations of the hair-hair grid and the air of a fluid.
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
-    int skinned =
-        size >= HAIR_SAVE_HEADER + 4 + HAIR_SAVE_TRAILER && hair_read_u32(bytes + HAIR_SAVE_HEADER) == 1;
+    int skinned = size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
     if (skinned && !sim->scalp_motion.root_bindings)
         return hair_fail(
             host, HAIR_ERROR_ARGUMENT,
@@ -117,13 +68,17 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     struct hair_sim own = *sim; // Copy that receives the loaded state.
     struct hair_loaded loaded = {0};
     struct hair_serializer s = {
-        .host = host, .gl = sim->gl, .read = bytes, .at = HAIR_SAVE_HEADER, .end = size - HAIR_SAVE_TRAILER};
+        .host = host, .gl = sim->gl, .read = bytes, .at = HEADER, .end = size - TRAILER};
     own.sleep.fence = NULL;
     s.native = hair_alloc(host, 1, s.end);
     if (!s.native) return hair_fail_memory(host, "the state to load");
     struct hair_colliders colliders = {0};
     GLuint still = 0;
-    hair_result result = read(&s, &own, &loaded, &colliders);
+    hair_result result = hair_save_read(&s, &own, &loaded, &colliders);
+    if (!result && loaded.has_anchors) {
+        result = hair_sleep_create(&own);
+        s.buffer[loaded.anchors].buffer = own.sleep.anchor;
+    }
     if (!result && !skinned && hair_scalp_motion_is_on(sim))
         result = hair_scalp_motion_make_rest(sim, &still);
     if (!result) result = upload(&s);

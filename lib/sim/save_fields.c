@@ -63,6 +63,12 @@ static void serialize_collider(struct hair_serializer* s, const struct hair_coll
     collider->mesh = NULL;
     if (collider->shape == HAIR_SHAPE_MESH)
         collider->mesh = find_mesh(there, hashes[0] | (uint64_t)hashes[1] << 32);
+    else if ((hashes[0] || hashes[1]) && !s->result)
+        s->result =
+            hair_fail(s->host, HAIR_ERROR_FILE,
+                      "the collider before byte %zu of the saved state names a collision mesh, but its "
+                      "shape is %u",
+                      s->at, (unsigned)collider->shape);
 }
 
 // Serialize a list of colliders. Read into `loaded`, and fail if the count exceeds the bytes
@@ -161,7 +167,7 @@ static void serialize_scalp_motion(struct hair_serializer* s, struct hair_sim* s
 }
 
 // Serialize the sleep state and the measurements of activity.
-static void serialize_sleep(struct hair_serializer* s, struct hair_sim* sim)
+static void serialize_sleep(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded)
 {
     struct hair_sleep* sleep = &sim->sleep;
     float* number[] = {&sleep->now.far, &sleep->now.speed, &sleep->before, &sleep->answer.far,
@@ -180,9 +186,11 @@ static void serialize_sleep(struct hair_serializer* s, struct hair_sim* sim)
     hair_serialize_double(s, "duration of the last round of samples", &sleep->span, 0, 2 * MAX_QUIET_TIME);
     hair_serialize_double(s, "duration of the round before", &sleep->span_before, 0, 2 * MAX_QUIET_TIME);
     hair_serialize_pose(s, "head at rest", &sleep->head, MAX_PAST);
-    if (s->read && sleep->samples && !s->result) s->result = hair_sleep_create(sim);
-    if (sleep->samples && !s->result)
-        hair_serialize_buffer(s, "anchors of guides", sleep->anchor, sim->guide_vertices * sizeof(hair_vec4));
+    if (!sleep->samples || s->result) return;
+    loaded->has_anchors = s->read;
+    loaded->anchors = s->buffers;
+    hair_serialize_buffer(s, "anchors of guides", s->read ? HAIR_SERIALIZER_NEW : sleep->anchor,
+                          sim->guide_vertices * sizeof(hair_vec4));
 }
 
 // Serialize the air of a fluid that has a past. An instance without a fluid, or with another fluid,
@@ -241,7 +249,7 @@ void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct 
     serialize_bend(s, sim);
     serialize_hair_grid(s, &sim->hair_grid, sim->guide_vertices);
     serialize_scalp_motion(s, sim, skinned);
-    serialize_sleep(s, sim);
+    serialize_sleep(s, sim, loaded);
     hair_serialize_uint(s, "how many times as long substeps are", &sim->substep_scale, MAX_SUBSTEP_SCALE);
     hair_serialize_double(s, "time since hair was seen", &sim->unseen, 0, 1);
     serialize_wind_coupling(s, &sim->wind_coupling);

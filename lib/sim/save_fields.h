@@ -7,8 +7,10 @@
 
 // Version of the fields and of their meaning. Raise it with any change of these.
 #define HAIR_SAVE_VERSION 15
-#define HAIR_SAVE_HEADER 20 // Bytes before the fields.
-#define HAIR_SAVE_TRAILER 8 // Bytes after the fields.
+
+// Bytes before the fields of a saved state and after them.
+#define HAIR_SAVE_HEADER 20
+#define HAIR_SAVE_TRAILER 8
 
 // Loaded arrays, before they are checked and collision meshes are held.
 struct hair_loaded {
@@ -18,14 +20,23 @@ struct hair_loaded {
     } now, before;
     struct hair_resolved_pin* resolved_pin; // Pins.
     uint32_t pins;
+    uint32_t anchors; // Index of the serializer's buffer that hair_sim_load() creates.
+    bool has_anchors;
 };
-
-// Complete the bytes of a saved state, the fields of which have been written: the header and the
-// hash. `size` counts all bytes.
-void hair_sim_seal_state(unsigned char* bytes, size_t size);
 
 // Serialize all fields in order. They identify the haircut, and hold all that the coming motion
 // depends on. Arrays are read into `loaded`, which the caller frees.
 void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded);
+
+// Functions of save_check.c, which need no OpenGL.
+
+// Check the header of a saved state, its size and its hash.
+hair_result hair_save_check(const hair_host* host, const unsigned char* bytes, size_t size);
+// Write the header and the hash around fields that end at `end`.
+void hair_save_seal(unsigned char* bytes, size_t end);
+// Read and check the fields. Fill in `sim`, which is a copy, and `loaded`, `colliders` and
+// s->native.
+hair_result hair_save_read(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded,
+                           struct hair_colliders* colliders);
 
 #endif

@@ -69,7 +69,7 @@ void hair_serialize_same(struct hair_serializer* s, const char* name, double val
     if (s->write) hair_write_double(s->write + s->at, value);
     if (can_read(s, name, 8)) {
         double saved = hair_read_double(s->read + s->at);
-        if (!(saved == value))
+        if (!(saved == value) || signbit(saved) != signbit(value))
             s->result = hair_fail(s->host, HAIR_ERROR_ARGUMENT,
                                   "the saved state is another's: its %s is %.9g, the instance's %.9g", name,
                                   saved, value);

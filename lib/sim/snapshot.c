@@ -96,7 +96,7 @@ hair_result hair_snapshots_load(struct hair_sim* sim, struct hair_snapshots* fro
 {
     const struct hair_snapshot* last = &from->last;
     if (!last->size) return HAIR_OK;
-    hair_sim_seal_state(last->bytes, last->size);
+    hair_save_seal(last->bytes, last->size - HAIR_SAVE_TRAILER);
     HAIR_TRY(hair_sim_load(sim, last->bytes, last->size));
     hair_sleep_wake(sim); // The snapshot may wait for a measurement that was lost.
     return HAIR_OK;

@@ -53,6 +53,8 @@ static void wrong_use_exits_with_2(void** state)
         {"accuracy --device 99", "device is 99"},
         {"accuracy --json - --csv -", "standard output"},
         {"accuracy --json", "--help"},
+        {"accuracy --json $D/x.csv", "x.csv ends in .csv, but what is written is .json"},
+        {"accuracy --csv $D/x.foo", "x.foo ends in .foo, but what is written is .csv"},
         {"--dance", "--help"},
         {"physics --quick --case energy", "under --quick are cantilever, cantilever_arc, catenary, pendulum"},
     };

@@ -171,6 +171,28 @@ static void invalid_bullet_values_are_named_with_their_range(void** state)
     expect(1, "test -e $D/b.png", "");
 }
 
+// Check that no text of a mesh file, such as a material's name, can command a terminal, and that a
+// file without an end is refused.
+static void hostile_mesh_file_is_refused_with_escaped_text(void** state)
+{
+    (void)state;
+    expect(0,
+           "printf 'mtllib \\033]0;owned\\007\\nusemtl \\033[2J\\nv \\033[2J\\n' >\"$D/$(printf "
+           "'a\\033b').obj\"",
+           "");
+    expect(4,
+           "echo '{\"bullet\": [{\"shape\": \"mesh\", \"mesh\": \"a\\u001bb.obj\"}]}' >$D/s.json; "
+           "$T $D/s.json -o $D/b.png",
+           "a\\x1bb.obj: line 3 has a vertex that is not 3 numbers");
+    assert_null(strchr(hair_test_said, '\033'));
+    assert_null(strchr(hair_test_said, '\007'));
+    expect(4,
+           "echo '{\"bullet\": [{\"shape\": \"mesh\", \"mesh\": \"/dev/zero\"}]}' >$D/s.json; ulimit -v "
+           "4000000; "
+           "timeout 20 $T $D/s.json -o $D/b.png",
+           "/dev/zero has more than the 268435456 bytes allowed");
+}
+
 static void example_bullet_scene_can_be_captured(void** state)
 {
     (void)state;
@@ -187,6 +209,7 @@ int main(void)
         cmocka_unit_test(bullet_objects_move_like_colliders),
         cmocka_unit_test(every_bullet_shape_can_be_in_a_scene),
         cmocka_unit_test(invalid_bullet_values_are_named_with_their_range),
+        cmocka_unit_test(hostile_mesh_file_is_refused_with_escaped_text),
         cmocka_unit_test(example_bullet_scene_can_be_captured),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

@@ -84,6 +84,7 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png a.json b.json", "b.json"},
         {"-o - --hash", "standard output"},
         {"-o - --stats -", "standard output"},
+        {"--stats $D/s.foo", "s.foo ends in .foo, but what is written is .json"},
         {"--dance", "--help"},
         {"--groom", "--help"},
         {"--show hair,hat --hash", "--show is hair,hat, not some of hair, head, guides, colliders and wind"},
@@ -201,6 +202,21 @@ static void unusable_input_exits_with_4_and_its_position(void** state)
     expect(1, "test -e $D/a.png", "");
     expect(4, "$T --groom /dev/null -o $D/a.png", "/dev/null: the file ends at byte 0");
     expect(2, "echo '{}' >$D/s.json; $T $D/s.json --frames 0:1 -o $D/a.jpg", "a.jpg");
+}
+
+// Check whose fault a refused setting is, beside options that are in order or out of range.
+static void bad_scene_beside_settings_of_the_command_line_exits_with_4(void** state)
+{
+    (void)state;
+    expect(0, "echo '{\"settings\": {\"damping\": -1}}' >$D/s.json", "");
+    expect(4, "$T $D/s.json --set strand.segments=4 --seed 3 -o $D/a.png", "hair_physics.damping is -1");
+    expect(4, "$T $D/s.json --set look=wavy --set strand.taper=0,1 -o $D/a.png",
+           "hair_physics.damping is -1");
+    expect(2, "$T $D/s.json --set damping=-2 -o $D/a.png", "hair_physics.damping is -2");
+    expect(0, "echo '{}' >$D/s.json", "");
+    expect(2, "$T $D/s.json --set damping=-2 -o $D/a.png", "hair_physics.damping is -2");
+    expect(2, "$T $D/s.json --set clump.weight=0,2 -o $D/a.png", "hair_look.clump.weight.at[4] is 1.14");
+    expect(2, "$T $D/s.json --guides 99999 -o $D/a.png", "guide_count");
 }
 
 static void driver_older_than_4_5_exits_with_3(void** state)
@@ -367,6 +383,7 @@ int main(void)
         cmocka_unit_test(culling_behind_the_head_keeps_the_picture),
         cmocka_unit_test(every_number_of_the_physics_can_be_set),
         cmocka_unit_test(unusable_input_exits_with_4_and_its_position),
+        cmocka_unit_test(bad_scene_beside_settings_of_the_command_line_exits_with_4),
         cmocka_unit_test(driver_older_than_4_5_exits_with_3),
         cmocka_unit_test(shown_layers_are_those_of_the_show_option),
         cmocka_unit_test(wind_of_a_scene_moves_hair_and_can_be_shown),

@@ -24,13 +24,14 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --only nothing", "--only is nothing, a word of no row's title"},
         {"-o $D/a.png more", "more is one argument too many"},
         {"--dance", "dance"},
+        {"-o $D/a.jpg", "a.jpg ends in .jpg, but what is written is .png"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[256];
         snprintf(command, sizeof command, "$T %s", wrong[i][0]);
         expect(2, command, wrong[i][1]);
     }
-    expect(1, "test -e $D/a.png", "");
+    expect(1, "test -e $D/a.png -o -e $D/a.jpg", "");
     expect(0, "$T --help", "hair-gallery - ");
     expect(0, "$T --version", "hair-gallery 0.");
     hair_test_shell_expect_full("--help");

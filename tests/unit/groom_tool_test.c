@@ -89,6 +89,28 @@ static void inputs_without_an_end_are_read_as_far_as_their_format_goes(void** st
     expect(0, command, "tfx3");
 }
 
+// Check inputs without an end whose headers claim more than the library reads, and a text.
+static void inputs_that_claim_too_much_are_refused_by_their_beginning(void** state)
+{
+    (void)state;
+    static const char* const wrong[][2] = {
+        {"(printf 'HAIR\\377\\377\\377\\377\\377\\377\\377\\377\\003\\0\\0\\0'; cat /dev/zero)",
+         "make 4294967295 strands and 4294967295 vertices, more than 16777216 and 67108864"},
+        {"(head -c 12 $D/a.hair; printf '\\377\\377\\377\\377'; tail -c +17 $D/a.hair; cat /dev/zero)",
+         "unknown arrays"},
+        {"(head -c 12 $D/a4.tfx; printf '\\360\\377\\377\\377'; cat /dev/zero)",
+         "is 4294967280, but all sections fit before byte"},
+        {"(head -c 4 $D/a3.tfx; printf '\\0\\0\\0\\001\\377\\0\\0\\0'; cat /dev/zero)", "more than"},
+        {"(cat $D/a2.tfx; yes '#')", "goes on after byte 268435456"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[512];
+        snprintf(command, sizeof command, "ulimit -v %d; %s | timeout 20 $T info -",
+                 i + 1 < sizeof wrong / sizeof *wrong ? 100000 : 500000, wrong[i][0]);
+        expect(i == 1 ? 0 : 4, command, wrong[i][1]);
+    }
+}
+
 // Check that text of files and arguments cannot command a terminal.
 static void text_that_is_printed_is_escaped(void** state)
 {
@@ -217,6 +239,7 @@ int main(void)
         cmocka_unit_test(info_prints_repairs),
         cmocka_unit_test(haircuts_are_read_from_pipes_and_written_to_them),
         cmocka_unit_test(inputs_without_an_end_are_read_as_far_as_their_format_goes),
+        cmocka_unit_test(inputs_that_claim_too_much_are_refused_by_their_beginning),
         cmocka_unit_test(text_that_is_printed_is_escaped),
         cmocka_unit_test(every_format_converts_to_every_writable_format),
         cmocka_unit_test(built_in_haircuts_are_written),

@@ -135,8 +135,8 @@ static bool take(const struct row* row, const char* value, struct bench_options*
 {
     uint32_t number = 0;
     switch (row->option) {
-    case JSON: out->json = value; return true;
-    case CSV: out->csv = value; return true;
+    case JSON: out->json = value; return hair_output_has_ending(BENCH_TOOL, value, ".json");
+    case CSV: out->csv = value; return hair_output_has_ending(BENCH_TOOL, value, ".csv");
     case QUICK: out->quick = true; return true;
     case CASE: out->only_case = value; return true;
     case METHOD: out->only_method = value; return parse_name(row->name, value, methods, &number);
@@ -182,7 +182,7 @@ int bench_parse(int count, char** arguments, struct bench_options* out)
         table[i] =
             (struct option){rows[i].name, rows[i].argument ? required_argument : no_argument, NULL, 1000 + i};
     *out = (struct bench_options){.device = -1};
-    opterr = 0;
+    optind = opterr = 0;
     for (int found; (found = getopt_long(count, arguments, "h", table, NULL)) != -1;) {
         if (found == '?') {
             hair_complain_option(BENCH_TOOL, arguments[optind - 1]);

@@ -2,6 +2,7 @@
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_writer.h"
+#include "tools/common/settings_fields.h"
 
 #include <errno.h>
 #include <getopt.h>
@@ -188,8 +189,10 @@ static bool parse_show(const char* tool, const char* text, struct hair_scene* sc
     }
 }
 
-// Apply "--set key=value" or an option such as "--tip-first", which sets tip_first to 1.
-static bool apply_change(const char* tool, const struct change* change, struct hair_scene* scene)
+// Apply "--set key=value" or an option such as "--tip-first", which sets tip_first to 1. Clear
+// *in_range if the library will refuse the value.
+static bool apply_change(const char* tool, const struct change* change, struct hair_scene* scene,
+                         bool* in_range)
 {
     bool set = change->row->option == SET;
     const char* name = set ? change->value : change->row->name;
@@ -203,7 +206,9 @@ static bool apply_change(const char* tool, const struct change* change, struct h
     for (char* c = key; *c && !set; ++c)
         if (*c == '-') *c = '_';
     const char* value = set ? equals + 1 : change->value ? change->value : "1";
-    return hair_settings_set(tool, &scene->settings, key, value);
+    if (!hair_settings_set(tool, &scene->settings, key, value)) return false;
+    *in_range = *in_range && hair_setting_is_in_range(&scene->settings, key);
+    return true;
 }
 
 // The command line --------------------------------------------------------------------------------
@@ -240,7 +245,7 @@ static bool take(const char* tool, const struct row* row, const char* value, str
         if (!parse_whole(tool, row->name, value, 0, 1000, &device)) return false;
         out->device = (int)device;
         break;
-    case STATS: out->stats = value; break;
+    case STATS: out->stats = value; return hair_output_has_ending(tool, value, ".json");
     case SHADER: out->shader = value; break;
     case HASH: out->hash = true; break;
     case QUIET: out->quiet = true; break;
@@ -291,7 +296,6 @@ static int open_scene(const char* tool, const struct said* said, struct hair_cap
     const char* path = said->scene_file;
     if (path) {
         out->name = path;
-        out->is_of_file = said->changes == 0;
         return hair_scene_read(tool, path, &out->scene) ? -1 : HAIR_EXIT_INPUT;
     }
     bool none = !said->scene_name && said->groom;
@@ -301,8 +305,10 @@ static int open_scene(const char* tool, const struct said* said, struct hair_cap
     return ok ? -1 : HAIR_EXIT_USAGE;
 }
 
-static bool change_scene(const char* tool, const struct said* said, struct hair_scene* scene)
+static bool change_scene(const char* tool, const struct said* said, struct hair_capture_options* out)
 {
+    struct hair_scene* scene = &out->scene;
+    bool in_range = true;
     if (said->head) scene->head = scene->head_is_said = true;
     if (said->groom) hair_scene_set_groom(said->groom, scene);
     if (said->style && !hair_scene_set_style(tool, said->style, scene)) return false;
@@ -311,7 +317,8 @@ static bool change_scene(const char* tool, const struct said* said, struct hair_
     if (said->fps && !parse_fps(tool, said->fps, scene)) return false;
     if (said->size && !parse_size(tool, said->size, scene)) return false;
     for (int i = 0; i < said->changes; ++i)
-        if (!apply_change(tool, &said->change[i], scene)) return false;
+        if (!apply_change(tool, &said->change[i], scene, &in_range)) return false;
+    out->is_of_file = said->scene_file && in_range;
     return true;
 }
 
@@ -352,5 +359,5 @@ int hair_capture_parse(const char* tool, int count, char** arguments, struct hai
     }
     code = open_scene(tool, &said, out);
     if (code >= 0) return code;
-    return change_scene(tool, &said, &out->scene) && choose_frames(tool, &said, out) ? -1 : HAIR_EXIT_USAGE;
+    return change_scene(tool, &said, out) && choose_frames(tool, &said, out) ? -1 : HAIR_EXIT_USAGE;
 }

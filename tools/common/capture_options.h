@@ -7,7 +7,7 @@
 struct hair_capture_options {
     struct hair_scene scene; // with all changes of the command line applied
     const char* name; // name of the scene, for messages
-    bool is_of_file; // all settings are of a scene file, and none of the command line
+    bool is_of_file; // all settings that the library can refuse are of a scene file
     const char* out; // NULL disables it
     const char* stats; // NULL disables it
     const char* shader; // file with a pixel shader for strands, NULL disables it

@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -158,6 +159,14 @@ bool hair_file_read(const char* tool, const char* path, size_t limit, struct hai
 bool hair_file_read_haircut(const char* tool, const char* path, size_t limit, struct hair_bytes* out)
 {
     return read_file(tool, path, limit, hair_asset_max_size, out);
+}
+
+bool hair_output_has_ending(const char* tool, const char* path, const char* ending)
+{
+    const char *slash = strrchr(path, '/'), *end = strrchr(slash ? slash : path, '.');
+    if (!end || !strcasecmp(end, ending)) return true;
+    hair_complain(tool, "%s ends in %s, but what is written is %s", path, end, ending);
+    return false;
 }
 
 static bool cannot_write(const char* tool, const char* path)

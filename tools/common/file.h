@@ -61,6 +61,10 @@ bool hair_output_open(const char* tool, const char* path, struct hair_output* ou
 bool hair_output_commit(struct hair_output* output); // A failure discards the output.
 void hair_output_discard(struct hair_output* output);
 
+// Return whether the name of an output ends in `ending`, such as ".csv", or in no ending at all.
+// Print an error otherwise, because the user may expect another format.
+bool hair_output_has_ending(const char* tool, const char* path, const char* ending);
+
 // Remove the temporary files of all open outputs. A signal handler that ends the program may call
 // this.
 void hair_output_remove_all(void);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_BYTES ((size_t)2 << 30)
+#define MAX_BYTES ((size_t)256 << 20)
 #define MAX 16777216u // maximum number of vertices and of triangles
 
 // State of the parser.
@@ -89,13 +89,15 @@ static bool read_face(struct place* place, char* at)
     return corners >= 3 || wrong(place, "has a face of fewer than 3 corners");
 }
 
-// Read all lines. Line ends in `text` are replaced by 0.
-static bool read_lines(struct place* place, char* text)
+// Read all lines up to `end`. Line ends in `text` are replaced by 0.
+static bool read_lines(struct place* place, char* text, const char* end)
 {
-    for (char* next; text; text = next) {
-        next = strchr(text, '\n');
-        if (next) *next++ = 0;
+    for (char* next; text < end; text = next) {
+        size_t length = strcspn(text, "\n");
+        next = text + length + 1;
         ++place->line;
+        if (text + length < end && !text[length]) return wrong(place, "has a byte 0, and is no text");
+        text[length] = 0;
         text += strspn(text, " \t");
         bool blank = text[0] && strchr(" \t", text[1]);
         if (text[0] == 'v' && blank && !read_vertex(place, text + 1)) return false;
@@ -104,25 +106,33 @@ static bool read_lines(struct place* place, char* text)
     return true;
 }
 
-bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out)
+bool hair_obj_parse(const char* tool, const char* path, char* text, size_t size, struct hair_obj* out)
 {
-    struct hair_bytes bytes;
     struct place place = {.tool = tool, .path = path, .out = out};
     memset(out, 0, sizeof *out);
-    if (!hair_file_read(tool, path, MAX_BYTES, &bytes)) return false;
-    char* text = realloc(bytes.data, bytes.size + 1);
-    bool ok = text;
-    if (!ok) hair_complain(tool, "%s: out of memory", path);
-    if (ok) {
-        text[bytes.size] = 0;
-        ok = read_lines(&place, text);
-    }
+    bool ok = read_lines(&place, text, text + size);
     if (ok && !out->vertex_count) {
         hair_complain(tool, "%s: there is no vertex in it", path);
         ok = false;
     }
-    free(text ? (void*)text : bytes.data);
     if (!ok) hair_obj_free(out);
+    return ok;
+}
+
+bool hair_obj_read(const char* tool, const char* path, struct hair_obj* out)
+{
+    struct hair_bytes bytes;
+    memset(out, 0, sizeof *out);
+    if (!hair_file_read(tool, path, MAX_BYTES, &bytes)) return false;
+    char* text = realloc(bytes.data, bytes.size + 1);
+    if (!text) {
+        hair_complain(tool, "%s: out of memory", path);
+        free(bytes.data);
+        return false;
+    }
+    text[bytes.size] = 0;
+    bool ok = hair_obj_parse(tool, path, text, bytes.size, out);
+    free(text);
     return ok;
 }
 

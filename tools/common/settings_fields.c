@@ -1,6 +1,7 @@
 // settings_fields.c - The numbers of hair_settings and the keys by which users set them, made from
 // the table of the library's public numbers.
 #include "tools/common/settings_fields.h"
+#include "lib/draw/render_path.h"
 
 #include <float.h>
 #include <stddef.h>
@@ -14,13 +15,15 @@ struct field {
     const char* member; // such as "gravity[0]" or "strand.taper.at[3]"
     enum hair_setting_kind kind;
     size_t offset; // into the struct
+    double min, max;
 };
 
 static const struct field fields[] = {
-    {"hair_settings", "has_lod", HAIR_SETTING_BOOL, offsetof(struct hair_settings, has_lod)},
-    {"hair_settings", "hides", HAIR_SETTING_BOOL, offsetof(struct hair_settings, hides)},
+    {"hair_settings", "has_lod", HAIR_SETTING_BOOL, offsetof(struct hair_settings, has_lod), 0, 1},
+    {"hair_settings", "hides", HAIR_SETTING_BOOL, offsetof(struct hair_settings, hides), 0, 1},
 #define BEGIN(S)
-#define FIELD(S, member, type, value, min, max) {#S, #member, HAIR_SETTING_##type, offsetof(S, member)},
+#define FIELD(S, member, type, value, min, max)                                                              \
+    {#S, #member, HAIR_SETTING_##type, offsetof(S, member), min, max},
 #define MATRIX(S, member)
 #define END(S)
 #include "lib/api/schema.inl"
@@ -144,6 +147,8 @@ static bool make_setting(const struct field* field, struct hair_setting* out)
     if (is_excluded(field->owner, member) || (curve && index > 0) || index > 2) return false;
     out->kind = curve ? HAIR_SETTING_CURVE : field->kind;
     out->offset = owners[owner].offset + field->offset;
+    out->min = field->min;
+    out->max = field->max;
     write_key(owner, member, out->key, sizeof out->key);
     if (bracket && !curve) {
         size_t used = strlen(out->key);
@@ -152,11 +157,25 @@ static bool make_setting(const struct field* field, struct hair_setting* out)
     return true;
 }
 
+// Return all settings, which are made at the first call, and their number in *count.
+static const struct hair_setting* get_settings(size_t* count)
+{
+    static struct hair_setting settings[COUNT(fields)];
+    static size_t made;
+    static bool is_made;
+    for (size_t i = 0; !is_made && i < COUNT(fields); ++i) made += make_setting(&fields[i], &settings[made]);
+    is_made = true;
+    *count = made;
+    return settings;
+}
+
 bool hair_setting_next(size_t* at, struct hair_setting* out)
 {
-    while (*at < COUNT(fields))
-        if (make_setting(&fields[(*at)++], out)) return true;
-    return false;
+    size_t count;
+    const struct hair_setting* settings = get_settings(&count);
+    if (*at >= count) return false;
+    *out = settings[(*at)++];
+    return true;
 }
 
 bool hair_setting_find(const char* key, struct hair_setting* out)
@@ -164,4 +183,33 @@ bool hair_setting_find(const char* key, struct hair_setting* out)
     for (size_t at = 0; hair_setting_next(&at, out);)
         if (!strcmp(out->key, key)) return true;
     return false;
+}
+
+static bool is_float_in_range(const struct hair_setting* setting, const void* at)
+{
+    int count = setting->kind == HAIR_SETTING_CURVE ? HAIR_SETTING_CURVE_POINTS : 1;
+    for (int i = 0; i < count; ++i) {
+        float value;
+        memcpy(&value, (const char*)at + (size_t)i * sizeof value, sizeof value);
+        if (!(value >= (float)setting->min && value <= (float)setting->max)) return false;
+    }
+    return true;
+}
+
+static bool is_in_range(const struct hair_setting* setting, const void* at)
+{
+    uint32_t count;
+    if (setting->kind == HAIR_SETTING_BOOL) return true;
+    if (setting->kind != HAIR_SETTING_UINT) return is_float_in_range(setting, at);
+    memcpy(&count, at, sizeof count);
+    return count >= setting->min && count <= setting->max;
+}
+
+bool hair_setting_is_in_range(const struct hair_settings* settings, const char* key)
+{
+    struct hair_setting setting;
+    for (size_t at = 0; hair_setting_next(&at, &setting);)
+        if (!strcmp(setting.key, key) && !is_in_range(&setting, (const char*)settings + setting.offset))
+            return false;
+    return true;
 }

@@ -13,6 +13,7 @@ struct hair_setting {
     char key[64];
     enum hair_setting_kind kind;
     size_t offset; // into struct hair_settings
+    double min, max; // range that the library accepts
 };
 
 // Return the next setting from position *at on, or false at the end. *at starts with 0. Several
@@ -20,5 +21,8 @@ struct hair_setting {
 bool hair_setting_next(size_t* at, struct hair_setting* out);
 // Find the first setting of a key. Return false without one.
 bool hair_setting_find(const char* key, struct hair_setting* out);
+// Return whether the library accepts the values of all settings of a key. A key without a setting
+// has none that could be refused.
+bool hair_setting_is_in_range(const struct hair_settings* settings, const char* key);
 
 #endif

@@ -1,0 +1,16 @@
+// targets.c - the list of all fuzz targets. With HAIR_FUZZ_PORTABLE it lacks those that need
+// libjansson.
+#include "tests/fuzz/fuzz.h"
+
+const struct hair_fuzz_target hair_fuzz_targets[] = {{"hairfile", hair_fuzz_hairfile},
+                                                     {"tfx", hair_fuzz_tfx},
+                                                     {"tfx_text", hair_fuzz_tfx_text},
+                                                     {"obj", hair_fuzz_obj},
+                                                     {"save", hair_fuzz_save},
+                                                     {"groom_arguments", hair_fuzz_groom_arguments},
+#ifndef HAIR_FUZZ_PORTABLE
+                                                     {"bench_arguments", hair_fuzz_bench_arguments},
+                                                     {"scene", hair_fuzz_scene},
+                                                     {"capture_arguments", hair_fuzz_capture_arguments},
+#endif
+                                                     {0}};
