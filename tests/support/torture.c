@@ -181,6 +181,7 @@ struct outcome {
 static void save(const struct hair_test_torture* t, struct outcome* out)
 {
     if (!out->state) out->state = malloc(BYTES);
+    out->size = out->guide_count = out->smooth_count = out->follower_count = 0;
     if (!t->hair) return;
     // Reading tells the instance that it is seen, which is in the state.
     hair_test_ok(t->test,
