@@ -22,6 +22,7 @@ struct hair_test_torture {
     int variant; // Meaning of the callbacks' own.
     bool is_cached; // Whether the context has a cache of programs.
     bool has_clobbered_state; // Whether the context may change the state of OpenGL.
+    bool has_varying_memory; // Whether a repeated call may need more memory than the first.
     float tolerance; // Maximum difference of pixels from those of the undisturbed call.
     GLenum format; // Format of the frame. 0 is GL_RGBA32F.
     GLsizei samples;
@@ -32,6 +33,7 @@ struct hair_test_torture {
 
     hair_groom* groom;
     hair_context* context;
+    hair_context* kept; // Context of all visits, which keeps its programs. NULL disables.
     hair_instance* hair;
     hair_shader* shader;
     hair_view view;
