@@ -374,7 +374,9 @@ static bool visit(struct hair_test_torture* t, struct visit* v, struct outcome* 
 static uint32_t visit_limits(struct hair_test_torture* t, struct outcome* expected, bool is_full)
 {
     uint32_t failures = 0;
-    struct visit v = {.kind = LIMIT, .site = 1, .limit = 1};
+    struct visit v = {.kind = LIMIT, .may_keep = true};
+    visit(t, &v, expected); // Compiles all programs.
+    v = (struct visit){.kind = LIMIT, .site = 1, .limit = 1};
     while (v.site <= (is_full ? 200 : MAX_LIMITS) && visit(t, &v, expected)) {
         unsigned long long more = 0, used = 0;
         const char* at = strstr(t->test->host.sentence, ": ");
