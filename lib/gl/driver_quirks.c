@@ -66,13 +66,17 @@ hair_result hair_gl_find_driver_quirks(struct hair_gl* gl)
     if (!result) {
         framebuffer = hair_gl_blank_framebuffer(gl);
         gl->CreateTransformFeedbacks(1, &feedback);
+        if (!framebuffer || !feedback)
+            result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no transform feedback");
+    }
+    if (!result) {
         gl->TransformFeedbackBufferBase(feedback, 0, buffer);
         draw(gl, program, feedback, framebuffer);
         gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *captured), captured);
         result = judge(gl, captured, count);
-        gl->DeleteTransformFeedbacks(1, &feedback);
-        gl->DeleteFramebuffers(1, &framebuffer);
     }
+    if (feedback) gl->DeleteTransformFeedbacks(1, &feedback);
+    if (framebuffer) gl->DeleteFramebuffers(1, &framebuffer);
     hair_gl_free_buffer(gl, &buffer);
     if (program) gl->DeleteProgram(program);
     hair_free(&gl->host, captured);

@@ -56,6 +56,7 @@ void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass)
     int same = frame->spans > 0 && frame->category[frame->spans - 1] == category;
     if (!gl->timings || same || frame->spans == HAIR_GL_SPANS) return;
     if (!frame->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_SPANS, frame->query[0]);
+    if (!frame->query[0][0]) return; // The driver has made no queries, so nothing is timed.
     gl->QueryCounter(frame->query[frame->spans][0], GL_TIMESTAMP);
     frame->category[frame->spans++] = category;
 }

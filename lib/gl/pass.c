@@ -49,6 +49,12 @@ void hair_gl_free_programs(struct hair_gl* gl)
     hair_free(&gl->host, gl->program);
 }
 
+// Write a timestamp, unless the driver has made no queries. The time is 0 then.
+static void write_time(struct hair_gl* gl, GLuint query)
+{
+    if (query) gl->QueryCounter(query, GL_TIMESTAMP);
+}
+
 void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_find(gl, pass);
@@ -57,9 +63,12 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Use timestamps, because the application may have an elapsed-time query active.
     if (gl->timings) {
-        if (!timer->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_TIMER_DEPTH, timer->query[0]);
+        if (!timer->query[0][0]) {
+            gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_TIMER_DEPTH, timer->query[0]);
+            timer->read = timer->begun; // Runs without queries have no results.
+        }
         hair_gl_pass_ms(gl, own); // Read the results before the slot is reused.
-        gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0], GL_TIMESTAMP);
+        write_time(gl, timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][0]);
     }
     hair_gl_profiler_begin(gl, pass);
     gl->UseProgram(own->program);
@@ -70,7 +79,7 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass)
     HAIR_ASSERT(hair_gl_find(gl, pass));
     struct hair_gl_timer* timer = &hair_gl_find(gl, pass)->timer;
     hair_gl_profiler_end(gl, pass);
-    if (gl->timings) gl->QueryCounter(timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1], GL_TIMESTAMP);
+    if (gl->timings) write_time(gl, timer->query[timer->begun % HAIR_GL_TIMER_DEPTH][1]);
     ++timer->begun;
     gl->PopDebugGroup();
 }

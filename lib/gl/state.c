@@ -179,6 +179,7 @@ GLuint hair_gl_blank_framebuffer(struct hair_gl* gl)
 {
     GLuint framebuffer = 0;
     gl->CreateFramebuffers(1, &framebuffer);
+    if (!framebuffer) return 0;
     gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
     gl->NamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
     return framebuffer;

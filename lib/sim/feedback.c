@@ -29,6 +29,9 @@ hair_result hair_feedback_create(struct hair_sim* sim, const struct hair_guide* 
     HAIR_TRY(make_owners(sim, guides));
     gl->CreateTransformFeedbacks(HAIR_FEEDBACK_STATES, feedback->captured);
     feedback->framebuffer = hair_gl_blank_framebuffer(gl);
+    bool is_whole = feedback->framebuffer != 0;
+    for (int i = 0; i < HAIR_FEEDBACK_STATES; ++i) is_whole &= feedback->captured[i] != 0;
+    if (!is_whole) return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no transform feedback");
     for (int i = 0; i < HAIR_FEEDBACK_STATES; ++i) {
         if (i != GUIDES)
             HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_SOLVE, "hair feedback", size, NULL,

@@ -52,19 +52,10 @@ static hair_result upload(const struct hair_serializer* s)
     return HAIR_OK;
 }
 
-hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
+// Load a state whose frame has been checked, into a simulation that has all buffers of the state.
+static hair_result load(struct hair_sim* sim, const unsigned char* bytes, size_t size, int skinned)
 {
     const hair_host* host = &sim->gl->host;
-    HAIR_TRY(hair_save_check(host, bytes, size));
-    // The state may contain accelerations of the hair-hair grid and the air of a fluid.
-    HAIR_TRY(hair_sim_ensure_hair_grid(sim));
-    HAIR_TRY(hair_wind_coupling_ensure(sim));
-    int skinned = size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
-    if (skinned && !sim->scalp_motion.root_bindings)
-        return hair_fail(
-            host, HAIR_ERROR_ARGUMENT,
-            "the saved state is another's: its scalp is skinned, and the instance's groom has none");
-    if (skinned) HAIR_TRY(hair_scalp_motion_create(sim));
     struct hair_sim own = *sim; // Copy that receives the loaded state.
     struct hair_loaded loaded = {0};
     struct hair_serializer s = {
@@ -106,4 +97,23 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     if (sim->wind_coupling.fluid.gl) hair_fluid_publish(&sim->wind_coupling.fluid);
     hair_sim_upload_render_state(sim);
     return HAIR_OK;
+}
+
+hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size_t size)
+{
+    const hair_host* host = &sim->gl->host;
+    HAIR_TRY(hair_save_check(host, bytes, size));
+    // The state may contain accelerations of the hair-hair grid and the air of a fluid.
+    HAIR_TRY(hair_sim_ensure_hair_grid(sim));
+    HAIR_TRY(hair_wind_coupling_ensure(sim));
+    int skinned = size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
+    if (skinned && !sim->scalp_motion.root_bindings)
+        return hair_fail(
+            host, HAIR_ERROR_ARGUMENT,
+            "the saved state is another's: its scalp is skinned, and the instance's groom has none");
+    bool was_skinned = hair_scalp_motion_is_on(sim);
+    if (skinned) HAIR_TRY(hair_scalp_motion_create(sim));
+    hair_result result = load(sim, bytes, size, skinned);
+    if (result && skinned && !was_skinned) hair_scalp_motion_undo_create(sim);
+    return result;
 }

@@ -16,6 +16,12 @@ static void free_buffers(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &motion->params);
 }
 
+void hair_scalp_motion_undo_create(struct hair_sim* sim)
+{
+    free_buffers(sim);
+    HAIR_ASSERT(!hair_scalp_motion_is_on(sim));
+}
+
 void hair_scalp_motion_free(struct hair_sim* sim)
 {
     free_buffers(sim);

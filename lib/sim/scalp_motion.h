@@ -31,6 +31,8 @@ void hair_scalp_motion_free(struct hair_sim* sim);
 // Create buffers and programs, once. The scalp counts as at rest so far. `root_bindings` is not
 // NULL.
 hair_result hair_scalp_motion_create(struct hair_sim* sim);
+// Undo hair_scalp_motion_create(). No pass may have read the buffers.
+void hair_scalp_motion_undo_create(struct hair_sim* sim);
 
 // Return the number of vertices of the groom's scalp, or 0 if the groom has none.
 uint32_t hair_scalp_motion_vertex_count(const struct hair_sim* sim);

@@ -8,7 +8,9 @@
 static void* take(size_t size, size_t align, void* user)
 {
     struct hair_test_host* host = user;
-    if (++host->allocations == host->refuse) return NULL;
+    ++host->allocations;
+    if (host->allocations == host->refuse) return NULL;
+    if (host->refuse && host->is_lasting && host->allocations > host->refuse) return NULL;
     void* memory = aligned_alloc(align, (size + align - 1) / align * align);
     if (!memory) return NULL;
     memset(memory, 0xa5, size);

@@ -10,6 +10,7 @@ struct hair_test_host {
     uint32_t blocks; // number of blocks not yet freed
     uint32_t allocations;
     uint32_t refuse; // number of the allocation that fails, from 1. 0 disables.
+    int is_lasting; // 1 if all later allocations fail too
     uint32_t errors, warnings;
     char sentence[512]; // last error
 };
