@@ -20,6 +20,7 @@ opt.debug    := -O0
 opt.asan     := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 opt.tsan     := -O1 -fsanitize=thread
 opt.coverage := -O0 --coverage
+opt.clang    := -O1
 Q := $(if $(filter 0,$(V)),@)
 say = $(if $(filter 0,$(V)),@echo '  $(1)')
 WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
@@ -290,6 +291,8 @@ help: ## This list
 	@awk -F':.*## ' '/^# make/{print substr($$0, 3)} /^[a-z-]+:.*## /{printf "  %-10s %s\n", $$1, $$2}' Makefile
 clean: ## Remove build/
 	rm -rf build
+
+include tests/gates.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:

@@ -36,6 +36,7 @@ void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
     hair_sleep_resolve_query(sim);
     hair_sim_serialize(&s, sim, &none);
     HAIR_ASSERT(s.result == HAIR_OK);
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
     hair_write_u64(bytes + 12, s.at + TRAILER);
