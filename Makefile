@@ -39,7 +39,7 @@ MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 # The folders egl/ and bullet/ are separate libraries.
 ROOMS := base asset collide groom rod gl field wind sim strands light draw api
 
-objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
+objects = $(patsubst %,$(B)/%.o,$(sort $(wildcard $(1))))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
 EGL   := $(call objects,lib/egl/*.c)
 BUL   := $(call objects,lib/bullet/*.cpp)
@@ -112,7 +112,7 @@ setup: ## Print and install the missing Debian packages of tools/packages.txt
 $(B)/libhair.a: $(LIB)
 $(B)/libhair_egl.a: $(EGL)
 $(B)/%.a:
-	@rm -f $@ && $(AR) rcs $@ $^
+	@rm -f $@ && $(AR) rcsD $@ $^
 $(B)/libhair.so: $(LIB:.o=.shared.o)
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: private LINK = $(call packages,--libs,egl)

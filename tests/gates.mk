@@ -29,3 +29,26 @@ test32: ## Compile what needs no OpenGL for 32 bits, without warnings
 	  -O2 -Iinclude -I. -c {} -o /dev/null
 
 .PHONY: analyze analyze-gcc analyze-tidy analyze-cppcheck clang tests test32
+
+# Supply ---------------------------------------------------------------------------------------------------
+
+# Copies of the source without .git have the date of the changes.
+DATE = $(shell TZ=UTC git log -1 --format=%cd --date=format-local:%Y-%m-%dT%H:%M:%SZ 2>/dev/null || date -u -r include/hair/CHANGELOG.md +%FT%TZ)
+sbom: $(B)/hair.spdx.json ## build/release/hair.spdx.json: what libraries and tools are made of, in SPDX
+$(B)/hair.spdx.json: $(LIBRARIES) $(TOOLS) tools/check/sbom.sh tools/check/licences.txt
+	@sh tools/check/sbom.sh $(VERSION) $(DATE) $(filter %.so,$(LIBRARIES)) $(TOOLS) >$@
+
+# Binary interface of the version in tests/abi/version. Added functions are no change of it.
+ABIDW := abidw --no-show-locs --no-corpus-path --no-comp-dir-path --drop-private-types --exported-interfaces-only \
+  --no-write-default-sizes --no-elf-needed --headers-dir include/hair
+abi: $(LIBRARIES) ## Compare the binary interface with that of tests/abi, which must not change within a version
+	@if [ "$(VERSION)" != "$$(cat tests/abi/version)" ]; then \
+	  echo "tests/abi is of version $$(cat tests/abi/version), not $(VERSION): run make abi-bless when $(VERSION) is complete"; \
+	else for n in $(NAMES); do abidiff --no-added-syms --headers-dir2 include/hair tests/abi/lib$$n.abi $(B)/lib$$n.so || exit 1; done; fi
+abi-bless: $(LIBRARIES) ## Write the binary interface to tests/abi
+	@mkdir -p tests/abi && echo $(VERSION) >tests/abi/version
+	@for n in $(NAMES); do $(ABIDW) --out-file tests/abi/lib$$n.abi $(B)/lib$$n.so || exit 1; done
+
+reproducible: ## Build libraries and tools twice, in different surroundings, and compare the bytes
+	@sh tools/check/reproducible.sh $(abspath build)/reproducible all
+.PHONY: sbom abi abi-bless reproducible
