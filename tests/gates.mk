@@ -44,7 +44,9 @@ ABIDW := abidw --no-show-locs --no-corpus-path --no-comp-dir-path --drop-private
 abi: $(LIBRARIES) ## Compare the binary interface with that of tests/abi, which must not change within a version
 	@if [ "$(VERSION)" != "$$(cat tests/abi/version)" ]; then \
 	  echo "tests/abi is of version $$(cat tests/abi/version), not $(VERSION): run make abi-bless when $(VERSION) is complete"; \
-	else for n in $(NAMES); do abidiff --no-added-syms --headers-dir2 include/hair tests/abi/lib$$n.abi $(B)/lib$$n.so || exit 1; done; fi
+	else for n in $(NAMES); do \
+	  $(ABIDW) --out-file $(B)/lib$$n.abi $(B)/lib$$n.so && \
+	  abidiff --no-added-syms tests/abi/lib$$n.abi $(B)/lib$$n.abi || exit 1; done; fi
 abi-bless: $(LIBRARIES) ## Write the binary interface to tests/abi
 	@mkdir -p tests/abi && echo $(VERSION) >tests/abi/version
 	@for n in $(NAMES); do $(ABIDW) --out-file tests/abi/lib$$n.abi $(B)/lib$$n.so || exit 1; done

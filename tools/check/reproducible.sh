@@ -8,7 +8,7 @@ out=$1
 shift
 unset MAKEFLAGS MFLAGS
 rm -rf "$out"
-one="$out/a" two="$out/another folder's name/b"
+one="$out/a" two="$out/folder/of/another/length/b"
 for folder in "$one" "$two"; do
     mkdir -p "$folder"
     git ls-files | grep -v '^\.readme/' | tar -cf - -T - | tar -xf - -C "$folder"
