@@ -3,7 +3,7 @@
 //
 // Hashes after 1000 steps belong to the renderer that made them:
 // tests/golden/llvmpipe/determinism.txt. Other renderers check the equalities only. HAIR_BLESS=1
-// writes the file again. HAIR_TEST_FULL=1 checks the equalities after 1000 steps, not 60.
+// writes the file again. HAIR_TEST_FULL=1 checks the equalities after 1000 steps, not 40.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 
@@ -23,7 +23,7 @@
 static struct hair_test_head_kind kinds[HAIR_TEST_HEADS];
 // Hashes of each head alone, after `early` steps and after STEPS steps.
 static uint64_t early_hash[HAIR_TEST_HEADS], late_hash[HAIR_TEST_HEADS];
-static uint32_t early = 60;
+static uint32_t early = 40;
 
 static uint64_t hash_of(struct hair_test* test, const struct hair_test_head* head)
 {

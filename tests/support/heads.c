@@ -32,7 +32,7 @@ static const struct {
     {"afro", HAIR_STYLE_AFRO, HAIR_SOLVER_FOLLOW},
     {"long", HAIR_STYLE_LONG, HAIR_SOLVER_REDBLACK},
     {"colliders", HAIR_STYLE_BOB, HAIR_SOLVER_DIRECT},
-    {"pins", HAIR_STYLE_PONYTAIL, HAIR_SOLVER_ACCURATE},
+    {"pins", HAIR_STYLE_PONYTAIL, HAIR_SOLVER_DIRECT},
     {"wind fluid", HAIR_STYLE_LONG, HAIR_SOLVER_DIRECT},
     {"hair-hair grid", HAIR_STYLE_BOB, HAIR_SOLVER_DIRECT},
     {"skinned scalp", HAIR_STYLE_SHORT, HAIR_SOLVER_FOLLOW},
@@ -50,7 +50,7 @@ static hair_result make_kind(const hair_host* host, uint32_t number, struct hair
     TRY(hair_asset_generate(&style, &asset));
     hair_result result = hair_asset_to_groom_desc(asset, &desc);
     desc.host = host;
-    desc.guide_vertices = 16;
+    desc.guide_vertices = 10;
     desc.follower_count = FOLLOWERS;
     if (!result) result = hair_groom_create(&desc, &out->groom);
     if (!result && number == SKINNED) {
@@ -88,6 +88,7 @@ static hair_result set_wind(hair_instance* hair)
     wind.velocity[0] = 3, wind.velocity[2] = -1;
     wind.turbulence.intensity = 0.3f;
     wind.fluid.resolution = 16;
+    wind.fluid.projection_iterations = 1;
     wind.fluid.drag_strand_count = 50000;
     return hair_set_wind(hair, &wind);
 }
