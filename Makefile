@@ -213,13 +213,13 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
-LONG := bench rod_limits rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
+LONG := bench rod_limits determinism soak threads rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
   capture_output bench_cases gallery state save_hostile rod_any rod_heap isolines hair_grid paths \
   precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
   instance_far air host_capture
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
-	@rm -f $(B)/failed; printf '%s\n' $(LONG) $(filter-out $(LONG),$(TESTS)) | grep -F -- '$(filter)' | \
+	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; \
 	    printf "== %s, %d s\n%s\n" "$$0" $$(($$(date +%s) - start)) "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }

@@ -54,3 +54,29 @@ abi-bless: $(LIBRARIES) ## Write the binary interface to tests/abi
 reproducible: ## Build libraries and tools twice, in different surroundings, and compare the bytes
 	@sh tools/check/reproducible.sh $(abspath build)/reproducible all
 .PHONY: sbom abi abi-bless reproducible
+
+# Runs ---------------------------------------------------------------------------------------------------------
+
+ifeq ($(config),tsan)
+export TSAN_OPTIONS := suppressions=tests/gates/tsan.txt
+endif
+
+# Programs of `make test-full` only. Another program of each subject is in the first stage. A filter selects
+# among all programs.
+FULL := bench bench_fuzz capture_bullet gallery hair_grid lengths memory rod_any rod_heap rod_limits rod_shape \
+  rod_stress rod_two rod_whip save_hostile
+STAGE = $(if $(HAIR_TEST_FULL)$(filter),$(TESTS),$(filter-out $(FULL:%=$(B)/tests/gpu/%_test) $(FULL:%=$(B)/tests/unit/%_test),$(TESTS)))
+test-full: setup ## Every test, with the long cases of each
+	@HAIR_TEST_FULL=1 $(MAKE) SETUP=0 test
+
+steps ?= 1000000
+soak: $(B)/tests/gpu/soak_test ## Heads that live, die and change for steps=1000000 steps
+	HAIR_TEST=required $< $(steps)
+
+# Programs that call no OpenGL and run no tool.
+PURE := $(filter-out %/egl_test,$(patsubst %.c,$(B)/%,$(shell grep -L 'HAIR_BUILD_DIR\|shell.h\|support/support.h\|egl' \
+  $(wildcard tests/unit/*_test.c))))
+valgrind: $(PURE) ## The programs of tests/unit that need no OpenGL, under valgrind
+	@printf '%s\n' $(PURE) | xargs -P $(JOBS) -I{} sh -c 'said=$$(valgrind -q --error-exitcode=1 --leak-check=full {} 2>&1) || \
+	  { echo "== {}"; echo "$$said"; exit 1; }'
+.PHONY: soak valgrind test-full
