@@ -80,3 +80,10 @@ valgrind: $(PURE) ## The programs of tests/unit that need no OpenGL, under valgr
 	@printf '%s\n' $(PURE) | xargs -P $(JOBS) -I{} sh -c 'said=$$(valgrind -q --error-exitcode=1 --leak-check=full {} 2>&1) || \
 	  { echo "== {}"; echo "$$said"; exit 1; }'
 .PHONY: soak valgrind test-full
+
+# Mesa's zink over lavapipe: the same OpenGL by way of Vulkan.
+zink: ## tests/gpu and tests/golden by zink over lavapipe; filter=draw selects programs
+	@$(MAKE) -j$(JOBS) SETUP=0 all examples tests
+	@MESA_LOADER_DRIVER_OVERRIDE=zink LIBGL_ALWAYS_SOFTWARE=1 VK_ICD_FILENAMES=$(firstword \
+	  $(wildcard /usr/share/vulkan/icd.d/lvp_icd*.json)) $(MAKE) SETUP=0 run-tests TESTS='$(filter $(B)/tests/g%,$(TESTS))'
+.PHONY: zink
