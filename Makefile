@@ -265,6 +265,7 @@ install: libraries ## Headers, libraries, pkg-config files and the guide into DE
 	cp -P $(foreach so,$(filter %.so,$(LIBRARIES)),$(so) $(so).$(MAJOR) $(so).$(VERSION)) $(DESTDIR)$(PREFIX)/lib
 	install -m 644 LICENSE tests/consumer/hello.c $(DESTDIR)$(PREFIX)/share/doc/hair
 	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](|' include/hair/README.md > $(DESTDIR)$(PREFIX)/share/doc/hair/guide.md
+	sed 's|](README.md|](guide.md|g' include/hair/CHANGELOG.md > $(DESTDIR)$(PREFIX)/share/doc/hair/CHANGELOG.md
 	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)

@@ -77,7 +77,7 @@ soak: $(B)/tests/gpu/soak_test ## Heads that live, die and change for steps=1000
 PURE := $(filter-out %/egl_test,$(patsubst %.c,$(B)/%,$(shell grep -L 'HAIR_BUILD_DIR\|shell.h\|support/support.h\|egl' \
   $(wildcard tests/unit/*_test.c))))
 valgrind: $(PURE) ## The programs of tests/unit that need no OpenGL, under valgrind
-	@printf '%s\n' $(PURE) | xargs -P $(JOBS) -I{} sh -c 'said=$$(valgrind -q --error-exitcode=1 --leak-check=full {} 2>&1) || \
+	@printf '%s\n' $(PURE) | xargs -P $(JOBS) -I{} sh -c 'said=$$(HAIR_TEST_SLOW=1 valgrind -q --error-exitcode=1 --leak-check=full {} 2>&1) || \
 	  { echo "== {}"; echo "$$said"; exit 1; }'
 .PHONY: soak valgrind test-full
 

@@ -1,5 +1,5 @@
-// soak_test.c - heads of hair that live, die and change in turn leave no memory and no OpenGL error,
-// and live every life alike.
+// soak_test.c - heads of hair that live, die and change in turn leave no memory and no OpenGL
+// error, and live every life alike.
 //
 //   soak_test [STEPS]    `make soak steps=1000000` runs it for long.
 #include "tests/support/support.h"
@@ -75,7 +75,8 @@ static void resize(struct target* target, GLsizei side)
     glNamedFramebufferTexture(target->framebuffer, GL_DEPTH_ATTACHMENT, target->textures[1], 0);
 }
 
-// Draw with a level of detail and a size that follow from the step. Continue the hash by the pixels.
+// Draw with a level of detail and a size that follow from the step. Continue the hash by the
+// pixels.
 static void draw(struct hair_test* test, const struct hair_test_head* head, struct target* target,
                  uint64_t* hash)
 {

@@ -1,6 +1,6 @@
-// threads_test.c - eight threads, each with an OpenGL context and a hair context of its own, simulate
-// and draw the same hair at once, and get the same bits. `make test config=tsan filter=threads` looks
-// for races between them.
+// threads_test.c - eight threads, each with an OpenGL context and a hair context of its own,
+// simulate and draw the same hair at once, and get the same bits. `make test config=tsan
+// filter=threads` looks for races between them.
 #define _POSIX_C_SOURCE 200809L
 #include "tests/support/support.h"
 

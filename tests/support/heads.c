@@ -1,4 +1,4 @@
-// heads.c - ten small heads of hair in motion, one per subject, whose states are compared by hashes.
+// heads.c - ten small heads of hair in motion, one per subject. Hashes compare their states.
 #include "tests/support/heads.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// heads.h - ten small heads of hair in motion, one per subject, whose states are compared by hashes.
+// heads.h - ten small heads of hair in motion, one per subject. Hashes compare their states.
 #ifndef HAIR_TESTS_SUPPORT_HEADS_H
 #define HAIR_TESTS_SUPPORT_HEADS_H
 

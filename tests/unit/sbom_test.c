@@ -1,4 +1,4 @@
-// sbom_test.c - the bill of materials is SPDX 2.3, and names everything that libraries and tools link.
+// sbom_test.c - the bill of materials is SPDX 2.3, and names all that libraries and tools link.
 #include "tests/support/support.h"
 
 #include <stdlib.h>
