@@ -20,6 +20,7 @@ opt.debug    := -O0
 opt.asan     := -O1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 opt.tsan     := -O1 -fsanitize=thread
 opt.coverage := -O0 --coverage
+opt.clang    := -O1
 Q := $(if $(filter 0,$(V)),@)
 say = $(if $(filter 0,$(V)),@echo '  $(1)')
 WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
@@ -38,7 +39,7 @@ MAJOR   := $(firstword $(subst ., ,$(VERSION)))
 # The folders egl/ and bullet/ are separate libraries.
 ROOMS := base asset collide groom rod gl field wind sim strands light draw api
 
-objects = $(patsubst %,$(B)/%.o,$(wildcard $(1)))
+objects = $(patsubst %,$(B)/%.o,$(sort $(wildcard $(1))))
 LIB   := $(call objects,$(ROOMS:%=lib/%/*.c)) $(B)/gen/sources.c.o
 EGL   := $(call objects,lib/egl/*.c)
 BUL   := $(call objects,lib/bullet/*.cpp)
@@ -111,7 +112,7 @@ setup: ## Print and install the missing Debian packages of tools/packages.txt
 $(B)/libhair.a: $(LIB)
 $(B)/libhair_egl.a: $(EGL)
 $(B)/%.a:
-	@rm -f $@ && $(AR) rcs $@ $^
+	@rm -f $@ && $(AR) rcsD $@ $^
 $(B)/libhair.so: $(LIB:.o=.shared.o)
 $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: private LINK = $(call packages,--libs,egl)
@@ -212,13 +213,13 @@ $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
-LONG := bench rod_limits rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
+LONG := bench rod_limits determinism soak threads rod_stress lod instance memory capture lengths occlusion golden capture_bullet \
   capture_output bench_cases gallery state save_hostile rod_any rod_heap isolines hair_grid paths \
   precompile rod_contact rod_pins examples rod_two body save rod_whip rod_shape contained rod_bodies \
   instance_far air host_capture
 LONG := $(foreach n,$(LONG),$(filter %/$(n)_test,$(TESTS)))
 run-tests: $(TESTS)
-	@rm -f $(B)/failed; printf '%s\n' $(LONG) $(filter-out $(LONG),$(TESTS)) | grep -F -- '$(filter)' | \
+	@rm -f $(B)/failed; printf '%s\n' $(filter $(STAGE),$(LONG)) $(filter-out $(LONG),$(STAGE)) | grep -F -- '$(filter)' | \
 	  xargs -r -n 1 -P $(JOBS) sh -c 'start=$$(date +%s); said=$$(HAIR_TEST=required "$$0" 2>&1) || echo "$$0" >>$(B)/failed; \
 	    printf "== %s, %d s\n%s\n" "$$0" $$(($$(date +%s) - start)) "$$said"'; \
 	  [ ! -e $(B)/failed ] || { echo "failed:" $$(cat $(B)/failed); exit 1; }
@@ -266,6 +267,7 @@ install: libraries ## Headers, libraries, pkg-config files and the guide into DE
 	cp -P $(foreach so,$(filter %.so,$(LIBRARIES)),$(so) $(so).$(MAJOR) $(so).$(VERSION)) $(DESTDIR)$(PREFIX)/lib
 	install -m 644 LICENSE tests/consumer/hello.c $(DESTDIR)$(PREFIX)/share/doc/hair
 	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](|' include/hair/README.md > $(DESTDIR)$(PREFIX)/share/doc/hair/guide.md
+	sed 's|](README.md|](guide.md|g' include/hair/CHANGELOG.md > $(DESTDIR)$(PREFIX)/share/doc/hair/CHANGELOG.md
 	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
 	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
 	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
@@ -292,6 +294,8 @@ help: ## This list
 	@awk -F':.*## ' '/^# make/{print substr($$0, 3)} /^[a-z-]+:.*## /{printf "  %-10s %s\n", $$1, $$2}' Makefile
 clean: ## Remove build/
 	rm -rf build
+
+include tests/gates.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:

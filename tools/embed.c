@@ -2,6 +2,7 @@
 //
 // The array is name, 0, text, 0 for each file, and an empty name at the end. One array without
 // pointers needs no relocations and no writable section.
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,13 +14,21 @@ static void put(FILE* out, int byte, long* column)
 int main(int count, char** arguments)
 {
     FILE* out = count > 1 ? fopen(arguments[1], "w") : NULL;
-    if (!out) return fprintf(stderr, "usage: embed OUT.c FILE...\n"), 2;
+    if (!out) {
+        fprintf(stderr, "usage: embed OUT.c FILE...\n");
+        return 2;
+    }
     fprintf(out, "const unsigned char hair_sources[] = {");
     long column = 0;
     for (int i = 2; i < count; ++i) {
         const char* name = strchr(arguments[i], '/'); // relative to glsl/
         FILE* in = fopen(arguments[i], "rb");
-        if (!in || !name) return fprintf(stderr, "embed: cannot read %s\n", arguments[i]), 1;
+        if (!in || !name) {
+            fprintf(stderr, "embed: cannot read %s\n", arguments[i]);
+            if (in) fclose(in);
+            fclose(out);
+            return 1;
+        }
         for (++name; *name; ++name) put(out, *name, &column);
         put(out, 0, &column);
         for (int c = fgetc(in); c != EOF; c = fgetc(in)) put(out, c, &column);
@@ -27,5 +36,7 @@ int main(int count, char** arguments)
         fclose(in);
     }
     fprintf(out, "0};\n");
-    return fclose(out) ? 1 : 0;
+    bool failed = ferror(out);
+    failed |= fclose(out) != 0;
+    return failed;
 }

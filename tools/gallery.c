@@ -254,10 +254,12 @@ static bool take(struct gallery* gallery, int option, const char* text)
     case 'o': gallery->out = text; return hair_output_has_ending(TOOL, text, ".png");
     case 'r': gallery->only = text; return true;
     case 's':
+        // NOLINTNEXTLINE(cert-err34-c): the width keeps the number in its range.
         read = sscanf(text, "%5ux%5u%n", &gallery->width, &gallery->height, &end);
         if (read == 2 && !text[end] && gallery->width - 1 < 4096 && gallery->height - 1 < 4096) return true;
         return wrong("size", text, "WxH with both in [1, 4096]");
     case 'j':
+        // NOLINTNEXTLINE(cert-err34-c): the width keeps the number in its range.
         read = sscanf(text, "%4u%n", &gallery->jobs, &end);
         return (read == 1 && !text[end] && gallery->jobs - 1 < 256) ||
                wrong("jobs", text, "a whole number in [1, 256]");

@@ -183,6 +183,7 @@ static unsigned char* write_header(const struct hair_strands* strands, unsigned 
     static const char info[88] = "hair: metres, +y up, root first";
     static const float color[3] = {0.1f, 0.04f, 0.02f};
 
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(at, "HAIR", 4);
     at = hair_write_u32(at + 4, strands->strand_count);
     at = hair_write_u32(at, strands->vertex_count);

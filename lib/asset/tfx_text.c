@@ -136,7 +136,7 @@ static void place(const struct reader* reader, float* position)
 static hair_result read_vertex(struct reader* reader, size_t strand_at)
 {
     struct hair_line line;
-    float position[3];
+    float position[3] = {0};
     if (!hair_text_next(&reader->text, &line))
         return hair_fail(reader->source->host, HAIR_ERROR_FILE,
                          "the file ends at byte %zu, within the strand at byte %zu", reader->source->size,

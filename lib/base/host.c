@@ -82,8 +82,3 @@ hair_result hair_fail(const hair_host* host, hair_result result, const char* for
     va_end(arguments);
     return result;
 }
-
-hair_result hair_fail_memory(const hair_host* host, const char* what)
-{
-    return hair_fail(host, HAIR_ERROR_MEMORY, "out of memory for %s", what);
-}

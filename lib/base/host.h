@@ -36,6 +36,10 @@ void hair_log(const hair_host* host, hair_log_level level, const char* format, .
 hair_result hair_fail(const hair_host* host, hair_result result, const char* format, ...) HAIR_PRINTF(3, 4);
 
 // Log "out of memory for WHAT" and return HAIR_ERROR_MEMORY.
-hair_result hair_fail_memory(const hair_host* host, const char* what);
+static inline hair_result hair_fail_memory(const hair_host* host, const char* what)
+{
+    hair_fail(host, HAIR_ERROR_MEMORY, "out of memory for %s", what);
+    return HAIR_ERROR_MEMORY; // A constant shows compilers and analyzers that this is not HAIR_OK.
+}
 
 #endif

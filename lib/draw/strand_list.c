@@ -141,13 +141,12 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
 void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired)
 {
     struct hair_gl* gl = renderer->gl;
-    const char* first =
-        (const char*)NULL + (paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0);
+    const uintptr_t first = paired ? HAIR_PAIRED_COMMAND * sizeof(struct hair_draw_command) : 0;
     HAIR_ASSERT(renderer->strand_list.indices[paired].segments == renderer->geometry->look.strand.segments);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindVertexArray(renderer->strand_list.indices[paired].vertex_array);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->strand_list.command);
     gl->Disable(GL_PRIMITIVE_RESTART);
-    gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, first, 2,
+    gl->MultiDrawElementsIndirect(paired ? GL_TRIANGLES : GL_LINES, GL_UNSIGNED_SHORT, (const void*)first, 2,
                                   sizeof(struct hair_draw_command));
 }

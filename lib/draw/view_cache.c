@@ -29,8 +29,8 @@ static void free_part(struct hair_renderer* renderer, int part)
 static hair_result ensure_part(struct hair_renderer* renderer, int part, size_t size)
 {
     struct hair_view_cache* own = &renderer->view_cache;
-    if (own->size[part] >= size) return HAIR_OK;
     HAIR_ASSERT(0 <= part && part < HAIR_VIEW_CACHE_PARTS);
+    if (own->size[part] >= size) return HAIR_OK;
     free_part(renderer, part);
     own->size[part] = size;
     return hair_gl_ensure_array(renderer->gl, HAIR_GL_CATEGORY_EXPAND, parts[part].label, size,

@@ -89,6 +89,7 @@ void hair_gl_cache_store(struct hair_gl* gl, struct hair_gl_key key, GLuint prog
     if (!bytes) return;
     gl->GetProgramBinary(program, length, &got, &format, bytes + HEADER);
     size_t size = (size_t)got + HEADER;
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(bytes, MAGIC, 8);
     hair_write_u64(bytes + 8, key.check);
     hair_write_u32(bytes + 16, format);

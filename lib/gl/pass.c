@@ -14,8 +14,10 @@ static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (gl->programs == gl->room) {
         uint32_t room = gl->room ? 2 * gl->room : 16;
+        // NOLINTNEXTLINE(bugprone-sizeof-expression): the elements are pointers.
         struct hair_gl_program** more = hair_alloc(&gl->host, room, sizeof *more);
         if (!more) return NULL;
+        // NOLINTNEXTLINE(bugprone-sizeof-expression): the elements are pointers.
         if (gl->programs) memcpy(more, gl->program, gl->programs * sizeof *more);
         hair_free(&gl->host, gl->program);
         gl->program = more;

@@ -6,7 +6,7 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
 {
     lighting->gl = gl;
     if (!groom->colors) return HAIR_OK;
-    size_t count = groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
+    size_t count = (size_t)groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair colours", count * sizeof *groom->colors,
                             groom->colors, &lighting->groom_color));
     return hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,

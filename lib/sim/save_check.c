@@ -12,6 +12,7 @@
 
 void hair_save_seal(unsigned char* bytes, size_t end)
 {
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(bytes, MAGIC, 8);
     hair_write_u32(bytes + 8, HAIR_SAVE_VERSION);
     hair_write_u64(bytes + 12, end + TRAILER);

@@ -139,7 +139,7 @@ static void serialize_hair_grid(struct hair_serializer* s, struct hair_grid* hai
 // the state lacks them, hair_sim_load() clears the buffer of the instance.
 static void serialize_bend(struct hair_serializer* s, struct hair_sim* sim)
 {
-    size_t size = 3 * sim->guide_vertices * sizeof(hair_vec4);
+    size_t size = 3 * (size_t)sim->guide_vertices * sizeof(hair_vec4);
     int there = sim->bend != 0;
     hair_serialize_flag(s, "whether there are forces of segments", &there);
     s->lacks_bend = s->read && !there;

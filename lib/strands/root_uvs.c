@@ -13,7 +13,7 @@ hair_result hair_geometry_ensure_uvs(struct hair_geometry* geometry)
     hair_result result = HAIR_OK;
     if (!geometry->uv)
         result = hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair root uvs",
-                                geometry->followers * 2 * sizeof(float), geometry->root_bindings->uv,
+                                (size_t)geometry->followers * 2 * sizeof(float), geometry->root_bindings->uv,
                                 &geometry->uv);
     if (!result && !geometry->uv_texture)
         result = hair_gl_buffer_texture(gl, "hair root uvs", GL_RG32F, geometry->uv, &geometry->uv_texture);

@@ -211,6 +211,7 @@ static bool is_as_made(const struct hair_fluid* fluid, const struct hair_fluid_p
                        const struct hair_collider_field* field)
 {
     const struct hair_fluid_params* made = &fluid->made_for;
+    HAIR_ASSERT(field || !params->colliders);
     return !memcmp(&made->lower, &params->lower, sizeof params->lower) &&
            !memcmp(&made->rotation, &params->rotation, sizeof params->rotation) &&
            made->colliders == params->colliders && made->cells == params->cells && !fluid->moving &&
@@ -258,6 +259,7 @@ void hair_fluid_place(struct hair_fluid* fluid, const struct hair_fluid_now* now
     if (!fluid->made_for.cells) {
         hair_fluid_find_face_fractions(fluid, now);
         fluid->made_for = params;
+        HAIR_ASSERT(now->field || !params.colliders);
         fluid->writes = params.colliders ? now->field->writes : 0;
     }
 }

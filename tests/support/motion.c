@@ -151,7 +151,7 @@ void hair_test_finite(const struct hair_test_seen* seen)
 {
     for (size_t i = 0; i < seen->count; ++i)
         if (!isfinite(seen->number[i]))
-            fail_msg("number %zu of %u is %g", i, seen->count, (double)seen->number[i]);
+            fail_msg("number %zu of %zu is %g", i, seen->count, (double)seen->number[i]);
 }
 
 struct hair_test_blob hair_test_save(struct hair_test* test, hair_instance* hair)

@@ -279,8 +279,8 @@ static void colliders_follow_their_keyframes(void** state)
     static const char* const ways[] = {
         "\"position\": [0.1, 1.6, 0.2], \"rotation\": [0, 0.70710678, 0, 0.70710678]",
         "\"position\": [0, 1.6, 0.2], \"velocity\": [1, 0, 0], \"spin\": [0, 900, 0]",
-        "\"position\": [0, 1.6, 0.2], \"motion\": [{\"time\": 0.1, \"rotation\": [90, 0, 0], "
-        "\"position\": [0.1, 0, 0]}]"};
+        ("\"position\": [0, 1.6, 0.2], \"motion\": [{\"time\": 0.1, \"rotation\": [90, 0, 0], "
+         "\"position\": [0.1, 0, 0]}]")};
     for (int i = 0; i < 3; ++i) {
         char command[640];
         snprintf(command, sizeof command,

@@ -4,6 +4,7 @@
 #include "tools/bench/live_scene.h"
 #include "tools/bench/peers.h"
 #include "tools/common/file.h"
+#include "lib/base/assert.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -94,7 +95,8 @@ static bool find_truth_among_colliders(struct bench* bench, struct bench_motion*
                                        struct bench_truth* truth)
 {
     size_t count = (size_t)motion->frames * 3 * motion->scene.vertices;
-    double* half = malloc(count * sizeof *half);
+    HAIR_ASSERT(count > 0);
+    double* half = calloc(count, sizeof *half);
     double all = 0, worst = 0;
     bool whole = half != NULL;
     for (uint32_t run = 0; run < motion->runs && whole; ++run) {
@@ -138,12 +140,15 @@ static bool find_truth(struct bench* bench, struct bench_motion* motion)
     struct bench_truth* truth = motion->truth + truth_of(motion);
     if (truth->positions) return true;
     size_t count = (size_t)motion->runs * motion->frames * 3 * motion->scene.vertices;
-    truth->positions = malloc(count * sizeof *truth->positions);
-    if (truth->positions && (motion->collider_count ? find_truth_among_colliders(bench, motion, truth)
-                                                    : find_truth_by_reference(motion, truth)))
+    HAIR_ASSERT(count > 0);
+    double* positions = malloc(count * sizeof *positions);
+    if (!positions) return false;
+    truth->positions = positions;
+    if (motion->collider_count ? find_truth_among_colliders(bench, motion, truth)
+                               : find_truth_by_reference(motion, truth))
         return true;
     // An incomplete reference must not be taken for a complete one by the next setting.
-    free(truth->positions);
+    free(positions);
     truth->positions = NULL;
     return false;
 }

@@ -53,8 +53,8 @@ static bool measure(struct bench* bench, double speed, double guess, double* rat
     double time = SUBSTEPS * scene.substep;
     // From rest z = speed (t - (1 - exp(-rate t)) / rate) = speed rate t^2 / 2 (1 - rate t / 3 +
     // ...). z is the distance and t the time.
-    *rate = 2 * now[2] / (speed * time * time);
-    *rate *= 1 + *rate * time / 3;
+    if (ok) *rate = 2 * now[2] / (speed * time * time);
+    if (ok) *rate *= 1 + *rate * time / 3;
     bench_free_live_scene(&live);
     return ok;
 }

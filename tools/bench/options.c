@@ -61,7 +61,7 @@ static const struct row {
 };
 
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
-#define SUITE_COUNT (sizeof suites / sizeof *suites)
+#define SUITE_COUNT (sizeof suites / sizeof suites[0])
 
 static const char* const methods[] = {
     "direct",  "accurate", "follow",       "redblack",   "none",   "single_guide", "push_out",

@@ -155,7 +155,7 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
 
 bool bench_has_chord_energy(const struct bench_scene* scene)
 {
-    double positions[3 * BENCH_MAX_VERTICES], strain[3 * BENCH_MAX_VERTICES], root_frame[4];
+    double positions[3 * BENCH_MAX_VERTICES] = {0}, strain[3 * BENCH_MAX_VERTICES], root_frame[4];
     for (uint32_t i = 0; i < 3 * scene->vertices; ++i) positions[i] = (double)scene->positions[i];
     find_root_frame(positions, root_frame);
     hair_reference_rod_strain(scene->vertices, positions, root_frame, strain);
@@ -164,7 +164,7 @@ bool bench_has_chord_energy(const struct bench_scene* scene)
 
 struct hair_reference_rod* bench_reference(const struct bench_scene* scene)
 {
-    double positions[3 * BENCH_MAX_VERTICES], strain[3 * BENCH_MAX_VERTICES];
+    double positions[3 * BENCH_MAX_VERTICES] = {0}, strain[3 * BENCH_MAX_VERTICES];
     double scale[BENCH_MAX_VERTICES], pull[BENCH_MAX_VERTICES];
     const hair_physics* p = &scene->physics;
     struct bench_section section = bench_section_of(p);

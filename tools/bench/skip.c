@@ -157,7 +157,7 @@ static int compare(const void* a, const void* b)
 static bool measure(struct bench* bench, const struct scene* scene, double* ms, uint32_t* runs, json_t* row)
 {
     struct heads heads = {.bench = bench, .scene = *scene};
-    double times[MAX_RUNS], start = hair_now();
+    double times[MAX_RUNS], start;
     hair_result result = live(&heads);
     uint32_t rest = scene->sleeps && scene->moving < scene->heads ? REST : 10;
     for (uint32_t i = 0; i < rest && !result; ++i) {

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "lib/base/assert.h"
+
 static uint32_t hash(uint32_t x)
 {
     x = (x ^ (x >> 16)) * 0x7feb352du;
@@ -132,6 +134,7 @@ static bool is_met(const struct bench_strands* s, const struct cells* cells, con
 bool bench_light_by_rays(const struct bench_strands* s, uint32_t rays, uint32_t seed, float* out)
 {
     struct cells cells = {.side = 0};
+    HAIR_ASSERT(rays > 0);
     bool ok = make_cells(s, &cells);
     for (size_t v = 0; ok && v < (size_t)s->count * s->each; ++v) {
         uint32_t random = hash((uint32_t)v ^ seed * 0x9e3779b9u), free_ = 0;
@@ -215,6 +218,7 @@ bool bench_light_by_layers(const struct bench_strands* s, float texel, uint32_t 
                            float deeper, float* out)
 {
     struct layers layers = {.texel = texel, .count = count};
+    HAIR_ASSERT(count > 0);
     for (int k = 0; k < 2; ++k) layers.size[k] = 1 + (int)((s->upper[k] - s->lower[k]) / texel);
     for (uint32_t l = 0; l < count; ++l, first *= deeper) layers.depth[l + 1] = layers.depth[l] + first;
     layers.depth[count] = 1e3f; // The last layer contains all the rest.

@@ -238,6 +238,7 @@ static bool draw_hair(struct bench_studio* studio, hair_view* view, const struct
     if (studio->timed) bench_timer_start(&studio->timer);
     hair_result result = hair_draw(studio->hair, view);
     if (studio->timed) bench_timer_stop(&studio->timer);
+    view->lights = NULL; // The light is gone with this call.
     return !result;
 }
 

@@ -107,7 +107,7 @@ static int compare(const void* a, const void* b)
 static bool measure(struct side sides[2])
 {
     struct bench* bench = sides[0].bust.bench;
-    uint32_t runs = bench->options.quick ? 15 : MAX_RUNS, touching[2];
+    uint32_t runs = bench->options.quick ? 15 : MAX_RUNS, touching[2] = {0};
     double ms[2][MAX_RUNS], medians[2];
     for (int i = -3; i < (int)runs; ++i) // the first frames create what is missing
         for (int k = 0; k < 2; ++k) {

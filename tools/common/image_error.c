@@ -58,14 +58,12 @@ bool hair_image_error(const float* reference, const float* test, const unsigned 
     struct part part = part_of(mask, width, height);
     size_t pixels = (size_t)part.width * part.height;
     float* a = calloc(7 * pixels + 1, sizeof *a);
-    float *b = a + 3 * pixels, *map = b + 3 * pixels;
     *out = (struct hair_image_error){0};
-    bool ok = false;
-    if (a && pixels) {
-        copy_part(&part, reference, width, a);
-        copy_part(&part, test, width, b);
-        ok = hair_flip(a, b, part.width, part.height, HAIR_FLIP_DISPLAY, map);
-    }
+    if (!a) return false;
+    float *b = a + 3 * pixels, *map = b + 3 * pixels;
+    copy_part(&part, reference, width, a);
+    copy_part(&part, test, width, b);
+    bool ok = pixels > 0 && hair_flip(a, b, part.width, part.height, HAIR_FLIP_DISPLAY, map);
     if (ok) sum_up(&part, a, b, map, mask, width, out);
     free(a);
     return ok;

@@ -251,7 +251,7 @@ static json_t* load_builtin(const char* tool, const char* name, const char* text
 {
     char quoted[2048];
     size_t size = 0;
-    for (; text[size] && size < sizeof quoted; ++size) quoted[size] = text[size];
+    for (; size < sizeof quoted && text[size]; ++size) quoted[size] = text[size];
     for (size_t i = 0; i < size; ++i)
         if (quoted[i] == '\'') quoted[i] = '"';
     return load(tool, name, quoted, size);

@@ -104,7 +104,7 @@ static const struct {
     {"hair_view", "ambient", {"r", "g", "b"}},
 };
 
-#define COUNT(rows) (sizeof rows / sizeof *rows)
+#define COUNT(rows) (sizeof(rows) / sizeof *(rows))
 
 static bool is_excluded(const char* owner, const char* member)
 {
@@ -141,7 +141,7 @@ static bool make_setting(const struct field* field, struct hair_setting* out)
     while (owner < COUNT(owners) && strcmp(owners[owner].owner, field->owner)) ++owner;
     if (owner == COUNT(owners)) return false;
     const char *bracket = strchr(field->member, '['), *curve = strstr(field->member, ".at[");
-    int index = bracket ? atoi(bracket + 1) : 0;
+    int index = bracket ? (int)strtol(bracket + 1, NULL, 10) : 0;
     size_t length = curve ? (size_t)(curve - field->member) : strcspn(field->member, "[");
     snprintf(member, sizeof member, "%.*s", (int)length, field->member);
     if (is_excluded(field->owner, member) || (curve && index > 0) || index > 2) return false;

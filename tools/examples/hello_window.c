@@ -86,7 +86,7 @@ int main(int argc, char** argv)
     const char* out = NULL;
     int frames = 30, width, height;
     for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--frames") == 0) frames = atoi(argv[i + 1]);
+        if (strcmp(argv[i], "--frames") == 0) frames = (int)strtol(argv[i + 1], NULL, 10);
         if (strcmp(argv[i], "--out") == 0) out = argv[i + 1];
     }
     SDL_Window* window = open_window(out ? 256 : 800, out ? 192 : 600, out != NULL);

@@ -61,7 +61,7 @@ int main(int argc, char** argv)
     lod.strand_pixels = 0.5f;
 
     const float distances[3] = {1, 2, 4}; // m
-    struct picture picture = picture_begin(argc > 2 ? atoi(argv[2]) : 800);
+    struct picture picture = picture_begin(argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800);
     int width = picture.width / 3, height = picture.height / 2;
     for (int i = 0; i < 3; ++i) {
         float aspect = (float)width / (float)height;

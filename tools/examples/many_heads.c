@@ -73,7 +73,7 @@ int main(int argc, char** argv)
     const float eye[3] = {0, 1.9f, 3.5f}, target[3] = {0, 1.70f, -0.2f};
     struct camera camera = camera_perspective(eye, target, 0.37f, 4.0f / 3);
     struct bust bust = bust_create();
-    struct picture picture = picture_begin(argc > 2 ? atoi(argv[2]) : 800);
+    struct picture picture = picture_begin(argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800);
     hair_lod lod = hair_lod_default();
     hair_view view = hair_view_default();
     memcpy(view.view, camera.view, sizeof view.view);

@@ -26,7 +26,7 @@ static hair_groom* make_bob(void)
 int main(int argc, char** argv)
 {
     const char* path = argc > 1 ? argv[1] : "offscreen.ppm";
-    int width = argc > 2 ? atoi(argv[2]) : 800;
+    int width = argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800;
     hair_host host = {NULL, NULL, print_sentence, NULL};
     hair_egl* egl;
     hair_context* context;

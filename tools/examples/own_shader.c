@@ -68,7 +68,7 @@ int main(int argc, char** argv)
 
     const float eye[3] = {0.62f, 1.62f, -0.92f}, target[3] = {0, 1.53f, 0};
     struct camera camera = camera_perspective(eye, target, 0.42f, 4.0f / 3);
-    struct picture picture = picture_begin(argc > 2 ? atoi(argv[2]) : 800);
+    struct picture picture = picture_begin(argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800);
     bust_draw(&bust, bust.program, identity, camera.clip);
     hair_view view = hair_view_default();
     memcpy(view.view, camera.view, sizeof view.view);

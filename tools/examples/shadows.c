@@ -134,7 +134,7 @@ int main(int argc, char** argv)
     GLuint skin = make_program(bust_vertex_text, skin_text);
     check(hair_step(hair, 1.0f / 60));
     draw_shadow_maps(&light, &bust, hair);
-    struct picture picture = picture_begin(argc > 2 ? atoi(argv[2]) : 800);
+    struct picture picture = picture_begin(argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800);
     draw_picture(&light, &bust, skin, hair);
     picture_end(&picture, argc > 1 ? argv[1] : "shadows.ppm");
 
