@@ -242,7 +242,7 @@ static const char* find_difference(const struct hair_test_torture* t, const stru
 struct visit {
     enum kind kind;
     bool is_lasting;
-    bool may_keep; // Whether the context may keep the programs that the call has compiled.
+    bool may_keep; // True if the context may keep the programs that the call has compiled.
     uint32_t site; // From 1. 0 refuses nothing.
     uint64_t limit; // Limit of memory, bytes.
     uint32_t sites[KINDS]; // Sites of an undisturbed call.

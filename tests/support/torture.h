@@ -20,9 +20,9 @@ struct hair_test_torture {
     struct hair_test* test;
     const char* name;
     int variant; // Meaning of the callbacks' own.
-    bool is_cached; // Whether the context has a cache of programs.
-    bool has_clobbered_state; // Whether the context may change the state of OpenGL.
-    bool has_varying_memory; // Whether a repeated call may need more memory than the first.
+    bool is_cached; // True if the context has a cache of programs.
+    bool has_clobbered_state; // True if the context may change the state of OpenGL.
+    bool has_varying_memory; // True if a repeated call may need more memory than the first.
     float tolerance; // Maximum difference of pixels from those of the undisturbed call.
     GLenum format; // Format of the frame. 0 is GL_RGBA32F.
     GLsizei samples;
