@@ -25,7 +25,7 @@ struct hair_test_refusal {
     unsigned refusable; // Kinds of sites that are counted. HAIR_TEST_REFUSE_OBJECTS at first.
     uint32_t creations; // Number of sites so far.
     uint32_t refuse; // Number of the site that fails, from 1. 0 refuses none.
-    bool is_lasting; // Whether all later sites fail too.
+    bool is_lasting; // True if all later sites fail too.
     uint32_t refused; // Number of sites that have failed.
     const char* last; // Function that has failed last.
     int32_t live; // Number of objects that are created and not deleted.

@@ -19,7 +19,7 @@
 #define MAX_LIMITS 2 // Limits of memory that are tried unless all are.
 #define POINTS 4096 // Upper bound on the vertices of a kind.
 
-// What is refused.
+// Sites that are refused.
 enum kind { DRIVER, HOST, LIMIT, CACHE, FUNCTIONS, KINDS };
 static const char* const kinds[KINDS] = {"driver", "host", "limit", "cache", "functions"};
 
@@ -173,7 +173,7 @@ void hair_test_torture_collide(struct hair_test_torture* t)
 
 // Outcomes ----------------------------------------------------------------------------------------
 
-// What can be seen of an instance.
+// Everything that can be seen of an instance.
 struct outcome {
     unsigned char* state;
     size_t size;
