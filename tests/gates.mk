@@ -65,7 +65,10 @@ endif
 # among all programs.
 FULL := bench bench_fuzz capture_bullet gallery hair_grid lengths memory rod_any rod_heap rod_limits rod_shape \
   rod_stress rod_two rod_whip save_hostile
-STAGE = $(if $(HAIR_TEST_FULL)$(filter),$(TESTS),$(filter-out $(FULL:%=$(B)/tests/gpu/%_test) $(FULL:%=$(B)/tests/unit/%_test),$(TESTS)))
+SECOND = $(filter $(FULL:%=$(B)/tests/gpu/%_test) $(FULL:%=$(B)/tests/unit/%_test),$(TESTS))
+STAGE = $(if $(HAIR_TEST_FULL)$(filter),$(TESTS),$(filter-out $(SECOND),$(TESTS)))
+test-second: ## The programs that only test-full runs, with short cases; until=SECONDS starts none later than that time of `date +%s`
+	@$(MAKE) run-tests STAGE='$(SECOND)'
 test-full: setup ## Every test, with the long cases of each
 	@HAIR_TEST_FULL=1 $(MAKE) SETUP=0 test
 
@@ -79,7 +82,7 @@ PURE := $(filter-out %/egl_test,$(patsubst %.c,$(B)/%,$(shell grep -L 'HAIR_BUIL
 valgrind: $(PURE) ## The programs of tests/unit that need no OpenGL, under valgrind
 	@printf '%s\n' $(PURE) | xargs -P $(JOBS) -I{} sh -c 'said=$$(HAIR_TEST_SLOW=1 valgrind -q --error-exitcode=1 --leak-check=full {} 2>&1) || \
 	  { echo "== {}"; echo "$$said"; exit 1; }'
-.PHONY: soak valgrind test-full
+.PHONY: soak valgrind test-full test-second
 
 # Mesa's zink over lavapipe: the same OpenGL by way of Vulkan.
 zink: ## tests/gpu and tests/golden by zink over lavapipe; filter=draw selects programs
