@@ -293,11 +293,9 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_result result = update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     result = hair_leave(hair->context, result);
-    if (result) hair_free(&hair->context->host, vertices);
-    HAIR_TRY(result);
-    copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
+    if (!result && vertices) copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
-    return HAIR_OK;
+    return result;
 }
 
 static hair_result read_smooth(hair_instance* hair, uint32_t count, float* positions)
