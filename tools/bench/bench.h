@@ -52,9 +52,9 @@ struct bench_suite {
     void (*run)(struct bench* bench);
 };
 
-extern const struct bench_suite bench_accuracy, bench_bounds, bench_collision, bench_field, bench_physics,
-    bench_render, bench_lod, bench_paths, bench_scale, bench_shadow, bench_skip, bench_stability, bench_table,
-    bench_wind;
+extern const struct bench_suite bench_accuracy, bench_bounds, bench_collision, bench_dispatch, bench_field,
+    bench_physics, bench_render, bench_lod, bench_paths, bench_scale, bench_shadow, bench_skip,
+    bench_stability, bench_table, bench_wind;
 
 // Return whether to make the rows of this case and method, and show progress. Return false if the
 // row is not requested, during planning, and after an interrupt.

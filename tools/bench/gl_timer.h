@@ -1,0 +1,21 @@
+// gl_timer.h - Durations of single dispatches and draws. A context that is made with
+// bench_gl_timer_proc() waits for the GPU before and after each of them.
+#ifndef HAIR_TOOLS_BENCH_GL_TIMER_H
+#define HAIR_TOOLS_BENCH_GL_TIMER_H
+
+#include <stdbool.h>
+
+// The longest dispatch or draw since the last clear.
+struct bench_gl_longest {
+    char pass[128]; // label of its pass
+    double ms;
+    unsigned count; // number of dispatches or draws
+};
+
+// Return an OpenGL function, as hair_context_desc.get_proc does.
+void* bench_gl_timer_proc(const char* name, void* user);
+void bench_gl_timer_clear(void);
+struct bench_gl_longest bench_gl_longest_dispatch(void);
+struct bench_gl_longest bench_gl_longest_draw(void);
+
+#endif
