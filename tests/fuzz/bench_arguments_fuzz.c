@@ -4,21 +4,8 @@
 #include "tools/bench/bench.h"
 #include "tools/common/file.h"
 
-#define SUITE(n) const struct bench_suite bench_##n = {.name = #n, .about = "a stub"};
-SUITE(accuracy)
-SUITE(bounds)
-SUITE(collision)
-SUITE(field)
-SUITE(lod)
-SUITE(paths)
-SUITE(physics)
-SUITE(render)
-SUITE(scale)
-SUITE(shadow)
-SUITE(skip)
-SUITE(stability)
-SUITE(table)
-SUITE(wind)
+#define STUB(n) const struct bench_suite bench_##n = {.name = #n, .about = "a stub"};
+BENCH_SUITES(STUB)
 
 HAIR_FUZZ(bench_arguments)
 {

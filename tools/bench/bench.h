@@ -52,9 +52,15 @@ struct bench_suite {
     void (*run)(struct bench* bench);
 };
 
-extern const struct bench_suite bench_accuracy, bench_bounds, bench_collision, bench_dispatch, bench_field,
-    bench_physics, bench_render, bench_lod, bench_paths, bench_scale, bench_shadow, bench_skip,
-    bench_stability, bench_table, bench_wind;
+// Suites, in the order of --help.
+// clang-format off
+#define BENCH_SUITES(SUITE) \
+    SUITE(accuracy) SUITE(bounds) SUITE(collision) SUITE(dispatch) SUITE(field) \
+    SUITE(lod) SUITE(paths) SUITE(physics) SUITE(render) SUITE(scale) \
+    SUITE(shadow) SUITE(skip) SUITE(stability) SUITE(table) SUITE(wind)
+// clang-format on
+#define BENCH_DECLARE(name) extern const struct bench_suite bench_##name;
+BENCH_SUITES(BENCH_DECLARE)
 
 // Return whether to make the rows of this case and method, and show progress. Return false if the
 // row is not requested, during planning, and after an interrupt.

@@ -7,10 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct bench_suite* const suites[] = {
-    &bench_accuracy, &bench_bounds, &bench_collision, &bench_dispatch, &bench_field,
-    &bench_lod,      &bench_paths,  &bench_physics,   &bench_render,   &bench_scale,
-    &bench_shadow,   &bench_skip,   &bench_stability, &bench_table,    &bench_wind};
+#define ADDRESS(name) &bench_##name,
+static const struct bench_suite* const suites[] = {BENCH_SUITES(ADDRESS)};
 
 #define MAX_SCENE 999999999
 
