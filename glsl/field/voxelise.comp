@@ -1,6 +1,7 @@
 // voxelise.comp - one brick of the distance field. Each voxel gets the exact distance from its
 // centre to the nearest of the colliders that reach into the brick, and the number of that
-// collider. One work group per brick, one thread per voxel.
+// collider. One work group per brick, one thread per voxel. The colliders of a brick with many
+// come in several rounds, because a work group must not take long.
 #version 450 core
 #include "field_params.glsl"
 #include "workgroup.glsl"
@@ -13,8 +14,8 @@ layout(std430, binding = HAIR_BIND_BRICK) readonly buffer brick_buffer { hair_fi
 layout(std430, binding = HAIR_BIND_BRICK_COLLIDER) readonly buffer member_buffer { uint member[]; };
 // A texture, because one driver reads storage buffers many times as slowly.
 layout(binding = HAIR_UNIT_WORK) uniform usamplerBuffer collider_texture;
-layout(binding = HAIR_IMAGE_FIELD, r16f) writeonly uniform image3D field_image;
-layout(binding = HAIR_IMAGE_COLLIDER, r32ui) writeonly uniform uimage3D collider_image;
+layout(binding = HAIR_IMAGE_FIELD, r16f) uniform image3D field_image;
+layout(binding = HAIR_IMAGE_COLLIDER, r32ui) uniform uimage3D collider_image;
 
 hair_field_collider fetch_collider(uint i)
 {
@@ -42,6 +43,10 @@ void main()
     vec3             position = field.lower.xyz + (vec3(voxel) + 0.5) * field.lower.w;
     float            nearest  = field.inverse.w;
     uint             number   = HAIR_NO_COLLIDER;
+    if (own.round > 0u) {
+        nearest = imageLoad(field_image, voxel).x;
+        number  = imageLoad(collider_image, voxel).x;
+    }
     for (uint i = own.first; i < own.first + own.count; ++i) {
         hair_field_collider other    = fetch_collider(member[i]);
         float            distance = collider_distance(other, position);

@@ -67,7 +67,7 @@ void main()
 {
     density_grid grid = find_grid();
     uint end = grid.nodes.x * grid.nodes.y * grid.nodes.z,
-         stride = gl_NumWorkGroups.x * gl_NumWorkGroups.y * HAIR_GROUP_SIZE;
+         stride = hair_group_count() * HAIR_GROUP_SIZE;
     for (uint node = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x; node < end; node += stride)
         if (density[node] > 0u) light(grid, node);
 }

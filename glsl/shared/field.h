@@ -31,12 +31,13 @@ struct hair_field_collider {
 };
 HAIR_SIZE(hair_field_collider)
 
-// HAIR_BRICK^3 voxels, and the colliders that reach into them.
+// HAIR_BRICK^3 voxels, and colliders that reach into them. A brick with many colliders occurs
+// several times.
 struct hair_field_brick {
     hair_uint at;    // Position among bricks: x + (y << 10) + (z << 20).
     hair_uint first; // First member.
     hair_uint count;
-    hair_uint unused;
+    hair_uint round; // Number of work groups that must write the brick before.
 };
 HAIR_SIZE(hair_field_brick)
 

@@ -2,6 +2,8 @@
 #ifndef HAIR_SHARED_SLOTS_H
 #define HAIR_SHARED_SLOTS_H
 
+#define HAIR_LOCATION_GROUPS 0 // Uniform of compute passes. See workgroup.glsl.
+
 // Storage buffers of compute passes. OpenGL 4.5 guarantees only eight to a compute shader.
 #define HAIR_BIND_GUIDE 0    // hair_guide[] per guide. Read-only.
 #define HAIR_BIND_REST 1     // hair_rest[] per guide vertex. Read-only.

@@ -23,7 +23,7 @@ void main()
     if (first < 2u) activity[2u - 2u * params.parity + first] = 0u;
     synchronise();
     float away = 0.0, speed = 0.0;
-    for (uint i = first; i < params.vertices; i += gl_NumWorkGroups.x * HAIR_GROUP_SIZE) {
+    for (uint i = first; i < params.vertices; i += hair_group_count() * HAIR_GROUP_SIZE) {
         vec3 at = state[i].position.xyz;
         away    = max(away, distance(at, anchor[i].xyz));
         speed   = max(speed, params.rate * length(state[i].displacement.xyz));

@@ -101,7 +101,7 @@ void attempt_all(vec3 head_moved)
 void main()
 {
     uint first = hair_guide_number(),
-         guides_at_once = gl_NumWorkGroups.x * gl_NumWorkGroups.y * GUIDES_IN_GROUP;
+         guides_at_once = hair_group_count() * GUIDES_IN_GROUP;
 #if defined(HAIR_PASS1)
     if (first == 0u && lane == 0u) clear_list(1u - params.list);
     for (guide_number = first; guide_number < params.guides; guide_number += guides_at_once) {

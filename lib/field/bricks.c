@@ -8,6 +8,9 @@
 #include <string.h>
 
 #define MAX_PAIRS (1u << 18) // Maximum pairs in a dispatch, unless one brick has more.
+// Maximum colliders of a brick in a round. A collision mesh takes longer than other shapes.
+#define MAX_IN_ROUND 8192
+#define MAX_MESHES_IN_ROUND 1024
 
 static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
 {
@@ -142,13 +145,14 @@ static uint32_t find_pairs(struct hair_collider_field* field, const struct hair_
 
 #define HAS_MESH 2 // Value of `dirty` for a brick that a collision mesh reaches into.
 
-// Turn pairs into members, in the order of colliders in every brick. Bricks that collision meshes
-// reach into come last.
-static void sort_pairs(struct hair_collider_field* field, struct hair_field_job* job, uint32_t end,
-                       const struct pair* pairs, uint32_t count)
+// Turn pairs into members, in the order of colliders in every brick. Write the marked bricks, of
+// which those that collision meshes reach into come last. Return the number of the others.
+static uint32_t sort_pairs(struct hair_collider_field* field, struct hair_field_job* job, uint32_t end,
+                           const struct pair* pairs, uint32_t count, struct hair_field_brick* whole,
+                           uint32_t bricks)
 {
     const struct hair_field_box* box = &field->box;
-    uint32_t first = 0, plain = 0, last = HAIR_NO_COLLIDER;
+    uint32_t first = 0, plain = 0, with_meshes = 0, last = HAIR_NO_COLLIDER;
     for (uint32_t b = job->next; b < end; ++b) field->brick_colliders[b] = 0;
     for (uint32_t i = 0; i < count; ++i) {
         uint32_t b = pairs[i].brick;
@@ -156,15 +160,14 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
         field->brick_colliders[b]++;
         if (field->placed[pairs[i].collider].mesh) field->dirty[b] = HAS_MESH;
     }
-    job->with_meshes = 0;
     for (uint32_t b = job->next; b < end; ++b) {
         if (!field->dirty[b]) continue;
         uint32_t x = b % box->bricks[0], y = b / box->bricks[0] % box->bricks[1],
                  z = b / box->bricks[0] / box->bricks[1], brick_colliders = field->brick_colliders[b];
         HAIR_ASSERT(x < 1024 && y < 1024 && z < 1024); // Ten bits each.
-        uint32_t at = field->dirty[b] == HAS_MESH ? job->bricks - ++job->with_meshes : plain++;
-        HAIR_ASSERT(at < job->bricks);
-        job->brick[at] = (struct hair_field_brick){
+        uint32_t at = field->dirty[b] == HAS_MESH ? bricks - ++with_meshes : plain++;
+        HAIR_ASSERT(at < bricks);
+        whole[at] = (struct hair_field_brick){
             .at = x + (y << 10) + (z << 20), .first = first, .count = brick_colliders};
         field->brick_colliders[b] = first; // Place of the brick's next member.
         first += brick_colliders;
@@ -183,8 +186,29 @@ static void sort_pairs(struct hair_collider_field* field, struct hair_field_job*
         last = pairs[i].collider;
         job->brick_collider[field->brick_colliders[pairs[i].brick]++] = job->colliders - 1;
     }
-    HAIR_ASSERT(plain + job->with_meshes == job->bricks && first <= count);
+    HAIR_ASSERT(plain + with_meshes == bricks && first <= count);
     job->brick_colliders = first;
+    return plain;
+}
+
+// Add bricks to the job, with at most `max` colliders in each round.
+static void add_rounds(struct hair_field_job* job, const struct hair_field_brick* whole, uint32_t bricks,
+                       uint32_t max)
+{
+    uint32_t before, round = 0;
+    do {
+        before = job->bricks;
+        for (uint32_t i = 0; i < bricks; ++i) {
+            struct hair_field_brick brick = whole[i];
+            if (round && brick.count <= round * max) continue;
+            brick.first += round * max;
+            brick.count -= round * max;
+            if (brick.count > max) brick.count = max;
+            brick.round = round;
+            job->brick[job->bricks++] = brick;
+        }
+        ++round;
+    } while (job->bricks > before);
 }
 
 hair_result hair_field_next(struct hair_collider_field* field, struct hair_field_job* job)
@@ -197,14 +221,21 @@ hair_result hair_field_next(struct hair_collider_field* field, struct hair_field
     uint32_t end = take_bricks(field, job, &bricks, &max);
     if (!bricks) return HAIR_OK;
     struct pair* pairs = hair_alloc(host, max, sizeof *pairs);
+    struct hair_field_brick* whole = hair_alloc(host, bricks, sizeof *whole);
     uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
     HAIR_ASSERT(count <= max);
-    job->brick = hair_alloc(host, bricks, sizeof *job->brick);
+    job->brick = hair_alloc(host, bricks + count / MAX_MESHES_IN_ROUND, sizeof *job->brick);
     job->brick_collider = hair_alloc(host, count, sizeof *job->brick_collider);
     job->collider = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->collider);
-    int failed = !pairs || !job->brick || !job->brick_collider || !job->collider;
-    job->bricks = bricks;
-    if (!failed) sort_pairs(field, job, end, pairs, count);
+    int failed = !pairs || !whole || !job->brick || !job->brick_collider || !job->collider;
+    if (!failed) {
+        uint32_t plain = sort_pairs(field, job, end, pairs, count, whole, bricks);
+        add_rounds(job, whole, plain, MAX_IN_ROUND);
+        uint32_t first = job->bricks;
+        add_rounds(job, whole + plain, bricks - plain, MAX_MESHES_IN_ROUND);
+        job->with_meshes = job->bricks - first;
+    }
+    hair_free(host, whole);
     hair_free(host, pairs);
     job->next = end;
     return failed ? hair_fail_memory(host, "what is to be written of the field") : HAIR_OK;

@@ -7,11 +7,12 @@
 
 // Work of one dispatch, which is as many bricks as together have few enough colliders.
 struct hair_field_job {
+    // By round, which the shader explains. Bricks with collision meshes come after all others.
     struct hair_field_brick* brick;
     uint32_t* brick_collider;
     struct hair_field_collider* collider;
     uint32_t bricks, brick_colliders, colliders;
-    uint32_t with_meshes; // Number of bricks with collision meshes, which come last.
+    uint32_t with_meshes; // Number of bricks with collision meshes.
     // First brick of the field that has not been examined, and the number of all bricks.
     uint32_t next, end;
 };

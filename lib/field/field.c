@@ -143,9 +143,21 @@ static size_t aligned(size_t size)
 // Number of parts of the work buffer, which are colliders, members, bricks, and bricks with
 // collision meshes.
 #define PARTS 4
+// Maximum colliders of the bricks in a dispatch of a software rasteriser, unless a brick has more.
+#define MAX_COLLIDERS_SOFTWARE 8192
 
-static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t bricks, int part,
-                const GLintptr* at, const GLsizeiptr* length)
+// Return the end of the bricks from `first` on that are of one round and have few enough colliders
+// together.
+static uint32_t find_end(const struct hair_field_brick* brick, uint32_t first, uint32_t bricks, uint32_t max)
+{
+    uint32_t end = first, colliders = 0;
+    do colliders += brick[end++].count;
+    while (end < bricks && brick[end].round == brick[first].round && colliders + brick[end].count <= max);
+    return end;
+}
+
+static void run(struct hair_collider_field* field, hair_gl_pass pass, const struct hair_field_brick* brick,
+                uint32_t bricks, int part, const GLintptr* at, const GLsizeiptr* length)
 {
     HAIR_ASSERT(2 <= part && part < PARTS);
     const GLuint buffers[] = {field->work, field->work};
@@ -153,7 +165,12 @@ static void run(struct hair_collider_field* field, hair_gl_pass pass, uint32_t b
     const GLsizeiptr size[] = {length[part], length[1]};
     if (!bricks) return;
     field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
-    hair_gl_run(field->gl, pass, bricks);
+    uint32_t max = field->gl->software ? MAX_COLLIDERS_SOFTWARE : UINT32_MAX / 2;
+    for (uint32_t first = 0, end; first < bricks; first = end) {
+        end = find_end(brick, first, bricks, max);
+        if (brick[first].round) field->gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        hair_gl_run_part(field->gl, pass, first, end, bricks);
+    }
 }
 
 static hair_result dispatch(struct hair_collider_field* field, const struct hair_field_job* job)
@@ -190,10 +207,10 @@ static hair_result dispatch(struct hair_collider_field* field, const struct hair
     if (plain) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
     if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
     gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
-    run(field, HAIR_GL_VOXELISE, plain, 2, at, length);
+    run(field, HAIR_GL_VOXELISE, job->brick, plain, 2, at, length);
     if (job->with_meshes)
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
-    run(field, HAIR_GL_VOXELISE_MESHES, job->with_meshes, 3, at, length);
+    run(field, HAIR_GL_VOXELISE_MESHES, job->brick + plain, job->with_meshes, 3, at, length);
     return HAIR_OK;
 }
 
@@ -207,8 +224,8 @@ static hair_result write_marked(struct hair_collider_field* field)
     while ((result = hair_field_next(field, &job)) == HAIR_OK && job.bricks) {
         if (!ran) {
             gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_FIELD, 1, &field->params);
-            gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R16F);
-            gl->BindImageTexture(HAIR_IMAGE_COLLIDER, field->number, 0, GL_TRUE, 0, GL_WRITE_ONLY, GL_R32UI);
+            gl->BindImageTexture(HAIR_IMAGE_FIELD, field->distance, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R16F);
+            gl->BindImageTexture(HAIR_IMAGE_COLLIDER, field->number, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
         }
         ran = 1;
         result = dispatch(field, &job);

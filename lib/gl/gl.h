@@ -79,6 +79,8 @@ struct hair_gl_program {
     GLuint begun; // Program that the driver compiles asynchronously. 0 if there is none.
     struct hair_gl_key key; // Cache key of `begun`.
     struct hair_gl_timer timer;
+    uint32_t max_groups; // Work groups in a dispatch of a GPU. 0 until the pass runs.
+    double ms_per_group; // Time of a group of a software rasteriser in the last run, ms.
     char label[128];
 };
 
@@ -371,9 +373,12 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 // Run a compute pass over `groups` work groups, and make its writes visible. hair_group() in GLSL
 // returns the number of a group.
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+// Run the work groups from `first` up to, not including, `end`, of all `groups` of a pass.
+void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups);
 // Run a compute pass by a program with the application's shading.
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups);
 // Run a compute pass with the group counts from three numbers at the byte offset `at` of a buffer.
+// A software rasteriser waits for the numbers, so that the pass can be divided.
 void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
 // Return the duration of the last finished run of a pass, in ms.
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);

@@ -2,6 +2,17 @@
 #include "lib/gl/frame_profiler.h"
 
 #include <string.h>
+#include <time.h>
+
+// A software rasteriser runs a dispatch at once, and applications must not stall for long. A pass
+// is divided into parts. The first is expected to take PROBE ms, by the time of the last run. The
+// others are expected to take PART ms, by the time of the part before.
+#define PROBE 4.0
+#define PART 30.0
+#define MAX_GROWTH 8.0 // Maximum ratio of the groups in a part to those in the part before.
+#define FIRST_GROUPS 4.0 // Work groups in the first part of a pass that never ran.
+// Threads in a dispatch of a GPU. An operating system resets a GPU that takes too long for one.
+#define MAX_THREADS (1u << 23)
 
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass)
 {
@@ -92,20 +103,95 @@ static void wait_for_writes(struct hair_gl* gl)
                       GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
 }
 
-static void dispatch(struct hair_gl* gl, uint32_t groups)
+static double now(void)
 {
-    uint32_t count = (groups + HAIR_MAX_GROUPS - 1) / HAIR_MAX_GROUPS;
-    gl->DispatchCompute(count > 1 ? HAIR_MAX_GROUPS : groups, count, 1);
+    struct timespec time = {0};
+    timespec_get(&time, TIME_UTC);
+    return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+}
+
+// Work groups of a pass to dispatch: those from `first` up to, not including, `end`, of all.
+struct groups {
+    uint32_t first, end, all;
+};
+
+// Run `count` work groups from `first` on.
+static void dispatch_part(struct hair_gl* gl, GLuint program, uint32_t first, uint32_t count, uint32_t all)
+{
+    HAIR_ASSERT(0 < count && count <= HAIR_MAX_GROUPS && count <= all && first <= all - count);
+    if (count < all) gl->ProgramUniform2ui(program, HAIR_LOCATION_GROUPS, first, all);
+    gl->DispatchCompute(count, 1, 1);
     wait_for_writes(gl);
+}
+
+// Return the work groups in a dispatch of a GPU.
+static uint32_t find_max_groups(struct hair_gl* gl, GLuint program)
+{
+    GLint size[3] = {0};
+    gl->GetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, size);
+    uint32_t threads = (uint32_t)size[0] * (uint32_t)size[1] * (uint32_t)size[2];
+    uint32_t max = MAX_THREADS / (threads ? threads : 1);
+    return max < HAIR_MAX_GROUPS ? max : HAIR_MAX_GROUPS;
+}
+
+// Return the work groups that are expected to take `ms`.
+static uint32_t expect_groups(double ms, double ms_per_group, double max)
+{
+    double groups = ms_per_group > 0 ? ms / ms_per_group : max;
+    if (groups > max) groups = max;
+    return groups < 1 ? 1 : groups > HAIR_MAX_GROUPS ? HAIR_MAX_GROUPS : (uint32_t)groups;
+}
+
+// Dispatch parts that take long enough. Return the number of groups in the last one.
+static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
+                                 struct groups groups)
+{
+    double start = now(), begun = start, max = own->ms_per_group > 0 ? HAIR_MAX_GROUPS : FIRST_GROUPS;
+    uint32_t count = 0, part = expect_groups(PROBE, own->ms_per_group, max);
+    for (uint32_t first = groups.first; first < groups.end; first += count) {
+        count = groups.end - first < part ? groups.end - first : part;
+        dispatch_part(gl, program, first, count, groups.all);
+        double end = now();
+        part = expect_groups(PART, (end - begun) / count, MAX_GROWTH * count);
+        begun = end;
+    }
+    own->ms_per_group = (begun - start) / (groups.end - groups.first);
+    return count;
+}
+
+// Dispatch parts that no GPU takes long for. Return the number of groups in the last one.
+static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
+                                  struct groups groups)
+{
+    uint32_t count = 0;
+    if (!own->max_groups) own->max_groups = find_max_groups(gl, program);
+    for (uint32_t first = groups.first; first < groups.end; first += count) {
+        count = groups.end - first < own->max_groups ? groups.end - first : own->max_groups;
+        dispatch_part(gl, program, first, count, groups.all);
+    }
+    return count;
+}
+
+static void dispatch(struct hair_gl* gl, struct hair_gl_program* own, GLuint program, struct groups groups)
+{
+    HAIR_ASSERT(own && program && groups.first < groups.end && groups.end <= groups.all);
+    uint32_t last = gl->software ? dispatch_by_time(gl, own, program, groups)
+                                 : dispatch_by_count(gl, own, program, groups);
+    // The next call may dispatch all groups at once.
+    if (last < groups.all) gl->ProgramUniform2ui(program, HAIR_LOCATION_GROUPS, 0, 0);
+}
+
+void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups)
+{
+    struct hair_gl_program* own = hair_gl_find(gl, pass);
+    hair_gl_begin(gl, pass);
+    dispatch(gl, own, own->program, (struct groups){first, end, groups});
+    hair_gl_end(gl, pass);
 }
 
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups)
 {
-    if (groups == 0) return;
-    HAIR_ASSERT(hair_gl_find(gl, pass) && hair_gl_find(gl, pass)->program);
-    hair_gl_begin(gl, pass);
-    dispatch(gl, groups);
-    hair_gl_end(gl, pass);
+    if (groups > 0) hair_gl_run_part(gl, pass, 0, groups, groups);
 }
 
 void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uint32_t groups)
@@ -114,7 +200,7 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
     HAIR_ASSERT(program);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
-    dispatch(gl, groups);
+    dispatch(gl, hair_gl_find(gl, pass), program, (struct groups){0, groups, groups});
     hair_gl_end(gl, pass);
 }
 
@@ -123,9 +209,17 @@ void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program,
     HAIR_ASSERT(program && buffer && at % 4 == 0);
     hair_gl_begin(gl, pass);
     gl->UseProgram(program);
-    gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
-    gl->DispatchComputeIndirect((GLintptr)at);
-    wait_for_writes(gl);
+    if (gl->software) {
+        GLuint groups[3] = {0};
+        gl->GetNamedBufferSubData(buffer, (GLintptr)at, sizeof groups, groups);
+        HAIR_ASSERT(groups[0] <= HAIR_MAX_GROUPS && groups[1] <= HAIR_MAX_GROUPS);
+        uint32_t all = groups[0] * groups[1];
+        if (all) dispatch(gl, hair_gl_find(gl, pass), program, (struct groups){0, all, all});
+    } else {
+        gl->BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer);
+        gl->DispatchComputeIndirect((GLintptr)at);
+        wait_for_writes(gl);
+    }
     hair_gl_end(gl, pass);
 }
 

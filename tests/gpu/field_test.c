@@ -225,6 +225,40 @@ static void ten_thousand_colliders_are_one_field(void** state)
     hair_test_field_end(&f);
 }
 
+static void thirty_thousand_colliders_are_one_brick(void** state)
+{
+    const uint32_t count = 30000;
+    struct hair_test_field_scene f;
+    hair_test_field_begin(*state, origin, &f);
+    hair_collider* colliders = calloc(count, sizeof *colliders);
+    const float voxel = HAIR_TEST_FIELD_VOXEL;
+    const float middle[] = {f.field.box.lower.x, f.field.box.lower.y, f.field.box.lower.z};
+    for (uint32_t i = 0; i < count; ++i) {
+        colliders[i] = hair_collider_default();
+        colliders[i].shape = HAIR_SHAPE_SPHERE;
+        colliders[i].size[0] = 1e-4f;
+        for (int k = 0; k < 3; ++k)
+            colliders[i].position[k] = middle[k] + (9 + 6 * hair_random(&f.random)) * voxel;
+    }
+    hair_test_ok(f.test, hair_field_update(&f.field, colliders, count, &f.head));
+    struct hair_test_field read = hair_test_field_read(&f.field);
+    uint32_t later = 0;
+    for (uint32_t i = 0; i < 512; ++i) {
+        double point[3];
+        uint32_t number;
+        uint32_t x = 8 + i % 8, y = 8 + i / 8 % 8, z = 8 + i / 64;
+        size_t at = ((size_t)z * read.size[1] + y) * read.size[0] + x;
+        hair_test_voxel(&f.field.box, &f.head, at, point);
+        double right = hair_test_nearest(colliders, count, point, &number);
+        hair_test_near("voxel", at, (double)read.distance[at], right, 0.05 * (double)HAIR_TEST_FIELD_VOXEL);
+        later += read.number[at] > count / 2;
+    }
+    assert_in_range(later, 100, 400);
+    hair_test_field_free(&read);
+    free(colliders);
+    hair_test_field_end(&f);
+}
+
 // The application's view --------------------------------------------------------------------------
 
 static void field_info_has_textures_and_their_place(void** state)
@@ -280,6 +314,7 @@ int main(void)
         HAIR_TEST(field_holds_the_hair_but_not_more_than_its_reach),
         HAIR_TEST(field_of_any_colliders_is_finite),
         HAIR_TEST(ten_thousand_colliders_are_one_field),
+        HAIR_TEST(thirty_thousand_colliders_are_one_brick),
         HAIR_TEST(field_info_has_textures_and_their_place),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

@@ -19,9 +19,9 @@
 #define WIDTH 1920
 #define HEIGHT 1080
 
-static const char* const columns[] = {"case",      "method", "guides", "vertices", "followers", "segments",
-                                      "colliders", "kind",   "stage",  "ms",       "limit",     "count",
-                                      "pass",      NULL};
+static const char* const columns[] = {"case",     "method",    "guides", "vertices", "followers",
+                                      "segments", "colliders", "kind",   "stage",    "ms",
+                                      "limit",    "count",     "pass",   NULL};
 
 static const struct subject {
     const char* name;
