@@ -182,6 +182,12 @@ MUTATIONS = [
      "old": "    if (of->owner) of->owner->bytes[of->category] += bytes - of->bytes;\n",
      "new": "    if (of->owner) of->owner->bytes[of->category] += bytes;\n",
      "tests": ["gpu/report"]},
+    # Saved states
+    {"name": "head_of_the_last_step_not_saved", "file": "lib/sim/save_fields.c",
+     "old": ("    hair_serialize_pose(s, \"head at the last step\", "
+             "&sim->head_at_last_step, MAX_PAST);\n"),
+     "new": "",
+     "tests": ["gpu/save"]},
     # Files
     {"name": "vertices_without_the_root", "file": "lib/asset/hairfile.c",
      "old": "source->bytes + header->segments_at + 2 * (size_t)strand) + 1;",
