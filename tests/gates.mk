@@ -90,3 +90,10 @@ zink: ## tests/gpu and tests/golden by zink over lavapipe; filter=draw selects p
 	@MESA_LOADER_DRIVER_OVERRIDE=zink LIBGL_ALWAYS_SOFTWARE=1 VK_ICD_FILENAMES=$(firstword \
 	  $(wildcard /usr/share/vulkan/icd.d/lvp_icd*.json)) $(MAKE) SETUP=0 run-tests TESTS='$(filter $(B)/tests/g%,$(TESTS))'
 .PHONY: zink
+
+# Tests of the tests. `make check` checks only that the table of bugs fits the source.
+mutation: ## Seed bugs in a copy of the source, and check that tests find each of them; only=NAME seeds one
+	@nice python3 -B tests/mutation/mutate.py $(only)
+mutations:
+	@python3 -B tests/mutation/mutate.py --check
+.PHONY: mutation mutations

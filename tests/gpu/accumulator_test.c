@@ -210,6 +210,32 @@ static void a_long_step_is_many_steps(struct hair_test* test, hair_groom* groom,
     hair_destroy(hair[1]);
 }
 
+// Check that the head moves evenly through a step of several dispatches.
+static void a_long_step_moves_the_head_evenly(struct hair_test* test, hair_groom* groom, int way)
+{
+    static struct strands one, many;
+    hair_desc desc = hair_test_way(way);
+    hair_instance* hair[2] = {NULL, NULL};
+    desc.substep = 0.001f;
+    desc.max_dt = 1;
+    for (int i = 0; i < 2; ++i) {
+        uint32_t steps = i ? 200 : 1;
+        hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[i]));
+        for (uint32_t k = 1; k <= steps; ++k) { // 200 substeps and a half.
+            float time = i ? 0.001f * (float)k + 0.0005f : 0.2005f, place = 1.2f * time;
+            float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, place, 0, 0, 1};
+            hair_test_ok(test, hair_set_transform(hair[i], transform));
+            hair_test_ok(test, hair_step(hair[i], !i ? 0.2005f : k > 1 ? 0.001f : 0.0015f));
+        }
+    }
+    read(test, hair[0], &one);
+    read(test, hair[1], &many);
+    for (uint32_t k = 0; k < 3 * one.guide_vertices; ++k)
+        hair_test_near("coordinate", k, one.guides[k], (double)many.guides[k], 1e-3);
+    hair_destroy(hair[0]);
+    hair_destroy(hair[1]);
+}
+
 static void in_every_way(void** state, void (*check)(struct hair_test* test, hair_groom* groom, int way))
 {
     struct hair_test* test = *state;
@@ -249,6 +275,10 @@ static void step_of_many_substeps_equals_many_steps(void** state)
 {
     in_every_way(state, a_long_step_is_many_steps);
 }
+static void long_step_moves_the_head_evenly(void** state)
+{
+    in_every_way(state, a_long_step_moves_the_head_evenly);
+}
 
 int main(void)
 {
@@ -261,6 +291,7 @@ int main(void)
         HAIR_TEST(step_of_no_time_changes_nothing),
         HAIR_TEST(step_longer_than_max_dt_is_cut_and_logged_once),
         HAIR_TEST(step_of_many_substeps_equals_many_steps),
+        HAIR_TEST(long_step_moves_the_head_evenly),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -45,7 +45,7 @@ static void set_matrix(float m[16], float x, float y, float z)
 }
 
 // Make a perspective view at the distance of a head's breadth. The eye has moved slightly since the
-// previous frame.
+// previous frame, and the view has become narrower.
 static hair_view view_of(hair_pass pass, float moved)
 {
     hair_view view = hair_view_default();
@@ -58,6 +58,8 @@ static hair_view view_of(hair_pass pass, float moved)
     view.projection[11] = -1;
     view.projection[14] = -0.1f;
     memcpy(view.prev_projection, view.projection, sizeof view.projection);
+    view.prev_projection[0] -= moved;
+    view.prev_projection[5] -= 2 * moved;
     return view;
 }
 

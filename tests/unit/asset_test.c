@@ -249,6 +249,45 @@ static void repairs_are_counted(void** state)
     hair_asset_free(asset);
 }
 
+static void max_size_of_a_beginning_covers_every_array(void** state)
+{
+    (void)state;
+    for (uint32_t arrays = 2; arrays < 32; ++arrays) {
+        if (!(arrays & 2)) continue;
+        struct hair_test_file file = hair_test_hair(arrays);
+        assert_int_equal(hair_asset_max_size(file.bytes, 128), file.size);
+        free(file.bytes);
+    }
+    // Sections of .tfx files may lie apart, so that more may be read.
+    struct hair_test_file tfx[] = {hair_test_tfx4(), hair_test_tfx3()};
+    for (int i = 0; i < 2; ++i) {
+        assert_true(hair_asset_max_size(tfx[i].bytes, i ? 296 : 160) >= tfx[i].size);
+        free(tfx[i].bytes);
+    }
+}
+
+// Move one section after the other to the end of the file, and four bytes farther.
+static void tfx_sections_that_end_beyond_the_file_are_refused(void** state)
+{
+    (void)state;
+    static const struct {
+        uint32_t version, at, bytes; // `bytes` is the size of the section.
+    } sections[] = {{4, 12, 192}, {4, 16, 24},  {4, 20, 96},   {4, 24, 12},  {4, 28, 192}, {3, 144, 144},
+                    {3, 148, 12}, {3, 152, 24}, {3, 156, 192}, {3, 160, 12}, {3, 164, 96}};
+    hair_import import = hair_test_import();
+    for (size_t i = 0; i < sizeof sections / sizeof *sections; ++i)
+        for (uint32_t beyond = 0; beyond < 2; ++beyond) {
+            hair_asset* asset = NULL;
+            struct hair_test_file file = sections[i].version == 4 ? hair_test_tfx4() : hair_test_tfx3();
+            for (int k = 0; k < 48; ++k) hair_test_put_float(&file, (float)k / 48);
+            hair_test_set_u32(&file, sections[i].at, (uint32_t)file.size - sections[i].bytes + 4 * beyond);
+            assert_int_equal(hair_test_read(&test, &import, file.bytes, file.size, &asset),
+                             beyond ? HAIR_ERROR_FILE : HAIR_OK);
+            hair_asset_free(asset);
+            free(file.bytes);
+        }
+}
+
 #define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
@@ -265,6 +304,8 @@ int main(void)
         TEST(tfx_sections_may_be_at_any_offset),
         TEST(tfx_with_only_positions_is_read),
         TEST(tfx_of_any_vertex_count_is_read),
+        TEST(max_size_of_a_beginning_covers_every_array),
+        TEST(tfx_sections_that_end_beyond_the_file_are_refused),
         TEST(import_options_are_applied),
         TEST(repairs_are_counted),
     };

@@ -167,8 +167,6 @@ static void wrong_use_exits_with_2(void** state)
                            "info --vertices 257 $D/a.hair",
                            "info --vertices -1 $D/a.hair",
                            "info --seed 4294967296 $D/a.hair",
-                           "info --guides 64 $D/a.hair",
-                           "generate --up z long $D/x.hair",
                            "generate mullet $D/x.hair",
                            "generate long $D/x.hair --guides 1",
                            "generate long $D/x.hair --length 99",
@@ -183,6 +181,29 @@ static void wrong_use_exits_with_2(void** state)
     }
     expect(1, "test -e $D/x.hair", "");
     expect(2, "$T generate mullet -", "long, bob, short, ponytail, curly, afro");
+}
+
+static void options_of_another_command_are_wrong_use(void** state)
+{
+    (void)state;
+    static const char* const wrong[][2] = {
+        {"guides", "info --guides 64 $D/a.hair"},
+        {"length", "info --length 2 $D/a.hair"},
+        {"format", "info --format hair $D/a.hair"},
+        {"guides", "convert --guides 64 $D/a.hair $D/x.hair"},
+        {"length", "convert --length 2 $D/a.hair $D/x.hair"},
+        {"scale", "generate --scale 2 long $D/x.hair"},
+        {"up", "generate --up z long $D/x.hair"},
+        {"tip-first", "generate --tip-first long $D/x.hair"},
+        {"keep-fraction", "generate --keep-fraction 0.5 long $D/x.hair"},
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        char command[256], sentence[64];
+        snprintf(command, sizeof command, "$T %s", wrong[i][1]);
+        snprintf(sentence, sizeof sentence, "--%s is not an option of", wrong[i][0]);
+        expect(2, command, sentence);
+    }
+    expect(1, "test -e $D/x.hair", "");
 }
 
 static void bad_input_exits_with_4(void** state)
@@ -244,6 +265,7 @@ int main(void)
         cmocka_unit_test(every_format_converts_to_every_writable_format),
         cmocka_unit_test(built_in_haircuts_are_written),
         cmocka_unit_test(wrong_use_exits_with_2),
+        cmocka_unit_test(options_of_another_command_are_wrong_use),
         cmocka_unit_test(bad_input_exits_with_4),
         cmocka_unit_test(unwritable_output_exits_with_1_and_leaves_no_file),
         cmocka_unit_test(closed_pipe_is_a_failed_write),
