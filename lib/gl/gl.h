@@ -275,6 +275,12 @@ hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
 
+// texture_target.c --------------------------------------------------------------------------------
+
+// Return the target of a texture of the application, or 0 if there is no such texture. All state is
+// as before. The error flag is not touched.
+GLenum hair_gl_find_texture_target(const struct hair_gl* gl, GLuint texture);
+
 // memory.c ----------------------------------------------------------------------------------------
 
 // Set the maximum of bytes that buffers and textures may take from now on. 0 disables it.
