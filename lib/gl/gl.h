@@ -133,7 +133,7 @@ struct hair_gl {
     struct hair_gl_profiler* profiler; // Profiler of the active instance. NULL disables it.
     struct hair_gl_owner* owner; // Owner of what is created. NULL if it is no instance.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
-    GLuint shadow_sampler;
+    GLuint shadow_sampler[2]; // Reads 1 outside a texture, or 0 for maps of reversed depth.
     // Function of the window system that returns the current context, and its result at creation.
     void*(APIENTRY* get_current)(void);
     void* own_context;

@@ -39,10 +39,18 @@ static const struct {
     const char* name;
     GLenum what;
 } switches[] = {
-    {NAME(GL_ALPHA_TEST)},    {NAME(GL_COLOR_ARRAY)},  {NAME(GL_COLOR_MATERIAL)},
-    {NAME(GL_FOG)},           {NAME(GL_LIGHTING)},     {NAME(GL_LIGHT1)},
-    {NAME(GL_LINE_STIPPLE)},  {NAME(GL_NORMALIZE)},    {NAME(GL_POINT_SPRITE)},
-    {NAME(GL_TEXTURE_2D)},    {NAME(GL_TEXTURE_GEN_S)}, {NAME(GL_VERTEX_ARRAY)},
+    {NAME(GL_ALPHA_TEST)},
+    {NAME(GL_COLOR_ARRAY)},
+    {NAME(GL_COLOR_MATERIAL)},
+    {NAME(GL_FOG)},
+    {NAME(GL_LIGHTING)},
+    {NAME(GL_LIGHT1)},
+    {NAME(GL_LINE_STIPPLE)},
+    {NAME(GL_NORMALIZE)},
+    {NAME(GL_POINT_SPRITE)},
+    {NAME(GL_TEXTURE_2D)},
+    {NAME(GL_TEXTURE_GEN_S)},
+    {NAME(GL_VERTEX_ARRAY)},
     {NAME(GL_VERTEX_PROGRAM_TWO_SIDE)},
 };
 
