@@ -143,9 +143,7 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
                          &sim->head_at_last_step, view);
 }
 
-// Find followers inside colliders and push them out before they are drawn, unless nobody can see
-// this. Colliders block the light of a density grid in any case.
-static hair_result update_follower_collision(hair_instance* hair)
+hair_result hair_update_follower_collision(hair_instance* hair)
 {
     struct hair_geometry* geometry = &hair->geometry;
     const hair_look* look = &geometry->look;
@@ -231,7 +229,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
         hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
         if (own.pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
-            result = update_follower_collision(hair);
+            result = hair_update_follower_collision(hair);
         update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
@@ -306,7 +304,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_enter_unprofiled(hair);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
-    hair_result result = update_follower_collision(hair);
+    hair_result result = hair_update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     result = hair_leave(hair->context, result);
     if (!result && vertices) copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
