@@ -58,7 +58,7 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     for (int i = 0; i < taps; ++i) {
         // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
-        float depth = textureLod(hair_shadow_map[map], at.xy + r * arm, 0.0).r;
+        float depth = depth_from_light(map, textureLod(hair_shadow_map[map], at.xy + r * arm, 0.0).r);
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
         sum += exp(-n * vec4(1.0, taken));
         met += n;
@@ -89,7 +89,7 @@ float light_past_bodies(uint number, vec3 position)
     for (int i = 0; i < taps; ++i) {
         ivec2 k = ivec2(i % 3, i / 3);
         float depth = textureLod(opaque_shadow_map[map], (first + vec2(k) - 0.5) / size, 0.0).r;
-        sum += min_value <= depth ? weight[k.x].x * weight[k.y].y : 0.0;
+        sum += min_value <= depth_from_light(map, depth) ? weight[k.x].x * weight[k.y].y : 0.0;
     }
     return sum;
 }

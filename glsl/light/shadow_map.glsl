@@ -13,6 +13,12 @@ vec3 find_place_in_map(uint map, vec3 position)
     return at.w > 1e-6 ? vec3(at.xy / at.w, min(at.z / at.w, 1.0)) : vec3(-9.0, -9.0, 0.0);
 }
 
+// Return the depth of a texel as it grows away from the light, also if the map has reversed depth.
+float depth_from_light(uint map, float texel)
+{
+    return (draw.reversed_maps >> map & 1u) != 0u ? 1.0 - texel : texel;
+}
+
 float distance_to_light(uint number, vec3 position)
 {
     vec4 place = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];

@@ -108,7 +108,8 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
         // Depth of the strand itself at the centre of the texel.
         float depth = at.z + slope * dot(vec2(texel) + 0.5 - at.xy * size, texels);
         bool  there = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(size)));
-        open += !there || depth - own <= texelFetch(hair_shadow_map[map], texel, 0).r ? 1.0 : 0.0;
+        float stored = depth_from_light(map, texelFetch(hair_shadow_map[map], texel, 0).r);
+        open += !there || depth - own <= stored ? 1.0 : 0.0;
     }
     return open / float(TAPS);
 }

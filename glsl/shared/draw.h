@@ -108,7 +108,7 @@ struct hair_draw_params {
     hair_uint culls;     // 1 if patches that are wholly outside `sides` are left out.
     hair_uint chunks;     // Work groups per patch in passes over follower vertices.
     float     push_out_weight;        // Fraction of the push out of colliders that the view shows.
-    hair_uint unused;
+    hair_uint reversed_maps; // Bit per shadow map. 1 if its depth falls away from the light.
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

@@ -63,5 +63,6 @@
 #include <hair/hair_look.h>
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>
+#include <hair/hair_buffers.h>
 
 #endif

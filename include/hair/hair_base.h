@@ -125,8 +125,19 @@ typedef struct hair_struct_header {
     static inline T T##_default(void)                                                              \
     {                                                                                              \
         T desc;                                                                                    \
-        hair_struct_header header = {(uint32_t)sizeof desc, HAIR_VERSION};                         \
+        hair_struct_header header = {sizeof desc, HAIR_VERSION};                                   \
         T##_init(&desc, header);                                                                   \
+        return desc;                                                                               \
+    }
+
+/// Declare T_init(), which writes all defaults of a struct without a header, and T_default(), which
+/// returns a T with all defaults. `size` is the size of the struct where the caller is compiled.
+#define HAIR_PLAIN_DESC(T)                                                                         \
+    HAIR_API void T##_init(T* desc, size_t size);                                                  \
+    static inline T T##_default(void)                                                              \
+    {                                                                                              \
+        T desc;                                                                                    \
+        T##_init(&desc, sizeof desc);                                                              \
         return desc;                                                                               \
     }
 

@@ -105,15 +105,7 @@ typedef struct hair_collider {
     /// Key that identifies the collider from step to step. 0 identifies it by its index.
     uint64_t key; ///< Default 0.
 } hair_collider;
-
-/// Return a collider with all defaults.
-/// OpenGL: not used. Any thread.
-static inline hair_collider hair_collider_default(void)
-{
-    hair_collider collider = {
-        HAIR_SHAPE_SPHERE, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0}, 0, 1, 1, NULL, 0};
-    return collider;
-}
+HAIR_PLAIN_DESC(hair_collider)
 
 /// Replace the colliders of an instance.
 ///
@@ -163,14 +155,7 @@ typedef struct hair_pin {
     /// Position in groom space for HAIR_PIN_HEAD, and in the world for HAIR_PIN_WORLD.
     float position[3]; ///< m. [-1e9, 1e9]. Default 0.
 } hair_pin;
-
-/// Return a pin with all defaults.
-/// OpenGL: not used. Any thread.
-static inline hair_pin hair_pin_default(void)
-{
-    hair_pin pin = {0, UINT32_MAX, HAIR_PIN_HEAD, {0, 0, 0}};
-    return pin;
-}
+HAIR_PLAIN_DESC(hair_pin)
 
 /// Replace the pins of an instance.
 ///

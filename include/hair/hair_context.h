@@ -63,7 +63,8 @@ typedef struct hair_context_desc {
 } hair_context_desc;
 HAIR_DESC(hair_context_desc)
 
-/// Create a context for the OpenGL context that is current. OpenGL 4.5 core is required.
+/// Create a context for the OpenGL context that is current. OpenGL 4.5 core is required. A context
+/// of the compatibility profile of that version will do too.
 ///
 /// The call compiles only a small test of the driver, and waits for its result. The library
 /// compiles every other program when a call first needs it, and keeps the program as long as the

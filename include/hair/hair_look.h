@@ -14,12 +14,7 @@ typedef struct hair_curve {
 
 /// Return the curve that goes linearly from `root` to `tip`.
 /// OpenGL: not used. Any thread.
-static inline hair_curve hair_curve_line(float root, float tip)
-{
-    hair_curve curve;
-    for (int i = 0; i < 8; ++i) curve.at[i] = root + (tip - root) * (float)i / 7;
-    return curve;
-}
+HAIR_API hair_curve hair_curve_line(float root, float tip);
 
 // Choices -----------------------------------------------------------------------------------------
 

@@ -216,6 +216,16 @@ typedef enum hair_light_kind {
     HAIR_LIGHT_SPOT ///< A light that shines into a cone.
 } hair_light_kind;
 
+/// Range of depth in clip space, as glClipControl() sets it.
+typedef enum hair_depth_range {
+    /// The range that is set when hair_draw() is called. Default.
+    HAIR_DEPTH_RANGE_CURRENT = 0,
+    /// GL_NEGATIVE_ONE_TO_ONE, the range of OpenGL without glClipControl().
+    HAIR_DEPTH_RANGE_NEGATIVE_ONE_TO_ONE,
+    /// GL_ZERO_TO_ONE.
+    HAIR_DEPTH_RANGE_ZERO_TO_ONE
+} hair_depth_range;
+
 /// A light. At most four lights of a view may have a hair_shadow_map or an opaque_shadow_map.
 typedef struct hair_light {
     hair_struct_header header;
@@ -239,13 +249,20 @@ typedef struct hair_light {
     /// bits or more may hold the depth too. 0 disables it.
     uint32_t hair_shadow_map; ///< Default 0.
     /// Transform from the world to the clip space of both shadow maps. It is orthographic or, for
-    /// points and spots, in perspective. Depth grows away from the light.
+    /// points and spots, in perspective. Depth grows away from the light, unless
+    /// shadow_depth_reversed is true.
     float shadow_matrix[16]; ///< Default identity.
     /// 2D depth texture of opaque geometry, such as head, clothes and walls, rendered from the
     /// light. It blocks the light. Its format is as that of hair_shadow_map. 0 disables it.
     uint32_t opaque_shadow_map; ///< Default 0.
     /// Distance behind opaque_shadow_map up to which hair is lit.
     float opaque_bias; ///< m. [0, 1]. Default 0.003.
+    /// Range of depth in the clip space of shadow_matrix, that with which both shadow maps were
+    /// drawn. It may differ from the range of the view.
+    hair_depth_range shadow_depth_range; ///< Default HAIR_DEPTH_RANGE_CURRENT.
+    /// Reversed depth of both shadow maps. True means that depth falls away from the light, so that
+    /// the maps were drawn with GL_GREATER and cleared to 0.
+    bool shadow_depth_reversed; ///< Default false.
 } hair_light;
 HAIR_DESC(hair_light)
 

@@ -38,14 +38,7 @@ typedef struct hair_wind_source {
     float speed; ///< m/s. [-1000, 1000]. Default 5.
     float radius; ///< Radius of the mouth. m. [0.001, 100]. Default 0.05.
 } hair_wind_source;
-
-/// Return a wind source with all defaults.
-/// OpenGL: not used. Any thread.
-static inline hair_wind_source hair_wind_source_default(void)
-{
-    hair_wind_source source = {{0, 0, 0}, {0, 0, 0}, 5, 0.05f};
-    return source;
-}
+HAIR_PLAIN_DESC(hair_wind_source)
 
 /// Wind and its drag on guides.
 ///

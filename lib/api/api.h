@@ -125,4 +125,8 @@ hair_result hair_update_field(hair_instance* hair);
 // Update the field as hair_update_field() does, but for another pose of the head.
 hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
 
+// Find followers inside colliders and push them out before they are drawn or read, unless nobody
+// can see this. Colliders block the light of a density grid in any case. Defined in view.c.
+hair_result hair_update_follower_collision(hair_instance* hair);
+
 #endif

@@ -21,20 +21,6 @@ hair_result hair_check_transform(const hair_instance* hair, const char* name, co
     return HAIR_OK;
 }
 
-// Log how guides hold the groom. The gravity preload may ask for more than hair can bear.
-static void tell_held(hair_instance* hair)
-{
-    struct hair_rods_report held = hair_sim_preload_report(&hair->sim);
-    if (held.stiffened)
-        hair_log(&hair->context->host, HAIR_LOG_INFO,
-                 "%s: %u of %u guides are stiffened, up to %.3g times, to hold their groom against gravity",
-                 hair->label, held.stiffened, hair->sim.guides, (double)held.stiffest);
-    if (held.sagging)
-        hair_log(&hair->context->host, HAIR_LOG_INFO,
-                 "%s: %u of %u guides cannot hold their groom against gravity: they sag by up to %.3g m",
-                 hair->label, held.sagging, hair->sim.guides, (double)held.farthest_sag);
-}
-
 // Log how guides are softened, if this differs from the last log.
 static void tell_softened(hair_instance* hair)
 {
@@ -83,7 +69,6 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     hair_field_create(&hair->field, sim->sdf_pool, groom, hair->creation.field_voxel);
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
-    tell_held(hair);
     tell_softened(hair);
     HAIR_TRY(
         hair_geometry_create(&hair->geometry, gl, groom, &hair->sim, &look, hair->creation.uses_prepass));

@@ -1,26 +1,42 @@
 // view.c - public calls that draw an instance or read it back.
 #include "lib/api/api.h"
 
+#include <math.h>
 #include <string.h>
 
 #define PARALLEL 1e-3 // Maximum sine of the angle that rounding may leave.
 
+// Return whether depth clearly grows towards a directional light. `towards` is its gradient times
+// the direction, and `square` its squared length.
+static bool is_opposite(const hair_light* light, double towards, double square)
+{
+    double length = (double)hair_length(hair_load3(light->direction));
+    return towards > 0.5 * length * sqrt(square);
+}
+
 // Return whether a light's matrix is orthographic, or in perspective with a depth that grows away
-// from the light. The depth in perspective must be z = a - b / w, with b above 0, in front of the
-// light. Clip space then has a w that grows away from the light, and its depth is a w - b.
+// from the light. An orthographic matrix of a directional light must not have the opposite depth.
+// Reversed depth z counts as 1 - z. The depth in perspective must be z = a - b / w, with b above 0,
+// in front of the light. Clip space then has a w that grows away from the light, and its depth is
+// a w - b.
 static int is_seen_from_light(const hair_light* light)
 {
     const float* m = light->shadow_matrix;
-    if (m[3] == 0 && m[7] == 0 && m[11] == 0) return m[15] == 1;
-    if (light->kind == HAIR_LIGHT_DIRECTIONAL) return 0;
-    double zz = 0, zw = 0, ww = 0;
-    for (int i = 0; i < 12; i += 4) {
-        zz += (double)m[i + 2] * (double)m[i + 2];
-        zw += (double)m[i + 2] * (double)m[i + 3];
-        ww += (double)m[i + 3] * (double)m[i + 3];
+    double zz = 0, zw = 0, ww = 0, z[4], towards = 0;
+    for (int i = 0; i < 4; ++i) {
+        double own = (double)m[4 * i + 2], w = (double)m[4 * i + 3];
+        z[i] = light->shadow_depth_reversed ? w - own : own;
+        if (i == 3) break;
+        zz += z[i] * z[i];
+        zw += z[i] * w;
+        ww += w * w;
+        towards += z[i] * (double)light->direction[i];
     }
+    if (ww == 0)
+        return m[15] == 1 && !(light->kind == HAIR_LIGHT_DIRECTIONAL && is_opposite(light, towards, zz));
+    if (light->kind == HAIR_LIGHT_DIRECTIONAL) return 0;
     double a = zw / ww;
-    return zw > 0 && zz * ww - zw * zw <= PARALLEL * PARALLEL * zz * ww && a * (double)m[15] > (double)m[14];
+    return zw > 0 && zz * ww - zw * zw <= PARALLEL * PARALLEL * zz * ww && a * (double)m[15] > z[3];
 }
 
 static hair_result check_light(const hair_instance* hair, const hair_light* light, uint32_t i)
@@ -37,7 +53,7 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
     return hair_fail(
         host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].shadow_matrix is %s", hair->label, i,
         light->kind == HAIR_LIGHT_DIRECTIONAL
-            ? "not orthographic: its last row is not (0, 0, 0, 1)"
+            ? "not orthographic with the last row (0, 0, 0, 1) and depth that grows away from the light"
             : "neither orthographic nor in perspective, with depth that grows away from the light");
 }
 
@@ -127,9 +143,7 @@ static hair_result draw_air(hair_instance* hair, const hair_view* view)
                          &sim->head_at_last_step, view);
 }
 
-// Find followers inside colliders and push them out before they are drawn, unless nobody can see
-// this. Colliders block the light of a density grid in any case.
-static hair_result update_follower_collision(hair_instance* hair)
+hair_result hair_update_follower_collision(hair_instance* hair)
 {
     struct hair_geometry* geometry = &hair->geometry;
     const hair_look* look = &geometry->look;
@@ -215,7 +229,7 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
         hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
         hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
         if (own.pass != HAIR_PASS_GUIDES && hair_geometry_shows_followers(&hair->geometry))
-            result = update_follower_collision(hair);
+            result = hair_update_follower_collision(hair);
         update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
     }
@@ -290,7 +304,7 @@ static hair_result read_followers(hair_instance* hair, uint32_t count, float* po
     hair_enter_unprofiled(hair);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
-    hair_result result = update_follower_collision(hair);
+    hair_result result = hair_update_follower_collision(hair);
     if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
     result = hair_leave(hair->context, result);
     if (!result && vertices) copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);

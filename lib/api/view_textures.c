@@ -2,18 +2,6 @@
 // another kind would raise the application's error flag, or stay bound.
 #include "lib/api/api.h"
 
-// Return the target of a texture, or 0 if there is no such texture. Mesa raises an error if asked
-// for the target of a buffer texture.
-static GLenum find_target(const struct hair_gl* gl, GLuint texture)
-{
-    GLint target = 0, buffer = 0;
-    if (!gl->IsTexture(texture)) return 0;
-    gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_BUFFER_DATA_STORE_BINDING, &buffer);
-    if (buffer) return GL_TEXTURE_BUFFER;
-    gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-    return (GLenum)target;
-}
-
 // Return whether shaders read depth from the texture.
 static int is_depth(const struct hair_gl* gl, GLuint texture)
 {
@@ -38,7 +26,7 @@ static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t
 {
     const struct hair_gl* gl = &hair->context->gl;
     if (!texture) return HAIR_OK;
-    bool is_flat = find_target(gl, texture) == GL_TEXTURE_2D;
+    bool is_flat = hair_gl_find_texture_target(gl, texture) == GL_TEXTURE_2D;
     if (is_flat && (is_depth(gl, texture) || has_depth_in_red(gl, texture))) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture%s",
                      hair->label, light, name, texture, is_flat ? " of depth" : "");
@@ -57,7 +45,7 @@ static hair_result check_color(const hair_instance* hair, const hair_view* view)
 {
     const struct hair_gl* gl = &hair->context->gl;
     if (!view->color_texture || view->pass != HAIR_PASS_COLOR) return HAIR_OK;
-    if (find_target(gl, view->color_texture) == GL_TEXTURE_2D) return HAIR_OK;
+    if (hair_gl_find_texture_target(gl, view->color_texture) == GL_TEXTURE_2D) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.color_texture is %u, not a 2D texture",
                      hair->label, view->color_texture);
 }
@@ -67,7 +55,7 @@ static hair_result check_depth(const hair_instance* hair, const hair_view* view)
     const struct hair_gl* gl = &hair->context->gl;
     GLuint texture = view->occluder_depth;
     if (!hair_draw_uses_occlusion(view)) return HAIR_OK;
-    if (find_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
+    if (hair_gl_find_texture_target(gl, texture) == GL_TEXTURE_2D && is_depth(gl, texture)) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                      "%s: hair_view.occluder_depth is %u, not a 2D texture of depth", hair->label, texture);
 }

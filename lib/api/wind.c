@@ -26,10 +26,8 @@ static hair_result check_source(const hair_instance* hair, uint32_t i, const hai
 static hair_result check_texture(const hair_instance* hair, GLuint texture)
 {
     const struct hair_gl* gl = &hair->context->gl;
-    GLint target = 0;
     HAIR_TRY(hair_check_current(hair->context));
-    if (gl->IsTexture(texture)) gl->GetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
-    if (target == GL_TEXTURE_3D) return HAIR_OK;
+    if (hair_gl_find_texture_target(gl, texture) == GL_TEXTURE_3D) return HAIR_OK;
     return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.texture is %u, not a 3D texture",
                      hair->label, texture);
 }

@@ -2,6 +2,7 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
+#include "lib/draw/host_buffers.h"
 #include "lib/draw/occlusion.h"
 #include "lib/draw/plan.h"
 #include "lib/draw/raster.h"
@@ -33,6 +34,9 @@ enum hair_draw_resource {
     HAIR_RESOURCE_SORTED_SEGMENTS,
     HAIR_RESOURCE_HISTORY,
     HAIR_RESOURCE_SELF_SHADOW,
+    HAIR_RESOURCE_REFLECTANCE,
+    HAIR_RESOURCE_STRAND_INDEX,
+    HAIR_RESOURCE_GUIDE_HISTORY,
     HAIR_RESOURCES
 };
 
@@ -58,6 +62,7 @@ struct hair_renderer {
     struct hair_raster raster;
     struct hair_view_cache view_cache;
     struct hair_occlusion occlusion;
+    struct hair_host_buffers host;
     // Bounding sphere of the hair in the head's frame. xyz is the centre, w the radius in metres.
     hair_vec4 reach;
 };
@@ -193,6 +198,17 @@ hair_result hair_draw_ensure_occlusion(struct hair_renderer* renderer, struct ha
 // Find the occluded patches. The inputs of followers must be bound.
 void hair_draw_cull_occluded(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 void hair_draw_free_occlusion(struct hair_renderer* renderer);
+
+// Functions of host_buffers.c.
+
+// Write the buffers of smoothed guides, which must be up to date, or of followers, whose collision
+// must be up to date. `out` has the attributes wanted and the number of the frame.
+hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct hair_pose* head,
+                                 hair_buffers* out);
+hair_result hair_draw_get_followers(struct hair_renderer* renderer, const struct hair_pose* head,
+                                    hair_buffers* out);
+void hair_draw_free_reflectance(struct hair_renderer* renderer);
+void hair_draw_free_strand_index(struct hair_renderer* renderer);
 
 // Blending state of the application. Functions of blend.c.
 struct hair_blend {

@@ -160,7 +160,7 @@ void hair_draw_cull_occluded(struct hair_renderer* renderer, struct hair_draw_pl
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_OCCLUSION, 1, &occlusion->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_HIZ, 3, buffers);
     gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, plan->view->occluder_depth);
-    gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler);
+    gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
     hair_hiz_run(gl, occlusion->params, params);
     hair_gl_run(gl, HAIR_GL_GUIDE_BOUNDS, (parts + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     hair_gl_run(gl, patches, renderer->geometry->patches);

@@ -65,6 +65,11 @@ static void free_history(struct hair_renderer* renderer)
     hair_geometry_free_history(renderer->geometry);
 }
 
+static void free_guide_history(struct hair_renderer* renderer)
+{
+    hair_geometry_free_guide_history(renderer->geometry);
+}
+
 static void free_self_shadow(struct hair_renderer* renderer)
 {
     hair_lighting_free_self_shadow(renderer->lighting);
@@ -87,6 +92,10 @@ static const struct {
     [HAIR_RESOURCE_SORTED_SEGMENTS] = {hair_draw_ensure_sorted_segments, hair_draw_free_sorted_segments},
     [HAIR_RESOURCE_HISTORY] = {ensure_history, free_history},
     [HAIR_RESOURCE_SELF_SHADOW] = {hair_draw_ensure_self_shadow, free_self_shadow},
+    // Views need none of these. See host_buffers.c.
+    [HAIR_RESOURCE_REFLECTANCE] = {NULL, hair_draw_free_reflectance},
+    [HAIR_RESOURCE_STRAND_INDEX] = {NULL, hair_draw_free_strand_index},
+    [HAIR_RESOURCE_GUIDE_HISTORY] = {NULL, free_guide_history},
 };
 
 // Find the resources that a plan needs.
@@ -111,7 +120,7 @@ static void find_needed(const struct hair_renderer* renderer, const struct hair_
 
 hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    bool needed[HAIR_RESOURCES];
+    bool needed[HAIR_RESOURCES] = {false};
     hair_result result = HAIR_OK;
     HAIR_ASSERT(plan->pass_count > 0 && plan->draw == plan->pass[plan->pass_count - 1]);
     HAIR_ASSERT(plan->draw_program); // The passes must be compiled.

@@ -149,17 +149,20 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
 
 static hair_result make_objects(struct hair_gl* gl)
 {
-    static const float far_away[4] = {1, 1, 1, 1};
+    static const float far_away[2][4] = {{1, 1, 1, 1}, {0, 0, 0, 0}};
     gl->CreateVertexArrays(1, &gl->vertex_array);
-    gl->CreateSamplers(1, &gl->shadow_sampler);
-    if (!gl->vertex_array || !gl->shadow_sampler)
+    gl->CreateSamplers(2, gl->shadow_sampler);
+    if (!gl->vertex_array || !gl->shadow_sampler[0] || !gl->shadow_sampler[1])
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no vertex array or sampler");
-    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-    gl->SamplerParameteri(gl->shadow_sampler, GL_TEXTURE_COMPARE_MODE, GL_NONE);
-    gl->SamplerParameterfv(gl->shadow_sampler, GL_TEXTURE_BORDER_COLOR, far_away);
+    for (int i = 0; i < 2; ++i) {
+        GLuint sampler = gl->shadow_sampler[i];
+        gl->SamplerParameteri(sampler, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        gl->SamplerParameteri(sampler, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        gl->SamplerParameteri(sampler, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+        gl->SamplerParameteri(sampler, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+        gl->SamplerParameteri(sampler, GL_TEXTURE_COMPARE_MODE, GL_NONE);
+        gl->SamplerParameterfv(sampler, GL_TEXTURE_BORDER_COLOR, far_away[i]);
+    }
     return HAIR_OK;
 }
 
@@ -197,7 +200,7 @@ void hair_gl_destroy(struct hair_gl* gl)
     if (gl->vertex_array) gl->DeleteVertexArrays(1, &gl->vertex_array);
     if (gl->own_buffer) gl->DeleteBuffers(1, &gl->own_buffer);
     if (gl->idle_feedback) gl->DeleteTransformFeedbacks(1, &gl->idle_feedback);
-    if (gl->shadow_sampler) gl->DeleteSamplers(1, &gl->shadow_sampler);
+    if (gl->shadow_sampler[0] || gl->shadow_sampler[1]) gl->DeleteSamplers(2, gl->shadow_sampler);
     hair_free(&gl->host, gl->memory.allocations);
     hair_free(&gl->host, gl->glsl_dir);
     memset(gl, 0, sizeof *gl);

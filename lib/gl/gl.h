@@ -135,7 +135,7 @@ struct hair_gl {
     struct hair_gl_profiler* profiler; // Profiler of the active instance. NULL disables it.
     struct hair_gl_owner* owner; // Owner of what is created. NULL if it is no instance.
     GLuint vertex_array; // Empty, because shaders compute every vertex from its number.
-    GLuint shadow_sampler;
+    GLuint shadow_sampler[2]; // Reads 1 outside a texture, or 0 for maps of reversed depth.
     // Function of the window system that returns the current context, and its result at creation.
     void*(APIENTRY* get_current)(void);
     void* own_context;
@@ -276,6 +276,12 @@ hair_result hair_gl_check_capture(const struct hair_gl* gl, const char* name);
 // Begin transform feedback without rasterisation.
 void hair_gl_begin_capture(struct hair_gl* gl, GLuint framebuffer, struct hair_gl_capture* was);
 void hair_gl_end_capture(struct hair_gl* gl, const struct hair_gl_capture* was);
+
+// texture_target.c --------------------------------------------------------------------------------
+
+// Return the target of a texture of the application, or 0 if there is no such texture. All state is
+// as before. The error flag is not touched.
+GLenum hair_gl_find_texture_target(const struct hair_gl* gl, GLuint texture);
 
 // memory.c ----------------------------------------------------------------------------------------
 

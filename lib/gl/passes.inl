@@ -172,6 +172,8 @@ PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, WITH(DEPTH) | WITH(WIDENED),
      "HAIR_VERTEX_CACHE=1 draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
      "HAIR_VERTEX_CACHE=1 draw/shade.comp")
+PASS(REFLECTANCE, "draw/reflectance", COLOR, WITH(GROOM_COLORS),
+     "HAIR_VERTEX_CACHE=1 HAIR_USER_PIXELS=1 draw/shade.comp")
 PASS(SCAN_STRANDS, "draw/scan_strands", SCAN_STRANDS, WITH(OCCLUSION), "draw/scan_strands.comp")
 PASS(COMPACT_STRANDS, "draw/compact_strands", COMPACT_STRANDS, WITH(OCCLUSION), "draw/compact_strands.comp")
 PASS(HISTOGRAM, "draw/histogram", COLOR, 0, "HAIR_VERTEX_CACHE=1 draw/histogram.comp")

@@ -2,21 +2,31 @@
 // light/lights.glsl evaluates.
 #include "lib/light/lighting.h"
 
+// Return whether depth in clip space of a light's maps is in [0, 1], and not in [-1, 1].
+static bool is_zero_to_one(struct hair_gl* gl, const hair_light* light)
+{
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    if (light->shadow_depth_range != HAIR_DEPTH_RANGE_CURRENT)
+        return light->shadow_depth_range == HAIR_DEPTH_RANGE_ZERO_TO_ONE;
+    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    return mode == GL_ZERO_TO_ONE;
+}
+
 // Write the matrix from the head's origin to a shadow map. Map xy from [-1, 1] to [0, 1], and z as
-// the application's clip control says. In perspective the rows of z and w are parallel in xyz.
-// Depth is then its value at infinity minus a term that falls with the distance.
+// the depth range says. Reversed depth becomes 1 - depth. In perspective the rows of z and w are
+// parallel in xyz. Depth is then its value at infinity minus a term that falls with the distance.
 static void write_map(struct hair_gl* gl, const struct hair_pose* head, const hair_light* light,
                       hair_mat4* shadow, hair_vec4* map)
 {
-    GLint depth_mode = GL_NEGATIVE_ONE_TO_ONE;
-    gl->GetIntegerv(GL_CLIP_DEPTH_MODE, &depth_mode);
     float halve[16] = {0.5f, 0, 0, 0, 0, 0.5f, 0, 0, 0, 0, 0.5f, 0, 0.5f, 0.5f, 0.5f, 1};
-    if (depth_mode == GL_ZERO_TO_ONE) {
+    if (is_zero_to_one(gl, light)) {
         halve[10] = 1;
         halve[14] = 0;
     }
     float texture[16];
     hair_mat4_multiply(halve, light->shadow_matrix, texture);
+    for (int i = 0; light->shadow_depth_reversed && i < 16; i += 4)
+        texture[i + 2] = texture[i + 3] - texture[i + 2];
     *shadow = hair_mat4_from_head(texture, head);
     hair_vec3 z = hair_v3(texture[2], texture[6], texture[10]);
     hair_vec3 w = hair_v3(texture[3], texture[7], texture[11]);
@@ -81,11 +91,11 @@ bool hair_lighting_is_blocked(const hair_view* view)
     return false;
 }
 
-static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture)
+static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture, bool is_reversed)
 {
     if (!texture) return;
     gl->BindTextureUnit(unit, texture);
-    gl->BindSampler(unit, gl->shadow_sampler);
+    gl->BindSampler(unit, gl->shadow_sampler[is_reversed]);
 }
 
 void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view)
@@ -94,8 +104,9 @@ void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view)
     uint32_t count = hair_view_maps(view, maps);
     HAIR_ASSERT(count <= HAIR_SHADOW_MAPS);
     for (GLuint i = 0; i < count; ++i) {
-        bind_map(gl, HAIR_UNIT_SHADOW + i, maps[i].shadow);
-        bind_map(gl, HAIR_UNIT_BODY + i, maps[i].body);
+        bool is_reversed = view->lights[maps[i].light].shadow_depth_reversed;
+        bind_map(gl, HAIR_UNIT_SHADOW + i, maps[i].shadow, is_reversed);
+        bind_map(gl, HAIR_UNIT_BODY + i, maps[i].body, is_reversed);
     }
 }
 
@@ -105,6 +116,7 @@ void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
     uint32_t count = hair_view_maps(view, maps);
     out->lights = view->light_count;
+    out->reversed_maps = 0;
     for (uint32_t i = 0; i < view->light_count; ++i)
         write_light(&view->lights[i], head, &out->light[i * HAIR_LIGHT_VECTORS]);
     for (uint32_t i = 0; i < count; ++i) {
@@ -112,6 +124,7 @@ void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(gl, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
         light[HAIR_LIGHT_MORE].z = look->self_shadow.absorption;
+        if (view->lights[maps[i].light].shadow_depth_reversed) out->reversed_maps |= 1u << i;
         if (maps[i].shadow) light[HAIR_LIGHT_MORE].w = (float)i;
         if (maps[i].body) light[HAIR_LIGHT_MAP].x = (float)i;
     }

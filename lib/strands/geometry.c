@@ -40,6 +40,7 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     if (!gl) return;
     hair_geometry_free_follower_collision(geometry);
     hair_geometry_free_vertex_cache(geometry);
+    hair_geometry_free_guide_history(geometry);
     hair_geometry_free_uvs(geometry);
     hair_root_bindings_release(geometry->root_bindings);
     geometry->root_bindings = NULL;
@@ -62,6 +63,7 @@ void hair_geometry_invalidate_guides(struct hair_geometry* geometry)
 
 void hair_geometry_ensure_guides(struct hair_geometry* geometry, struct hair_sim* sim)
 {
+    if (!geometry->smooth.done) hair_geometry_save_guide_history(geometry);
     hair_smooth_ensure(&geometry->smooth, sim);
     hair_geometry_bind_followers(geometry, sim);
 }

@@ -27,6 +27,7 @@ struct hair_geometry {
     struct hair_follower_collision_state follower_collision;
     struct hair_vertex_cache vertex_cache;
     struct hair_vertex_history history;
+    struct hair_vertex_history guide_history; // Smoothed guides, for the application.
     // Root bindings to the scalp. NULL if there is no scalp.
     struct hair_root_bindings* root_bindings;
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
@@ -139,6 +140,13 @@ void hair_geometry_begin_history(struct hair_geometry* geometry, const struct ha
                                  uint32_t frame);
 // Keep the vertices that the previous frame displayed, before they are overwritten.
 void hair_geometry_save_history(struct hair_geometry* geometry);
+// Create the buffer of the previous frame's smoothed guides, and begin frame number `frame`, or
+// continue it. The guides must be up to date.
+hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, const struct hair_pose* head,
+                                              uint32_t frame);
+// Keep the smoothed guides that the previous frame displayed, before they are overwritten.
+void hair_geometry_save_guide_history(struct hair_geometry* geometry);
+void hair_geometry_free_guide_history(struct hair_geometry* geometry);
 // Forget the previous frame, because the hair has jumped.
 void hair_geometry_forget_history(struct hair_geometry* geometry);
 // Move the previous frame's positions with a head that is teleported.

@@ -1,5 +1,5 @@
-// history.c - vertices of the previous frame. The vertex cache of a displayed frame is kept when
-// new vertices replace it.
+// history.c - vertices of the previous frame, of followers and of smoothed guides. The buffer of a
+// displayed frame is kept when new vertices replace it.
 #include "lib/strands/geometry.h"
 
 #include <string.h>
@@ -26,42 +26,76 @@ static void swap(GLuint* a, GLuint* b)
     *b = c;
 }
 
-void hair_geometry_save_history(struct hair_geometry* geometry)
+// Exchange the buffer of the frame that was displayed for that of the frame before, which may be
+// overwritten. `writes` is the number of writes of the displayed buffer.
+static void save(struct hair_vertex_history* history, uint32_t writes, GLuint* buffer, GLuint* texture)
 {
-    struct hair_vertex_history* history = &geometry->history;
-    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
-    if (!history->buffer || !history->shown || history->shown != vertex_cache->writes) return;
-    HAIR_ASSERT(history->buffer != vertex_cache->position &&
-                history->texture != vertex_cache->position_texture);
-    swap(&history->buffer, &vertex_cache->position);
-    swap(&history->texture, &vertex_cache->position_texture);
+    if (!history->buffer || !history->shown || history->shown != writes) return;
+    HAIR_ASSERT(history->buffer != *buffer && history->texture != *texture);
+    swap(&history->buffer, buffer);
+    swap(&history->texture, texture);
 }
 
-void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
+void hair_geometry_save_history(struct hair_geometry* geometry)
 {
-    struct hair_vertex_history* history = &geometry->history;
+    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
+    save(&geometry->history, vertex_cache->writes, &vertex_cache->position, &vertex_cache->position_texture);
+}
+
+void hair_geometry_save_guide_history(struct hair_geometry* geometry)
+{
+    struct hair_smooth* smooth = &geometry->smooth;
+    save(&geometry->guide_history, smooth->runs, &smooth->buffer[0], &smooth->texture[0]);
+}
+
+static void begin(struct hair_vertex_history* history, uint32_t writes, const struct hair_pose* head,
+                  uint32_t frame)
+{
     struct hair_history_pose now = {.turn = {0, 0, 0, 1}};
     // This is another view of the same frame.
     if (history->shown && frame && frame == history->frame) return;
     memcpy(now.position, head->position, sizeof now.position);
-    history->still = !history->shown || history->shown == geometry->vertex_cache.writes;
+    history->still = !history->shown || history->shown == writes;
     history->before = history->shown ? history->last : now;
     history->last = now;
     history->frame = frame;
-    history->shown = geometry->vertex_cache.writes;
+    history->shown = writes;
+}
+
+void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
+{
+    begin(&geometry->history, geometry->vertex_cache.writes, head, frame);
+}
+
+hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, const struct hair_pose* head,
+                                              uint32_t frame)
+{
+    struct hair_vertex_history* history = &geometry->guide_history;
+    HAIR_TRY(hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_SMOOTH, "hair position before",
+                                  geometry->smooth.vertices * sizeof(hair_vec4), &history->buffer, GL_RGBA32F,
+                                  &history->texture));
+    begin(history, geometry->smooth.runs, head, frame);
+    return HAIR_OK;
+}
+
+void hair_geometry_free_guide_history(struct hair_geometry* geometry)
+{
+    hair_gl_free_array(geometry->gl, &geometry->guide_history.buffer, &geometry->guide_history.texture);
+    geometry->guide_history.shown = 0;
 }
 
 void hair_geometry_forget_history(struct hair_geometry* geometry)
 {
     geometry->history.shown = 0;
+    geometry->guide_history.shown = 0;
 }
 
-void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct hair_pose* from,
-                                    const struct hair_pose* to)
+// Move the positions of the frame drawn last with a head that is teleported.
+static void teleport(struct hair_vertex_history* history, const struct hair_pose* from,
+                     const struct hair_pose* to)
 {
-    struct hair_history_pose* was = &geometry->history.last;
-    if (!geometry->history.shown) return;
-    HAIR_ASSERT(geometry->history.shown <= geometry->vertex_cache.writes);
+    struct hair_history_pose* was = &history->last;
+    if (!history->shown) return;
     hair_quat turn = hair_quat_multiply(to->rotation, hair_quat_conjugate(from->rotation));
     hair_vec3 away = {(float)(was->position[0] - from->position[0]),
                       (float)(was->position[1] - from->position[1]),
@@ -71,6 +105,14 @@ void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct
     was->position[1] = to->position[1] + (double)away.y;
     was->position[2] = to->position[2] + (double)away.z;
     was->turn = hair_quat_multiply(turn, was->turn);
+}
+
+void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct hair_pose* from,
+                                    const struct hair_pose* to)
+{
+    HAIR_ASSERT(geometry->history.shown <= geometry->vertex_cache.writes);
+    teleport(&geometry->history, from, to);
+    teleport(&geometry->guide_history, from, to);
 }
 
 void hair_geometry_bind_history(struct hair_geometry* geometry)

@@ -17,7 +17,8 @@ struct hair_history_pose {
 struct hair_vertex_history {
     GLuint buffer, texture; // Vertices of the previous frame. 0 until needed.
     uint32_t frame; // Number of the frame drawn last.
-    uint32_t shown; // Value of hair_vertex_cache.writes in that frame. 0 if none was drawn.
+    // Value of hair_vertex_cache.writes or hair_smooth.runs in that frame. 0 if none was drawn.
+    uint32_t shown;
     int still; // Nonzero if the vertices have not moved since the previous frame.
     // Transforms of the frame drawn last and of the frame before it.
     struct hair_history_pose last, before;

@@ -182,10 +182,7 @@ static void write_gusts(struct hair_wind_state* state, const struct hair_wind_st
 
 static bool has_volume(const struct hair_gl* gl, const hair_wind* wind)
 {
-    GLint target = 0;
-    if (wind->texture && gl->IsTexture(wind->texture))
-        gl->GetTextureParameteriv(wind->texture, GL_TEXTURE_TARGET, &target);
-    return target == GL_TEXTURE_3D;
+    return hair_gl_find_texture_target(gl, wind->texture) == GL_TEXTURE_3D;
 }
 
 // Write the transform to the texture of velocities. It applies to positions from the head's origin

@@ -92,8 +92,10 @@ if nm -D --defined-only "$out/hello-exporting" | grep ' hair_'; then fail "the s
 # Check that every header can be included alone.
 for header in "$prefix"/usr/include/hair/*.h; do
     for compiler in "$CC -std=c99 -x c" "$CXX -std=c++11 -x c++"; do
+        casts=
+        case $compiler in *c++) casts='-Wold-style-cast -Wuseless-cast -Wzero-as-null-pointer-constant' ;; esac
         # shellcheck disable=SC2086
-        echo "#include <hair/$(basename "$header")>" | $compiler $strict -I"$prefix/usr/include" -fsyntax-only - ||
+        echo "#include <hair/$(basename "$header")>" | $compiler $strict $casts -I"$prefix/usr/include" -fsyntax-only - ||
             fail "$(basename "$header") cannot be included alone"
     done
 done

@@ -305,5 +305,6 @@ int main(void)
         HAIR_TEST(discarded_steps_are_mended_by_a_reset),
         HAIR_TEST(paused_feedback_of_the_host_stays_paused),
     };
-    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+    int failed = cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+    return failed + cmocka_run_group_tests(tests, hair_test_start_compatibility, hair_test_finish);
 }

@@ -25,7 +25,7 @@ struct fixture {
     hair_groom* groom;
     hair_context* context;
     hair_instance* hair;
-    GLuint shadow;
+    GLuint shadow, wind; // Textures of the application.
     hair_gl_state promise;
     int way; // Index of solver and mapping.
 };
@@ -41,27 +41,43 @@ static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severi
     snprintf(f->message, sizeof f->message, "%s", message);
 }
 
-static int start(void** state)
+// Create a debug context of a profile.
+static EGLContext create_debug(EGLDisplay display, EGLint profile)
 {
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    EGL_CONTEXT_OPENGL_DEBUG,
-                                    EGL_TRUE,
-                                    EGL_NONE};
+    const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
+                             4,
+                             EGL_CONTEXT_MINOR_VERSION,
+                             5,
+                             EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                             profile,
+                             EGL_CONTEXT_OPENGL_DEBUG,
+                             EGL_TRUE,
+                             EGL_NONE};
+    return eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+}
+
+static void create_textures(struct fixture* f)
+{
+    glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
+    glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
+    glCreateTextures(GL_TEXTURE_3D, 1, &f->wind);
+    glTextureStorage3D(f->wind, 1, GL_RGBA16F, 4, 4, 4);
+    glClearTexImage(f->wind, 0, GL_RGBA, GL_FLOAT, NULL);
+}
+
+static int start_profile(void** state, EGLint profile)
+{
     struct fixture* f = calloc(1, sizeof *f);
     *state = f;
     hair_test_host_init(&f->host);
     if (hair_egl_create(&f->host.host, -1, &f->egl)) return -1;
     f->display = eglGetCurrentDisplay();
-    f->debug = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    f->debug = create_debug(f->display, profile);
     if (!eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug)) return -1;
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(listen, f);
-    glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
-    glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
+    create_textures(f);
     hair_test_glstate_disturb();
     if (glGetError() || *f->message) {
         fprintf(stderr, "the test's own state is in error: %s\n", f->message);
@@ -71,6 +87,16 @@ static int start(void** state)
     f->groom->colors =
         hair_alloc(&f->host.host, f->groom->info.follower_count, 8 * 4 * sizeof *f->groom->colors);
     return 0;
+}
+
+static int start(void** state)
+{
+    return start_profile(state, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
+}
+
+static int start_compatibility(void** state)
+{
+    return start_profile(state, EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT);
 }
 
 static int finish(void** state)
@@ -130,6 +156,7 @@ static hair_result set_all(struct fixture* f)
     wind.model = HAIR_WIND_FLUID;
     wind.fluid.resolution = 16;
     wind.velocity[0] = 1;
+    wind.texture = f->wind;
     look.strand.segments = 100; // Draws in two parts.
     physics.damping = 5; // Makes the rods again.
     hair_result result = hair_set_physics(f->hair, &physics);
@@ -342,14 +369,7 @@ static void calls_leave_nothing_bound_in_a_fresh_context(void** state)
 {
     struct fixture* f = *state;
     // A fresh debug context beside the disturbed one.
-    static const EGLint wanted[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                    4,
-                                    EGL_CONTEXT_MINOR_VERSION,
-                                    5,
-                                    EGL_CONTEXT_OPENGL_DEBUG,
-                                    EGL_TRUE,
-                                    EGL_NONE};
-    EGLContext fresh = eglCreateContext(f->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted);
+    EGLContext fresh = create_debug(f->display, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT);
     assert_true(eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, fresh));
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -360,11 +380,17 @@ static void calls_leave_nothing_bound_in_a_fresh_context(void** state)
     glCreateFramebuffers(1, &frame);
     glNamedFramebufferRenderbuffer(frame, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, target);
     glBindFramebuffer(GL_FRAMEBUFFER, frame);
-    glCreateTextures(GL_TEXTURE_2D, 1, &f->shadow);
-    glTextureStorage2D(f->shadow, 1, GL_DEPTH_COMPONENT32F, 8, 8);
+    create_textures(f);
     check_all_calls(f, HAIR_GL_STATE_RESTORE);
     eglMakeCurrent(f->display, EGL_NO_SURFACE, EGL_NO_SURFACE, f->debug);
     eglDestroyContext(f->display, fresh);
+}
+
+static void compatibility_context_keeps_fixed_function_state(void** state)
+{
+    struct fixture* f = *state;
+    assert_true(hair_test_glstate_is_legacy());
+    check_all_calls(f, HAIR_GL_STATE_RESTORE);
 }
 
 int main(void)
@@ -376,6 +402,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(calls_restore_all_opengl_state_and_the_error_flag, start, finish),
         cmocka_unit_test_setup_teardown(clobbering_context_changes_only_the_listed_state, start, finish),
+        cmocka_unit_test_setup_teardown(compatibility_context_keeps_fixed_function_state, start_compatibility,
+                                        finish),
         cmocka_unit_test_setup_teardown(calls_leave_nothing_bound_in_a_fresh_context, start, finish),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -181,9 +181,68 @@ static void refused_draws_change_and_leak_nothing(void** state)
     hair_test_torture_tell(only ? 0 : 300);
 }
 
+static const struct {
+    const char* name;
+    hair_read_source source;
+    uint32_t attributes;
+    int features;
+} buffers[] = {
+    {"buffers of followers", HAIR_READ_FOLLOWERS, 127, 0},
+    {"buffers of followers that collide", HAIR_READ_FOLLOWERS, 127, COLLIDED},
+    {"buffers of more segments", HAIR_READ_FOLLOWERS, 127, AGAIN},
+    {"buffers of guides", HAIR_READ_SMOOTH,
+     HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT | HAIR_ATTRIBUTE_STRAND | HAIR_ATTRIBUTE_PREV_POSITION,
+     0},
+};
+
+static hair_result get_buffers(struct hair_test_torture* t)
+{
+    hair_buffers out = hair_buffers_default();
+    out.attributes = buffers[t->variant].attributes;
+    HAIR_TRY(hair_get_buffers(t->hair, buffers[t->variant].source, &out));
+    assert_true(out.position.buffer && out.tangent.buffer && out.strand.buffer && out.prev_position.buffer);
+    assert_int_equal(out.position.count, out.strand_count * out.strand_vertices);
+    return draw(t);
+}
+
+static void start_buffers(struct hair_test_torture* t)
+{
+    int features = buffers[t->variant].features;
+    hair_desc desc = hair_desc_default();
+    hair_look look = hair_look_default();
+    look.strand.segments = 6, look.strand.radius = 0.003f;
+    look.shading.model = HAIR_SHADING_LINES;
+    desc.look = &look;
+    hair_test_torture_add(t, &desc);
+    t->view = hair_test_torture_view();
+    t->view.render_path = HAIR_RENDER_PATH_CACHED;
+    if (features & COLLIDED) hair_test_torture_collide(t);
+    hair_test_ok(t->test, hair_step(t->hair, 1.0f / 60));
+    if (!(features & AGAIN)) return;
+    hair_test_ok(t->test, get_buffers(t));
+    look.strand.segments = 9;
+    hair_test_ok(t->test, hair_set_look(t->hair, &look));
+    hair_test_ok(t->test, hair_step(t->hair, 1.0f / 60));
+}
+
+static void refused_buffers_change_and_leak_nothing(void** state)
+{
+    if (getenv("HAIR_TEST_ONLY")) return;
+    for (int i = 0; i < (int)(sizeof buffers / sizeof *buffers); ++i) {
+        struct hair_test_torture t = {.test = *state,
+                                      .name = buffers[i].name,
+                                      .variant = i,
+                                      .start = start_buffers,
+                                      .call = get_buffers};
+        hair_test_torture_run(&t);
+    }
+    hair_test_torture_tell(40);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
-    const struct CMUnitTest tests[] = {HAIR_TEST(refused_draws_change_and_leak_nothing)};
+    const struct CMUnitTest tests[] = {HAIR_TEST(refused_buffers_change_and_leak_nothing),
+                                       HAIR_TEST(refused_draws_change_and_leak_nothing)};
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

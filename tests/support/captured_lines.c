@@ -89,11 +89,14 @@ struct hair_test_lines hair_test_capture_lines(struct hair_test* test, hair_inst
                                                size_t max_segments, int hits, const hair_lod* lod)
 {
     struct hair_gl* gl = &test->context->gl;
+    bool is_styled = hair_look_is_styled(&hair->geometry.look);
     hair_gl_pass pass = paths[path].pass[hits] | (lod ? HAIR_GL_WITH(WIDENED) : 0);
+    pass = hair_geometry_add_style(&hair->geometry, pass);
     struct hair_gl_program* own = hair_gl_get_or_add(gl, pass);
     GLuint whole = own->program, program = 0;
     char stages[128];
-    snprintf(stages, sizeof stages, "%s%s", lod ? "HAIR_WIDENED=1 " : "", paths[path].stages[hits]);
+    snprintf(stages, sizeof stages, "%s%s%s", is_styled ? "HAIR_STYLED=1 " : "", lod ? "HAIR_WIDENED=1 " : "",
+             paths[path].stages[hits]);
     hair_test_ok(test, hair_gl_link(gl, "capture", stages, "strand_position", &program));
     memset(&capture, 0, sizeof capture);
     capture.patches = gl->DrawArraysInstanced;

@@ -205,7 +205,7 @@ static const struct row queries[] = {
 
 #define COUNT(rows) (sizeof rows / sizeof *rows)
 
-static void put(struct hair_test_glstate* out, const char* name, int i, int64_t value)
+void hair_test_glstate_put(struct hair_test_glstate* out, const char* name, int i, int64_t value)
 {
     if (out->count == HAIR_TEST_VALUES) abort();
     if (i < 0)
@@ -215,21 +215,22 @@ static void put(struct hair_test_glstate* out, const char* name, int i, int64_t 
     out->values[out->count++].value = value;
 }
 
-static void put_reals(struct hair_test_glstate* out, const char* name, int count, const float* values)
+void hair_test_glstate_put_reals(struct hair_test_glstate* out, const char* name, int count,
+                                 const float* values)
 {
     for (int k = 0; k < count; ++k) {
         int32_t bits;
         memcpy(&bits, &values[k], sizeof bits);
-        put(out, name, k, bits);
+        hair_test_glstate_put(out, name, k, bits);
     }
 }
 
 static void put_switches(struct hair_test_glstate* out)
 {
     for (size_t i = 0; i < COUNT(switches); ++i) {
-        put(out, switches[i].name, -1, glIsEnabled(switches[i].what));
+        hair_test_glstate_put(out, switches[i].name, -1, glIsEnabled(switches[i].what));
         for (int k = 0; k < switches[i].count; ++k)
-            put(out, switches[i].name, k, glIsEnabledi(switches[i].what, (GLuint)k));
+            hair_test_glstate_put(out, switches[i].name, k, glIsEnabledi(switches[i].what, (GLuint)k));
     }
 }
 
@@ -240,24 +241,24 @@ static void put_indexed(struct hair_test_glstate* out)
             for (int part = 0; part < 6 && indexed[i].part[part].name; ++part) {
                 GLint64 value = -1;
                 glGetInteger64i_v(indexed[i].part[part].what, (GLuint)k, &value);
-                put(out, indexed[i].part[part].name, k, value);
+                hair_test_glstate_put(out, indexed[i].part[part].name, k, value);
             }
     for (GLuint unit = 0; unit < HAIR_TEST_UNITS; ++unit)
         for (size_t i = 0; i < COUNT(textures); ++i) {
             GLint value = -1;
             glGetIntegeri_v(textures[i].what, unit, &value);
-            put(out, textures[i].name, (int)unit, value);
+            hair_test_glstate_put(out, textures[i].name, (int)unit, value);
         }
     for (GLuint k = 0; k < 4; ++k) {
         float viewport[4];
         GLint scissor[4], mask[4];
         glGetFloati_v(GL_VIEWPORT, k, viewport);
-        put_reals(out, "GL_VIEWPORT of one", 4, viewport);
+        hair_test_glstate_put_reals(out, "GL_VIEWPORT of one", 4, viewport);
         glGetIntegeri_v(GL_SCISSOR_BOX, k, scissor);
         glGetIntegeri_v(GL_COLOR_WRITEMASK, k, mask);
         for (int c = 0; c < 4; ++c) {
-            put(out, "GL_SCISSOR_BOX of one", c, scissor[c]);
-            put(out, "GL_COLOR_WRITEMASK of one", c, mask[c]);
+            hair_test_glstate_put(out, "GL_SCISSOR_BOX of one", c, scissor[c]);
+            hair_test_glstate_put(out, "GL_COLOR_WRITEMASK of one", c, mask[c]);
         }
     }
 }
@@ -269,20 +270,21 @@ void hair_test_glstate_read(struct hair_test_glstate* out)
         GLint64 values[4] = {-1, -1, -1, -1};
         glGetInteger64v(integers[i].what, values);
         for (int k = 0; k < integers[i].count; ++k)
-            put(out, integers[i].name, integers[i].count > 1 ? k : -1, values[k]);
+            hair_test_glstate_put(out, integers[i].name, integers[i].count > 1 ? k : -1, values[k]);
     }
     for (size_t i = 0; i < COUNT(reals); ++i) {
         float values[4] = {0};
         glGetFloatv(reals[i].what, values);
-        put_reals(out, reals[i].name, reals[i].count, values);
+        hair_test_glstate_put_reals(out, reals[i].name, reals[i].count, values);
     }
     for (size_t i = 0; i < COUNT(queries); ++i) {
         GLint value = -1;
         glGetQueryiv(queries[i].what, GL_CURRENT_QUERY, &value);
-        put(out, queries[i].name, -1, value);
+        hair_test_glstate_put(out, queries[i].name, -1, value);
     }
     put_switches(out);
     put_indexed(out);
+    if (hair_test_glstate_is_legacy()) hair_test_glstate_read_legacy(out);
 }
 
 size_t hair_test_glstate_differ(const struct hair_test_glstate* a, const struct hair_test_glstate* b,

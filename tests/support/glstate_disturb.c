@@ -181,4 +181,5 @@ void hair_test_glstate_disturb(void)
     disturb_program();
     disturb_numbers();
     disturb_switches();
+    if (hair_test_glstate_is_legacy()) hair_test_glstate_disturb_legacy();
 }

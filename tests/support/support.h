@@ -28,6 +28,10 @@ int hair_test_skips(void);
 // Set *state to a struct hair_test with a current context. For cmocka_run_group_tests().
 int hair_test_start(void** state);
 int hair_test_finish(void** state); // Fails if memory is left.
+// Start as hair_test_start(), with a context of the compatibility profile. The environment variable
+// HAIR_TEST_PROFILE=compatibility does the same for every context of libhair_egl.
+int hair_test_start_compatibility(void** state);
+void hair_test_set_compatibility(bool is_wanted);
 
 // A test that must end without memory left, errors in the log that it has not forgiven, or OpenGL
 // errors.

@@ -33,7 +33,7 @@ static size_t member_count;
 static void read_headers(void)
 {
     static const char* const names[] = {"base", "groom",    "context", "look",        "physics", "colliders",
-                                        "wind", "instance", "view",    "diagnostics", "asset"};
+                                        "wind", "instance", "view",    "diagnostics", "buffers", "asset"};
     size_t size = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char name[64];

@@ -180,6 +180,44 @@ static void desc_of_another_minor_version_is_accepted(void** state)
 
 #define TEST(function) cmocka_unit_test_setup(function, start)
 
+// Structs without a header take the size of the caller's struct.
+static void plain_defaults_end_at_the_size_of_the_caller(void** state)
+{
+    (void)state;
+    struct {
+        hair_collider collider;
+        unsigned char newer[16];
+    } larger;
+    hair_collider usual = hair_collider_default(), smaller;
+    const size_t old = offsetof(hair_collider, friction);
+    memset(&larger, 0xff, sizeof larger);
+    memset(&smaller, 0xff, sizeof smaller);
+    hair_collider_init(&larger.collider, sizeof larger);
+    hair_collider_init(&smaller, old);
+    hair_collider_init(NULL, sizeof usual);
+    assert_true(usual.scale == 1 && usual.friction == 1 && usual.rotation[3] == 1);
+    assert_true(usual.shape == HAIR_SHAPE_SPHERE && !usual.mesh && !usual.key && usual.rounding == 0);
+    assert_memory_equal(&larger.collider, &usual, sizeof usual);
+    for (size_t i = 0; i < sizeof larger.newer; ++i) assert_int_equal(larger.newer[i], 0);
+    assert_memory_equal(&smaller, &usual, old);
+    for (size_t i = old; i < sizeof smaller; ++i) assert_int_equal(((unsigned char*)&smaller)[i], 0xff);
+}
+
+static void plain_defaults_are_those_of_the_headers(void** state)
+{
+    (void)state;
+    hair_pin pin = hair_pin_default();
+    hair_wind_source source = hair_wind_source_default();
+    hair_curve curve = hair_curve_line(1, 0.3f);
+    assert_true(pin.guide == 0 && pin.vertex == UINT32_MAX && pin.to == HAIR_PIN_HEAD);
+    assert_true(source.speed == 5 && source.radius == 0.05f);
+    for (int k = 0; k < 3; ++k)
+        assert_true(pin.position[k] == 0 && source.position[k] == 0 && source.direction[k] == 0);
+    for (int i = 0; i < 8; ++i) hair_test_near("curve", (size_t)i, (double)curve.at[i], 1 - 0.1 * i, 1e-6);
+    hair_pin_init(NULL, sizeof pin);
+    hair_wind_source_init(NULL, sizeof source);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -193,6 +231,8 @@ int main(void)
         TEST(copies_of_equal_descs_are_equal_bytes),
         TEST(desc_without_a_header_is_refused),
         TEST(desc_of_another_minor_version_is_accepted),
+        TEST(plain_defaults_end_at_the_size_of_the_caller),
+        TEST(plain_defaults_are_those_of_the_headers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
