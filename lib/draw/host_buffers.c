@@ -82,11 +82,8 @@ static hair_result ensure_index(struct hair_renderer* renderer, struct hair_stra
 
 static hair_buffer buffer_of(GLuint buffer, uint32_t offset, uint32_t stride, GLenum format, uint32_t count)
 {
-    return (hair_buffer){.buffer = buffer,
-                         .offset = offset,
-                         .stride = stride,
-                         .format = format,
-                         .count = buffer ? count : 0};
+    return (hair_buffer){
+        .buffer = buffer, .offset = offset, .stride = stride, .format = format, .count = buffer ? count : 0};
 }
 
 // Write where the positions of the previous frame are, and their transform to the world.

@@ -63,8 +63,7 @@ static void check_indices(const hair_buffers* got)
     assert_int_equal(got->strand.format, GL_R32UI);
     assert_int_equal(got->strand.count, got->strand_count * got->strand_vertices);
     read_components(got->strand, 1, numbers);
-    for (uint32_t i = 0; i < got->strand.count; ++i)
-        assert_int_equal(numbers[i], i / got->strand_vertices);
+    for (uint32_t i = 0; i < got->strand.count; ++i) assert_int_equal(numbers[i], i / got->strand_vertices);
     free(numbers);
 }
 
@@ -144,9 +143,10 @@ static void tangents_are_unit_and_along_the_strand(void** state)
     double worst = 1;
     for (uint32_t i = 1; i + 1 < got.tangent.count; ++i) {
         if (i % 65 == 0 || i % 65 == 64) continue;
-        hair_vec3 t, along = hair_normalize(hair_sub(hair_load3(points.at + 3 * i + 3),
-                                                     hair_load3(points.at + 3 * i - 3)),
-                                            hair_v3(0, 0, 0));
+        hair_vec3 t,
+            along =
+                hair_normalize(hair_sub(hair_load3(points.at + 3 * i + 3), hair_load3(points.at + 3 * i - 3)),
+                               hair_v3(0, 0, 0));
         t = hair_v3((float)packed[4 * i] / 32767.5f - 1, (float)packed[4 * i + 1] / 32767.5f - 1,
                     (float)packed[4 * i + 2] / 32767.5f - 1);
         hair_test_near("length", i, (double)hair_length(t), 1, 1e-4);

@@ -149,10 +149,10 @@ MUTATIONS = [
      "new": "clamp((dot(axis.xyz, to) + axis.w) * more.x, 0.0, 1.0)",
      "tests": ["gpu/light"]},
     # OpenGL
-    {"name": "barrier_after_indirect_lost", "file": "lib/gl/pass.c",
-     "old": ("    gl->DispatchComputeIndirect((GLintptr)at);\n"
+    {"name": "barrier_after_dispatch_lost", "file": "lib/gl/pass.c",
+     "old": ("    gl->DispatchCompute(count, 1, 1);\n"
              "    wait_for_writes(gl);"),
-     "new": "    gl->DispatchComputeIndirect((GLintptr)at);",
+     "new": "    gl->DispatchCompute(count, 1, 1);",
      "tests": ["gpu/barrier"]},
     {"name": "barrier_of_commands_lost", "file": "lib/gl/pass.c",
      "old": " | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT",
