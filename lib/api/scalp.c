@@ -81,18 +81,18 @@ static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size
     if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
                          hair->label, buffer);
-    uint64_t ensure = (uint64_t)stride * (hair_scalp_motion_vertex_count(&hair->sim) - 1) + 12,
+    uint64_t needed = (uint64_t)stride * (hair_scalp_motion_vertex_count(&hair->sim) - 1) + 12,
              there = (uint64_t)has;
-    if (offset % 4 || offset > there || ensure > there - offset)
+    if (offset % 4 || offset > there || needed > there - offset)
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                          "%s: offset is %zu, not a multiple of 4 from which on gl_buffer's %llu bytes hold "
                          "the %llu of the "
                          "scalp",
-                         hair->label, offset, (unsigned long long)there, (unsigned long long)ensure);
+                         hair->label, offset, (unsigned long long)there, (unsigned long long)needed);
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
     gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
     *from = offset - offset % (size_t)align;
-    *size = (size_t)ensure + (offset - *from);
+    *size = (size_t)needed + (offset - *from);
     HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
     if (*size > (size_t)max)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
@@ -107,9 +107,10 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     struct hair_pose space;
     size_t from = 0, size = 0;
     HAIR_TRY(check(hair, stride, to_world, &space));
-    HAIR_TRY(check_buffer(hair, gl_buffer, offset, stride, &from, &size));
+    hair_result result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
+    if (result) return hair_check_lost(hair->context, result);
     hair_enter(hair);
-    hair_result result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
+    result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result)
         hair_scalp_motion_set_buffer(&hair->sim, gl_buffer, from, size, (uint32_t)((offset - from) / 4),
                                      (uint32_t)(stride / 4), &space);

@@ -215,9 +215,9 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
     struct storage storage;
     HAIR_TRY(copy_view(hair, view, &own, &storage));
     HAIR_TRY(hair_check_current(context));
-    HAIR_TRY(hair_check_view_textures(hair, &own));
-    HAIR_TRY(check_framebuffer(hair));
-    hair_result result = HAIR_OK;
+    hair_result result = hair_check_view_textures(hair, &own);
+    if (!result) result = check_framebuffer(hair);
+    if (result) return hair_check_lost(context, result);
     struct hair_draw_plan plan;
     make_plan(hair, &own, &plan);
     if (!is_to_be_drawn(hair, &plan)) return HAIR_OK;

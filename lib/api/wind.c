@@ -28,8 +28,9 @@ static hair_result check_texture(const hair_instance* hair, GLuint texture)
     const struct hair_gl* gl = &hair->context->gl;
     HAIR_TRY(hair_check_current(hair->context));
     if (hair_gl_find_texture_target(gl, texture) == GL_TEXTURE_3D) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_wind.texture is %u, not a 3D texture",
-                     hair->label, texture);
+    hair_result result = hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                                   "%s: hair_wind.texture is %u, not a 3D texture", hair->label, texture);
+    return hair_check_lost(hair->context, result);
 }
 
 hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)

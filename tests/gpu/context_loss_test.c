@@ -271,6 +271,50 @@ static void loss_at_any_call_is_told_and_restored(void** state)
     }
 }
 
+// Check that a loss is told which happens while a call asks OpenGL about its arguments. The answers
+// of a lost context look like those about wrong arguments. A loss after the checks is not tried.
+static void loss_while_arguments_are_checked_is_told(void** state)
+{
+    struct fixture f;
+    hair_view view = hair_view_default();
+    hair_light light = hair_light_default();
+    hair_wind wind = hair_wind_default();
+    GLuint map, volume;
+    uint32_t call = 1;
+    start(&f, *state, 0);
+    hair_test_ok(f.test, run_frame(&f, 1));
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, 4, 4);
+    glCreateTextures(GL_TEXTURE_3D, 1, &volume);
+    glTextureStorage3D(volume, 1, GL_RGBA16F, 4, 4, 4);
+    wind.texture = volume;
+    for (;; ++call) {
+        hair_test_trace_clear();
+        hair_test_trace_lose(call, GL_GUILTY_CONTEXT_RESET);
+        hair_result result = hair_set_wind(f.hair, &wind);
+        if (!result) break;
+        assert_int_equal(result, HAIR_ERROR_CONTEXT_LOST);
+        hair_test_forgive(f.test);
+        f.context->gl.is_lost = false; // The driver has lost nothing.
+    }
+    assert_true(call > 1);
+    light.opaque_shadow_map = view.occluder_depth = map;
+    view.occluder_matrix[0] = 1;
+    view.lights = &light;
+    view.light_count = 1;
+    for (call = 1;; ++call) {
+        hair_test_trace_clear();
+        hair_test_trace_lose(call, GL_GUILTY_CONTEXT_RESET);
+        assert_int_equal(hair_draw(f.hair, &view), HAIR_ERROR_CONTEXT_LOST);
+        hair_test_forgive(f.test);
+        if (hair_test_trace_count("glPushDebugGroup")) break;
+        f.context->gl.is_lost = false;
+    }
+    assert_true(call > 8);
+    replace_egl(&f);
+    finish(&f);
+}
+
 static void restored_hair_is_at_most_two_steps_old(void** state)
 {
     static struct run run;
@@ -457,6 +501,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         HAIR_TEST(loss_at_any_call_is_told_and_restored),
+        HAIR_TEST(loss_while_arguments_are_checked_is_told),
         HAIR_TEST(restored_hair_is_at_most_two_steps_old),
         HAIR_TEST(destroyed_opengl_context_can_be_replaced),
         HAIR_TEST(snapshot_that_a_loss_cuts_off_is_not_used),
