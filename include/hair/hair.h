@@ -64,5 +64,6 @@
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>
 #include <hair/hair_buffers.h>
+#include <hair/hair_members.h>
 
 #endif

@@ -39,9 +39,9 @@ typedef struct hair_buffer {
 /// Input and output of hair_get_buffers().
 typedef struct hair_buffers {
     hair_struct_header header;
-    /// Input. Attributes to provide, bits of hair_attribute. Others are not computed.
+    /// Attributes to provide, bits of hair_attribute. Input. Others are not computed.
     uint32_t attributes; ///< [0, 127]. Default 1.
-    /// Input. Number of the frame, as hair_view.frame_index. Calls and views of one number share
+    /// Number of the frame, as hair_view.frame_index. Input. Calls and views of one number share
     /// the previous frame. 0 begins a new frame with every call.
     uint32_t frame_index; ///< Default 0.
     hair_buffer position; ///< See HAIR_ATTRIBUTE_POSITION.

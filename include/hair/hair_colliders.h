@@ -23,8 +23,8 @@ typedef struct hair_collision_mesh_desc {
     const float* positions; ///< m. [-1e6, 1e6].
     /// Three vertex indices per triangle, counter-clockwise seen from outside. Required.
     const uint32_t* triangles;
-    uint32_t vertex_count; ///< [1, 16777216].
-    uint32_t triangle_count; ///< [1, 16777216].
+    uint32_t vertex_count; ///< Number of vertices. [1, 16777216].
+    uint32_t triangle_count; ///< Number of triangles. [1, 16777216].
     /// Number of voxels along the longest side of the grid. Ignored if voxel_size is set.
     uint32_t resolution; ///< [8, 256]. Default 64.
     /// Size of a voxel, enlarged if the longest side would have more than 256. HAIR_AUTO selects
@@ -150,7 +150,7 @@ typedef struct hair_pin {
     /// Index of the guide, in the order of HAIR_READ_GUIDES of hair_read_positions().
     uint32_t guide; ///< Default 0.
     /// Index of the vertex in the guide, from 1. An index beyond the last vertex selects the tip.
-    uint32_t vertex; ///< Default 4294967295.
+    uint32_t vertex; ///< [1, 4294967295]. Default 4294967295.
     hair_pin_to to; ///< Default HAIR_PIN_HEAD.
     /// Position in groom space for HAIR_PIN_HEAD, and in the world for HAIR_PIN_WORLD.
     float position[3]; ///< m. [-1e9, 1e9]. Default 0.

@@ -19,7 +19,7 @@ typedef struct hair_import {
     float scale; ///< m. [1e-6, 1e6]. Default 1.
     /// Axis that points up in the positions. The import rotates this axis to +y.
     hair_up up; ///< Default HAIR_UP_Y.
-    /// Order of the vertices of a strand. False is root to tip. True is tip to root.
+    /// Order of the vertices of a strand, false for root to tip and true for tip to root.
     bool tip_first; ///< Default false.
     /// Fraction of the strands that the import keeps, chosen at random from `seed`.
     float keep_fraction; ///< [1e-6, 1]. Default 1.
@@ -59,8 +59,8 @@ typedef struct hair_map {
     /// Values of the source. Images are stored row by row, and the first row is at v = 0. Required
     /// unless `source` is HAIR_MAP_SOURCE_NONE.
     const float* values;
-    uint32_t width; ///< Width of the image, in texels. Ignored for other sources. [1, 16384].
-    uint32_t height; ///< Height of the image, in texels. Ignored for other sources. [1, 16384].
+    uint32_t width; ///< Width of the image, in texels, at least 1. [0, 16384]. Default 0.
+    uint32_t height; ///< Height of the image, in texels, at least 1. [0, 16384]. Default 0.
 } hair_map;
 
 /// Scalp maps of follower density and strand thickness. A groom has up to four sets, and

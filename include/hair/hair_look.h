@@ -91,9 +91,9 @@ typedef struct hair_look {
         /// Multiple of the red of color.root to color.tip. The tints are linear between their 8
         /// values. Tinted colours are clamped to 1.
         hair_curve tint_red; ///< [0, 4]. Default 1.
-        /// Multiple of the green.
+        /// Multiple of the green of color.root to color.tip.
         hair_curve tint_green; ///< [0, 4]. Default 1.
-        /// Multiple of the blue.
+        /// Multiple of the blue of color.root to color.tip.
         hair_curve tint_blue; ///< [0, 4]. Default 1.
         /// Fraction of the colour that is lost at the root.
         float root_darkening; ///< [0, 1]. Default 0.
@@ -184,7 +184,7 @@ typedef struct hair_look {
         float wavelength; ///< m. [0.001, 10]. Default 0.05.
         /// Number of turns from root to tip, in addition to the turns of curl.wavelength.
         float turns; ///< [0, 100]. Default 0.
-        /// Flatness of the curls. 0 is a helix. 1 is a wave in a plane.
+        /// Flatness of the curls, 0 for a helix and 1 for a wave in a plane.
         float flatness; ///< [0, 1]. Default 0.
         /// Fraction of the guides whose strands turn to the left.
         float left_fraction; ///< [0, 1]. Default 0.
@@ -221,7 +221,7 @@ typedef struct hair_look {
         hair_follower_collision collision; ///< Default HAIR_FOLLOWER_COLLISION_PUSH_OUT.
     } followers;
 
-    /// Wetness. Water darkens and smooths hair, draws strands together and flattens strays. It
+    /// Wetness, which darkens and smooths hair, draws strands together and flattens strays. Water
     /// changes the values above, not the way that they are drawn. HAIR_PRESET_WET makes hair also
     /// move like wet hair.
     float wetness; ///< [0, 1]. Default 0.

@@ -33,6 +33,7 @@ typedef enum hair_root {
 /// collision.friction. Of `shape`, it uses only the frequencies.
 typedef struct hair_physics {
     hair_struct_header header;
+    /// Acceleration by gravity, in the world.
     float gravity[3]; ///< m/s^2. [-1000, 1000]. Default (0, -9.81, 0).
     /// Decay rate c of the velocity v relative to the velocity u of the air, dv/dt = -c (v - u).
     /// The default stands for the drag of a hair among others. With a `drag` of 0.1, the law of

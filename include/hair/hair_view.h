@@ -114,8 +114,7 @@ typedef struct hair_lod {
     float strand_fraction; ///< [0, 1]. Default 1.
     /// Maximum fraction of hair_look.strand.segments per strand.
     float segment_fraction; ///< [0, 1]. Default 1.
-    /// Exponent of the width. Strands become wider by the drawn fraction to the power of
-    /// -width_exponent.
+    /// Exponent e of the width. Strands become wider by the drawn fraction to the power of -e.
     float width_exponent; ///< [0, 2]. Default 1.
     /// Selection by the size on the screen of each patch of strands, by the members below. False
     /// uses the members above for all patches.
@@ -279,7 +278,7 @@ typedef struct hair_view {
     float projection[16]; ///< Default identity.
     /// Lights, light_count of them. NULL selects light_count lights of hair_light_default().
     const hair_light* lights; ///< Default NULL.
-    uint32_t light_count; ///< [0, 16]. Default 1.
+    uint32_t light_count; ///< Number of lights. [0, 16]. Default 1.
     /// Irradiance of uniform surroundings, linear rgb.
     float ambient[3]; ///< [0, 1e6]. Default 0.35.
     /// Radiance of the surroundings, added to `ambient`, as 9 spherical harmonics of rgb each.

@@ -74,7 +74,7 @@ typedef struct hair_wind {
     } turbulence;
     /// Local sources, source_count of them. They are copied. NULL if there are none.
     const hair_wind_source* sources; ///< Default NULL.
-    uint32_t source_count; ///< [0, 4]. Default 0.
+    uint32_t source_count; ///< Number of local sources. [0, 4]. Default 0.
     /// 3D OpenGL texture of floats with a wind field of the application, added to the other wind.
     /// Texels hold xyz in m/s along the world axes. Every step reads the texture. Values that are
     /// not finite, positions outside the texture and a deleted texture count as 0. 0 disables it.

@@ -2,7 +2,7 @@
 #ifndef HAIR_API_API_H
 #define HAIR_API_API_H
 
-#include "lib/api/schema.h"
+#include "lib/base/schema.h"
 #include "lib/draw/draw.h"
 #include "lib/field/field.h"
 #include "lib/gl/frame_profiler.h"

@@ -1,5 +1,5 @@
 // collision_mesh.c - public calls on collision meshes.
-#include "lib/api/schema.h"
+#include "lib/base/schema.h"
 #include "lib/collide/collision_mesh.h"
 
 hair_result hair_collision_mesh_create(const hair_collision_mesh_desc* desc, hair_collision_mesh** out)

@@ -1,26 +1,6 @@
 // wind.c - public calls that set and get the wind.
 #include "lib/api/api.h"
 
-static hair_result check_number(const hair_instance* hair, uint32_t i, const char* name, float value,
-                                double min, double max)
-{
-    if ((double)value >= min && (double)value <= max) return HAIR_OK; // NaN fails too.
-    return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
-                     "%s: hair_wind.sources[%u].%s is %g, not in [%g, %g]", hair->label, i, name,
-                     (double)value, min, max);
-}
-
-static hair_result check_source(const hair_instance* hair, uint32_t i, const hair_wind_source* source)
-{
-    HAIR_TRY(check_number(hair, i, "speed", source->speed, -1000, 1000));
-    HAIR_TRY(check_number(hair, i, "radius", source->radius, 0.001, 100));
-    for (int k = 0; k < 3; ++k) {
-        HAIR_TRY(check_number(hair, i, "position", source->position[k], -1e9, 1e9));
-        HAIR_TRY(check_number(hair, i, "direction", source->direction[k], -1e6, 1e6));
-    }
-    return HAIR_OK;
-}
-
 // Check that a texture is 3D. Binding an object that is no texture would raise the application's
 // error flag.
 static hair_result check_texture(const hair_instance* hair, GLuint texture)
@@ -46,7 +26,8 @@ hair_result hair_set_wind(hair_instance* hair, const hair_wind* wind)
     HAIR_ASSERT(own.source_count <= HAIR_WIND_SOURCES);
     for (uint32_t i = 0; i < own.source_count; ++i) {
         sources[i] = own.sources[i];
-        HAIR_TRY(check_source(hair, i, &sources[i]));
+        HAIR_TRY(hair_schema_check_element(host, "hair_wind.sources", i, &sources[i],
+                                           hair_schema_of_hair_wind_source()));
     }
     if (own.texture) HAIR_TRY(check_texture(hair, own.texture));
     own.sources = sources;

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "lib/base/schema.h"
 #include "lib/collide/collision_mesh.h"
 #include "lib/collide/match.h"
 
@@ -19,19 +20,14 @@ static int sizes_of(hair_shape shape)
     }
 }
 
-static int in_range(float value, float min, float max)
-{
-    return value >= min && value <= max; // False for NaN.
-}
-
+// Check that the shape has an extent. The table of members has checked the ranges.
 static hair_result check_size(const hair_host* host, const hair_collider* collider, uint32_t i)
 {
     int sizes = sizes_of(collider->shape);
     for (int k = 0; k < sizes; ++k) {
         int may_be_0 = collider->rounding > 0 || (collider->shape == HAIR_SHAPE_CAPSULE && k == 1);
-        if (!in_range(collider->size[k], 0, 1e6f) || (collider->size[k] == 0 && !may_be_0))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].size[%d] is %g, not in %s0, 1e6]", i,
-                             k, (double)collider->size[k], may_be_0 ? "[" : "(");
+        if (collider->size[k] == 0 && !may_be_0)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].size[%d] is 0, not in (0, 1e6]", i, k);
     }
     return HAIR_OK;
 }
@@ -47,23 +43,7 @@ static hair_result check_rotation(const hair_host* host, const hair_collider* co
 
 static hair_result check(const hair_host* host, const hair_collider* collider, uint32_t i)
 {
-    const struct {
-        const char* name;
-        float value, min, max;
-    } numbers[] = {{"position[0]", collider->position[0], -1e9f, 1e9f},
-                   {"position[1]", collider->position[1], -1e9f, 1e9f},
-                   {"position[2]", collider->position[2], -1e9f, 1e9f},
-                   {"rounding", collider->rounding, 0, 1e6f},
-                   {"friction", collider->friction, 0, 100},
-                   {"scale", collider->scale, 1e-6f, 1e6f}};
-    if ((uint32_t)collider->shape > HAIR_SHAPE_MESH)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].shape is %d, not in [0, %d]", i,
-                         (int)collider->shape, HAIR_SHAPE_MESH);
-    for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k)
-        if (!in_range(numbers[k].value, numbers[k].min, numbers[k].max))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT, "colliders[%u].%s is %g, not in [%g, %g]", i,
-                             numbers[k].name, (double)numbers[k].value, (double)numbers[k].min,
-                             (double)numbers[k].max);
+    HAIR_TRY(hair_schema_check_element(host, "colliders", i, collider, hair_schema_of_hair_collider()));
     HAIR_TRY(check_rotation(host, collider, i));
     return check_size(host, collider, i);
 }

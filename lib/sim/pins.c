@@ -1,5 +1,6 @@
 // pins.c - pins: checking, sorting, and upload for the solvers.
 #include "lib/sim/sim.h"
+#include "lib/base/schema.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,17 +18,7 @@ static hair_result check(const struct hair_sim* sim, const hair_pin* pin, uint32
     if (pin->guide >= sim->guides)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].guide is %u, not in [0, %u]", i, pin->guide,
                          sim->guides - 1);
-    if (pin->vertex == 0)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].vertex is 0, the root, not in [1, %u]", i,
-                         UINT32_MAX);
-    if ((uint32_t)pin->to > HAIR_PIN_WORLD)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].to is %d, not in [0, %d]", i, (int)pin->to,
-                         HAIR_PIN_WORLD);
-    for (int k = 0; k < 3; ++k)
-        if (!(fabsf(pin->position[k]) <= 1e9f)) // Rejects NaN too.
-            return hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u].position[%d] is %g, not in [-1e9, 1e9]", i,
-                             k, (double)pin->position[k]);
-    return HAIR_OK;
+    return hair_schema_check_element(host, "pins", i, pin, hair_schema_of_hair_pin());
 }
 
 static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)

@@ -12,7 +12,7 @@ sanitizer ?= address
 # Programs, and objects of the tools that each needs. The rest comes out of the library.
 FUZZERS := hairfile tfx tfx_text obj save groom_arguments bench_arguments scene capture_arguments
 FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_colliders scene_lights scene_maps scene_wind \
-  settings settings_fields settings_texts
+  settings settings_keys
 FUZZ_TOOLS.hairfile          := file
 FUZZ_TOOLS.tfx               := file
 FUZZ_TOOLS.tfx_text          := file
@@ -100,7 +100,7 @@ fuzz-merge: $(parser:%=$(FUZZ_DIR)/%)
 # Coverage -------------------------------------------------------------------------------------------------
 FUZZ_COVERED := lib/asset/%.c lib/sim/save_check.c lib/sim/save_fields.c lib/sim/serializer.c tools/common/obj.c \
   tools/common/json.c tools/common/scene.c tools/common/scene_%.c tools/common/settings.c \
-  tools/common/settings_fields.c tools/common/groom_options.c tools/common/capture_options.c tools/bench/options.c
+  tools/common/settings_keys.c tools/common/groom_options.c tools/common/capture_options.c tools/bench/options.c
 build/fuzz/coverage/%.o: %.c | fuzz-needs
 	@mkdir -p $(@D)
 	$(call say,$@)

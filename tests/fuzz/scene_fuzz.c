@@ -1,7 +1,7 @@
 // scene_fuzz.c - fuzz target of the scene files of the tools, with their maps and settings.
 #include "tests/fuzz/fuzz.h"
 #include "tools/common/scene.h"
-#include "tools/common/settings_fields.h"
+#include "tools/common/settings_keys.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,29 +23,26 @@ static void add_floats(uint64_t* hash, const float* values, size_t count)
     hair_fuzz_add_floats(hash, values, count);
 }
 
-static void add_settings(uint64_t* hash, const struct hair_settings* settings)
+static void add_settings(uint64_t* hash, const struct hair_scene* scene)
 {
+    struct hair_settings copy = scene->settings, *settings = &copy;
     struct hair_setting setting;
+    hair_fuzz_add(hash, settings->has_lod);
+    hair_fuzz_add(hash, settings->hides);
     for (size_t at = 0; hair_setting_next(&at, &setting);) {
-        const char* value = (const char*)settings + setting.offset;
-        float numbers[HAIR_SETTING_CURVE_POINTS];
+        size_t size;
+        const char* value = hair_setting_bytes(&setting, settings, &size);
+        float numbers[16];
         uint32_t count = 0;
-        switch (setting.kind) {
-        case HAIR_SETTING_FLOAT:
-            memcpy(numbers, value, sizeof *numbers);
-            // The scale may be unset, which is the only infinite value.
-            if (numbers[0] != HAIR_SCALE_GUESSED || strcmp(setting.key, "scale"))
-                add_floats(hash, numbers, 1);
-            break;
-        case HAIR_SETTING_CURVE:
-            memcpy(numbers, value, sizeof numbers);
-            add_floats(hash, numbers, HAIR_SETTING_CURVE_POINTS);
-            break;
-        case HAIR_SETTING_BOOL: hair_fuzz_add(hash, (unsigned char)*value); break;
-        case HAIR_SETTING_UINT:
-            memcpy(&count, value, sizeof count);
-            hair_fuzz_add(hash, count);
-            break;
+        HAIR_FUZZ_CHECK(size <= sizeof numbers);
+        memcpy(numbers, value, size);
+        // The scale may be unset, which is the only infinite value.
+        bool is_unset = !strcmp(setting.key, "scale") && numbers[0] == HAIR_SCALE_GUESSED;
+        if (setting.member.type == HAIR_MEMBER_FLOAT) {
+            if (!is_unset) add_floats(hash, numbers, size / sizeof *numbers);
+        } else {
+            memcpy(&count, value, size == 1 ? 1 : sizeof count);
+            hair_fuzz_add(hash, size == 1 ? (unsigned char)*value : count);
         }
     }
 }
@@ -181,7 +178,7 @@ static uint64_t check(const struct hair_scene* scene)
         add_collider(&hash, &scene->bullet.object[i].body);
     }
     add_maps_and_lights(&hash, scene);
-    add_settings(&hash, &scene->settings);
+    add_settings(&hash, scene);
     return hash;
 }
 

@@ -1,7 +1,9 @@
-// errors_range_test.c - every number of every desc is refused outside its range, by name, and
-// accepted at both ends. Structs of other versions are refused, and shorter structs accepted.
+// errors_range_test.c - every number of every public struct is refused outside the range that
+// hair_describe() says, by name, and accepted at both ends. Structs of other versions are refused,
+// and shorter structs accepted.
 #include "tests/support/scene.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -76,122 +78,283 @@ static hair_result use_hair_style_desc(struct hair_test_scene* user, void* given
     return result;
 }
 
+static hair_result use_hair_map_set(struct hair_test_scene* user, void* given)
+{
+    static const float scalp[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1}, values[3] = {1, 1, 1};
+    static const uint32_t triangle[3] = {0, 2, 1};
+    hair_map_set* set = given;
+    hair_groom_desc desc = hair_groom_desc_default();
+    set->density.values = set->thickness.values = values;
+    desc.scalp_positions = scalp;
+    desc.scalp_vertex_count = 3;
+    desc.scalp_triangles = triangle;
+    desc.scalp_triangle_count = 1;
+    desc.map_sets[0] = set;
+    return use_hair_groom_desc(user, &desc);
+}
+static hair_result make_mesh(struct hair_test_scene* user, hair_collision_mesh_desc* desc,
+                             hair_collision_mesh** out)
+{
+    // A thin blade has few nodes at any resolution.
+    static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 0.01f, 0};
+    static const uint32_t triangle[3] = {0, 1, 2};
+    desc->host = &user->test->host.host;
+    desc->positions = positions;
+    desc->triangles = triangle;
+    // These fields have no default.
+    if (desc->vertex_count == 0 && desc->header.version) desc->vertex_count = 3;
+    if (desc->triangle_count == 0 && desc->header.version) desc->triangle_count = 1;
+    return hair_collision_mesh_create(desc, out);
+}
+static hair_result use_hair_collision_mesh_desc(struct hair_test_scene* user, void* desc)
+{
+    hair_collision_mesh* mesh = NULL;
+    hair_result result = make_mesh(user, desc, &mesh);
+    hair_collision_mesh_destroy(mesh);
+    return result;
+}
+static hair_result use_hair_collider(struct hair_test_scene* user, void* given)
+{
+    hair_collider* collider = given;
+    // A body without an extent needs a rounding.
+    if (collider->rounding == 0) collider->rounding = 0.01f;
+    hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
+    hair_collision_mesh* mesh = NULL;
+    if (collider->shape == HAIR_SHAPE_MESH) assert_int_equal(make_mesh(user, &desc, &mesh), HAIR_OK);
+    collider->mesh = mesh;
+    hair_result result = hair_set_colliders(user->hair, collider, 1, sizeof *collider);
+    hair_collision_mesh_destroy(mesh);
+    return result;
+}
+static hair_result use_hair_pin(struct hair_test_scene* user, void* desc)
+{
+    return hair_set_pins(user->hair, desc, 1, sizeof(hair_pin));
+}
+static hair_result use_hair_wind(struct hair_test_scene* user, void* given)
+{
+    hair_wind_source sources[4];
+    hair_wind* wind = given;
+    for (int i = 0; i < 4; ++i) sources[i] = hair_wind_source_default();
+    wind->sources = sources;
+    hair_result result = hair_set_wind(user->hair, wind);
+    assert_int_equal(hair_set_wind(user->hair, NULL), HAIR_OK);
+    return result;
+}
+static hair_result use_hair_wind_source(struct hair_test_scene* user, void* source)
+{
+    hair_wind wind = hair_wind_default();
+    wind.sources = source;
+    wind.source_count = 1;
+    hair_result result = hair_set_wind(user->hair, &wind);
+    assert_int_equal(hair_set_wind(user->hair, NULL), HAIR_OK);
+    return result;
+}
+static hair_result use_hair_light(struct hair_test_scene* user, void* given)
+{
+    hair_light* light = given;
+    hair_view view = hair_view_default();
+    view.lights = light;
+    // The cone of a spot needs an edge.
+    if (light->inner_angle == 1.57f) light->kind = HAIR_LIGHT_POINT;
+    if (light->outer_angle == 0) light->kind = HAIR_LIGHT_POINT;
+    return hair_draw(user->hair, &view);
+}
+static hair_result use_hair_shader_desc(struct hair_test_scene* user, void* given)
+{
+    hair_shader_desc* desc = given;
+    hair_shader* shader = NULL;
+    desc->glsl = "vec4 hair_shade(hair_fragment f) { return vec4(f.color, 1.0); }";
+    hair_result result = hair_shader_create(user->test->context, desc, &shader);
+    hair_shader_destroy(shader);
+    return result;
+}
+static hair_result use_hair_buffers(struct hair_test_scene* user, void* desc)
+{
+    return hair_get_buffers(user->hair, HAIR_READ_FOLLOWERS, desc);
+}
+
+// A struct, and the name of it in messages.
 struct subject {
+    hair_struct kind;
     const char* name;
     hair_result (*use)(struct hair_test_scene*, void*);
     void (*init)(void*);
-    struct hair_schema fields;
+    bool has_header;
 };
 
-#define SUBJECT(S)                                                                                           \
+#define INIT(S)                                                                                              \
     static void init_##S(void* out)                                                                          \
     {                                                                                                        \
         *(S*)out = S##_default();                                                                            \
     }
-SUBJECT(hair_physics)
-SUBJECT(hair_look)
-SUBJECT(hair_desc)
-SUBJECT(hair_view)
-SUBJECT(hair_lod)
-SUBJECT(hair_context_desc)
-SUBJECT(hair_groom_desc)
-SUBJECT(hair_import)
-SUBJECT(hair_style_desc)
-#undef SUBJECT
-
-#define SUBJECT(S)                                                                                           \
+INIT(hair_import)
+INIT(hair_map_set)
+INIT(hair_groom_desc)
+INIT(hair_context_desc)
+INIT(hair_desc)
+INIT(hair_physics)
+INIT(hair_collision_mesh_desc)
+INIT(hair_collider)
+INIT(hair_pin)
+INIT(hair_wind_source)
+INIT(hair_wind)
+INIT(hair_look)
+INIT(hair_lod)
+INIT(hair_shader_desc)
+INIT(hair_light)
+INIT(hair_view)
+INIT(hair_buffers)
+INIT(hair_style_desc)
+#define SUBJECT(KIND, S)                                                                                     \
     {                                                                                                        \
-#S, use_##S, init_##S, hair_schema_of_##S()                                                          \
+        HAIR_STRUCT_##KIND, #S, use_##S, init_##S, true                                                      \
     }
+#define PLAIN(KIND, S, name)                                                                                 \
+    {                                                                                                        \
+        HAIR_STRUCT_##KIND, name, use_##S, init_##S, false                                                   \
+    }
+// All structs but hair_asset_desc, which has no numbers.
+static const struct subject subjects[] = {
+    SUBJECT(IMPORT, hair_import),
+    SUBJECT(MAP_SET, hair_map_set),
+    SUBJECT(GROOM_DESC, hair_groom_desc),
+    SUBJECT(CONTEXT_DESC, hair_context_desc),
+    SUBJECT(DESC, hair_desc),
+    SUBJECT(PHYSICS, hair_physics),
+    SUBJECT(COLLISION_MESH_DESC, hair_collision_mesh_desc),
+    PLAIN(COLLIDER, hair_collider, "colliders[0]"),
+    PLAIN(PIN, hair_pin, "pins[0]"),
+    PLAIN(WIND_SOURCE, hair_wind_source, "hair_wind.sources[0]"),
+    SUBJECT(WIND, hair_wind),
+    SUBJECT(LOOK, hair_look),
+    SUBJECT(LOD, hair_lod),
+    SUBJECT(SHADER_DESC, hair_shader_desc),
+    SUBJECT(LIGHT, hair_light),
+    SUBJECT(VIEW, hair_view),
+    SUBJECT(BUFFERS, hair_buffers),
+    SUBJECT(STYLE_DESC, hair_style_desc),
+};
+_Static_assert(sizeof subjects / sizeof *subjects == HAIR_STRUCT_COUNT - 1, "a struct is missing");
 
-// Return whether the test replaces 0 by a valid value. Only strand_count is replaced.
-static int is_filled_in(const char* name)
+// Return whether the test replaces 0 by a valid value. Only counts of required arrays are replaced.
+static bool is_filled_in(const struct subject* subject, const hair_member* member)
 {
-    return strcmp(name, "hair_groom_desc.strand_count") == 0;
+    return (subject->kind == HAIR_STRUCT_GROOM_DESC && strcmp(member->name, "strand_count") == 0) ||
+           (subject->kind == HAIR_STRUCT_COLLISION_MESH_DESC && member->min == 1);
 }
 
-static void write_value(unsigned char* desc, const struct hair_field* field, double value)
+static void write_value(unsigned char* desc, const hair_member* member, uint32_t i, double value)
 {
     float real = (float)value;
-    uint32_t whole = field->type == HAIR_SCHEMA_FLOAT ? 0 : (uint32_t)value;
-    if (field->type == HAIR_SCHEMA_BOOL)
-        desc[field->offset] = (unsigned char)whole;
+    bool is_float = member->type == HAIR_MEMBER_FLOAT;
+    uint32_t whole = is_float ? 0 : (uint32_t)value;
+    unsigned char* at = desc + member->offset + i * member->size;
+    if (member->type == HAIR_MEMBER_BOOL)
+        *at = (unsigned char)whole;
     else
-        memcpy(desc + field->offset, field->type == HAIR_SCHEMA_FLOAT ? (void*)&real : (void*)&whole, 4);
+        memcpy(at, is_float ? (void*)&real : (void*)&whole, 4);
 }
 
-static void check_field(struct hair_test_scene* user, const struct subject* subject,
-                        const struct hair_field* field)
+static int find_wrong_values(const struct subject* subject, const hair_member* member, double out[6])
+{
+    int count = 0;
+    if (member->type == HAIR_MEMBER_FLOAT) {
+        out[count++] = NAN;
+        out[count++] = INFINITY;
+        out[count++] = -INFINITY;
+        if (member->max < 1e30) out[count++] = (double)nextafterf((float)member->max, INFINITY);
+        if (member->min > -1e30) out[count++] = (double)nextafterf((float)member->min, -INFINITY);
+    } else if (member->type == HAIR_MEMBER_BOOL) {
+        out[count++] = 2;
+        out[count++] = 255;
+    } else if (member->type == HAIR_MEMBER_UINT || member->type == HAIR_MEMBER_ENUM) {
+        if (member->max < UINT32_MAX) out[count++] = member->max + 1;
+        if (member->max < UINT32_MAX) out[count++] = UINT32_MAX;
+        if (member->min > 0 && !is_filled_in(subject, member)) out[count++] = member->min - 1;
+    }
+    return count;
+}
+
+static void check_outside(struct hair_test_scene* user, const struct subject* subject,
+                          const hair_member* member)
 {
     _Alignas(16) unsigned char desc[1024];
-    double wrong[6] = {NAN};
-    int count = 0;
-    if (field->type == HAIR_SCHEMA_FLOAT) {
-        wrong[count++] = NAN;
-        wrong[count++] = INFINITY;
-        wrong[count++] = -INFINITY;
-        if (field->max < 1e30) wrong[count++] = (double)nextafterf((float)field->max, INFINITY);
-        if (field->min > -1e30) wrong[count++] = (double)nextafterf((float)field->min, -INFINITY);
-    } else if (field->type == HAIR_SCHEMA_BOOL) {
-        wrong[count++] = 2;
-        wrong[count++] = 255;
-    } else {
-        if (field->max < UINT32_MAX) wrong[count++] = field->max + 1;
-        if (field->max < UINT32_MAX) wrong[count++] = UINT32_MAX;
-        if (field->min > 0 && !is_filled_in(field->name)) wrong[count++] = field->min - 1;
-    }
-    for (int i = 0; i < count; ++i) {
-        subject->init(desc);
-        write_value(desc, field, wrong[i]);
-        char words[96];
-        snprintf(words, sizeof words, "%s is ", field->name);
-        refused(user->test, subject->use(user, desc), HAIR_ERROR_ARGUMENT, words);
+    double wrong[6];
+    char words[96], element[16] = "";
+    int count = find_wrong_values(subject, member, wrong);
+    for (uint32_t k = 0; k < member->count; ++k) {
+        if (member->count > 1)
+            snprintf(element, sizeof element, member->layout == HAIR_LAYOUT_CURVE ? ".at[%u]" : "[%u]", k);
+        snprintf(words, sizeof words, "%s.%s%s is ", subject->name, member->name, element);
+        for (int i = 0; i < count; ++i) {
+            subject->init(desc);
+            write_value(desc, member, k, wrong[i]);
+            refused(user->test, subject->use(user, desc), HAIR_ERROR_ARGUMENT, words);
+        }
     }
 }
 
 static void check_subjects(void** state, void (*check)(struct hair_test_scene*, const struct subject*))
 {
     struct hair_test_scene user = hair_test_scene_of(*state, NULL, NULL);
-    struct subject subjects[] = {SUBJECT(hair_physics),    SUBJECT(hair_look),   SUBJECT(hair_desc),
-                                 SUBJECT(hair_view),       SUBJECT(hair_lod),    SUBJECT(hair_context_desc),
-                                 SUBJECT(hair_groom_desc), SUBJECT(hair_import), SUBJECT(hair_style_desc)};
     for (size_t i = 0; i < sizeof subjects / sizeof *subjects; ++i) check(&user, &subjects[i]);
     hair_test_scene_free(&user);
 }
 
-static void check_fields(struct hair_test_scene* user, const struct subject* subject)
+static uint32_t describe(const struct subject* subject, hair_member members[64])
 {
-    for (uint32_t i = 0; i < subject->fields.count; ++i)
-        check_field(user, subject, &subject->fields.field[i]);
+    uint32_t count = hair_describe(subject->kind, members, 64, sizeof *members);
+    assert_in_range(count, 1, 64);
+    return count;
+}
+
+static void check_members(struct hair_test_scene* user, const struct subject* subject)
+{
+    hair_member members[64];
+    uint32_t count = describe(subject, members);
+    for (uint32_t i = 0; i < count; ++i) check_outside(user, subject, &members[i]);
 }
 
 static void numbers_outside_their_range_are_refused_by_name(void** state)
 {
-    check_subjects(state, check_fields);
+    check_subjects(state, check_members);
 }
 
-// Check that the library accepts both ends of every range, and the defaults. hair_desc is left out,
-// because a matrix of numbers within their ranges is no rigid motion.
+static void check_end(struct hair_test_scene* user, const struct subject* subject, const hair_member* member,
+                      uint32_t i, double value)
+{
+    _Alignas(16) unsigned char desc[1024];
+    subject->init(desc);
+    write_value(desc, member, i, value);
+    if (subject->kind == HAIR_STRUCT_DESC && strcmp(member->name, "thread_mapping") == 0 &&
+        value == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
+        ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
+    if (subject->use(user, desc) != HAIR_OK)
+        fail_msg("%s.%s = %.9g was refused", subject->name, member->name, value);
+    hair_test_forgive(user->test);
+}
+
+// Check that the library accepts both ends of every range, and the defaults. Matrices are left out,
+// because one of numbers within their ranges is no rigid motion.
 static void check_ends(struct hair_test_scene* user, const struct subject* subject)
 {
     struct hair_test_frame frame;
     _Alignas(16) unsigned char desc[1024];
+    hair_member members[64];
+    uint32_t count = describe(subject, members);
     hair_test_frame_make(&frame, 8, 8, GL_RGBA8, 0);
     subject->init(desc);
     hair_test_ok(user->test, subject->use(user, desc));
-    for (uint32_t i = 0; i < subject->fields.count; ++i) {
-        const struct hair_field* field = &subject->fields.field[i];
-        if (strchr(field->name, '[') && field->max > 1e30) continue;
-        if (field->type == HAIR_SCHEMA_UINT && field->max > 4096)
-            continue; // These fields are counts of arrays, which the desc does not have.
-        for (int end = 0; end < 2; ++end) {
-            subject->init(desc);
-            double value = end ? field->max : field->min;
-            write_value(desc, field, value);
-            if (strcmp(field->name, "hair_desc.thread_mapping") == 0 &&
-                value == HAIR_THREAD_MAPPING_FEEDBACK) // Only one solver has this mapping.
-                ((hair_desc*)(void*)desc)->solver = HAIR_SOLVER_REDBLACK;
-            hair_test_ok(user->test, subject->use(user, desc));
+    for (uint32_t i = 0; i < count; ++i) {
+        const hair_member* member = &members[i];
+        bool is_number = member->type == HAIR_MEMBER_FLOAT || member->type == HAIR_MEMBER_UINT ||
+                         member->type == HAIR_MEMBER_BOOL || member->type == HAIR_MEMBER_ENUM;
+        if (!is_number || (member->type == HAIR_MEMBER_FLOAT && member->max >= (double)FLT_MAX)) continue;
+        if (member->type == HAIR_MEMBER_UINT && member->max > 16384)
+            continue; // These are counts of arrays, which the desc does not have, or indices.
+        for (uint32_t k = 0; k < member->count; ++k) {
+            check_end(user, subject, member, k, member->min);
+            check_end(user, subject, member, k, member->max);
         }
     }
     hair_test_frame_free(&frame);
@@ -208,7 +371,7 @@ static void check_made(struct hair_test_scene* user, const struct subject* subje
         {0, 0},  {0, HAIR_VERSION},          {7, HAIR_VERSION}, {4097, HAIR_VERSION},
         {64, 0}, {64, HAIR_VERSION + 10000}, {64, 199}};
     _Alignas(16) unsigned char desc[1024];
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong && subject->has_header; ++i) {
         subject->init(desc);
         memcpy(desc, &wrong[i], sizeof wrong[i]);
         // The library may not trust the host of a wrong desc, so there may be no message.

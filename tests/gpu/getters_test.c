@@ -15,14 +15,17 @@ static struct hair_test_scene begin(struct hair_test* test, const hair_desc* des
 static void vary(void* desc, struct hair_schema schema)
 {
     for (uint32_t i = 0; i < schema.count; ++i) {
-        const struct hair_field* field = &schema.field[i];
-        float real = (float)(0.75 * field->value + 0.25 * fmin(field->max, 1e6));
-        uint32_t whole = (uint32_t)field->max;
+        const hair_member* member = &schema.member[i];
+        uint32_t whole = (uint32_t)member->max;
         bool is_on = true;
-        const void* value = field->type == HAIR_SCHEMA_FLOAT  ? (const void*)&real
-                            : field->type == HAIR_SCHEMA_UINT ? (const void*)&whole
-                                                              : &is_on;
-        memcpy((char*)desc + field->offset, value, hair_schema_size(field->type));
+        if (member->type == HAIR_MEMBER_TEXTURE || member->type == HAIR_MEMBER_POINTER) continue;
+        for (uint32_t k = 0; k < member->count; ++k) {
+            float real = (float)(0.75 * member->defaults[k] + 0.25 * fmin(member->max, 1e6));
+            const void* value = member->type == HAIR_MEMBER_FLOAT  ? (const void*)&real
+                                : member->type == HAIR_MEMBER_BOOL ? (const void*)&is_on
+                                                                   : &whole;
+            memcpy((char*)desc + member->offset + k * member->size, value, member->size);
+        }
     }
 }
 
@@ -30,10 +33,11 @@ static void check_same(const void* set, const void* got, struct hair_schema sche
 {
     assert_memory_equal(set, got, sizeof(hair_struct_header));
     for (uint32_t i = 0; i < schema.count; ++i) {
-        const struct hair_field* field = &schema.field[i];
-        if (memcmp((const char*)set + field->offset, (const char*)got + field->offset,
-                   hair_schema_size(field->type)))
-            fail_msg("%s is not what was set", field->name);
+        const hair_member* member = &schema.member[i];
+        if (member->type != HAIR_MEMBER_POINTER &&
+            memcmp((const char*)set + member->offset, (const char*)got + member->offset,
+                   member->size * member->count))
+            fail_msg("%s is not what was set", member->name);
     }
 }
 

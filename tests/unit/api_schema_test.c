@@ -1,139 +1,42 @@
-// api_schema_test.c - ranges and defaults in the comments of the public headers agree with the
-// table.
+// api_schema_test.c - the tables of members agree with the comments of the public headers in names,
+// ranges, defaults, units, sentences and choices.
+#include "tests/support/headers.h"
 #include "tests/support/support.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
-#include "lib/api/schema.h"
+#include "lib/base/schema.h"
 
+typedef struct hair_test_member declared; // a member as its header declares it
+
+#define TABLE(S) {#S, hair_schema_of_##S},
 static const struct table {
     const char* name;
-    struct hair_schema (*fields)(void);
-} tables[] = {
-#define BEGIN(S) {#S, hair_schema_of_##S},
-#define FIELD(S, member, type, value, min, max)
-#define MATRIX(S, member)
-#define END(S)
-#include "lib/api/schema.inl"
-};
+    struct hair_schema (*schema)(void);
+} tables[] = {HAIR_SCHEMAS(TABLE, TABLE, TABLE)};
 #define TABLES (sizeof tables / sizeof *tables)
 
-// A member of a struct, as declared in its header. The name has that of its group: "curl.radius".
-struct member {
-    char owner[40], type[40], name[80];
-    char comment[256];
-};
-
-static char headers[1 << 18]; // Text of all headers.
-static struct member members[512];
-static size_t member_count;
-
-static void read_headers(void)
+// Run a check on every row of every table.
+static uint32_t check_rows(void (*check)(const char* owner, const hair_member* row, const declared* member))
 {
-    static const char* const names[] = {"base", "groom",    "context", "look",        "physics", "colliders",
-                                        "wind", "instance", "view",    "diagnostics", "buffers", "asset"};
-    size_t size = 0;
-    for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
-        char name[64];
-        snprintf(name, sizeof name, "include/hair/hair_%s.h", names[i]);
-        FILE* file = fopen(name, "rb");
-        if (!file) fail_msg("%s is not there: run this where the Makefile is", name);
-        size += fread(headers + size, 1, sizeof headers - 1 - size, file);
-        fclose(file);
-    }
-    if (size == sizeof headers - 1) fail_msg("the headers are longer than %zu bytes", size);
-}
-
-// Read a member from a line such as "    float  scale;   ///< Metres per unit. [1e-6, 1e6]. Default
-// 1."
-static void read_member(const char* line, const char* owner)
-{
-    struct member member = {0};
-    const char* end = strchr(line, ';');
-    const char* about = strstr(line, "///<");
-    snprintf(member.owner, sizeof member.owner, "%s", owner);
-    const char* parenthesis = strchr(line, '(');
-    if (!end || (parenthesis && parenthesis < end)) return; // The line is no member, or a function.
-    if (sscanf(line, " %39s", member.type) != 1) return;
-    const char* name = end;
-    while (name > line && name[-1] != ' ' && name[-1] != '*') --name;
-    snprintf(member.name, sizeof member.name, "%.*s", (int)strcspn(name, "[;"), name);
-    if (about)
-        snprintf(member.comment, sizeof member.comment, "%.*s", (int)strcspn(about + 4, "\n"), about + 4);
-    members[member_count++] = member;
-}
-
-// Put the name of a group, which follows its members, before the names of its members.
-static void close_group(const char* text, size_t first)
-{
-    for (size_t i = first; i < member_count; ++i) {
-        char name[40];
-        snprintf(name, sizeof name, "%.39s", members[i].name);
-        snprintf(members[i].name, sizeof members[i].name, "%.*s.%s", (int)strcspn(text, ";"), text, name);
-    }
-}
-
-static int read_members(void** state)
-{
-    (void)state;
-    char owner[40] = "";
-    size_t group = 0; // first member of the current group
-    read_headers();
-    for (char* line = headers; *line; line += strcspn(line, "\n") + 1) {
-        char text[512];
-        snprintf(text, sizeof text, "%.*s", (int)strcspn(line, "\n"), line);
-        if (sscanf(text, "typedef struct %39s {", owner) == 1 && strchr(text, '{')) continue;
-        if (*text == '}') *owner = 0;
-        if (strcmp(text, "    struct {") == 0) group = member_count;
-        if (strncmp(text, "    } ", 6) == 0)
-            close_group(text + 6, group);
-        else if (*owner && *text == ' ')
-            read_member(text, owner);
-        if (line[strcspn(line, "\n")] == 0) break;
-    }
-    return 0;
-}
-
-// Return the value of an enumerator, which is its position in its enum, or of HAIR_AUTO. Return -1
-// if there is none of this name.
-static double find_enumerator(const char* name, size_t length)
-{
-    if (length == strlen("HAIR_AUTO") && strncmp(name, "HAIR_AUTO", length) == 0) return HAIR_AUTO;
-    for (const char* at = strstr(headers, "typedef enum"); at; at = strstr(at + 1, "typedef enum")) {
-        const char* end = strchr(at, '}');
-        double value = 0;
-        for (const char* p = strchr(at, '{') + 1; p < end; ++p) {
-            if (strncmp(p, "//", 2) == 0) p += strcspn(p, "\n");
-            if (strncmp(p, "HAIR_", 5)) continue;
-            size_t own = strspn(p, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
-            if (own == length && strncmp(p, name, length) == 0) return value;
-            ++value;
-            p += own;
+    uint32_t count = 0;
+    for (size_t t = 0; t < TABLES; ++t) {
+        struct hair_schema schema = tables[t].schema();
+        for (uint32_t i = 0; i < schema.count; ++i) {
+            const declared* member = hair_test_find_member(schema.name, schema.member[i].name);
+            if (!member) fail_msg("%s.%s is in no header", schema.name, schema.member[i].name);
+            check(schema.name, &schema.member[i], member);
         }
-    }
-    return -1;
-}
-
-// Return the number of enumerators of the type, without the one that counts them. Return 0 if the
-// type is no enum.
-static int count_enumerators(const char* type)
-{
-    char head[64];
-    snprintf(head, sizeof head, "typedef enum %s {", type);
-    const char* at = strstr(headers, head);
-    if (!at) return 0;
-    int count = 0;
-    for (const char* p = strchr(at, '{'); *p != '}'; ++p) {
-        if (strncmp(p, "//", 2) == 0) p += strcspn(p, "\n");
-        if (strncmp(p, "HAIR_", 5)) continue;
-        size_t own = strspn(p, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789");
-        count += strncmp(p + own - 6, "_COUNT", 6) != 0;
-        p += own;
+        count += schema.count;
     }
     return count;
 }
+
+// Ranges and defaults -----------------------------------------------------------------------------
 
 // Read a value such as "3", "1/120", "true" or "HAIR_UP_Y".
 static double read_value(const char* at)
@@ -141,7 +44,7 @@ static double read_value(const char* at)
     char* end;
     if (strncmp(at, "true", 4) == 0) return 1;
     if (strncmp(at, "HAIR_", 5) == 0)
-        return find_enumerator(at, strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
+        return hair_test_enumerator(at, strspn(at, "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
     double value = strtod(at, &end);
     if (*end == '/') value /= strtod(end + 1, NULL);
     return value;
@@ -149,7 +52,7 @@ static double read_value(const char* at)
 
 // Read the range "[a, b]" of a member's comment. Return 0 if there is none. A truth value has the
 // range [0, 1].
-static int read_range(const struct member* member, double* min, double* max)
+static int read_range(const declared* member, double* min, double* max)
 {
     *min = 0, *max = 1;
     if (strcmp(member->type, "bool") == 0) return 1;
@@ -160,171 +63,216 @@ static int read_range(const struct member* member, double* min, double* max)
 
 // Read the i-th value of "Default x", "Default (x, y, z)" or "Default identity". Return 0 if there
 // is none.
-static int read_default(const char* comment, int i, double* out)
+static int read_default(const declared* member, uint32_t i, double* out)
 {
-    const char* at = strstr(comment, "Default ");
+    const char* at = strstr(member->comment, "Default ");
     if (!at) return 0;
     at += 8;
-    *out = i % 5 == 0;
+    *out = member->count == 4 ? i == 3 : i % 5 == 0; // A rotation is a quaternion.
     if (strncmp(at, "identity", 8) == 0) return 1;
     if (*at == '(') {
         ++at;
-        for (int k = 0; k < i; ++k) at = strchr(at, ',') + 2;
+        for (uint32_t k = 0; k < i; ++k) at = strchr(at, ',') + 2;
     }
     *out = read_value(at);
     return 1;
 }
 
-static const struct member* find_member(const char* owner, const char* name)
-{
-    for (size_t i = 0; i < member_count; ++i)
-        if (strcmp(members[i].owner, owner) == 0 && strcmp(members[i].name, name) == 0) return &members[i];
-    return NULL;
-}
-
-static void check(const char* field, const char* what, double said, double held)
+static void check_value(const char* owner, const hair_member* row, const char* what, double said, double held)
 {
     double difference = said > held ? said - held : held - said, size = held < 0 ? -held : held;
     if (!(difference <= 1e-9 * size))
-        fail_msg("%s: the header says %s %.9g, the table has %.9g", field, what, said, held);
+        fail_msg("%s.%s: the header says %s %.9g, the table has %.9g", owner, row->name, what, said, held);
 }
 
-// Return the length of the name that a header declares: that of curl.profile in
-// "curl.profile.at[0]", and that of shading.gloss in "shading.gloss[1]".
-static size_t declared_length(const char* name)
+static void check_range(const char* owner, const hair_member* row, const declared* member)
 {
-    const char* curve = strstr(name, ".at[");
-    return curve ? (size_t)(curve - name) : strcspn(name, "[");
-}
-
-// Return the number of values that a field takes beside the public enumerators.
-static int count_private_values(const char* field)
-{
-    return strcmp(field, "hair_view.render_path") == 0; // HAIR_RENDER_PATH_PROCEDURAL.
-}
-
-static void check_field(const char* owner, const struct hair_field* field)
-{
-    char name[48];
-    const char* path = strchr(field->name, '.') + 1;
-    const char* bracket = strchr(path, '[');
-    int index = bracket ? atoi(bracket + 1) : 0;
-    snprintf(name, sizeof name, "%.*s", (int)declared_length(path), path);
-    const struct member* member = find_member(owner, name);
-    if (!member) fail_msg("%s is in no header", field->name);
-
-    double min, max, value;
-    int enumerators = count_enumerators(member->type);
-    int everything = field->max > 1e30 || (field->min == 0 && field->max == UINT32_MAX);
-    if (read_range(member, &min, &max)) {
-        check(field->name, "least", min, field->min);
-        check(field->name, "most", max, field->max);
+    double min, max;
+    char names[HAIR_TEST_ENUMERATORS][64];
+    int enumerators = hair_test_enumerators(member->type, names);
+    bool is_whole = row->type == HAIR_MEMBER_UINT64 || row->type == HAIR_MEMBER_TEXTURE;
+    bool is_everything = row->max > 1e30 || (row->min == 0 && row->max == UINT32_MAX);
+    if (row->type == HAIR_MEMBER_POINTER) {
+        assert_true(member->is_pointer && row->min == 0 && row->max == 0);
+    } else if (read_range(member, &min, &max)) {
+        check_value(owner, row, "least", min, row->min);
+        check_value(owner, row, "most", max, row->max);
     } else if (enumerators) {
-        check(field->name, "enumerators up to", enumerators - 1 + count_private_values(field->name),
-              field->max);
-        check(field->name, "enumerators from", 0, field->min);
-    } else if (!everything) {
-        fail_msg("%s: the header does not say that it is in [%.9g, %.9g]", field->name, field->min,
-                 field->max);
+        // The render path has one private value.
+        int private_values = strcmp(row->name, "render_path") == 0;
+        check_value(owner, row, "enumerators up to", enumerators - 1 + private_values, row->max);
+        check_value(owner, row, "enumerators from", 0, row->min);
+    } else if (!is_everything && !is_whole) {
+        fail_msg("%s.%s: the header does not say that it is in [%.9g, %.9g]", owner, row->name, row->min,
+                 row->max);
     }
-    if (read_default(member->comment, index, &value))
-        check(field->name, "default", value, field->value);
-    else if (field->value != 0)
-        fail_msg("%s: the header does not say that its default is %.9g", field->name, field->value);
 }
 
-static void schema_ranges_and_defaults_are_in_the_headers(void** state)
+static void check_defaults(const char* owner, const hair_member* row, const declared* member)
+{
+    double value;
+    if (row->type == HAIR_MEMBER_POINTER) {
+        assert_null(row->defaults);
+        return;
+    }
+    for (uint32_t i = 0; i < row->count; ++i)
+        if (read_default(member, i, &value))
+            check_value(owner, row, "default", value, row->defaults[i]);
+        else if (row->defaults[i] != 0)
+            fail_msg("%s.%s: the header does not say that its default is %.9g", owner, row->name,
+                     row->defaults[i]);
+    bool has_auto = strstr(member->comment, "Default HAIR_AUTO") != NULL;
+    if (row->has_auto != has_auto)
+        fail_msg("%s.%s: HAIR_AUTO is %d in the table", owner, row->name, !has_auto);
+}
+
+static void ranges_of_the_table_are_in_the_headers(void** state)
+{
+    (void)state;
+    uint32_t count = check_rows(check_range);
+    print_message("    %u members\n", count);
+    assert_true(count > 180);
+}
+
+static void defaults_of_the_table_are_in_the_headers(void** state)
+{
+    (void)state;
+    check_rows(check_defaults);
+}
+
+static bool has_row(const declared* member)
+{
+    for (size_t t = 0; t < TABLES; ++t) {
+        struct hair_schema schema = tables[t].schema();
+        for (uint32_t i = 0; i < schema.count && !strcmp(schema.name, member->owner); ++i)
+            if (!strcmp(schema.member[i].name, member->name)) return true;
+    }
+    return false;
+}
+
+static bool has_rows(const char* owner)
+{
+    for (size_t t = 0; t < TABLES; ++t)
+        if (!strcmp(tables[t].name, owner)) return tables[t].schema().count > 0;
+    return false;
+}
+
+// Check that every member of a struct that applications fill in has a row. The rest of hair_buffers
+// are results, and a row of hair_map_set stands for each member of a hair_map.
+static void every_member_of_the_headers_is_in_the_table(void** state)
 {
     (void)state;
     uint32_t count = 0;
-    for (size_t t = 0; t < TABLES; ++t) {
-        struct hair_schema fields = tables[t].fields();
-        for (uint32_t i = 0; i < fields.count; ++i) check_field(tables[t].name, &fields.field[i]);
-        count += fields.count;
+    for (size_t i = 0; hair_test_member_at(i); ++i) {
+        const declared* member = hair_test_member_at(i);
+        bool is_result = !strcmp(member->owner, "hair_buffers") && !strstr(member->above, "Input.");
+        bool is_map = !strcmp(member->type, "hair_map");
+        if (!has_rows(member->owner) || is_result || is_map || !strcmp(member->name, "header")) continue;
+        if (!has_row(member)) fail_msg("%s.%s is in no table", member->owner, member->name);
+        ++count;
     }
-    print_message("    %u numbers\n", count);
-    assert_true(count > 100);
+    assert_true(count > 180);
 }
 
-static int has_field(const struct member* member)
+// Texts -------------------------------------------------------------------------------------------
+
+static bool is_unit(const char* text, size_t length)
 {
-    for (size_t t = 0; t < TABLES; ++t) {
-        if (strcmp(tables[t].name, member->owner)) continue;
-        struct hair_schema fields = tables[t].fields();
-        for (uint32_t i = 0; i < fields.count; ++i) {
-            const char* name = strchr(fields.field[i].name, '.') + 1;
-            if (declared_length(name) == strlen(member->name) &&
-                strncmp(name, member->name, strlen(member->name)) == 0)
-                return 1;
-        }
+    static const char* const units[] = {"m",  "s",  "m/s",  "m/s^2",  "m^2/s^2", "1/s",   "1/m",
+                                        "Hz", "Pa", "Pa s", "kg/m^3", "Radians", "Turns", "Pixels"};
+    for (size_t i = 0; i < sizeof units / sizeof *units; ++i)
+        if (strlen(units[i]) == length && strncmp(units[i], text, length) == 0) return true;
+    return false;
+}
+
+// Copy the first sentence of a comment.
+static void copy_sentence(const char* comment, char out[512])
+{
+    const char* end = strstr(comment, ". ");
+    snprintf(out, 512, "%.*s", end ? (int)(end - comment) + 1 : (int)strlen(comment), comment);
+}
+
+// Copy what a comment behind a member says before the range and the default.
+static void copy_before_range(const declared* member, char out[256])
+{
+    const char* end = strstr(member->comment, "Default ");
+    size_t length = strcspn(member->comment, "[");
+    if (end && (size_t)(end - member->comment) < length) length = (size_t)(end - member->comment);
+    while (length && member->comment[length - 1] == ' ') --length;
+    snprintf(out, 256, "%.*s", (int)length, member->comment);
+}
+
+static void check_unit(const char* owner, const hair_member* row, const declared* member)
+{
+    char text[256];
+    if (row->type == HAIR_MEMBER_POINTER) return; // The unit is that of the array.
+    copy_before_range(member, text);
+    size_t length = strlen(text);
+    if (length && text[length - 1] == '.') text[--length] = 0;
+    const char* last = text;
+    for (const char* at = text; (at = strstr(at, ". ")); ++at) last = at + 2;
+    const char* unit = is_unit(last, strlen(last)) ? last : "";
+    if (strcasecmp(row->unit, unit))
+        fail_msg("%s.%s: the header says \"%s\", the table \"%s\"", owner, row->name, unit, row->unit);
+}
+
+// Check that the sentence is the first of the comment of the member, or else of its enum.
+static void check_sentence(const char* owner, const hair_member* row, const declared* member)
+{
+    char text[256], comment[512], sentence[512];
+    copy_before_range(member, text);
+    copy_sentence(*member->above ? member->above : text, sentence);
+    size_t length = strlen(sentence);
+    if (length && is_unit(sentence, length - 1)) *sentence = 0;
+    if (!*sentence) {
+        hair_test_enum_comment(member->type, comment);
+        copy_sentence(comment, sentence);
     }
-    return 0;
+    if (!*sentence || strcmp(sentence, row->about))
+        fail_msg("%s.%s: the header says \"%s\", the table \"%s\"", owner, row->name, sentence, row->about);
 }
 
-static int has_table(const char* owner)
+// Check that the name of a choice is that of its enumerator, without what all enumerators share.
+static void check_choices(const char* owner, const hair_member* row, const declared* member)
 {
-    for (size_t t = 0; t < TABLES; ++t)
-        if (strcmp(tables[t].name, owner) == 0) return tables[t].fields().count > 0;
-    return 0;
+    char names[HAIR_TEST_ENUMERATORS][64];
+    int count = hair_test_enumerators(member->type, names);
+    assert_int_equal(row->choice_count, row->type == HAIR_MEMBER_ENUM ? row->max + 1 : 0);
+    assert_true((row->type == HAIR_MEMBER_ENUM) == (count > 0 && !member->is_pointer));
+    if (!row->choice_count) return;
+    size_t shared = strspn(names[0], "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_");
+    for (int i = 1; i < count; ++i)
+        while (strncmp(names[0], names[i], shared)) --shared;
+    while (shared && names[0][shared - 1] != '_') --shared;
+    for (int i = 0; i < count; ++i) {
+        for (char* c = names[i]; *c; ++c) *c = (char)tolower(*c);
+        if (strcmp(names[i] + shared, row->choices[i]))
+            fail_msg("%s.%s: choice %d is %s, not %s", owner, row->name, i, row->choices[i],
+                     names[i] + shared);
+    }
 }
 
-// Check that headers promise no range outside the table, because the library checks only the table.
-static void header_ranges_are_in_the_schema(void** state)
+static void units_and_sentences_are_those_of_the_headers(void** state)
 {
     (void)state;
-    size_t ranges = 0;
-    for (size_t i = 0; i < member_count; ++i) {
-        const struct member* member = &members[i];
-        double min, max;
-        if (!has_table(member->owner) || strcmp(member->type, "const") == 0)
-            continue; // Other tests check arrays.
-        int range = read_range(member, &min, &max);
-        if (!range && count_enumerators(member->type) == 0) continue;
-        ++ranges;
-        if (!has_field(member)) fail_msg("%s.%s is in no table", member->owner, member->name);
-    }
-    assert_true(ranges > 30);
+    check_rows(check_unit);
+    check_rows(check_sentence);
 }
 
-// Check that the default functions return the table's defaults.
-static void default_functions_return_the_schema_defaults(void** state)
+static void choices_are_the_enumerators_of_the_headers(void** state)
 {
     (void)state;
-    hair_physics physics = hair_physics_default();
-    hair_desc desc = hair_desc_default();
-    hair_light light = hair_light_default();
-    assert_int_equal(physics.header.size, sizeof physics);
-    assert_int_equal(physics.header.version, HAIR_VERSION);
-    assert_true(physics.gravity[1] == -9.81f);
-    assert_true(desc.substep == 0);
-    for (int i = 0; i < 16; ++i) assert_true(desc.transform[i] == (float)(i % 5 == 0));
-    assert_true(light.direction[1] == 0.8f);
-}
-
-// Check that members do not overlap. A member inside an older caller's shorter struct must not
-// cross its end.
-static void schema_fields_do_not_overlap(void** state)
-{
-    (void)state;
-    for (size_t t = 0; t < TABLES; ++t) {
-        struct hair_schema fields = tables[t].fields();
-        for (uint32_t i = 0; i < fields.count; ++i) {
-            assert_true(fields.field[i].offset >= sizeof(hair_struct_header) &&
-                        fields.field[i].offset + hair_schema_size(fields.field[i].type) <= fields.size);
-            for (uint32_t k = 0; k < i; ++k)
-                assert_true(fields.field[k].offset + hair_schema_size(fields.field[k].type) <=
-                            fields.field[i].offset);
-        }
-    }
+    check_rows(check_choices);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(schema_ranges_and_defaults_are_in_the_headers),
-        cmocka_unit_test(header_ranges_are_in_the_schema),
-        cmocka_unit_test(default_functions_return_the_schema_defaults),
-        cmocka_unit_test(schema_fields_do_not_overlap),
+        cmocka_unit_test(ranges_of_the_table_are_in_the_headers),
+        cmocka_unit_test(defaults_of_the_table_are_in_the_headers),
+        cmocka_unit_test(every_member_of_the_headers_is_in_the_table),
+        cmocka_unit_test(units_and_sentences_are_those_of_the_headers),
+        cmocka_unit_test(choices_are_the_enumerators_of_the_headers),
     };
-    return cmocka_run_group_tests(tests, read_members, NULL);
+    return cmocka_run_group_tests(tests, hair_test_read_headers, NULL);
 }

@@ -15,13 +15,19 @@ struct sample {
     float newer; // Not in the struct of an older caller.
 };
 
-static const struct hair_field rows[] = {
-    {"sample.fraction", offsetof(struct sample, fraction), HAIR_SCHEMA_FLOAT, 0.3, 0.1, 0.9},
-    {"sample.count", offsetof(struct sample, count), HAIR_SCHEMA_UINT, 5, 2, 4000000000.0},
-    {"sample.is_on", offsetof(struct sample, is_on), HAIR_SCHEMA_BOOL, 1, 0, 1},
-    {"sample.newer", offsetof(struct sample, newer), HAIR_SCHEMA_FLOAT, -1, -2, 0},
+#define ROW(path, kind, usual, low, high)                                                                    \
+    {                                                                                                        \
+        .name = #path, .type = kind, .offset = offsetof(struct sample, path),                                \
+        .size = sizeof(((struct sample*)0)->path), .count = 1, .defaults = (const double[]){usual},          \
+        .min = low, .max = high                                                                              \
+    }
+static const hair_member rows[] = {
+    ROW(fraction, HAIR_MEMBER_FLOAT, 0.3, 0.1, 0.9),
+    ROW(count, HAIR_MEMBER_UINT, 5, 2, 4000000000.0),
+    ROW(is_on, HAIR_MEMBER_BOOL, 1, 0, 1),
+    ROW(newer, HAIR_MEMBER_FLOAT, -1, -2, 0),
 };
-static const struct hair_schema fields = {rows, 4, sizeof(struct sample)};
+static const struct hair_schema fields = {"sample", rows, 4, sizeof(struct sample), true};
 
 static struct hair_test_host test;
 
@@ -42,7 +48,7 @@ static struct sample defaults(void)
 
 static hair_result take(const struct sample* from, struct sample* own)
 {
-    return hair_schema_copy_in(&test.host, "sample", from, own, fields);
+    return hair_schema_copy_in(&test.host, from, own, fields);
 }
 
 static void defaults_equal_the_schema(void** state)
@@ -119,7 +125,7 @@ static void number_outside_its_range_is_named_with_the_range(void** state)
     sample = defaults();
     sample.count = 1;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);
-    assert_string_equal(test.sentence, "sample.count is 1, not in [2, 4e+09]");
+    assert_string_equal(test.sentence, "sample.count is 1, not in [2, 4000000000]");
     sample = defaults();
     sample.fraction = NAN;
     assert_int_equal(take(&sample, &own), HAIR_ERROR_ARGUMENT);

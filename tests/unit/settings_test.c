@@ -1,5 +1,5 @@
-// settings_test.c - settings of the tools are the public numbers of the library: every value of an
-// enum has a name, numbers of several structs are set in all, and no row is about nothing.
+// settings_test.c - settings of the tools are members of the library's structs: every choice has a
+// name, members of several structs are set in all, and no row is about nothing.
 #define _XOPEN_SOURCE 700
 #include <setjmp.h>
 #include <stdarg.h>
@@ -7,54 +7,32 @@
 #include <cmocka.h>
 
 // Tools are not linked into tests.
-#include "lib/draw/render_path.h"
 #include "tools/common/file.c"
+#undef COUNT
+#include "tools/common/settings_keys.c"
+#undef COUNT
 #include "tools/common/settings.c"
-#include "tools/common/settings_fields.c"
-#include "tools/common/settings_texts.c"
 
-// Maximum of each row of `fields`. The first two rows are the tools' own.
-static const double maximum[] = {
-    1,
-    1,
-#define BEGIN(S)
-#define FIELD(S, member, type, value, min, max) max,
-#define MATRIX(S, member)
-#define END(S)
-#include "lib/api/schema.inl"
-};
-
-static uint32_t value_at(const struct hair_settings* settings, size_t offset)
-{
-    uint32_t value;
-    memcpy(&value, (const char*)settings + offset, sizeof value);
-    return value;
-}
-
-static void every_value_of_an_enum_has_a_name_that_sets_it(void** state)
+static void every_choice_has_a_name_that_sets_it(void** state)
 {
     (void)state;
     struct hair_settings settings = hair_settings_default();
+    struct hair_setting setting;
     uint32_t enums = 0;
-    for (size_t i = 0; i < COUNT(fields); ++i) {
-        struct hair_setting setting;
-        char names[128], name[64];
-        if (!make_setting(&fields[i], &setting) || setting.kind != HAIR_SETTING_UINT) continue;
-        const char* at = hair_setting_choices(setting.key, names);
-        uint32_t count = 0;
-        for (; at; ++count) {
-            snprintf(name, sizeof name, "%.*s", (int)strcspn(at, ","), at);
-            assert_true(hair_settings_set("test", &settings, setting.key, name));
-            assert_int_equal(value_at(&settings, setting.offset), count);
-            at = strchr(at, ',') ? strchr(at, ',') + 2 : NULL;
+    for (size_t at = 0; hair_setting_next(&at, &setting);) {
+        size_t size;
+        uint32_t value;
+        enums += setting.member.choice_count > 0;
+        for (uint32_t i = 0; i < setting.member.choice_count; ++i) {
+            assert_true(hair_settings_set("test", &settings, setting.key, setting.member.choices[i]));
+            memcpy(&value, hair_setting_bytes(&setting, &settings, &size), sizeof value);
+            assert_int_equal(value, i);
         }
-        enums += count > 0;
-        if (count && count < maximum[i] + 1) fail_msg("%s has only %u names", setting.key, count);
     }
     assert_in_range(enums, 10, 30);
 }
 
-static void numbers_of_several_structs_are_set_in_all(void** state)
+static void settings_of_several_structs_are_set_in_all(void** state)
 {
     (void)state;
     struct hair_settings settings = hair_settings_default();
@@ -70,53 +48,78 @@ static void numbers_of_several_structs_are_set_in_all(void** state)
     assert_int_equal(settings.style.strand_vertices, 79);
 }
 
+// A style has 16 guides or more, but guides of a file may be fewer, or more than a style has.
+static void values_that_one_struct_accepts_are_set_and_others_refused(void** state)
+{
+    (void)state;
+    struct hair_settings settings = hair_settings_default();
+    assert_true(hair_settings_set("test", &settings, "guides", "8"));
+    assert_int_equal(settings.groom.guide_count, 8);
+    assert_int_equal(settings.style.guide_count, 8);
+    assert_false(hair_setting_is_in_range(&settings, "guides"));
+    assert_false(hair_settings_set("test", &settings, "guides", "262145"));
+    assert_int_equal(settings.groom.guide_count, 8);
+    assert_true(hair_settings_set("test", &settings, "guides", "100"));
+    assert_true(hair_setting_is_in_range(&settings, "guides"));
+    assert_false(hair_settings_set("test", &settings, "damping", "-1"));
+    assert_true(settings.physics.damping == hair_physics_default().damping);
+}
+
 static void curves_have_evenly_spaced_points_of_their_text(void** state)
 {
     (void)state;
     struct hair_settings settings = hair_settings_default();
-    assert_true(hair_settings_set("test", &settings, "strand.taper", "0,7"));
-    for (int i = 0; i < HAIR_SETTING_CURVE_POINTS; ++i)
-        assert_float_equal(settings.look.strand.taper.at[i], (float)i, 1e-6);
+    assert_true(hair_settings_set("test", &settings, "strand.taper", "0,3.5"));
+    for (int i = 0; i < 8; ++i) assert_float_equal(settings.look.strand.taper.at[i], 0.5f * (float)i, 1e-6);
     assert_true(hair_settings_set("test", &settings, "strand.taper", "0.25"));
-    for (int i = 0; i < HAIR_SETTING_CURVE_POINTS; ++i)
-        assert_float_equal(settings.look.strand.taper.at[i], 0.25f, 0);
+    for (int i = 0; i < 8; ++i) assert_float_equal(settings.look.strand.taper.at[i], 0.25f, 0);
 }
 
-static bool has_member(const char* owner, const char* member)
+static void settings_of_the_tools_have_their_own_values(void** state)
 {
-    for (size_t i = 0; i < COUNT(fields); ++i) {
-        size_t length = strlen(member);
-        char next = strncmp(fields[i].member, member, length) ? 'x' : fields[i].member[length];
-        if (!strcmp(fields[i].owner, owner) && (next == 0 || next == '[')) return true;
-    }
-    return false;
+    (void)state;
+    struct hair_settings settings = hair_settings_default();
+    assert_true(hair_settings_set("test", &settings, "lod", "on"));
+    assert_true(hair_settings_set("test", &settings, "hide", "1"));
+    assert_true(settings.has_lod && settings.hides);
+    assert_true(hair_settings_set("test", &settings, "hide", "off"));
+    assert_false(settings.hides);
+    assert_false(hair_settings_set("test", &settings, "hide", "2"));
+    for (size_t i = 0; i < sizeof extras / sizeof *extras; ++i)
+        for (int k = 0; extras[i].preset && extras[i].preset(k); ++k)
+            assert_true(hair_settings_set("test", &settings, extras[i].key, extras[i].preset(k)));
+    // The last colour is blue.
+    assert_true(settings.look.color.root[2] > settings.look.color.root[0]);
+    assert_false(hair_settings_set("test", &settings, "look", "dry"));
+    assert_false(hair_settings_set("test", &settings, "", "1"));
 }
 
 // Check rows that outlive their member when the member is renamed or removed.
-static void every_row_of_settings_is_about_a_public_number(void** state)
+static void every_row_of_settings_is_about_a_member(void** state)
 {
     (void)state;
+    hair_member members[MAX_MEMBERS];
     struct hair_setting setting;
-    for (size_t i = 0; i < COUNT(excluded); ++i)
-        if (!has_member(excluded[i][0], excluded[i][1])) fail_msg("there is no %s", excluded[i][1]);
-    for (size_t i = 0; i < COUNT(renamed); ++i)
-        if (!has_member(renamed[i].owner, renamed[i].member)) fail_msg("there is no %s", renamed[i].member);
-    for (size_t i = 0; i < COUNT(components); ++i)
-        if (!has_member(components[i].owner, components[i].member))
-            fail_msg("there is no %s", components[i].member);
-    for (size_t i = 0; i < TEXT_COUNT; ++i)
-        if (!preset_of(texts[i].key, 0) && strcmp(texts[i].key, "fit_curl") &&
-            !hair_setting_find(texts[i].key, &setting))
-            fail_msg("there is no setting %s", texts[i].key);
+    size_t keys = 0;
+    for (size_t i = 0; i < sizeof renamed / sizeof *renamed; ++i) {
+        uint32_t count = hair_describe(renamed[i].kind, members, MAX_MEMBERS, sizeof *members), k = 0;
+        while (k < count && strcmp(members[k].name, renamed[i].member)) ++k;
+        if (k == count) fail_msg("there is no %s", renamed[i].member);
+    }
+    for (size_t at = 0; hair_setting_next(&at, &setting); ++keys)
+        if (find_extra(setting.key)) fail_msg("%s is a setting twice", setting.key);
+    assert_in_range(keys, 150, MAX_SETTINGS);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_value_of_an_enum_has_a_name_that_sets_it),
-        cmocka_unit_test(numbers_of_several_structs_are_set_in_all),
+        cmocka_unit_test(every_choice_has_a_name_that_sets_it),
+        cmocka_unit_test(settings_of_several_structs_are_set_in_all),
+        cmocka_unit_test(values_that_one_struct_accepts_are_set_and_others_refused),
         cmocka_unit_test(curves_have_evenly_spaced_points_of_their_text),
-        cmocka_unit_test(every_row_of_settings_is_about_a_public_number),
+        cmocka_unit_test(settings_of_the_tools_have_their_own_values),
+        cmocka_unit_test(every_row_of_settings_is_about_a_member),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,7 +2,7 @@
 #include "tools/common/capture_options.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_writer.h"
-#include "tools/common/settings_fields.h"
+#include "tools/common/settings_keys.h"
 
 #include <errno.h>
 #include <getopt.h>

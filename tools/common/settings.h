@@ -30,11 +30,10 @@ struct hair_settings {
 struct hair_settings hair_settings_default(void);
 
 // Set the setting `key` from text, a number or the name of a choice ("lines"). Return false after
-// printing an error if the key is unknown or the value is not of its kind. The library checks
-// ranges.
+// printing an error if the key is unknown, or if the library refuses the value.
 bool hair_settings_set(const char* tool, struct hair_settings* settings, const char* key, const char* value);
 
-// Print every key with its unit and default, one per line.
+// Print every key with its default, meaning, unit and range, one per line.
 void hair_settings_print(FILE* file);
 
 #endif
