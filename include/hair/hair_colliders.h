@@ -92,7 +92,7 @@ typedef struct hair_collider {
     float position[3]; ///< Position in the world. m. [-1e9, 1e9]. Default 0.
     float rotation[4]; ///< Rotation in the world, a unit quaternion xyzw. Default identity.
     /// Dimensions of the shape, see hair_shape. They must be above 0 unless `rounding` is above 0.
-    /// Half the length of a capsule may be 0.
+    /// Half the length of a capsule may be 0. The shape ignores the others.
     float size[3]; ///< m. [0, 1e6]. Default 0.
     /// Distance by which the shape grows on all sides, which rounds its edges.
     float rounding; ///< m. [0, 1e6]. Default 0.

@@ -1,6 +1,8 @@
 // groom.c - public calls on grooms.
 #include "lib/api/api.h"
 
+#include <stdio.h>
+
 static hair_result check_arrays(const hair_host* host, const hair_groom_desc* desc)
 {
     if (!desc->positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.positions is NULL");
@@ -23,6 +25,17 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
     return HAIR_OK;
 }
 
+// Copy a map set, and name its place in the sentences of the log.
+static hair_result copy_map_set(const hair_host* host, const hair_map_set* set, int i, hair_map_set* own)
+{
+    char name[32];
+    struct hair_schema schema = hair_schema_of_hair_map_set();
+    HAIR_TRY(hair_check_header(host, schema.name, set->header));
+    snprintf(name, sizeof name, "hair_groom_desc.map_sets[%d]", i);
+    schema.name = name;
+    return hair_schema_copy_in(host, set, own, schema);
+}
+
 // Copy the map sets into `own` and let `desc` point there.
 static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
 {
@@ -34,7 +47,7 @@ static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_
         if (!desc->scalp_positions)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "hair_groom_desc.scalp_positions is NULL but map_sets[%d] is not", i);
-        HAIR_TRY(HAIR_COPY_IN(host, hair_map_set, desc->map_sets[i], &own[i]));
+        HAIR_TRY(copy_map_set(host, desc->map_sets[i], i, &own[i]));
         desc->map_sets[i] = &own[i];
     }
     return HAIR_OK;

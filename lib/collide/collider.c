@@ -43,7 +43,9 @@ static hair_result check_rotation(const hair_host* host, const hair_collider* co
 
 static hair_result check(const hair_host* host, const hair_collider* collider, uint32_t i)
 {
-    HAIR_TRY(hair_schema_check_element(host, "colliders", i, collider, hair_schema_of_hair_collider()));
+    hair_collider used = *collider;
+    for (int k = sizes_of(used.shape); k < 3; ++k) used.size[k] = 0; // The shape ignores them.
+    HAIR_TRY(hair_schema_check_element(host, "colliders", i, &used, hair_schema_of_hair_collider()));
     HAIR_TRY(check_rotation(host, collider, i));
     return check_size(host, collider, i);
 }

@@ -29,28 +29,25 @@ static hair_result check_map(const struct hair_groom_builder* builder, uint32_t 
 {
     const hair_host* host = builder->host;
     const hair_groom_desc* desc = builder->desc;
-    if ((uint32_t)map->source > HAIR_MAP_SOURCE_TRIANGLES)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "hair_groom_desc.map_sets[%u]->%s.source is %d, not in [0, %d]", set, name,
-                         (int)map->source, HAIR_MAP_SOURCE_TRIANGLES);
+    HAIR_ASSERT((uint32_t)map->source <= HAIR_MAP_SOURCE_TRIANGLES);
     if (map->source == HAIR_MAP_SOURCE_NONE) return HAIR_OK;
     if (!map->values)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.map_sets[%u]->%s.values is NULL", set,
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.map_sets[%u].%s.values is NULL", set,
                          name);
     if (map->source == HAIR_MAP_SOURCE_IMAGE) {
         if (map->width - 1 >= LARGEST || map->height - 1 >= LARGEST)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.map_sets[%u]->%s is an image of %u by %u, not of [1, %u] each",
+                             "hair_groom_desc.map_sets[%u].%s is an image of %u by %u, not of [1, %u] each",
                              set, name, map->width, map->height, LARGEST);
         if (!desc->scalp_uvs)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs is NULL but map_sets[%u]->%s is an image", set, name);
+                             "hair_groom_desc.scalp_uvs is NULL but map_sets[%u].%s is an image", set, name);
     }
     uint64_t count = count_values(desc, map);
     for (uint64_t i = 0; i < count; ++i)
         if (!(map->values[i] >= 0 && map->values[i] <= max)) // NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.map_sets[%u]->%s.values[%llu] is %g, not in [0, %g]", set, name,
+                             "hair_groom_desc.map_sets[%u].%s.values[%llu] is %g, not in [0, %g]", set, name,
                              (unsigned long long)i, (double)map->values[i], (double)max);
     return HAIR_OK;
 }

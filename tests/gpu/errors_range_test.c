@@ -116,7 +116,8 @@ static hair_result use_hair_collision_mesh_desc(struct hair_test_scene* user, vo
 static hair_result use_hair_collider(struct hair_test_scene* user, void* given)
 {
     hair_collider* collider = given;
-    // A body without an extent needs a rounding.
+    // A sphere ignores all sizes but the first. A body without an extent needs a rounding.
+    if (collider->size[1] != 0 || collider->size[2] != 0) collider->shape = HAIR_SHAPE_BOX;
     if (collider->rounding == 0) collider->rounding = 0.01f;
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
     hair_collision_mesh* mesh = NULL;
@@ -216,7 +217,7 @@ INIT(hair_style_desc)
 // All structs but hair_asset_desc, which has no numbers.
 static const struct subject subjects[] = {
     SUBJECT(IMPORT, hair_import),
-    SUBJECT(MAP_SET, hair_map_set),
+    {HAIR_STRUCT_MAP_SET, "hair_groom_desc.map_sets[0]", use_hair_map_set, init_hair_map_set, true},
     SUBJECT(GROOM_DESC, hair_groom_desc),
     SUBJECT(CONTEXT_DESC, hair_context_desc),
     SUBJECT(DESC, hair_desc),

@@ -130,7 +130,7 @@ static void invalid_collider_is_named_and_none_is_set(void** state)
     two[0].position[0] = 9;
     two[1].size[0] = -1;
     assert_int_equal(hair_colliders_set(&test.host, &colliders, two, 2, sizeof *two), HAIR_ERROR_ARGUMENT);
-    assert_string_equal(test.sentence, "colliders[1].size[0] is -1, not in (0, 1e6]");
+    assert_string_equal(test.sentence, "colliders[1].size[0] is -1, not in [0, 1000000]");
     assert_int_equal(colliders.current.count, 1);
     assert_true(colliders.current.collider[0].position[0] == 1);
     two[1] = sphere(2);
@@ -215,9 +215,9 @@ static void collider_numbers_outside_their_range_are_refused(void** state)
 {
     (void)state;
     hair_collider wrong[] = {sphere(1), sphere(1), sphere(1), sphere(1), sphere(1), sphere(1)};
-    const char* words[] = {"colliders[0].rounding is -0.1, not in [0, 1e+06]",
+    const char* words[] = {"colliders[0].rounding is -0.100000001, not in [0, 1000000]",
                            "colliders[0].friction is 101, not in [0, 100]",
-                           "colliders[0].scale is 0, not in [1e-06, 1e+06]",
+                           "colliders[0].scale is 0, not in [1e-06, 1000000]",
                            "colliders[0].mesh is NULL",
                            "colliders[0].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH",
                            "colliders[0].rotation has norm 0, not 1"};
