@@ -136,4 +136,43 @@ HAIR_API hair_result hair_get_member(const hair_host* host, hair_struct kind, co
                                      size_t size, const char* name, char* text, size_t capacity,
                                      size_t* length);
 
+// Structs as JSON ---------------------------------------------------------------------------------
+
+/// Write a struct as a flat JSON object, with one line for each member. Pointers and textures are
+/// left out, as text cannot hold them. Required counts that are not set yet are left out too.
+///
+/// @param host Callbacks. NULL disables the log.
+/// @param desc Struct to write, from its default function.
+/// @param size sizeof the struct.
+/// @param base Struct of the same kind and size. Members that are equal in both are left out, which
+///     makes a preset. NULL writes all members.
+/// @param text Receives the text with a final 0. NULL only queries the length.
+/// @param capacity Size of `text` in bytes. 0 if `text` is NULL.
+/// @param length Receives the length without the final 0, also if `capacity` is too small. May be
+///     NULL.
+/// Errors: HAIR_ERROR_ARGUMENT, also if `capacity` is too small or a value is out of range,
+///     HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_write_json(const hair_host* host, hair_struct kind, const void* desc,
+                                     size_t size, const void* base, char* text, size_t capacity,
+                                     size_t* length);
+
+/// Set members of a struct from a flat JSON object, such as {"damping": 2, "gravity": [0, -1, 0]}.
+/// Names are those of hair_set_member(). Members without a name in the object keep their values.
+///
+/// Any bytes may be passed. The reader is strict: an unknown or repeated name, a value of another
+/// type or out of range, and text after the object are refused.
+///
+/// @param host Callbacks. NULL disables the log. The sentence of a refusal names the member, the
+///     value and the range, or the byte of the text.
+/// @param desc Struct to change, from its default function. Unchanged on failure.
+/// @param size sizeof the struct.
+/// @param text JSON in UTF-8. It need not end with a 0.
+/// @param length Length of the text in bytes.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_FILE for text that is no such object, with the byte
+///     offset in the log, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_read_json(const hair_host* host, hair_struct kind, void* desc,
+                                    size_t size, const char* text, size_t length);
+
 #endif

@@ -10,7 +10,7 @@ runs      ?= -1
 sanitizer ?= address
 
 # Programs, and objects of the tools that each needs. The rest comes out of the library.
-FUZZERS := hairfile tfx tfx_text obj save groom_arguments bench_arguments scene capture_arguments
+FUZZERS := hairfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments
 FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_colliders scene_lights scene_maps scene_wind \
   settings settings_keys
 FUZZ_TOOLS.hairfile          := file
@@ -18,6 +18,7 @@ FUZZ_TOOLS.tfx               := file
 FUZZ_TOOLS.tfx_text          := file
 FUZZ_TOOLS.obj               := file obj
 FUZZ_TOOLS.save              := file
+FUZZ_TOOLS.members           := file
 FUZZ_TOOLS.groom_arguments   := file groom_options
 FUZZ_TOOLS.bench_arguments   := file
 FUZZ_TOOLS.scene             := file $(FUZZ_SCENE)
@@ -30,7 +31,7 @@ FUZZ_MAX.bench_arguments   := 256
 FUZZ_MAX.capture_arguments := 256
 FUZZ_ALL_TOOLS := file groom_options capture_options $(FUZZ_SCENE)
 # Parsers that need no library which MemorySanitizer has not compiled, as libjansson.
-FUZZ_PLAIN := hairfile tfx tfx_text obj save groom_arguments bench_arguments
+FUZZ_PLAIN := hairfile tfx tfx_text obj save members groom_arguments bench_arguments
 parser    ?= $(if $(filter memory,$(sanitizer)),$(FUZZ_PLAIN),$(FUZZERS))
 
 # Sources of a program, and of the replay of all.
@@ -98,7 +99,7 @@ fuzz-merge: $(parser:%=$(FUZZ_DIR)/%)
 	  tests/fuzz/corpus/$(f) build/fuzz/corpus/$(f) 2>&1 | tail -1;)
 
 # Coverage -------------------------------------------------------------------------------------------------
-FUZZ_COVERED := lib/asset/%.c lib/sim/save_check.c lib/sim/save_fields.c lib/sim/serializer.c tools/common/obj.c \
+FUZZ_COVERED := lib/asset/%.c lib/sim/save_check.c lib/sim/save_fields.c lib/sim/serializer.c lib/api/members%.c tools/common/obj.c \
   tools/common/json.c tools/common/scene.c tools/common/scene_%.c tools/common/settings.c \
   tools/common/settings_keys.c tools/common/groom_options.c tools/common/capture_options.c tools/bench/options.c
 build/fuzz/coverage/%.o: %.c | fuzz-needs

@@ -7,6 +7,7 @@ const struct hair_fuzz_target hair_fuzz_targets[] = {{"hairfile", hair_fuzz_hair
                                                      {"tfx_text", hair_fuzz_tfx_text},
                                                      {"obj", hair_fuzz_obj},
                                                      {"save", hair_fuzz_save},
+                                                     {"members", hair_fuzz_members},
                                                      {"groom_arguments", hair_fuzz_groom_arguments},
 #ifndef HAIR_FUZZ_PORTABLE
                                                      {"bench_arguments", hair_fuzz_bench_arguments},

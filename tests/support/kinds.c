@@ -7,13 +7,19 @@
 
 #include "lib/base/schema.h"
 
+// Default functions return a copy, whose padding may differ.
 #define INIT(S)                                                                                              \
     static void init_##S(void* out)                                                                          \
     {                                                                                                        \
-        *(S*)out = S##_default();                                                                            \
+        S##_init(out, (hair_struct_header){sizeof(S), HAIR_VERSION});                                        \
+    }
+#define INIT_PLAIN(S)                                                                                        \
+    static void init_##S(void* out)                                                                          \
+    {                                                                                                        \
+        S##_init(out, sizeof(S));                                                                            \
     }
 #define NONE(S)
-HAIR_SCHEMAS(INIT, INIT, NONE)
+HAIR_SCHEMAS(INIT, INIT_PLAIN, NONE)
 
 #define DESC(S) {#S, sizeof(S), init_##S, sizeof(hair_struct_header)},
 #define PLAIN(S) {#S, sizeof(S), init_##S, 0},

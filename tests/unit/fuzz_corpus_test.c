@@ -31,6 +31,7 @@ REPLAY(tfx_text)
 REPLAY(obj)
 REPLAY(save)
 REPLAY(groom_arguments)
+REPLAY(members)
 REPLAY(bench_arguments)
 REPLAY(scene)
 REPLAY(capture_arguments)
@@ -44,6 +45,7 @@ int main(void)
         cmocka_unit_test(obj_corpus_keeps_the_properties),
         cmocka_unit_test(save_corpus_keeps_the_properties),
         cmocka_unit_test(groom_arguments_corpus_keeps_the_properties),
+        cmocka_unit_test(members_corpus_keeps_the_properties),
         cmocka_unit_test(bench_arguments_corpus_keeps_the_properties),
         cmocka_unit_test(scene_corpus_keeps_the_properties),
         cmocka_unit_test(capture_arguments_corpus_keeps_the_properties),
