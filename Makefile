@@ -298,6 +298,7 @@ clean: ## Remove build/
 	rm -rf build
 
 include tests/gates.mk
+include tools/convert/convert.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:

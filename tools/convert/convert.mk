@@ -1,0 +1,18 @@
+# convert.mk - hair-convert, a Python program in a virtual environment of its own. Nothing else
+# needs the program or its packages.
+
+VENV := build/convert
+convert: $(VENV)/installed ## hair-convert with its packages from PyPI, in build/convert/bin
+$(VENV)/installed: tools/convert/pyproject.toml
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/convert/packages.txt
+	@python3 -m venv $(VENV)
+	@$(VENV)/bin/pip install -q --disable-pip-version-check -e tools/convert || \
+	  { echo "pip could not install numpy, usd-core and alembic3d, which hair-convert needs (above)."; exit 1; }
+	@touch $@
+
+# The variable HAIR_CONVERT_DATA names a folder of haircuts for further round trips.
+test-convert: convert $(B)/hair-groom ## Every test of hair-convert
+	@cd tools/convert && HAIR_GROOM=$(abspath $(B))/hair-groom $(abspath $(VENV))/bin/python -B -W error::DeprecationWarning \
+	  -m unittest discover -t . -s tests $(if $(filter),-k $(filter))
+
+.PHONY: convert test-convert

@@ -1,0 +1,3 @@
+"""hair-convert converts strand hair between USD, Alembic, .hair, .tfx, .data and OBJ."""
+
+__version__ = "1.0"

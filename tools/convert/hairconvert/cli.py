@@ -1,0 +1,133 @@
+"""The command line of hair-convert."""
+
+import argparse
+import os
+import sys
+
+from hairconvert import __version__, info
+from hairconvert.formats import FORMATS, find_format, read_groom, write_groom
+from hairconvert.guard import run_guarded
+from hairconvert.report import (EXIT_INPUT, EXIT_OK, EXIT_RUNTIME, EXIT_USAGE, TOOL, InputError,
+                                Report, UsageError, escape)
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser that says one sentence about a wrong argument."""
+
+    def error(self, message):
+        complain(message)
+        complain("--help lists the options")
+        sys.exit(EXIT_USAGE)
+
+
+def complain(sentence):
+    """Print a sentence to stderr."""
+    print(f"{TOOL}: {escape(sentence)}", file=sys.stderr)
+
+
+def _number(low, high):
+    def parse(text):
+        value = float(text)
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not in [{low:g}, {high:g}]")
+        return value
+    parse.__name__ = "number"
+    return parse
+
+
+def _whole(low, high):
+    def parse(text):
+        value = int(text)
+        if not low <= value <= high:
+            raise argparse.ArgumentTypeError(f"{text} is not in [{low}, {high}]")
+        return value
+    parse.__name__ = "whole number"
+    return parse
+
+
+def make_parser():
+    """Return the parser of all commands."""
+    parser = Parser(prog=TOOL, description=__doc__.replace("The command line of hair-convert.", "")
+                    + "Convert strand hair between " + ", ".join(f.name for f in FORMATS) + ".",
+                    epilog="Exit status: 0 done, 1 failed while running, 2 wrong use, 4 unusable "
+                    "input.")
+    parser.add_argument("--version", action="version", version=f"{TOOL} {__version__}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND",
+                                     parser_class=Parser)
+    about = commands.add_parser("info", help="describe the strands of a file")
+    about.add_argument("input", metavar="FILE")
+    _add_input_options(about)
+    convert = commands.add_parser("convert", help="convert a file to the format of another name")
+    convert.add_argument("input", metavar="IN")
+    convert.add_argument("output", metavar="OUT")
+    _add_input_options(convert)
+    _add_output_options(convert)
+    return parser
+
+
+def _add_input_options(parser):
+    parser.add_argument("--scale", metavar="X", type=_number(1e-6, 1e6),
+                        help="metres of one unit of the input; without it, what the file says, "
+                        "0.01 for Alembic, else 1")
+    parser.add_argument("--up", choices="xyz", help="the axis of the input that points up; without "
+                        "it, what the file says, else y")
+    parser.add_argument("--tip-first", action="store_true",
+                        help="strands of the input run from tip to root")
+    parser.add_argument("--take", choices=("all", "guides", "strands"), default="all",
+                        help="guides, or only strands that are no guides; all")
+    parser.add_argument("--vertices", metavar="N", type=_whole(2, 65536),
+                        help="resample every strand to this number of vertices")
+
+
+def _add_output_options(parser):
+    parser.add_argument("--output-scale", metavar="X", type=_number(1e-6, 1e6),
+                        help="metres of one unit of the output; 0.01 for Alembic, else 1")
+    parser.add_argument("--output-up", choices="yz", default="y",
+                        help="the axis of the output that points up; y")
+
+
+def temporary_name(path):
+    """Return the name under which an output is written before it is complete."""
+    folder, name = os.path.split(os.path.abspath(path))
+    return os.path.join(folder, f".{os.getpid()}.{name}")
+
+
+def run(options, temporary=None):
+    """Run a parsed command. Return the exit status after printing every sentence."""
+    report, status = Report(), EXIT_OK
+    try:
+        if options.command == "info":
+            print("\n".join(info.describe(read_groom(options.input, options, report))))
+        else:
+            _convert(options, temporary or temporary_name(options.output), report)
+    except InputError as error:
+        status, sentence = EXIT_INPUT, f"{options.input}: {error}"
+    except UsageError as error:
+        status, sentence = EXIT_USAGE, str(error)
+    except MemoryError:
+        status, sentence = EXIT_RUNTIME, f"out of memory for {options.input}"
+    except OSError as error:
+        status, sentence = EXIT_RUNTIME, f"{error.filename or ''}: {error.strerror or error}"
+    for said in report.sentences:
+        complain(f"{options.input}: {said}")
+    if status:
+        complain(sentence)
+    return status
+
+
+def _convert(options, temporary, report):
+    find_format(options.output, to_write=True)
+    groom = read_groom(options.input, options, report)
+    try:
+        write_groom(groom, temporary, options.output, options, report)
+        os.replace(temporary, options.output)
+    finally:
+        if os.path.exists(temporary):
+            os.remove(temporary)
+
+
+def main(arguments=None):
+    """Parse the command line, run it in a process of its own, and return the exit status."""
+    options = make_parser().parse_args(arguments)
+    temporary = temporary_name(options.output) if options.command != "info" else None
+    return run_guarded(lambda: run(options, temporary), temporary)

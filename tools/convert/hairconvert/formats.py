@@ -1,0 +1,101 @@
+"""The table of formats, and reading and writing through it."""
+
+import dataclasses
+import importlib
+import os
+
+from hairconvert.groom import check_counts, clean, place, resample, reverse, select, unplace
+from hairconvert.report import InputError, UsageError, first_sentence
+
+MAX_FILE = 1 << 34  # bytes
+
+
+@dataclasses.dataclass
+class Format:
+    """A file format by the endings of its names."""
+
+    name: str
+    endings: tuple
+    module: str  # has read(), and write() if `writes`
+    from_path: bool = False  # read() takes a path instead of bytes
+    unit: float = 1.0  # metres of one unit, if the file does not tell
+    keeps_motion: bool = False
+    writes: bool = True
+
+
+FORMATS = [
+    Format(".hair", (".hair",), "hairfile"),
+    Format(".tfx", (".tfx",), "tfx"),
+    Format(".data", (".data",), "usc"),
+    Format("OBJ", (".obj",), "obj"),
+]
+
+
+def find_format(path, to_write=False):
+    """Return the format of a file by the ending of its name."""
+    for f in FORMATS:
+        if str(path).lower().endswith(f.endings) and (f.writes or not to_write):
+            return f
+    endings = [e for f in FORMATS if f.writes or not to_write for e in f.endings]
+    raise UsageError(f"the name {path} does not end in one of {', '.join(endings)}")
+
+
+def load(path):
+    """Return the bytes of a file."""
+    if os.path.getsize(path) > MAX_FILE:
+        raise InputError(f"the file is larger than {MAX_FILE} bytes")
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def read_groom(path, options, report):
+    """Return the groom of a file, in metres with +y up, after the options of the input."""
+    f = find_format(path)
+    try:
+        module = importlib.import_module(f"hairconvert.{f.module}")
+    except ImportError as error:
+        raise UsageError(f"{f.name} needs the Python package of the module {error.name}, which is "
+                         "missing") from None
+    if not os.path.isfile(path):
+        raise InputError("there is no such file")
+    try:
+        groom = module.read(path if f.from_path else load(path), options, report)
+        check_counts(len(groom.counts), len(groom.points))
+    except (InputError, UsageError, MemoryError):
+        raise
+    except Exception as error:  # Packages raise many kinds of errors for malformed files.
+        raise InputError(f"the file cannot be read: {first_sentence(error)}") from error
+    groom = clean(groom, report)
+    groom = place(groom, options.scale or groom.unit or f.unit, options.up or groom.up or "y")
+    if options.tip_first:
+        groom = reverse(groom)
+    groom = _take(groom, options.take, report)
+    return resample(groom, options.vertices) if options.vertices else groom
+
+
+def _take(groom, what, report):
+    """Return the guides or the strands between guides, if the groom distinguishes both."""
+    guide = groom.values("guide", "strand") if "guide" in groom.attributes else None
+    if what == "all" or guide is None:
+        return groom
+    keep = guide.astype(bool) if what == "guides" else ~guide.astype(bool)
+    if not keep.any():
+        raise InputError(f"there are no {what} among the {len(keep)} strands")
+    if not keep.all():
+        report.say(f"{(~keep).sum()} strands are left out, because --take selects {what}")
+    return select(groom, keep)
+
+
+def write_groom(groom, path, name, options, report):
+    """Write a groom to a path in the format of the final name."""
+    f = find_format(name, to_write=True)
+    try:
+        module = importlib.import_module(f"hairconvert.{f.module}")
+    except ImportError as error:
+        raise UsageError(f"{f.name} needs the Python package of the module {error.name}, which is "
+                         "missing") from None
+    if groom.motion and not f.keeps_motion:
+        report.lose(f"the motion of {len(groom.motion)} frames",
+                    f"a {f.name} file holds one pose: --frame chooses the pose")
+    scale, up = options.output_scale or f.unit, options.output_up or "y"
+    module.write(unplace(groom, scale, up), path, options, report)

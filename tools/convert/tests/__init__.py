@@ -1,0 +1,1 @@
+"""Tests of hair-convert. `make test-convert` runs them."""
