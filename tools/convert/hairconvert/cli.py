@@ -8,7 +8,7 @@ from hairconvert import __version__, info
 from hairconvert.formats import FORMATS, find_format, read_groom, write_groom
 from hairconvert.guard import run_guarded
 from hairconvert.report import (EXIT_INPUT, EXIT_OK, EXIT_RUNTIME, EXIT_USAGE, TOOL, InputError,
-                                Report, UsageError, escape)
+                                MissingPackage, Report, UsageError, escape)
 
 
 class Parser(argparse.ArgumentParser):
@@ -71,6 +71,12 @@ def _add_input_options(parser):
                         "0.01 for Alembic, else 1")
     parser.add_argument("--up", choices="xyz", help="the axis of the input that points up; without "
                         "it, what the file says, else y")
+    parser.add_argument("--frame", metavar="T", type=_number(-1e9, 1e9),
+                        help="the time code of the pose, for USD, or the time in s, for Alembic; "
+                        "without it, the first")
+    parser.add_argument("--samples", metavar="N", type=_whole(1, 64),
+                        help="edges of the polyline per segment of a cubic curve; without it, as "
+                        "many as keep within 0.001 of the strand's length")
     parser.add_argument("--tip-first", action="store_true",
                         help="strands of the input run from tip to root")
     parser.add_argument("--take", choices=("all", "guides", "strands"), default="all",
@@ -84,6 +90,8 @@ def _add_output_options(parser):
                         help="metres of one unit of the output; 0.01 for Alembic, else 1")
     parser.add_argument("--output-up", choices="yz", default="y",
                         help="the axis of the output that points up; y")
+    parser.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
+                        help="of curves in USD and Alembic, both go through the vertices; linear")
 
 
 def temporary_name(path):
@@ -104,6 +112,8 @@ def run(options, temporary=None):
         status, sentence = EXIT_INPUT, f"{options.input}: {error}"
     except UsageError as error:
         status, sentence = EXIT_USAGE, str(error)
+    except MissingPackage as error:
+        status, sentence = EXIT_RUNTIME, str(error)
     except MemoryError:
         status, sentence = EXIT_RUNTIME, f"out of memory for {options.input}"
     except OSError as error:

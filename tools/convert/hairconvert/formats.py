@@ -5,7 +5,7 @@ import importlib
 import os
 
 from hairconvert.groom import check_counts, clean, place, resample, reverse, select, unplace
-from hairconvert.report import InputError, UsageError, first_sentence
+from hairconvert.report import InputError, MissingPackage, UsageError, first_sentence
 
 MAX_FILE = 1 << 34  # bytes
 
@@ -16,28 +16,39 @@ class Format:
 
     name: str
     endings: tuple
-    module: str  # has read(), and write() if `writes`
+    reader: str  # module with read()
+    writer: str = ""  # module with write(), empty if the format is only read
     from_path: bool = False  # read() takes a path instead of bytes
     unit: float = 1.0  # metres of one unit, if the file does not tell
     keeps_motion: bool = False
-    writes: bool = True
 
 
 FORMATS = [
-    Format(".hair", (".hair",), "hairfile"),
-    Format(".tfx", (".tfx",), "tfx"),
-    Format(".data", (".data",), "usc"),
-    Format("OBJ", (".obj",), "obj"),
+    Format(".hair", (".hair",), "hairfile", "hairfile"),
+    Format(".tfx", (".tfx",), "tfx", "tfx"),
+    Format(".data", (".data",), "usc", "usc"),
+    Format("OBJ", (".obj",), "obj", "obj"),
+    Format("USD", (".usda", ".usdc", ".usd"), "usd_read", "usd_write", from_path=True, keeps_motion=True),
+    Format("USDZ", (".usdz",), "usd_read", from_path=True),
 ]
 
 
 def find_format(path, to_write=False):
     """Return the format of a file by the ending of its name."""
     for f in FORMATS:
-        if str(path).lower().endswith(f.endings) and (f.writes or not to_write):
+        if str(path).lower().endswith(f.endings) and (f.writer or not to_write):
             return f
-    endings = [e for f in FORMATS if f.writes or not to_write for e in f.endings]
+    endings = [e for f in FORMATS if f.writer or not to_write for e in f.endings]
     raise UsageError(f"the name {path} does not end in one of {', '.join(endings)}")
+
+
+def _load_module(f, name):
+    """Import a format when it is needed, because packages of some formats may be missing."""
+    try:
+        return importlib.import_module(f"hairconvert.{name}")
+    except ImportError as error:
+        raise MissingPackage(f"{f.name} needs the Python module {error.name}, which is missing: "
+                             "make convert installs its package") from None
 
 
 def load(path):
@@ -51,11 +62,7 @@ def load(path):
 def read_groom(path, options, report):
     """Return the groom of a file, in metres with +y up, after the options of the input."""
     f = find_format(path)
-    try:
-        module = importlib.import_module(f"hairconvert.{f.module}")
-    except ImportError as error:
-        raise UsageError(f"{f.name} needs the Python package of the module {error.name}, which is "
-                         "missing") from None
+    module = _load_module(f, f.reader)
     if not os.path.isfile(path):
         raise InputError("there is no such file")
     try:
@@ -89,11 +96,7 @@ def _take(groom, what, report):
 def write_groom(groom, path, name, options, report):
     """Write a groom to a path in the format of the final name."""
     f = find_format(name, to_write=True)
-    try:
-        module = importlib.import_module(f"hairconvert.{f.module}")
-    except ImportError as error:
-        raise UsageError(f"{f.name} needs the Python package of the module {error.name}, which is "
-                         "missing") from None
+    module = _load_module(f, f.writer)
     if groom.motion and not f.keeps_motion:
         report.lose(f"the motion of {len(groom.motion)} frames",
                     f"a {f.name} file holds one pose: --frame chooses the pose")

@@ -15,6 +15,14 @@ MAX_VERTICES = 1 << 26
 # Scopes of an attribute: one value for all, one per strand, one per vertex.
 GROOM, STRAND, VERTEX = "groom", "strand", "vertex"
 
+# Components, 0 for any number, and kinds of numbers of attributes with a meaning.
+KNOWN = {"width": (1, "f"), "color": (3, "f"), "opacity": (1, "f"), "roughness": (1, "f"),
+         "root_uv": (2, "f"), "group": (1, "iub"), "group_name": (1, "U"), "guide": (1, "iub"),
+         "id": (1, "iu"), "closest_guides": (0, "iu"), "guide_weights": (0, "f"),
+         "vertex_uv": (2, "f"), "tfx_thickness": (1, "f")}
+OF_STRANDS = ("root_uv", "group", "group_name", "guide", "id", "closest_guides", "guide_weights",
+              "tfx_thickness")
+
 
 @dataclasses.dataclass
 class Attribute:
@@ -152,7 +160,29 @@ def clean(groom, report):
         if a.values.dtype.kind == "f" and not np.isfinite(a.values).all():
             report.lose(f"the attribute {name}", "a value is not finite")
             del groom.attributes[name]
+    check_known(groom, report)
     return groom
+
+
+def check_known(groom, report):
+    """Give attributes of known names the shape and scope that writers expect."""
+    for name, (components, kinds) in KNOWN.items():
+        a = groom.attributes.get(name)
+        if a is None:
+            continue
+        shape = a.values.shape[1:]
+        if name == "color" and shape == (4,):
+            groom.attributes.setdefault("opacity", Attribute(a.scope, a.values[:, 3]))
+            a.values, shape = a.values[:, :3], (3,)
+        right = shape == () if components == 1 else \
+            len(shape) == 1 and (shape[0] == components or components == 0)
+        if not right or a.values.dtype.kind not in kinds:
+            size = "x".join(map(str, shape)) or "1"
+            report.lose(f"the attribute {name}", f"its values are {size} of {a.values.dtype}")
+            del groom.attributes[name]
+        elif name in OF_STRANDS and a.scope == VERTEX:
+            report.say(f"the attribute {name} is that of the root of each strand")
+            groom.attributes[name] = Attribute(STRAND, a.values[groom.starts()], a.role)
 
 
 def reverse(groom):

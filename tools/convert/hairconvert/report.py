@@ -14,6 +14,10 @@ class UsageError(Exception):
     """Arguments that cannot be used."""
 
 
+class MissingPackage(Exception):
+    """A Python package that a format needs and that is not installed."""
+
+
 def escape(text):
     """Return text in which control characters, such as those of a hostile name, are escaped."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))

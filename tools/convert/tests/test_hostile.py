@@ -9,7 +9,7 @@ from hairconvert.formats import FORMATS
 from tests.support import ConvertTest, add_attributes, make_groom
 
 ENDINGS = [e for f in FORMATS for e in f.endings]
-WRITTEN = [e for f in FORMATS if f.writes for e in f.endings]
+WRITTEN = [e for f in FORMATS if f.writer for e in f.endings]
 
 
 class HostileTest(ConvertTest):

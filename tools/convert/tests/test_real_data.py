@@ -19,7 +19,7 @@ class RealDataTest(ConvertTest):
         for source in files:
             groom = self.read(str(source))
             for f in FORMATS:
-                if not f.writes:
+                if not f.writer:
                     continue
                 for ending in f.endings:
                     with self.subTest(source=source.name, ending=ending):
