@@ -5,6 +5,7 @@
 #include "draw_params.glsl"
 #include "draw/coverage.glsl"
 
+layout(location = 7) noperspective in vec4 strand_fraction;
 layout(location = 0) out vec4 opacity;
 
 void main() { opacity = vec4(coverage_of(strand_fraction) * draw.viewport.w); }

@@ -1,14 +1,18 @@
 // raster.comp - rasterisation of segments by compute, for GPUs with few graphics units. It finds
 // the nearest segment and its depth at each sample. The first of equally near segments wins.
 // Without 64-bit atomics a first pass finds the depth, and a second pass with the same arithmetic
-// finds the segment that claims it. A work group distributes the pixel rows of its segments among
-// its threads, which balances long and short segments.
+// finds the segment that claims it. With HAIR_ALPHA_COVERAGE it adds up the opacity of strands in
+// each pixel, whatever their order.
+//
+// A thread covers the pixels of one segment. The rows of larger segments are distributed among all
+// threads of the work group.
 #version 450 core
 #ifdef HAIR_LONG_ATOMICS
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
 #endif
 #include "draw/raster.glsl"
+#include "draw/nearest.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
@@ -16,123 +20,125 @@ layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buf
 {
     hair_draw_command command[];
 };
-#ifdef HAIR_DEPTH
-layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uint nearest[]; };
-#elif defined(HAIR_LONG_ATOMICS)
-layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uint64_t nearest[]; };
+
+// Segments of this work group that are too large for one thread.
+shared uint large_count;
+shared uint large[HAIR_GROUP_SIZE];
+shared uint ends[HAIR_GROUP_SIZE]; // Inclusive prefix sum of their pieces.
+
+// The way over the pixels of a ribbon: lines of pixels across its longer extent. Along a line, few
+// pixels or none have a sample in a thin ribbon, and they are found without a search.
+struct raster_walk {
+    bool  upright;     // Whether lines are rows. Otherwise they are columns.
+    int   first, last; // Lines.
+    int   low, high;   // Pixels of a line.
+    float start, slope; // Pixel of the middle line in the first line, and its increase by line.
+    float reach;       // Half of the pixels of a line that the ribbon covers.
+};
+
+// Return half of the pixels beyond a ribbon in which it matters.
+float find_margin(raster_quad q)
+{
+#ifdef HAIR_ALPHA_COVERAGE
+    return 0.5 * (abs(q.across.x) + abs(q.across.y));
 #else
-layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uvec2 nearest[]; };
-#endif
-layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer { uint tile[]; };
-
-// Segments of this work group.
-shared raster_outline outlines[HAIR_RASTER_SEGMENTS];
-shared ivec4          bounds[HAIR_RASTER_SEGMENTS]; // Pixel bounds. xy: the first, zw: the last.
-shared uint           ends[HAIR_RASTER_SEGMENTS];   // Inclusive prefix sum of the segments' pieces.
-
-// Return a ribbon's middle line in pixels. xy: start. zw: direction.
-vec4 line_of(raster_outline o)
-{
-    vec2 start = 0.5 * (o.corner[0].xy + o.corner[1].xy);
-    return vec4(start, 0.5 * (o.corner[2].xy + o.corner[3].xy) - start);
-}
-
-// Return half of a ribbon's width, pixels.
-float half_of(raster_outline o)
-{
-    return 0.5 * max(distance(o.corner[0].xy, o.corner[1].xy), distance(o.corner[2].xy, o.corner[3].xy));
-}
-
-ivec4 bounds_of(raster_ribbon r, raster_outline o)
-{
-    vec2 max_value  = vec2(raster.columns, raster.rows);
-    vec2 lower = min(min(o.corner[0].xy, o.corner[1].xy), min(o.corner[2].xy, o.corner[3].xy));
-    vec2 upper = max(max(o.corner[0].xy, o.corner[1].xy), max(o.corner[2].xy, o.corner[3].xy));
-    // A ribbon that is not finite is nowhere.
-    bool there =
-        r.seen.x < r.seen.y && all(lessThan(lower, max_value)) && all(greaterThanEqual(upper, vec2(0.0)));
-    return there ? ivec4(max(lower, vec2(0.0)), min(upper, max_value - 1.0)) : ivec4(0, 0, -1, -1);
-}
-
-void take(uint segment, uint at, float depth)
-{
-    uint key = floatBitsToUint(clamp(abs(depth), 0.0, 1.0)) ^ raster.flips;
-#ifdef HAIR_DEPTH
-    atomicMin(nearest[at], key);
-#elif defined(HAIR_LONG_ATOMICS)
-    atomicMin(nearest[at], packUint2x32(uvec2(segment, key)));
-#else
-    if (raster.claims == 0u) atomicMin(nearest[at].y, key);
-    else if (nearest[at].y == key) atomicMin(nearest[at].x, segment);
+    return 0.0;
 #endif
 }
 
-// Return how far the middle line advances in x per pixel in y, pixels.
-float slant_of(vec2 way) { return way.x / (abs(way.y) < 1e-6 ? 1e-6 : way.y); }
-
-// Return the maximum number of pieces of a row.
-uint pieces_of(raster_outline o, ivec4 about)
+raster_walk walk_of(raster_quad q)
 {
-    float half_ = half_of(o),
-          max_value = abs(slant_of(line_of(o).zw)) * (1.0 + 2.0 * half_) + 2.0 * half_ + 2.0;
-    return 1u + uint(min(max_value, float(about.z - about.x))) / HAIR_RASTER_PIECE;
+    raster_walk w;
+    float margin = find_margin(q), beside = margin + (raster.samples > 1u ? 0.5 : 0.0);
+    vec2  lower  = min(min(q.corner[0].xy, q.corner[1].xy), min(q.corner[2].xy, q.corner[3].xy));
+    vec2  upper  = max(max(q.corner[0].xy, q.corner[1].xy), max(q.corner[2].xy, q.corner[3].xy));
+    vec2  size   = vec2(raster.columns, raster.rows);
+    lower        = max(ceil(q.origin + lower - beside - 0.5), 0.0);
+    upper        = min(floor(q.origin + upper + beside - 0.5), size - 1.0);
+    bool there   = q.there && all(lessThan(lower, size)) && all(greaterThanEqual(upper, vec2(0.0)));
+    w.upright    = abs(q.across.x) >= abs(q.across.y);
+    vec2 n = q.across.xy, origin = q.origin;
+    if (!w.upright) n = n.yx, origin = origin.yx, lower = lower.yx, upper = upper.yx;
+    w.first = there ? int(lower.y) : 0;
+    w.last  = there ? int(upper.y) : -1;
+    w.low   = there ? int(lower.x) : 0;
+    w.high  = there ? int(upper.x) : -1;
+    w.slope = -n.y / n.x;
+    w.start = origin.x - q.across.z / n.x + w.slope * (lower.y - origin.y);
+    w.reach = (q.half_width + margin) / abs(n.x);
+    return w;
 }
 
-// Rasterise one piece of a row. It covers the part of the middle line that is no farther from the
-// row than half the width, and half the width to either side.
-void fill(uint segment, raster_outline o, ivec4 about, int y, uint piece)
+// Rasterise `count` pixels of a line from number `from` on.
+void fill(uint segment, raster_quad q, raster_walk w, int line, int from, int count)
 {
-    vec4  line  = line_of(o);
-    float half_ = half_of(o), end = line.x + line.z;
-    vec2  x = line.x + (vec2(-half_, 1.0 + half_) + float(y) - line.y) * slant_of(line.zw);
-    x       = clamp(x, min(line.x, end), max(line.x, end));
-    int   first = max(int(max(min(x.x, x.y) - half_, 0.0)), about.x) + int(piece * HAIR_RASTER_PIECE);
-    int   last  = min(min(int(max(x.x, x.y) + half_), about.z), first + HAIR_RASTER_PIECE - 1);
-    uint  told = raster.tiles, row = uint(y) / HAIR_RASTER_TILE * raster.across;
-    for (int i = first; i <= last; ++i) {
-        uint at = (uint(y) * raster.columns + uint(i)) * raster.samples,
-             own = row + uint(i) / HAIR_RASTER_TILE;
-        for (uint s = 0u; s < raster.samples; ++s) {
+    float middle = w.start + w.slope * float(line - w.first);
+    int   low = w.low + from, high = min(w.high, low + count - 1);
+    for (uint s = 0u; s < raster.samples; ++s) {
+        vec2  own   = w.upright ? sample_at(s) : sample_at(s).yx;
+        float at    = middle + w.slope * own.y - own.x;
+        int   first = int(clamp(ceil(at - w.reach), float(low), float(high + 1)));
+        int   last  = int(clamp(floor(at + w.reach), float(low - 1), float(high)));
+        for (int i = first; i <= last; ++i) {
+            ivec2 pixel = w.upright ? ivec2(i, line) : ivec2(line, i);
+            vec2  place = vec2(pixel) - q.origin + sample_at(s);
+            uint  number = (uint(pixel.y) * raster.columns + uint(pixel.x)) * raster.samples + s;
+#ifdef HAIR_ALPHA_COVERAGE
+            add_opacity(segment, q, number, pixel, place);
+#else
             float fraction, depth;
-            if (!sees(o, vec2(i, y) + sample_at(s), fraction, depth)) continue;
-            take(segment, at + s, depth);
-            if (own != told) tile[own] = 1u;
-            told = own;
+            if (sees(q, place, fraction, depth)) take(segment, number, depth);
+#endif
         }
     }
 }
 
-// Return the segment of a piece: the first whose pieces end behind it.
-uint segment_of(uint piece)
+// Return the number of pieces of a line.
+uint pieces_of(raster_walk w) { return 1u + uint(w.high - w.low) / HAIR_RASTER_PIECE; }
+
+// Return the large segment of a piece: the first whose pieces end behind it.
+uint large_of(uint piece)
 {
     uint first = 0u;
-    for (uint step_ = HAIR_RASTER_SEGMENTS / 2u; step_ > 0u; step_ /= 2u)
+    for (uint step_ = HAIR_GROUP_SIZE / 2u; step_ > 0u; step_ /= 2u)
         if (ends[first + step_ - 1u] <= piece) first += step_;
     return first;
 }
 
+// Rasterise a segment, unless it is large. Return the number of its pieces then.
+uint fill_small(uint segment)
+{
+    raster_quad q     = quad_of(ribbon_of(segment));
+    raster_walk w     = walk_of(q);
+    int         lines = w.last - w.first + 1;
+    if (float(lines) * min(2.0 * w.reach + 1.0, float(w.high - w.low + 1)) > HAIR_RASTER_SMALL)
+        return uint(lines) * pieces_of(w);
+    for (int line = w.first; line <= w.last; ++line) fill(segment, q, w, line, 0, w.high - w.low + 1);
+    return 0u;
+}
+
 void main()
 {
-    uint own = gl_LocalInvocationID.x, base = hair_group() * HAIR_RASTER_SEGMENTS, pieces = 0u;
-    if (own < HAIR_RASTER_SEGMENTS && (base + own) / draw.segments < command[0].strands) {
-        raster_ribbon r = ribbon_of(base + own);
-        outlines[own]   = outline_of(r);
-        bounds[own]     = bounds_of(r, outlines[own]);
-        pieces          = uint(bounds[own].w - bounds[own].y + 1);
-        if (pieces > 0u) pieces *= pieces_of(outlines[own], bounds[own]);
-    }
-    if (own < HAIR_RASTER_SEGMENTS) ends[own] = pieces;
-    for (uint reach = 1u; reach < HAIR_RASTER_SEGMENTS; reach *= 2u) {
-        synchronise();
-        uint before = own >= reach && own < HAIR_RASTER_SEGMENTS ? ends[own - reach] : 0u;
-        synchronise();
-        if (own < HAIR_RASTER_SEGMENTS) ends[own] += before;
-    }
+    uint own = gl_LocalInvocationID.x, base = hair_group() * HAIR_GROUP_SIZE, pieces = 0u;
+    if (own == 0u) large_count = 0u;
     synchronise();
-    for (uint i = own; i < ends[HAIR_RASTER_SEGMENTS - 1]; i += HAIR_GROUP_SIZE) {
-        uint k = segment_of(i), piece = i - (k > 0u ? ends[k - 1u] : 0u),
-             each = pieces_of(outlines[k], bounds[k]);
-        ivec4 about = bounds[k];
-        fill(base + k, outlines[k], about, about.y + int(piece / each), piece % each);
+    if ((base + own) / draw.segments < command[0].strands) pieces = fill_small(base + own);
+    ends[own] = pieces;
+    if (pieces > 0u) atomicAdd(large_count, 1u);
+    synchronise();
+    if (large_count == 0u) return;
+    for (uint reach = 1u; reach < HAIR_GROUP_SIZE; reach *= 2u) {
+        uint before = own >= reach ? ends[own - reach] : 0u;
+        synchronise();
+        ends[own] += before;
+        synchronise();
+    }
+    for (uint i = own; i < ends[HAIR_GROUP_SIZE - 1]; i += HAIR_GROUP_SIZE) {
+        uint        k    = large_of(i), piece = i - (k > 0u ? ends[k - 1u] : 0u);
+        raster_quad q    = quad_of(ribbon_of(base + k));
+        raster_walk w    = walk_of(q);
+        uint        each = pieces_of(w);
+        fill(base + k, q, w, w.first + int(piece / each), int(piece % each) * HAIR_RASTER_PIECE,
+             HAIR_RASTER_PIECE);
     }
 }

@@ -1,5 +1,5 @@
-// raster_clear.comp - clearing of all samples and tiles. A thread clears four numbers, because the
-// length of the buffer is a multiple of four.
+// raster_clear.comp - clearing of all samples, and of the command that draws the tiles with hair. A
+// thread clears four numbers, because the length of the buffer is a multiple of four.
 #version 450 core
 #include "workgroup.glsl"
 #include "shared.h"
@@ -14,10 +14,15 @@ layout(std430, binding = HAIR_BIND_TILE) writeonly restrict buffer tile_buffer {
 #else
 #define NUMBERS 2u
 #endif
+#ifdef HAIR_ALPHA_COVERAGE
+#define NONE 0u
+#else
+#define NONE HAIR_NOBODY
+#endif
 
 void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (i < raster.tiles) tile[i] = 0u;
-    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(HAIR_NOBODY);
+    if (i < HAIR_TILE_FIRST) tile[i] = i == HAIR_TILE_INSTANCES ? 1u : 0u;
+    if (4u * i < raster.columns * raster.rows * raster.samples * NUMBERS) nearest[i] = uvec4(NONE);
 }

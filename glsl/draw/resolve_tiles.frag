@@ -1,41 +1,50 @@
 // resolve_tiles.frag - composition of what raster.comp found, sample by sample: the depth, and the
-// colour of the visible segment. The colour is interpolated between shaded vertices, as it is on a
-// drawn ribbon.
+// colour between two shaded vertices, as it is on a drawn ribbon. With HAIR_ALPHA_COVERAGE it is
+// the opacity of all ribbons in a pixel.
 #version 450 core
-#include "draw/raster.glsl"
+#include "shared.h"
 
+layout(std140, binding = HAIR_BIND_RASTER) uniform raster_buffer { hair_raster_params raster; };
 #ifdef HAIR_DEPTH
 layout(std430, binding = HAIR_BIND_NEAREST) readonly restrict buffer nearest_buffer { uint nearest[]; };
-#define DEPTH(at) nearest[at]
+#define NUMBER(at) nearest[at]
 #else
 layout(std430, binding = HAIR_BIND_NEAREST) readonly restrict buffer nearest_buffer { uvec2 nearest[]; };
-#define DEPTH(at) nearest[at].y
+#define NUMBER(at) nearest[at].y
 layout(binding = HAIR_UNIT_SHADED) uniform samplerBuffer shaded_texture;
-layout(location = 0) out vec4 color;
+#endif
 
-vec4 color_of(uint segment, vec2 place)
+#ifdef HAIR_ALPHA_COVERAGE
+layout(location = 0) out vec4 opacity;
+
+void write(uint at)
 {
-    raster_ribbon r = ribbon_of(segment);
-    float fraction, depth, width;
-    bool  is_there;
-    sees(outline_of(r), place, fraction, depth);
-    vec2  w = mix(vec2(r.middle[0].w), vec2(r.middle[1].w), r.seen);
-    // Fraction along the strand, from the fraction along the picture.
-    float there = fraction * w.x / mix(w.y, w.x, fraction);
-    int   at = vertex_of(segment, width, is_there);
-    return mix(texelFetch(shaded_texture, at), texelFetch(shaded_texture, at + 1),
-               mix(r.seen.x, r.seen.y, there));
+    if (NUMBER(at) == 0u) discard;
+    opacity = vec4(1.0 - exp2(float(NUMBER(at)) / -HAIR_OPACITY_SCALE));
+}
+#else
+#ifndef HAIR_DEPTH
+layout(location = 0) out vec4 color;
+#endif
+
+void write(uint at)
+{
+    if (NUMBER(at) == HAIR_NOBODY) discard;
+    gl_FragDepth = raster.depth_from + raster.depth_by * uintBitsToFloat(NUMBER(at) ^ raster.flips);
+#ifndef HAIR_DEPTH
+    uint  place    = nearest[at].x;
+    int   vertex   = int(place >> raster.fraction_bits);
+    float steps    = float(1u << raster.fraction_bits);
+    float fraction = (float(place & ((1u << raster.fraction_bits) - 1u)) + 0.5) / steps;
+    color = mix(texelFetch(shaded_texture, vertex), texelFetch(shaded_texture, vertex + 1), fraction);
+#endif
 }
 #endif
 
 void main()
 {
-    uvec2 pixel  = uvec2(gl_FragCoord.xy) - uvec2(raster.first_x, raster.first_y);
-    uint  number = raster.samples > 1u ? uint(gl_SampleID) : 0u;
-    uint  at     = (pixel.y * raster.columns + pixel.x) * raster.samples + number;
-    if (pixel.x >= raster.columns || pixel.y >= raster.rows || DEPTH(at) == HAIR_NOBODY) discard;
-    gl_FragDepth = raster.depth_from + raster.depth_by * uintBitsToFloat(DEPTH(at) ^ raster.flips);
-#ifndef HAIR_DEPTH
-    color = color_of(nearest[at].x, vec2(pixel) + sample_at(number));
-#endif
+    uvec2 pixel = uvec2(gl_FragCoord.xy) - uvec2(raster.first_x, raster.first_y);
+    if (pixel.x >= raster.columns || pixel.y >= raster.rows) discard;
+    write((pixel.y * raster.columns + pixel.x) * raster.samples +
+          (raster.samples > 1u ? uint(gl_SampleID) : 0u));
 }

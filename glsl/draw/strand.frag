@@ -19,6 +19,7 @@ layout(location = 6) in vec3 clip_before;
 #endif
 #ifdef HAIR_ALPHA_COVERAGE
 #include "draw/coverage.glsl"
+layout(location = 7) noperspective in vec4 strand_fraction;
 #endif
 
 #ifdef HAIR_IDS

@@ -5,9 +5,23 @@
 #define HAIR_INSTANCE_STRANDS 64     // Strands per instance, when drawn without a tessellator.
 #define HAIR_SORT_BUCKETS 16384      // Bins of the depth histogram, from far to near.
 #define HAIR_RASTER_SAMPLES 16       // Maximum per pixel.
-#define HAIR_RASTER_SEGMENTS 16      // Per work group.
-#define HAIR_RASTER_TILE 32          // Side of a tile, pixels. Tiles without hair are not composed.
-#define HAIR_RASTER_PIECE 32         // Pixels of a row that a thread covers at a time.
+#define HAIR_RASTER_SMALL 256.0      // Pixels that may belong to a segment which one thread covers.
+#define HAIR_RASTER_TILE 16          // Side of a tile, pixels. Tiles without hair are not composed.
+#define HAIR_RASTER_PIECE 32         // Pixels of a line that a thread covers at a time.
+// The list of tiles begins with the command that draws them. Then come their numbers.
+#define HAIR_TILE_VERTICES 0u        // Index of the number of vertices.
+#define HAIR_TILE_INSTANCES 1u       // Index of the number of instances, which is 1.
+#define HAIR_TILE_FIRST 4u           // Index of the first tile.
+#define HAIR_TILE_CORNERS 6u         // Vertices of a tile.
+// Depths in the window that pass a test of the application, as bits.
+#define HAIR_TEST_NEARER 1u // Less than that of the framebuffer.
+#define HAIR_TEST_FARTHER 2u // Greater.
+#define HAIR_TEST_EQUAL 4u
+// Opacities are added as binary logarithms of the light that is left, in units of 1 / SCALE. A sum
+// from FULL on leaves no light. A strand leaves at least LEAST, so that sums do not overflow.
+#define HAIR_OPACITY_SCALE 4096.0
+#define HAIR_OPACITY_FULL 98304u
+#define HAIR_OPACITY_LEAST 0.000244140625
 #define HAIR_NOBODY 0xffffffffu      // Value of a sample in which no ribbon is visible.
 #define HAIR_COUNT_THREADS 256       // Threads of the work group that counts the drawn strands.
 
@@ -77,6 +91,10 @@ struct hair_raster_params {
     hair_uint clamps;    // 1 if depth is clamped and not clipped.
     float     depth_from, depth_by; // Written depth at 0, and its increase up to 1.
     hair_uint across, tiles; // Tiles in a row, and all tiles.
+    // Bits of the fraction in a number that holds a vertex and the fraction from there to the next.
+    hair_uint fraction_bits;
+    hair_uint tests; // HAIR_TEST_NEARER, ... of the application's depth, for opacity. 0 for none.
+    hair_uint unused0, unused1;
     // Positions in the pixel of samples 2 i and 2 i + 1: xy and zw.
     hair_vec4 at[HAIR_RASTER_SAMPLES / 2];
 };

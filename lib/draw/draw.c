@@ -129,7 +129,7 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     if (renderer->geometry->look.followers.density <= 0) return HAIR_OK;
     plan->head = head;
     plan->has_occlusion = hair_draw_find_occlusion(renderer, head, view, &plan->occlusion);
-    plan->is_empty = plan->is_computed && !hair_draw_find_raster(renderer, head, view, &plan->raster);
+    plan->is_empty = plan->is_computed && !hair_draw_find_raster(renderer, head, plan);
     if (renderer->geometry->look.self_shadow.method != HAIR_SELF_SHADOW_STRANDS)
         hair_lighting_free_self_shadow(renderer->lighting);
     hair_draw_find_passes(renderer, find_state(renderer, plan), plan);

@@ -177,10 +177,13 @@ void hair_draw_free_view_cache(struct hair_renderer* renderer);
 void hair_draw_write_vertices(struct hair_renderer* renderer, const struct hair_draw_plan* plan,
                               const struct hair_draw_params* params);
 
+// Find the depth test that opacity by compute rasterisation makes. Return false if the framebuffer
+// has several samples, or a depth that is not a texture. Defined in raster.c.
+bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out);
 // Find the pixels of the window that hair may cover, and their sample positions. Return false if
-// there are none. Defined in raster.c.
+// there are none.
 bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct hair_pose* head,
-                           const hair_view* view, struct hair_raster_params* out);
+                           struct hair_draw_plan* plan);
 // Create the buffers of compute rasterisation.
 hair_result hair_draw_ensure_raster(struct hair_renderer* renderer, struct hair_draw_plan* plan);
 // Find the nearest segment at each sample. The inputs of drawing must be bound.

@@ -33,7 +33,7 @@ enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KI
 // A level of detail leaves out many vertices of the vertex cache and places others differently, so
 // it uses per-view vertices. They hold a position, a width and a colour. Other outputs need
 // vertices that the vertex shader computes. Motion vectors compare vertices of the vertex cache,
-// and sorted segments index them. Pixels by compute are opaque, and hold only colour or depth.
+// and sorted segments index them. Pixels by compute hold only colour, depth or opacity.
 // Lines take the column `cached` in place of `compute`. HAIR_RENDER_PATH_PROCEDURAL has no column.
 // Its vertices are procedural wherever they need not be those of the vertex cache.
 
@@ -44,7 +44,7 @@ static const uint8_t method_of[KINDS][3][2] = {
     [VERTEX_SHADER] = {{TESS,  TESS},  {CACHE, PROC},  {COMP,  COMPV}},
     [PIXEL_SHADER]  = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
     [SORTED]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
-    [OPACITY]       = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
+    [OPACITY]       = {{TESS,  TESS},  {CACHE, PROC},  {COMP,  COMPV}},
     [IDS]           = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
     [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
 };
@@ -96,10 +96,11 @@ static enum kind find_kind(const hair_view* view, const struct hair_gl_shader* s
     return shader->pixels ? PIXEL_SHADER : VERTEX_SHADER;
 }
 
-// Return the method by a render path. Compute rasterisation has no lines.
+// Return the method by a render path. Compute rasterisation has no lines. Opacity is always of
+// ribbons.
 static enum method find_method(enum kind kind, const hair_view* view, hair_render_path path)
 {
-    if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES)
+    if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES && kind != OPACITY)
         path = HAIR_RENDER_PATH_CACHED;
     if (path == HAIR_RENDER_PATH_PROCEDURAL) return kind == SORTED || kind == MOTION ? CACHE : PROC;
     HAIR_ASSERT((unsigned)path < sizeof method_of[0] / sizeof method_of[0][0]);
@@ -118,7 +119,8 @@ static hair_render_path find_fastest_for(const struct hair_renderer* renderer, e
     if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MAX_CACHED)
         return HAIR_RENDER_PATH_TESSELLATION;
     if (path != HAIR_RENDER_PATH_COMPUTE) return path;
-    if (kind == PLAIN && methods[find_method(kind, view, path)].is_computed && has_few_samples(renderer->gl))
+    if ((kind == PLAIN || kind == OPACITY) && methods[find_method(kind, view, path)].is_computed &&
+        has_few_samples(renderer->gl))
         return path;
     return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
 }
@@ -143,10 +145,16 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
     hair_render_path path = view->render_path == HAIR_RENDER_PATH_AUTO
                                 ? find_fastest_for(renderer, kind, view)
                                 : view->render_path;
+    struct hair_depth_test depth_test = {0};
+    if (kind == OPACITY && path == HAIR_RENDER_PATH_COMPUTE &&
+        !hair_draw_find_depth_test(renderer->gl, &depth_test))
+        path = view->render_path == HAIR_RENDER_PATH_AUTO ? HAIR_RENDER_PATH_TESSELLATION
+                                                          : HAIR_RENDER_PATH_CACHED;
     enum method method = find_method(kind, view, path);
     memset(out, 0, sizeof *out);
     out->view = view;
     out->shader = is_colored ? shader : NULL;
+    out->depth_test = depth_test;
     out->path = methods[method].path;
     out->vertices = methods[method].vertices;
     out->is_computed = methods[method].is_computed;
@@ -162,7 +170,8 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
     out->has_root_uvs = out->is_textured || (out->shader && has_uvs);
     out->light_values = hair_lighting_value_count(&geometry->look, view);
     HAIR_ASSERT(out->path != HAIR_RENDER_PATH_AUTO && out->light_values <= 1 + HAIR_LIGHTS);
-    // Pixels by compute are opaque, and sorted segments index the vertex cache.
-    HAIR_ASSERT(!out->is_computed || (!out->blending && view->primitive == HAIR_PRIMITIVE_RIBBONS));
+    // Pixels by compute are opaque or sums, and sorted segments index the vertex cache.
+    HAIR_ASSERT(!out->is_computed || out->blending != HAIR_BLENDING_SORTED);
+    HAIR_ASSERT(!out->is_computed || kind == OPACITY || view->primitive == HAIR_PRIMITIVE_RIBBONS);
     HAIR_ASSERT(out->blending != HAIR_BLENDING_SORTED || out->vertices == HAIR_VERTICES_CACHED);
 }

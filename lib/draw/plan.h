@@ -3,6 +3,7 @@
 #define HAIR_DRAW_PLAN_H
 
 #include "lib/base/pose.h"
+#include "lib/draw/raster.h"
 #include "lib/draw/render_path.h"
 #include "lib/gl/gl.h"
 
@@ -39,6 +40,7 @@ struct hair_draw_plan {
     bool is_textured; // The application's texture colours the strands.
     bool is_painted; // The groom's colours colour the strands.
     bool has_root_uvs; // Programs read root uvs.
+    struct hair_depth_test depth_test; // Of computed opacity.
     uint32_t light_values; // Number of light values per vertex. 0 without self-shadowing.
 
     // Written by hair_draw_run().
@@ -47,6 +49,7 @@ struct hair_draw_plan {
     struct hair_occlusion_params occlusion;
     bool is_empty; // Compute rasterisation has no pixels to cover.
     struct hair_raster_params raster;
+    hair_gl_pass features; // Features of all passes. Each pass has those that it supports.
 
     // All passes that the view runs, in order. Written by hair_draw_find_passes().
     hair_gl_pass pass[HAIR_DRAW_MAX_PASSES];

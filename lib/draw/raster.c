@@ -5,9 +5,6 @@
 
 #include <string.h>
 
-// Features of compute rasterisation. DEPTH selects depth without colour, and WIDENED per-view
-// vertices.
-#define FEATURES (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(WIDENED))
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
 // Find the positions of the samples in a pixel.
@@ -69,17 +66,53 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
     memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
+// Return the bits that the numbers of vertices leave in 32 bits.
+static uint32_t find_fraction_bits(size_t vertices)
+{
+    uint32_t bits = 0;
+    while (bits < 31 && vertices <= UINT32_MAX >> (bits + 1)) ++bits;
+    HAIR_ASSERT(bits > 0); // The limits of followers and segments leave some.
+    return bits;
+}
+
+bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out)
+{
+    GLint framebuffer = 0, type = GL_NONE, name = 0, level = 0, base = 0, function = GL_LESS, samples = 0;
+    memset(out, 0, sizeof *out);
+    gl->GetIntegerv(GL_SAMPLES, &samples);
+    if (samples > 1) return false;
+    gl->GetIntegerv(GL_DEPTH_FUNC, &function);
+    if (!gl->IsEnabled(GL_DEPTH_TEST) || function == GL_ALWAYS) return true;
+    gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
+    if (!framebuffer || hair_draw_depth_direction(gl) == 0) return false;
+    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
+                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
+    if (type == GL_NONE) return true;
+    if (type != GL_TEXTURE) return false;
+    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
+                                            GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
+    gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
+                                            GL_FRAMEBUFFER_ATTACHMENT_TEXTURE_LEVEL, &level);
+    if (hair_gl_find_texture_target(gl, (GLuint)name) != GL_TEXTURE_2D) return false;
+    gl->GetTextureParameteriv((GLuint)name, GL_TEXTURE_BASE_LEVEL, &base);
+    out->depth = (GLuint)name;
+    out->tests = hair_draw_depth_direction(gl) > 0 ? HAIR_TEST_NEARER : HAIR_TEST_FARTHER;
+    if (function == GL_LEQUAL || function == GL_GEQUAL) out->tests |= HAIR_TEST_EQUAL;
+    return level == 0 && base == 0;
+}
+
 bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct hair_pose* head,
-                           const hair_view* view, struct hair_raster_params* out)
+                           struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
+    struct hair_raster_params* out = &plan->raster;
     GLfloat viewport[4] = {0}, range[2] = {0, 1};
     float unit[16], matrix[16], window[4];
     memset(out, 0, sizeof *out);
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetFloatv(GL_DEPTH_RANGE, range);
     hair_draw_clip_to_unit_matrix(gl, unit);
-    find_place(renderer, head, view, unit, matrix, window);
+    find_place(renderer, head, plan->view, unit, matrix, window);
     out->columns = find_pixels(viewport[0], viewport[2], window[0], window[2], &out->first_x);
     out->rows = find_pixels(viewport[1], viewport[3], window[1], window[3], &out->first_y);
     if (!out->columns || !out->rows) return false;
@@ -90,6 +123,8 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     out->flips = hair_draw_depth_direction(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
+    out->tests = plan->depth_test.tests;
+    out->fraction_bits = find_fraction_bits(hair_geometry_count_vertices(renderer->geometry));
     find_samples(gl, out);
     return true;
 }
@@ -109,8 +144,10 @@ static hair_result ensure_room(struct hair_gl* gl, const char* label, size_t cou
     return result;
 }
 
+// Make the list of tiles, which begins with a command.
 static hair_result ensure_tiles(struct hair_gl* gl, struct hair_raster* raster, size_t tiles)
 {
+    tiles += HAIR_TILE_FIRST;
     if (tiles <= raster->tile_room) return HAIR_OK;
     hair_gl_free_buffer_texture(gl, &raster->tile_texture);
     hair_result result = ensure_room(gl, "hair tiles", tiles, &raster->tile, &raster->tile_room);
@@ -158,30 +195,39 @@ static uint32_t groups_for(uint64_t threads)
     return (uint32_t)((threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
+// Run one of the passes before the one that draws, with the features of that pass.
+static void run(struct hair_gl* gl, hair_gl_pass row, const struct hair_draw_plan* plan, uint32_t groups)
+{
+    hair_gl_run(gl, hair_gl_add_features(row, plan->features), groups);
+}
+
 void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
-    const hair_gl_pass with = plan->draw & FEATURES;
     struct hair_raster_params* params = &plan->raster;
     struct hair_gl* gl = renderer->gl;
     struct hair_raster* raster = &renderer->raster;
     GLuint buffers[] = {raster->nearest, raster->tile};
-    HAIR_ASSERT(raster->room >= count_numbers(params, with) && raster->tile_room >= params->tiles);
+    size_t numbers = count_numbers(params, plan->draw);
+    HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
     uint64_t segments = (uint64_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
-    uint32_t groups = (uint32_t)((segments + HAIR_RASTER_SEGMENTS - 1) / HAIR_RASTER_SEGMENTS);
-    uint64_t fours = (count_numbers(params, with) + 3) / 4;
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
+    if (plan->depth_test.depth) {
+        gl->BindTextureUnit(HAIR_UNIT_OCCLUSION, plan->depth_test.depth);
+        gl->BindSampler(HAIR_UNIT_OCCLUSION, gl->shadow_sampler[0]);
+    }
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_RASTER, 1, &raster->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NEAREST, 2, buffers);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_gl_run(gl, hair_gl_add_features(HAIR_GL_RASTER_CLEAR, with),
-                groups_for(fours > params->tiles ? fours : params->tiles));
-    hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
-    if (with & HAIR_GL_WITH(DEPTH) || gl->long_atomics) return;
-    params->claims = 1;
-    hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-    hair_gl_run(gl, HAIR_GL_RASTER | with, groups);
+    run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
+    run(gl, HAIR_GL_RASTER, plan, groups_for(segments));
+    if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
+        params->claims = 1;
+        hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
+        run(gl, HAIR_GL_RASTER, plan, groups_for(segments));
+    }
+    run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
 }
 
 void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
@@ -189,8 +235,13 @@ void hair_draw_resolve_tiles(struct hair_renderer* renderer, const struct hair_d
     struct hair_gl* gl = renderer->gl;
     HAIR_ASSERT(plan->raster.tiles > 0);
     GLint mode[2] = {GL_FILL, GL_FILL};
+    // Opacity has been tested against depth before.
+    bool tests_depth = plan->blending && gl->IsEnabled(GL_DEPTH_TEST);
     gl->GetIntegerv(GL_POLYGON_MODE, mode);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    gl->DrawArrays(GL_TRIANGLES, 0, (GLsizei)(6 * plan->raster.tiles));
+    if (tests_depth) gl->Disable(GL_DEPTH_TEST);
+    gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, renderer->raster.tile);
+    gl->DrawArraysIndirect(GL_TRIANGLES, NULL);
+    if (tests_depth) gl->Enable(GL_DEPTH_TEST);
     if (mode[0] != GL_FILL) gl->PolygonMode(GL_FRONT_AND_BACK, (GLenum)mode[0]);
 }

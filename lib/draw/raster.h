@@ -10,4 +10,10 @@ struct hair_raster {
     size_t room, tile_room; // Capacities of `nearest` and `tile`, in numbers.
 };
 
+// Depth test of the application, as a compute shader does it.
+struct hair_depth_test {
+    GLuint depth; // Texture that is attached. 0 if nothing is tested.
+    uint32_t tests; // As in hair_raster_params.
+};
+
 #endif

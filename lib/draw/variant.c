@@ -66,6 +66,7 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
     hair_gl_pass features = find_features(renderer, plan) | state, row = find_draw_row(plan);
     int shade_row = find_shade_row(plan);
     plan->pass_count = 0;
+    plan->features = features;
     if (state & HAIR_GL_WITH(OCCLUSION)) add(plan, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, features);
     if (plan->vertices == HAIR_VERTICES_CACHED || plan->light_values)
         add(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
@@ -75,7 +76,7 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
     if (plan->has_strand_list) add(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);
     if (shade_row >= 0) add(plan, (hair_gl_pass)shade_row, (hair_gl_pass)shade_row, features);
     plan->shade = shade_row >= 0 ? plan->pass[plan->pass_count - 1] : 0;
-    if (plan->is_computed) add(plan, HAIR_GL_RASTER_CLEAR, HAIR_GL_RASTER, features);
+    if (plan->is_computed) add(plan, HAIR_GL_RASTER_CLEAR, HAIR_GL_COMPOSE_TILES, features);
     if (plan->blending == HAIR_BLENDING_SORTED) add(plan, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, features);
     if (shade_row == HAIR_GL_SHADE) features = (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
     add(plan, row, row, features);

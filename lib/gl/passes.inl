@@ -87,6 +87,7 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define STAGE_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS) | \
         WITH(WIDENED) | WITH(HITS)
+#define RASTER_FEATURES WITH(DEPTH) | WITH(ALPHA_COVERAGE)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
 
 PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
@@ -166,10 +167,12 @@ PASS(EXPAND_VIEW_SIDES, "draw/expand_view_sides", COLOR, STAGE_FEATURES | WITH(L
      "HAIR_SIDES=1 draw/expand_view.comp")
 PASS(VIEW_CACHED, "draw/view_cached", COLOR, WITH(DEPTH) | WITH(LINES),
      "draw/view_cache.vert !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag")
-PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, WITH(DEPTH), "draw/raster_clear.comp")
-PASS(RASTER, "draw/raster", COLOR, WITH(DEPTH) | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
-PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, WITH(DEPTH) | WITH(WIDENED),
-     "HAIR_VERTEX_CACHE=1 draw/resolve_tiles.vert draw/resolve_tiles.frag")
+PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, RASTER_FEATURES, "draw/raster_clear.comp")
+PASS(RASTER, "draw/raster", COLOR, RASTER_FEATURES | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
+PASS(COMPOSE_TILES, "draw/compose_tiles", COLOR, RASTER_FEATURES | WITH(WIDENED),
+     "HAIR_VERTEX_CACHE=1 draw/compose_tiles.comp")
+PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES,
+     "draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
      "HAIR_VERTEX_CACHE=1 draw/shade.comp")
 PASS(REFLECTANCE, "draw/reflectance", COLOR, WITH(GROOM_COLORS),
@@ -191,6 +194,7 @@ PASS(AIR, "draw/air", AIR, 0, "draw/air.vert draw/guides.frag")
 PASS(GUIDES, "draw/guides", GUIDES, 0, "draw/guides.vert draw/guides.frag")
 
 #undef DRAW_STAGES
+#undef RASTER_FEATURES
 #undef STAGE_FEATURES
 #undef DRAW_FEATURES
 #undef STRAND_FEATURES

@@ -216,9 +216,6 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
         hair_light_clip(&frame->lights.shadow[i].matrices, of->shadow_matrix);
     }
     view.occluder_depth = pass == HAIR_PASS_COLOR ? frame->depth : 0;
-    if (pass == HAIR_PASS_DEPTH && !view.lod)
-        // In a depth pass, lines are about as wide as ribbons, at half the cost.
-        view.primitive = HAIR_PRIMITIVE_LINES;
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
     return hair_draw(frame->hair, &view);
