@@ -6,6 +6,8 @@ serve positions, motion and attributes.
 
 import numpy as np
 
+from hairconvert.groom import check_counts
+
 LINEAR, BEZIER, BSPLINE, CATMULL_ROM = "linear", "bezier", "bspline", "catmullRom"
 NONPERIODIC, PERIODIC, PINNED = "nonperiodic", "periodic", "pinned"
 
@@ -145,3 +147,33 @@ def choose_samples(basis, wrap, counts, points):
         if error <= TOLERANCE:
             break
     return samples, error
+
+
+def make_sampler(basis, wrap, counts, points, samples, report):
+    """Return the sampler of curves, or None for polylines. `samples` is None to choose them."""
+    if basis == LINEAR and wrap != PERIODIC:
+        return None
+    if basis != LINEAR:
+        told = ""
+        if not samples:
+            samples, error = choose_samples(basis, wrap, counts, points)
+            told = f", at most {error:.2g} of a strand's length beside the curve"
+        report.say(f"{basis} curves become polylines of {samples} edges per segment{told}")
+    if wrap == PERIODIC:
+        report.say("periodic curves are opened where they begin")
+    samples = samples if basis != LINEAR else 1
+    check_counts(len(counts), int(count_segments(basis, wrap, counts).sum() * samples))
+    return Sampler(basis, wrap, counts, samples)
+
+
+def turn(attributes, matrix):
+    """Apply a transform to directions, and its mean scale to widths."""
+    linear = matrix[:3, :3]
+    for name, a in attributes.items():
+        if a.role in ("vector", "normal") and a.values.shape[1:] == (3,):
+            by = np.linalg.pinv(linear).T if a.role == "normal" else linear
+            a.values = a.values @ by
+        elif a.role == "point" and a.values.shape[1:] == (3,):
+            a.values = a.values @ linear + matrix[3, :3]
+        elif name == "width":
+            a.values = a.values * np.cbrt(abs(np.linalg.det(linear)))

@@ -91,7 +91,7 @@ def _add_output_options(parser):
     parser.add_argument("--output-up", choices="yz", default="y",
                         help="the axis of the output that points up; y")
     parser.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
-                        help="of curves in USD and Alembic, both go through the vertices; linear")
+                        help="of curves in USD, both go through the vertices; linear")
 
 
 def temporary_name(path):
@@ -140,4 +140,5 @@ def main(arguments=None):
     """Parse the command line, run it in a process of its own, and return the exit status."""
     options = make_parser().parse_args(arguments)
     temporary = temporary_name(options.output) if options.command != "info" else None
-    return run_guarded(lambda: run(options, temporary), temporary)
+    size = os.path.getsize(options.input) if os.path.isfile(options.input) else 0
+    return run_guarded(lambda: run(options, temporary), temporary, size)

@@ -4,8 +4,8 @@ import dataclasses
 import importlib
 import os
 
-from hairconvert.groom import check_counts, clean, place, resample, reverse, select, unplace
-from hairconvert.report import InputError, MissingPackage, UsageError, first_sentence
+from hairconvert.groom import Motion, check_counts, clean, place, resample, reverse, select, unplace
+from hairconvert.report import InputError, MissingPackage, UsageError, find_reason
 
 MAX_FILE = 1 << 34  # bytes
 
@@ -29,6 +29,8 @@ FORMATS = [
     Format(".data", (".data",), "usc", "usc"),
     Format("OBJ", (".obj",), "obj", "obj"),
     Format("USD", (".usda", ".usdc", ".usd"), "usd_read", "usd_write", from_path=True, keeps_motion=True),
+    Format("Alembic", (".abc",), "alembic_read", "alembic_write", from_path=True, unit=0.01,
+           keeps_motion=True),
     Format("USDZ", (".usdz",), "usd_read", from_path=True),
 ]
 
@@ -65,19 +67,27 @@ def read_groom(path, options, report):
     module = _load_module(f, f.reader)
     if not os.path.isfile(path):
         raise InputError("there is no such file")
-    try:
-        groom = module.read(path if f.from_path else load(path), options, report)
-        check_counts(len(groom.counts), len(groom.points))
-    except (InputError, UsageError, MemoryError):
-        raise
-    except Exception as error:  # Packages raise many kinds of errors for malformed files.
-        raise InputError(f"the file cannot be read: {first_sentence(error)}") from error
+    groom = _refuse_errors(module.read, path if f.from_path else load(path), options, report)
+    check_counts(len(groom.counts), len(groom.points))
+    if groom.motion:
+        read = groom.motion.read
+        groom.motion = Motion(groom.motion.times, lambda i: _refuse_errors(read, i))
     groom = clean(groom, report)
     groom = place(groom, options.scale or groom.unit or f.unit, options.up or groom.up or "y")
     if options.tip_first:
         groom = reverse(groom)
     groom = _take(groom, options.take, report)
     return resample(groom, options.vertices) if options.vertices else groom
+
+
+def _refuse_errors(call, *arguments):
+    """Turn the many kinds of errors that packages raise for malformed files into one."""
+    try:
+        return call(*arguments)
+    except (InputError, UsageError, MemoryError):
+        raise
+    except Exception as error:
+        raise InputError(f"the file cannot be read: {find_reason(error)}") from error
 
 
 def _take(groom, what, report):

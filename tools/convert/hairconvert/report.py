@@ -23,10 +23,15 @@ def escape(text):
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in str(text))
 
 
-def first_sentence(error, limit=200):
-    """Return the first line of an exception's text, shortened to `limit` characters."""
+def find_reason(error, limit=200):
+    """Return the reason in an exception's text, as one line of at most `limit` characters.
+
+    Errors of USD end in the reason in quotes, and those of Alembic in a line of its own.
+    """
     lines = [line.strip() for line in str(error).splitlines() if line.strip()]
-    line = lines[0] if lines else type(error).__name__
+    line = lines[-1] if lines else type(error).__name__
+    if " : '" in line:
+        line = line.split(" : '", 1)[1].rstrip("'")
     return line if len(line) <= limit else line[:limit] + "..."
 
 

@@ -4,9 +4,10 @@ import numpy as np
 from pxr import Sdf, Usd, UsdGeom
 
 from hairconvert import basis, names
-from hairconvert.groom import GROOM, STRAND, VERTEX, Attribute, Groom, Motion, check_counts
+from hairconvert.groom import Groom, Motion, check_counts
+from hairconvert.interpolation import Values
 from hairconvert.merge import merge
-from hairconvert.report import InputError, first_sentence
+from hairconvert.report import InputError, find_reason
 
 MAX_PRIMS = 1 << 20
 # Properties that the reader uses, or that positions and counts replace.
@@ -22,7 +23,7 @@ def read(path, options, report):
     try:
         stage = Usd.Stage.Open(str(path))
     except Exception as error:
-        raise InputError(f"USD cannot open the file: {first_sentence(error)}") from None
+        raise InputError(f"USD cannot open the file: {find_reason(error)}") from None
     if not stage:
         raise InputError("USD cannot open the file")
     prims = _find_curves(stage, report)
@@ -87,7 +88,8 @@ class _Curves:
         if not self.valid:
             return
         self.sampler = self._make_sampler(options)
-        self.attributes = {}
+        self.values = Values(len(self.counts), len(self.points), self.sampler, report)
+        self.attributes = self.values.attributes
         self._read_attributes()
         if len(self.codes) > 1 and self._topology_changes():
             report.lose(f"the motion of {prim.GetPath()}", "the numbers of its vertices change")
@@ -124,21 +126,7 @@ class _Curves:
         form = basis.LINEAR if kind == "linear" else self.curves.GetBasisAttr().Get()
         if form not in (basis.LINEAR, *basis.MATRICES):
             raise InputError(f"{self.prim.GetPath()} has the unknown basis {form}")
-        if form == basis.LINEAR and wrap != basis.PERIODIC:
-            return None
-        samples, error = 1, None
-        if form != basis.LINEAR:
-            samples = options.samples
-            if not samples:
-                samples, error = basis.choose_samples(form, wrap, self.counts, self.points)
-            told = "" if error is None else f", at most {error:.2g} of a strand's length beside " \
-                "the curve"
-            self.report.say(f"{form} curves become polylines of {samples} edges per segment{told}")
-        if wrap == basis.PERIODIC:
-            self.report.say("periodic curves are opened where they begin")
-        total = basis.count_segments(form, wrap, self.counts).sum() * samples
-        check_counts(len(self.counts), int(total))
-        return basis.Sampler(form, wrap, self.counts, samples)
+        return basis.make_sampler(form, wrap, self.counts, self.points, options.samples, self.report)
 
     def _read_attributes(self):
         primvars = UsdGeom.PrimvarsAPI(self.prim)
@@ -183,40 +171,11 @@ class _Curves:
                   names.ROLES.get(ours, role), primvar.GetAttr().GetNumTimeSamples())
 
     def _add(self, name, values, interpolation, size, role, samples):
-        """Add values to the attributes, or say why they are not kept."""
-        where = f"the attribute {name}"
         table = _table(values)
-        if table is None:
-            return self.report.lose(where, "its type is neither numbers, vectors nor strings")
-        if samples > 1:
+        if samples > 1 and table is not None:
             self.report.lose(f"the change in time of the attribute {name}",
                              "only positions have frames")
-        if size > 1 and table.ndim == 1 and len(table) % size == 0:
-            table = table.reshape(-1, size)
-        n = len(table)
-        if interpolation == "constant":
-            if n != 1:
-                table = table.reshape(1, -1) if table.ndim == 1 and n else None
-            scope = GROOM
-        elif interpolation == "uniform":
-            table, scope = (table if n == len(self.counts) else None), STRAND
-        else:
-            table, scope = self._at_vertices(table, interpolation), VERTEX
-        if table is None:
-            return self.report.lose(where, f"{n} values fit no {interpolation} interpolation of "
-                                    f"{len(self.counts)} strands with {len(self.points)} points")
-        self.attributes[name] = Attribute(scope, table, role)
-        return None
-
-    def _at_vertices(self, table, interpolation):
-        n, sampler = len(table), self.sampler
-        if sampler is None:
-            return table if n == len(self.points) else None
-        if interpolation == "vertex" and n == len(self.points):
-            return sampler.sample(table)
-        if interpolation in ("varying", "faceVarying") and n == sampler.varying_sizes.sum():
-            return sampler.sample_varying(table)
-        return None
+        self.values.add(name, table, interpolation, size, role)
 
     def _positions(self, code):
         """Return positions in the space of the stage."""
@@ -241,24 +200,11 @@ class _Curves:
         counts = self.counts if self.sampler is None else self.sampler.counts
         matrix = self._matrix(rest)
         if matrix is not None:
-            _turn(self.attributes, matrix)
+            basis.turn(self.attributes, matrix)
         groom = Groom(counts, points, self.attributes)
         if len(codes) > 1 and len(self.codes) > 1:
             groom.motion = Motion(codes / rate, lambda i: self._positions(codes[i]))
         return groom
-
-
-def _turn(attributes, matrix):
-    """Apply a transform to directions, and its mean scale to widths."""
-    linear = matrix[:3, :3]
-    for name, a in attributes.items():
-        if a.role in ("vector", "normal") and a.values.shape[1:] == (3,):
-            by = np.linalg.pinv(linear).T if a.role == "normal" else linear
-            a.values = a.values @ by
-        elif a.role == "point" and a.values.shape[1:] == (3,):
-            a.values = a.values @ linear + matrix[3, :3]
-        elif name == "width":
-            a.values = a.values * np.cbrt(abs(np.linalg.det(linear)))
 
 
 def _array(value, dtype):

@@ -6,6 +6,7 @@ from pxr import Gf, Sdf, Tf, Usd, UsdGeom, Vt
 from hairconvert import names
 from hairconvert.groom import GROOM, STRAND, VERTEX
 from hairconvert.report import InputError
+from hairconvert.timing import find_rate
 
 INTERPOLATIONS = {GROOM: UsdGeom.Tokens.constant, STRAND: UsdGeom.Tokens.uniform,
                   VERTEX: UsdGeom.Tokens.vertex}
@@ -70,15 +71,6 @@ def _write_motion(stage, curves, motion, radius):
             raise InputError(f"frame {i} has a position that is not finite")
         curves.GetPointsAttr().Set(_vectors(points), code)
         curves.GetExtentAttr().Set(_extent(points, radius), code)
-
-
-def find_rate(times):
-    """Return the frames per second of times, 24 for a single frame."""
-    if len(times) < 2 or times[-1] <= times[0]:
-        return 24.0
-    rate = 1 / np.diff(times).min()
-    whole = round(rate)
-    return float(whole) if whole and abs(rate - whole) < 1e-3 * rate else float(rate)
 
 
 def _write_attributes(curves, groom, report):
