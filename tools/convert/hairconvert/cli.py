@@ -7,6 +7,8 @@ import sys
 from hairconvert import __version__, info
 from hairconvert.formats import FORMATS, find_format, read_groom, write_groom
 from hairconvert.guard import run_guarded
+from hairconvert.meshes import (check_mesh_output, describe_mesh, is_mesh, read_mesh,
+                                write_mesh)
 from hairconvert.report import (EXIT_INPUT, EXIT_OK, EXIT_RUNTIME, EXIT_USAGE, TOOL, InputError,
                                 MissingPackage, Report, UsageError, escape)
 
@@ -62,15 +64,34 @@ def make_parser():
     convert.add_argument("output", metavar="OUT")
     _add_input_options(convert)
     _add_output_options(convert)
+    convert.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
+                         help="of curves in USD, both go through the vertices; linear")
+    scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .obj, .tfxmesh) to "
+                                ".obj or .tfxmesh, with texture coordinates or skin weights")
+    scalp.add_argument("input", metavar="IN")
+    scalp.add_argument("output", metavar="OUT")
+    _add_unit_options(scalp)
+    _add_mesh_option(scalp)
+    _add_output_options(scalp)
     return parser
 
 
-def _add_input_options(parser):
+def _add_mesh_option(parser):
+    parser.add_argument("--mesh", metavar="NAME", help="only the meshes, nodes, objects or groups "
+                        "of this name; without it, all")
+
+
+def _add_unit_options(parser):
     parser.add_argument("--scale", metavar="X", type=_number(1e-6, 1e6),
                         help="metres of one unit of the input; without it, what the file says, "
                         "0.01 for Alembic, else 1")
     parser.add_argument("--up", choices="xyz", help="the axis of the input that points up; without "
                         "it, what the file says, else y")
+
+
+def _add_input_options(parser):
+    _add_unit_options(parser)
+    _add_mesh_option(parser)
     parser.add_argument("--frame", metavar="T", type=_number(-1e9, 1e9),
                         help="the time code of the pose, for USD, or the time in s, for Alembic; "
                         "without it, the first")
@@ -90,8 +111,6 @@ def _add_output_options(parser):
                         help="metres of one unit of the output; 0.01 for Alembic, else 1")
     parser.add_argument("--output-up", choices="yz", default="y",
                         help="the axis of the output that points up; y")
-    parser.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
-                        help="of curves in USD, both go through the vertices; linear")
 
 
 def temporary_name(path):
@@ -105,9 +124,10 @@ def run(options, temporary=None):
     report, status = Report(), EXIT_OK
     try:
         if options.command == "info":
-            print("\n".join(info.describe(read_groom(options.input, options, report))))
+            print("\n".join(_describe(options, report)))
         else:
-            _convert(options, temporary or temporary_name(options.output), report)
+            command = {"convert": _convert, "scalp": _convert_mesh}[options.command]
+            _write_whole(command, options, temporary or temporary_name(options.output), report)
     except InputError as error:
         status, sentence = EXIT_INPUT, f"{options.input}: {error}"
     except UsageError as error:
@@ -125,15 +145,32 @@ def run(options, temporary=None):
     return status
 
 
-def _convert(options, temporary, report):
-    find_format(options.output, to_write=True)
-    groom = read_groom(options.input, options, report)
+def _describe(options, report):
+    if is_mesh(options.input):
+        return describe_mesh(read_mesh(options.input, options, report))
+    return info.describe(read_groom(options.input, options, report))
+
+
+def _write_whole(command, options, temporary, report):
+    """Write a temporary file, which gets its name when it is complete."""
     try:
-        write_groom(groom, temporary, options.output, options, report)
+        command(options, temporary, report)
         os.replace(temporary, options.output)
     finally:
         if os.path.exists(temporary):
             os.remove(temporary)
+
+
+def _convert(options, temporary, report):
+    find_format(options.output, to_write=True)
+    groom = read_groom(options.input, options, report)
+    write_groom(groom, temporary, options.output, options, report)
+
+
+def _convert_mesh(options, temporary, report):
+    check_mesh_output(options.output)
+    mesh = read_mesh(options.input, options, report)
+    write_mesh(mesh, temporary, options.output, options, report)
 
 
 def main(arguments=None):

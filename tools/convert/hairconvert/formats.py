@@ -67,11 +67,11 @@ def read_groom(path, options, report):
     module = _load_module(f, f.reader)
     if not os.path.isfile(path):
         raise InputError("there is no such file")
-    groom = _refuse_errors(module.read, path if f.from_path else load(path), options, report)
+    groom = refuse_errors(module.read, path if f.from_path else load(path), options, report)
     check_counts(len(groom.counts), len(groom.points))
     if groom.motion:
         read = groom.motion.read
-        groom.motion = Motion(groom.motion.times, lambda i: _refuse_errors(read, i))
+        groom.motion = Motion(groom.motion.times, lambda i: refuse_errors(read, i))
     groom = clean(groom, report)
     groom = place(groom, options.scale or groom.unit or f.unit, options.up or groom.up or "y")
     if options.tip_first:
@@ -80,7 +80,7 @@ def read_groom(path, options, report):
     return resample(groom, options.vertices) if options.vertices else groom
 
 
-def _refuse_errors(call, *arguments):
+def refuse_errors(call, *arguments):
     """Turn the many kinds of errors that packages raise for malformed files into one."""
     try:
         return call(*arguments)
