@@ -119,7 +119,9 @@ $(B)/libhair_egl.so: $(EGL:.o=.shared.o) $(B)/lib/base/host.c.shared.o
 $(B)/libhair_egl.so: private LINK = $(call packages,--libs,egl)
 $(B)/libhair_bullet.a: $(BUL)
 $(B)/libhair_bullet.so: $(BUL:.o=.shared.o) $(B)/lib/base/host.c.shared.o $(B)/libhair.so
-$(B)/libhair_bullet.so: private LINK = -L$(B) -lhair $(BULLET_LIBS) -lstdc++
+# The library finds libhair.so in its own folder, wherever the tree is. BESIDE= leaves that to the system.
+BESIDE ?= -Wl,-rpath,'$$ORIGIN'
+$(B)/libhair_bullet.so: private LINK = -L$(B) -lhair $(BESIDE) $(BULLET_LIBS) -lstdc++
 $(B)/%.so:
 	$(call say,$@)
 	$(Q)$(CC) -shared $(opt.$(config)) $(LINK_FLAGS) -Wl,-soname,$*.so.$(MAJOR) $(filter %.o,$^) $(LINK) -lm -o $@.$(VERSION)
@@ -258,21 +260,8 @@ hardened: $(LIBRARIES) $(TOOLS)
 
 consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
 	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
-install-tree: libraries
+install-tree: libraries tools
 	@rm -rf $(B)/installed && $(MAKE) install DESTDIR=$(abspath $(B))/installed PREFIX=/usr >/dev/null
-
-# The links of the installed guide lead to the installed headers.
-install: libraries ## Headers, libraries, pkg-config files and the guide into DESTDIR/PREFIX
-	install -d $(DESTDIR)$(PREFIX)/include/hair $(DESTDIR)$(PREFIX)/lib/pkgconfig $(DESTDIR)$(PREFIX)/share/doc/hair
-	install -m 644 include/hair/*.h $(DESTDIR)$(PREFIX)/include/hair
-	install -m 644 $(filter %.a,$(LIBRARIES)) $(DESTDIR)$(PREFIX)/lib
-	cp -P $(foreach so,$(filter %.so,$(LIBRARIES)),$(so) $(so).$(MAJOR) $(so).$(VERSION)) $(DESTDIR)$(PREFIX)/lib
-	install -m 644 LICENSE tests/consumer/hello.c $(DESTDIR)$(PREFIX)/share/doc/hair
-	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](|' include/hair/README.md > $(DESTDIR)$(PREFIX)/share/doc/hair/guide.md
-	sed 's|](README.md|](guide.md|g' include/hair/CHANGELOG.md > $(DESTDIR)$(PREFIX)/share/doc/hair/CHANGELOG.md
-	printf 'prefix=$${pcfiledir}/../..\nName: hair\nDescription: Strand hair in real time\nVersion: $(VERSION)\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair\nLibs.private: -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair.pc
-	printf 'prefix=$${pcfiledir}/../..\nName: hair_egl\nDescription: An OpenGL context without a window, for hair\nVersion: $(VERSION)\nRequires: hair\nRequires.private: egl\nLibs: -L$${prefix}/lib -lhair_egl\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_egl.pc
-	$(if $(filter 0,$(BULLET)),,printf 'prefix=$${pcfiledir}/../..\nName: hair_bullet\nDescription: Bullet collision shapes as colliders, for hair\nVersion: $(VERSION)\nRequires: hair\nCflags: -I$${prefix}/include\nLibs: -L$${prefix}/lib -lhair_bullet\nLibs.private: -lBulletCollision -lLinearMath -lstdc++ -lm\n' > $(DESTDIR)$(PREFIX)/lib/pkgconfig/hair_bullet.pc)
 
 TEXTS := lib/*/*.[ch] lib/*/*.cpp lib/*/*.inl include/hair/*.h tools/*.[ch] tools/*.inl tools/*/*.[ch] tools/*/*.cpp \
   tests/*/*.[ch] tests/*/*.cpp
@@ -299,8 +288,9 @@ clean: ## Remove build/
 
 include tests/gates.mk
 include tools/convert/convert.mk
+include tools/packaging/packaging.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install install-tree format help clean
+.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean

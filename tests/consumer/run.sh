@@ -1,6 +1,7 @@
 #!/bin/sh
-# run.sh - build and run programs that use hair from an installed tree, through pkg-config, in C and
-# in C++, with the static and the shared libraries. Check that the README shows the program that is run.
+# run.sh - build and run programs that use hair from an installed tree, through pkg-config and CMake, in C
+# and in C++, with the static and the shared libraries. Check the manual pages and the completion of the
+# tools. Check that the README shows the program that is run.
 #   run.sh PREFIX OUT      The tree is installed in PREFIX/usr. Programs are written to OUT.
 # CC and CXX name the compilers. OPT has the options that the libraries were built with, such as
 # sanitizers.
@@ -31,13 +32,9 @@ check_picture() {
         }') || fail "$1 does not show the head of hair"
 }
 
-# build_and_run NAME COMPILER LINKING-OPTIONS...
-build_and_run() {
+# Run the program NAME of the folder $out, and check its picture.
+run_hello() {
     name=$1
-    compiler=$2
-    shift 2
-    # shellcheck disable=SC2086
-    $compiler $strict $OPT "$here/hello.c" -x none "$@" -o "$out/$name" || fail "$name does not build"
     # Leaks of the driver are not the program's, so a sanitizer must not report them.
     output=$(cd "$out" && rm -f hello.ppm &&
         ASAN_OPTIONS=detect_leaks=0 LD_LIBRARY_PATH="$prefix/usr/lib" "./$name") || fail "$name does not run"
@@ -45,6 +42,16 @@ build_and_run() {
     mv "$out/hello.ppm" "$out/$name.ppm" || fail "$name wrote no picture"
     check_picture "$out/$name.ppm"
     echo "consumer: $name: $output: $covered"
+}
+
+# build_and_run NAME COMPILER LINKING-OPTIONS...
+build_and_run() {
+    name=$1
+    compiler=$2
+    shift 2
+    # shellcheck disable=SC2086
+    $compiler $strict $OPT "$here/hello.c" -x none "$@" -o "$out/$name" || fail "$name does not build"
+    run_hello "$name"
 }
 
 # The .pc files find their tree relative to their own location.
@@ -82,6 +89,69 @@ if pkg-config --exists hair_bullet; then
     done
     echo "consumer: bullet: $output"
 fi
+
+# Build the programs by CMake, in an empty folder and with the tree in another place. Both kinds of
+# targets are built each time. BUILD_SHARED_LIBS or a component selects the kind of hair::egl.
+cmake_programs() {
+    kind=$1
+    shift
+    rm -rf "$out/cmake-$kind"
+    cmake -S "$here" -B "$out/cmake-$kind" -DCMAKE_PREFIX_PATH="$out/moved/usr" -DCMAKE_C_COMPILER="$CC" \
+        -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_C_FLAGS="$OPT" -DCMAKE_CXX_FLAGS="$OPT" "$@" >"$out/cmake.log" 2>&1 &&
+        cmake --build "$out/cmake-$kind" >>"$out/cmake.log" 2>&1 || { cat "$out/cmake.log"; fail "cmake fails, see above"; }
+    for name in hello hello_static hello_shared; do
+        links=$(ldd "$out/cmake-$kind/$name")
+        case $name-$kind-$links in
+        hello_static-*libhair.so* | hello-static-*libhair.so*) fail "$name of cmake-$kind links libhair.so" ;;
+        hello_static-* | hello-static-*) ;;
+        *"$out/moved/usr/lib/libhair.so"*) ;;
+        *) fail "$name of cmake-$kind does not link libhair.so of the tree: $links" ;;
+        esac
+    done
+}
+command -v cmake >/dev/null || fail "cmake is missing, which tests find_package(hair)"
+rm -rf "$out/moved" && cp -a "$prefix" "$out/moved"
+cmake_programs shared -DBUILD_SHARED_LIBS=OFF -DKIND=shared
+cmake_programs static -DBUILD_SHARED_LIBS=OFF
+run_hello cmake-shared/hello
+run_hello cmake-static/hello
+if [ -e "$out/moved/usr/lib/libhair_bullet.a" ]; then
+    for name in shared/bullet shared/bullet_static static/bullet_shared static/bullet; do
+        output=$(ASAN_OPTIONS=detect_leaks=0 "$out/cmake-$name") || fail "cmake-$name does not run"
+        [ "$output" = "1 collider, of shape 2" ] || fail "cmake-$name printed \"$output\""
+    done
+fi
+echo "consumer: find_package(hair) works in a moved tree"
+
+# Check that a manual page has every option of its tool, that the tool runs, and that bash completes it.
+for tool in hair-capture hair-groom hair-bench; do
+    help=$(LD_LIBRARY_PATH="$prefix/usr/lib" "$prefix/usr/bin/$tool" --help) || fail "$tool --help fails"
+    page=$(sed 's/\\-/-/g' "$prefix/usr/share/man/man1/$tool.1") || fail "$tool has no manual page"
+    for option in $(echo "$help" | grep -o '^  --[a-z-]*'); do
+        printf "%s\n" "$page" | grep -q "^.fB$option[ \\]" || fail "the manual page of $tool lacks $option"
+    done
+    for title in NAME SYNOPSIS OPTIONS "EXIT STATUS"; do
+        printf "%s\n" "$page" | grep -qx ".SH $title" || fail "the manual page of $tool has no section $title"
+    done
+done
+complete_with() {
+    PATH="$prefix/usr/bin:$PATH" bash -c 'source "$0"; COMP_CWORD=$1; compopt() { :; }
+        _hair_complete "$2" "$3" "$4"; echo ${COMPREPLY[*]}' \
+        "$prefix/usr/share/bash-completion/completions/hair-capture" "$@"
+}
+expect_completion() {
+    expected=$1
+    shift
+    completed=$(complete_with "$@")
+    [ "$completed" = "$expected" ] || fail "bash completes $* to \"$completed\", not \"$expected\""
+}
+expect_completion "--vertices --verbose --version" 1 hair-capture --ver hair-capture
+expect_completion "--vertices --version" 2 hair-groom --ver bob.tfx
+expect_completion "gravity.x= gravity.y= gravity.z=" 2 hair-capture gravity. --set
+expect_completion "ponytail" 2 hair-capture pony --style
+expect_completion "info" 1 hair-groom inf hair-groom
+expect_completion "accuracy" 1 hair-bench acc hair-bench
+echo "consumer: tools, manual pages and completion are installed"
 
 # Check that a program with the static library does not export the library's symbols, even if it
 # exports its own.

@@ -1,0 +1,38 @@
+# packaging.mk - the installed tree and the packages that are made from the tree.
+
+LIBDIR ?= lib
+TREE    = $(DESTDIR)$(PREFIX)
+DOC     = $(TREE)/share/doc/hair
+LIBS    = $(TREE)/$(LIBDIR)
+PROGRAMS := $(filter-out %/hair-gallery,$(TOOLS))
+
+empty :=
+# The installed files find their tree relative to their own folder, two or more levels below PREFIX.
+UP       = $(subst $(empty) ,/,$(patsubst %,..,$(subst /, ,$(LIBDIR)) pkgconfig))
+POINTER  = $(shell echo __SIZEOF_POINTER__ | $(CC) -E -P -)
+TEMPLATE = sed 's|@UP@|$(UP)|g; s|@LIBDIR@|$(LIBDIR)|g; s|@VERSION@|$(VERSION)|g; s|@MAJOR@|$(MAJOR)|g; s|@POINTER@|$(POINTER)|g'
+
+install: install-libraries install-tools ## Everything that users need, into DESTDIR/PREFIX
+
+# The links of the installed guide lead to the installed headers.
+install-libraries: libraries
+	install -d $(TREE)/include/hair $(LIBS)/pkgconfig $(LIBS)/cmake/hair $(DOC)/examples
+	install -m 644 include/hair/*.h $(TREE)/include/hair
+	install -m 644 $(filter %.a,$(LIBRARIES)) $(LIBS)
+	cp -P $(foreach so,$(filter %.so,$(LIBRARIES)),$(so) $(so).$(MAJOR) $(so).$(VERSION)) $(LIBS)
+	for n in $(NAMES); do $(TEMPLATE) tools/packaging/$$n.pc.in >$(LIBS)/pkgconfig/$$n.pc || exit 1; done
+	for n in hairConfig hairConfigVersion; do $(TEMPLATE) tools/packaging/$$n.cmake.in >$(LIBS)/cmake/hair/$$n.cmake || exit 1; done
+	install -m 644 LICENSE $(DOC)
+	install -m 644 tests/consumer/hello.c $(wildcard tools/examples/*.[ch] tools/examples/*.cpp tools/examples/README.md) $(DOC)/examples
+	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](examples/|' include/hair/README.md >$(DOC)/guide.md
+	sed 's|](README.md|](guide.md|g' include/hair/CHANGELOG.md >$(DOC)/CHANGELOG.md
+
+# Manual pages have the text of --help.
+install-tools: $(PROGRAMS)
+	install -d $(TREE)/bin $(TREE)/share/man/man1 $(TREE)/share/bash-completion/completions $(DOC)/scenes
+	install $(PROGRAMS) $(TREE)/bin
+	for n in $(notdir $(PROGRAMS)); do $(B)/$$n --help | awk -v version=$(VERSION) -f tools/packaging/man.awk >$(TREE)/share/man/man1/$$n.1 && \
+	  install -m 644 tools/packaging/completion.bash $(TREE)/share/bash-completion/completions/$$n || exit 1; done
+	install -m 644 tools/scenes/* $(DOC)/scenes
+
+.PHONY: install install-libraries install-tools
