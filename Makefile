@@ -2,6 +2,7 @@
 # make test            build and run every test; filter=groom runs the programs whose names contain groom
 # make config=asan     release (default), debug, asan, tsan, coverage
 # make BULLET=0        build without libhair_bullet, libhair is unchanged
+# make VIEW=0          build without hair-view, which needs SDL2 and Dear ImGui
 # make bench device=0  run all cases on EGL device 0; without it, a quick run on the first that works
 # make V=1             show every command
 # make setup           install the missing Debian packages of tools/packages.txt; SETUP=0 skips it
@@ -12,6 +13,7 @@ SETUP     ?= 1
 JOBS      ?= $(shell nproc)
 V         ?= 0
 BULLET    ?= 1
+VIEW      ?= 1
 filter    ?=
 until     ?= 9999999999
 B         := build/$(config)
@@ -47,8 +49,10 @@ BUL   := $(call objects,lib/bullet/*.cpp)
 REF   := $(call objects,tests/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
+TOOLS += $(if $(filter 0,$(VIEW)),,$(B)/hair-view)
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/unit/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
+TESTS += $(if $(filter 0,$(VIEW)),,$(patsubst %.c,$(B)/%,$(wildcard tests/view/*_test.c)))
 EXAMPLES := $(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c))
 EXAMPLES += $(if $(filter 0,$(BULLET)),,$(B)/examples/bullet_world)
 
@@ -60,6 +64,8 @@ packages   = $(shell pkg-config $(1) $(2))
 TOOL_CFLAGS = $(call packages,--cflags,epoxy libpng OpenEXR jansson cglm libxxhash)
 TOOL_LIBS   = $(call packages,--libs,epoxy egl libpng OpenEXR jansson libxxhash) -pthread -lm
 TEST_LIBS   = $(call packages,--libs,cmocka epoxy egl libpng jansson libxxhash) -pthread -lm
+VIEW_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,sdl2 imgui))
+VIEW_LIBS   = $(call packages,--libs,imgui sdl2) -ldl
 EXAMPLE_LIBS = $(call packages,--libs,epoxy egl sdl2) -pthread -lm
 EIGEN       = $(call packages,--cflags,eigen3)
 BULLET_CFLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,bullet))
@@ -68,13 +74,17 @@ BULLET_LIBS   = $(filter -L% -lBulletCollision -lLinearMath,$(call packages,--li
 
 all: libraries tools ## Libraries and tools, in build/$(config)
 libraries: $(LIBRARIES) ## libhair, libhair_egl and libhair_bullet, static and shared
-tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery
+tools: $(TOOLS) ## hair-capture, hair-groom, hair-bench, hair-gallery, hair-view
 examples: $(EXAMPLES) ## The programs of tools/examples/, in build/$(config)/examples
 
 demo: setup ## The main job: build/demo.png and build/demo.mp4, a head of hair in motion
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture
 	$(B)/hair-capture --scene demo --frames 30:31 --size 1280x720 --supersample 4 -o build/demo.png
 	$(B)/hair-capture --scene demo --frames 0:96 --fps 24 --size 1280x720 --samples 1 --supersample 2 --set coverage=alpha --set strand.segments=18 --set self_shadow.method=depth -o build/demo.mp4
+
+view: setup ## Build and open hair-view, a window with every option in a panel
+	@$(MAKE) -j$(JOBS) $(B)/hair-view
+	$(B)/hair-view
 
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
@@ -149,6 +159,11 @@ $(B)/tools/%.cpp.o: tools/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) $(BULLET_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
+$(B)/tools/view/%.cpp.o: tools/view/%.cpp
+	@mkdir -p $(@D)
+	@pkg-config --exists sdl2 imgui || { echo "hair-view needs libsdl2-dev and libimgui-dev; VIEW=0 leaves it out."; exit 1; }
+	$(call say,$@)
+	$(Q)$(CPP) -Wshadow $(VIEW_CFLAGS) $(TOOL_CFLAGS) -c $< -o $@
 $(B)/tools/examples/%.c.o: tools/examples/%.c
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -196,6 +211,9 @@ $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a 
 $(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
+$(B)/hair-view: $(call objects,tools/view/*.cpp) $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(VIEW_LIBS) $(TOOL_LIBS) -o $@
 
 $(B)/examples/bullet_world: $(B)/tools/examples/bullet_world.cpp.o $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	@mkdir -p $(@D)
@@ -293,4 +311,4 @@ include tools/packaging/packaging.mk
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean
+.PHONY: all view bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean

@@ -52,6 +52,16 @@ void hair_escape(const char* text, char* out, size_t size)
     out[used] = 0;
 }
 
+// Function that hears every message, for programs with a window.
+static void (*listener)(const char* sentence, void* user);
+static void* listener_user;
+
+void hair_complain_to(void (*hear)(const char* sentence, void* user), void* user)
+{
+    listener = hear;
+    listener_user = user;
+}
+
 void hair_complain(const char* tool, const char* format, ...)
 {
     char sentence[1024], name[1024], escaped[4096];
@@ -62,6 +72,7 @@ void hair_complain(const char* tool, const char* format, ...)
     hair_escape(tool, name, sizeof name);
     hair_escape(sentence, escaped, sizeof escaped);
     fprintf(stderr, "%s: %s\n", name, escaped); // One call keeps the lines of two threads apart.
+    if (listener) listener(escaped, listener_user);
 }
 
 void hair_complain_option(const char* tool, const char* argument)

@@ -26,6 +26,9 @@ int hair_flush(const char* tool);
 // Print "TOOL: sentence" to stderr, escaped as hair_escape() does.
 void hair_complain(const char* tool, const char* format, ...) __attribute__((format(printf, 2, 3)));
 
+// Pass each later message also to a function, on the thread of the message. NULL ends this.
+void hair_complain_to(void (*hear)(const char* sentence, void* user), void* user);
+
 // Say that getopt_long() cannot use the argument before optind. Its own message would not be
 // escaped, so set opterr to 0.
 void hair_complain_option(const char* tool, const char* argument);

@@ -3,6 +3,7 @@
 #include "tools/common/render.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_lights.h"
+#include "tools/common/render_mesh.h"
 #include "tools/common/shaders.h"
 #include "tools/common/groom_source.h"
 #include "tools/common/targets.h"
@@ -16,8 +17,6 @@
 #define MAX_TILE 4096 // Pixels drawn at once in each direction. Any OpenGL 4.5 supports this size.
 
 enum program { BACKGROUND, SKIN, DEPTH, TONE, PROGRAM_COUNT };
-// The first three are vertex attributes too.
-enum buffer { POSITIONS, NORMALS, COLORS, TRIANGLES, BUFFER_COUNT };
 
 struct hair_render {
     const char* tool;
@@ -28,10 +27,8 @@ struct hair_render {
     struct hair_targets targets;
     struct hair_shadow_map map[HAIR_SCENE_SHADOWS]; // allocated as lights need them
     GLuint shadow_sampler;
-    GLuint vertex_array, nothing; // `nothing` is a vertex array without vertices
-    GLuint buffer[BUFFER_COUNT];
-    uint32_t indices;
-    float bend[2];
+    GLuint nothing; // vertex array without vertices
+    struct hair_render_mesh mesh;
     uint32_t frames; // drawn so far
 };
 
@@ -55,6 +52,7 @@ static bool make_image(struct hair_render* render)
     const struct hair_render_desc* desc = &render->desc;
     size_t values = (size_t)3 * desc->width * desc->height;
     render->image = (struct hair_image){.width = desc->width, .height = desc->height};
+    if (desc->on_gpu) return true;
     render->image.encoded = malloc(values);
     if (desc->linear) render->image.linear = malloc(values * sizeof *render->image.linear);
     return render->image.encoded && (!desc->linear || render->image.linear);
@@ -64,7 +62,6 @@ static int make(struct hair_render* render)
 {
     const struct hair_render_desc* desc = &render->desc;
     if (!make_programs(render)) return HAIR_EXIT_OPENGL;
-    glCreateVertexArrays(1, &render->vertex_array);
     glCreateVertexArrays(1, &render->nothing);
     render->shadow_sampler = hair_shadow_sampler();
     uint32_t width = desc->width < render->tile ? desc->width : render->tile;
@@ -88,7 +85,7 @@ int hair_render_create(const char* tool, const struct hair_render_desc* desc, st
     }
     render->tool = tool;
     render->desc = *desc;
-    render->tile = MAX_TILE / desc->supersample;
+    render->tile = desc->on_gpu ? UINT32_MAX : MAX_TILE / desc->supersample;
     int code = make(render);
     if (code)
         hair_render_destroy(render);
@@ -97,60 +94,23 @@ int hair_render_create(const char* tool, const struct hair_render_desc* desc, st
     return code;
 }
 
-static void delete_mesh(struct hair_render* render)
-{
-    glDeleteBuffers(BUFFER_COUNT, render->buffer);
-    memset(render->buffer, 0, sizeof render->buffer);
-    render->indices = 0;
-}
-
 void hair_render_destroy(struct hair_render* render)
 {
     if (!render) return;
-    const GLuint vertex_arrays[] = {render->vertex_array, render->nothing};
     for (int i = 0; i < PROGRAM_COUNT; ++i) glDeleteProgram(render->program[i]);
-    glDeleteVertexArrays(2, vertex_arrays);
+    glDeleteVertexArrays(1, &render->nothing);
     hair_targets_delete(&render->targets);
     for (int i = 0; i < HAIR_SCENE_SHADOWS; ++i) hair_shadow_map_delete(&render->map[i]);
     glDeleteSamplers(1, &render->shadow_sampler);
-    delete_mesh(render);
+    hair_render_mesh_delete(&render->mesh);
     free(render->image.encoded);
     free(render->image.linear);
     free(render);
 }
 
-// Mesh --------------------------------------------------------------------------------------------
-
-static GLuint make_buffer(const void* bytes, size_t size)
-{
-    GLuint buffer;
-    glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, (GLsizeiptr)size, bytes, 0);
-    return buffer;
-}
-
-static void attach(struct hair_render* render, GLuint attribute)
-{
-    GLuint array = render->vertex_array;
-    glVertexArrayVertexBuffer(array, attribute, render->buffer[attribute], 0, 3 * sizeof(float));
-    glVertexArrayAttribFormat(array, attribute, 3, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(array, attribute, attribute);
-    glEnableVertexArrayAttrib(array, attribute);
-}
-
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole)
 {
-    delete_mesh(render);
-    size_t bytes = (size_t)mesh->vertex_count * 3 * sizeof(float);
-    render->indices = 3 * mesh->triangle_count;
-    render->buffer[POSITIONS] = make_buffer(mesh->positions, bytes);
-    render->buffer[NORMALS] = make_buffer(mesh->normals, bytes);
-    render->buffer[COLORS] = make_buffer(mesh->colors, bytes);
-    render->buffer[TRIANGLES] = make_buffer(mesh->triangles, render->indices * sizeof(uint32_t));
-    render->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
-    render->bend[1] = HAIR_HEAD_RIG_RESTS;
-    for (GLuint i = POSITIONS; i <= COLORS; ++i) attach(render, i);
-    glVertexArrayElementBuffer(render->vertex_array, render->buffer[TRIANGLES]);
+    hair_render_mesh_make(mesh, whole, &render->mesh);
 }
 
 // Frames ------------------------------------------------------------------------------------------
@@ -171,29 +131,16 @@ struct frame {
     GLuint depth; // depth of opaque geometry for occlusion culling, 0 disables it
 };
 
-static void set_mat4(GLuint program, GLint at, const float value[16])
-{
-    glProgramUniformMatrix4fv(program, at, 1, GL_FALSE, value);
-}
-
 static bool shows_mesh(const struct hair_render* render, const struct frame* frame)
 {
-    return render->indices && (frame->scene->show & HAIR_SHOW_HEAD);
+    return render->mesh.indices && (frame->scene->show & HAIR_SHOW_HEAD);
 }
 
 static void draw_mesh(const struct hair_render* render, GLuint program, const struct frame* frame,
                       const struct hair_matrices* matrices)
 {
     if (!shows_mesh(render, frame)) return;
-    set_mat4(program, HAIR_AT_HEAD, frame->transform);
-    set_mat4(program, HAIR_AT_VIEW, matrices->view);
-    set_mat4(program, HAIR_AT_PROJECTION, matrices->projection);
-    glProgramUniform2fv(program, HAIR_AT_BEND, 1, render->bend);
-    glUseProgram(program);
-    glBindVertexArray(render->vertex_array);
-    glEnable(GL_CULL_FACE);
-    glDrawElements(GL_TRIANGLES, (GLsizei)render->indices, GL_UNSIGNED_INT, NULL);
-    glDisable(GL_CULL_FACE);
+    hair_render_mesh_draw(&render->mesh, program, frame->transform, matrices);
 }
 
 // Draw one pass of the hair. Only the colour pass, seen from the camera, gets the lights' shadow
@@ -360,16 +307,22 @@ static hair_result draw_tile(struct hair_render* render, struct frame* frame, co
             result = draw_hair(render, frame, &tile->camera, passes[i].pass);
     if (result) return result;
     develop(render, frame, tile);
-    read_pixels(render, tile);
+    if (!render->desc.on_gpu) read_pixels(render, tile);
     return HAIR_OK;
+}
+
+// Return the distance of tiles without overflow.
+static uint32_t tile_step(uint32_t size, uint32_t side)
+{
+    return size < side ? size : side;
 }
 
 static hair_result draw_tiles(struct hair_render* render, struct frame* frame,
                               const struct hair_matrices* camera)
 {
     uint32_t width = render->desc.width, height = render->desc.height, side = render->tile;
-    for (uint32_t y = 0; y < height; y += side)
-        for (uint32_t x = 0; x < width; x += side) {
+    for (uint32_t y = 0; y < height; y += tile_step(height, side))
+        for (uint32_t x = 0; x < width; x += tile_step(width, side)) {
             struct tile tile = {.x = x, .y = y, .camera = *camera};
             tile.width = width - x < side ? width - x : side;
             tile.height = height - y < side ? height - y : side;
@@ -398,4 +351,9 @@ int hair_render_frame(struct hair_render* render, const struct hair_scene* scene
     if (!result && error) hair_complain(render->tool, "OpenGL error 0x%04x while drawing", error);
     *out = &render->image;
     return error && !result ? HAIR_EXIT_OPENGL : hair_exit_for(result);
+}
+
+unsigned hair_render_texture(const struct hair_render* render)
+{
+    return render->targets.encoded;
 }

@@ -12,6 +12,8 @@ struct hair_render_desc {
     uint32_t samples; // requested samples per pixel, the driver may have fewer
     uint32_t supersample; // pixels drawn for one of the picture, in each direction
     bool linear; // requests hair_image.linear
+    // Leaves the picture in hair_render_texture(), in one tile.
+    bool on_gpu;
 };
 
 struct hair_render;
@@ -26,8 +28,11 @@ void hair_render_destroy(struct hair_render* render); // NULL is allowed.
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole);
 
 // Draw the scene with its head at `transform`, and read the picture. The picture lives as long as
-// the renderer.
+// the renderer. With hair_render_desc.on_gpu, the picture has a size but no pixels.
 int hair_render_frame(struct hair_render* render, const struct hair_scene* scene, const float transform[16],
                       float reach, hair_instance* hair, const struct hair_image** out);
+
+// Return the sRGB-encoded picture as an OpenGL texture, whose first row is the top of the picture.
+unsigned hair_render_texture(const struct hair_render* render);
 
 #endif

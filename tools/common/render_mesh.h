@@ -1,0 +1,33 @@
+// render_mesh.h - The mesh that is drawn beside the hair, in OpenGL buffers.
+#ifndef HAIR_TOOLS_COMMON_RENDER_MESH_H
+#define HAIR_TOOLS_COMMON_RENDER_MESH_H
+
+#include "tools/common/camera.h"
+#include "tools/common/head_rig.h"
+
+// The first three buffers are vertex attributes too.
+enum hair_mesh_buffer {
+    HAIR_MESH_POSITIONS,
+    HAIR_MESH_NORMALS,
+    HAIR_MESH_COLORS,
+    HAIR_MESH_TRIANGLES,
+    HAIR_MESH_BUFFERS
+};
+
+// A mesh of zeros draws nothing.
+struct hair_render_mesh {
+    unsigned vertex_array, buffer[HAIR_MESH_BUFFERS];
+    uint32_t indices;
+    float bend[2];
+};
+
+// Replace the mesh. With `whole`, the whole mesh moves with the head. Otherwise it bends at the
+// neck.
+void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair_render_mesh* out);
+void hair_render_mesh_delete(struct hair_render_mesh* mesh);
+
+// Draw the mesh by a program of hair_mesh_vert.
+void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
+                           const struct hair_matrices* matrices);
+
+#endif

@@ -1,0 +1,10 @@
+// panel.h - The panels of the window.
+#ifndef HAIR_TOOLS_VIEW_PANEL_H
+#define HAIR_TOOLS_VIEW_PANEL_H
+
+#include "tools/view/viewer.h"
+
+// Show all panels of a frame.
+void view_panels(viewer& viewer);
+
+#endif

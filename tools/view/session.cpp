@@ -1,0 +1,255 @@
+// session.cpp - The living hair of a document: groom, instance, motion, and the drawn picture.
+#include "tools/view/session.h"
+
+#include <epoxy/gl.h>
+
+#include <math.h>
+#include <string.h>
+
+#include <algorithm>
+
+namespace
+{
+
+constexpr float longest_step = 1.0f / 30; // s, so that a slow frame slows the motion
+
+template <class T> bool differs(const T& a, const T& b)
+{
+    return memcmp(&a, &b, sizeof a) != 0;
+}
+
+bool groom_differs(const hair_scene& a, const hair_scene& b)
+{
+    return a.subject != b.subject || strcmp(a.groom, b.groom) || a.fur_strands != b.fur_strands ||
+           a.fur_length != b.fur_length || a.ball_radius != b.ball_radius ||
+           differs(a.settings.import, b.settings.import) || differs(a.settings.style, b.settings.style) ||
+           differs(a.settings.groom, b.settings.groom) || a.maps.count != b.maps.count ||
+           differs(a.maps, b.maps);
+}
+
+int make_mesh(view_session& session, const hair_scene& scene)
+{
+    head_mesh mesh;
+    bool ball = scene.subject == HAIR_SUBJECT_FUR;
+    if (!scene.head && !ball) return HAIR_EXIT_OK;
+    if (scene.head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene.ball_radius, &mesh)) {
+        hair_complain(TOOL, "out of memory for the head");
+        return HAIR_EXIT_RUNTIME;
+    }
+    hair_render_set_mesh(session.render, &mesh, !scene.head);
+    head_mesh_free(&mesh);
+    return HAIR_EXIT_OK;
+}
+
+// Set what depends on the size of the haircut.
+void fit(view_session& session, hair_scene& scene)
+{
+    hair_bounds bounds;
+    for (int i = 0; i < 3; ++i) {
+        bounds.lower[i] = session.info.lower[i];
+        bounds.upper[i] = session.info.upper[i];
+        if (!scene.head && !scene.pivot_is_said)
+            scene.motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
+    }
+    if (!scene.framed) hair_camera_frame(&scene, &bounds);
+    // Hair swings beyond its bounds at rest.
+    session.reach = 1.15f * hair_camera_reach(&scene, &bounds);
+}
+
+hair_result set_colliders(view_session& session, const hair_scene& scene)
+{
+    const hair_collider* others = nullptr;
+    uint32_t other_count = 0;
+    float lower[3], upper[3], time = (float)session.time;
+    hair_result result = hair_get_bounds(session.hair, lower, upper);
+    if (!result)
+        result =
+            hair_world_colliders(session.world, time, session.transform, lower, upper, &others, &other_count);
+    if (result) return result;
+    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + other_count);
+    uint32_t count = hair_head_rig_colliders(&scene, time, session.transform, session.colliders.data());
+    std::copy(others, others + other_count, session.colliders.begin() + count);
+    return hair_set_colliders(session.hair, session.colliders.data(), count + other_count,
+                              sizeof(hair_collider));
+}
+
+hair_result create_hair(view_session& session, const hair_scene& scene, hair_groom* groom,
+                        hair_instance** out)
+{
+    hair_desc desc = scene.settings.desc;
+    hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
+    desc.label = session.name.c_str();
+    desc.physics = &scene.settings.physics;
+    desc.look = &scene.settings.look;
+    hair_motion_at(&scene.motion, (float)session.time, desc.transform);
+    hair_result result = hair_create(session.context, groom, &desc, out);
+    if (!result) result = hair_set_wind(*out, &wind);
+    return result;
+}
+
+// Make the instance anew, of a groom that becomes the session's.
+int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
+{
+    hair_instance* hair = nullptr;
+    hair_world* world = nullptr;
+    int code = hair_exit_for(create_hair(session, scene, groom, &hair));
+    if (!code) code = hair_world_create(TOOL, session.name.c_str(), &scene, &session.host, &world);
+    if (code) {
+        hair_destroy(hair);
+        if (groom != session.groom) hair_groom_destroy(groom);
+        return code;
+    }
+    hair_destroy(session.hair);
+    hair_world_destroy(session.world);
+    if (groom != session.groom) hair_groom_destroy(session.groom);
+    session.hair = hair;
+    session.world = world;
+    session.groom = groom;
+    session.info = hair_groom_info_default();
+    hair_groom_describe(groom, &session.info);
+    session.pins.clear();
+    return HAIR_EXIT_OK;
+}
+
+// Set what the instance takes while it lives.
+hair_result change_hair(view_session& session, const hair_scene& scene)
+{
+    const hair_scene& old = *session.applied;
+    hair_result result = HAIR_OK;
+    if (differs(old.settings.physics, scene.settings.physics))
+        result = hair_set_physics(session.hair, &scene.settings.physics);
+    if (!result && differs(old.settings.look, scene.settings.look))
+        result = hair_set_look(session.hair, &scene.settings.look);
+    if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
+        hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
+        result = hair_set_wind(session.hair, &wind);
+    }
+    return result;
+}
+
+// Restore the settings of the instance after a refusal.
+void restore(view_session& session)
+{
+    hair_wind wind = hair_scene_wind_of(&session.applied->settings, &session.applied->wind);
+    hair_set_physics(session.hair, &session.applied->settings.physics);
+    hair_set_look(session.hair, &session.applied->settings.look);
+    hair_set_wind(session.hair, &wind);
+}
+
+int remake(view_session& session, hair_scene& scene, bool with_groom)
+{
+    hair_groom* groom = session.groom;
+    int code = with_groom ? hair_groom_source_load(TOOL, &session.host, &scene, &groom) : HAIR_EXIT_OK;
+    if (!code) code = replace_hair(session, scene, groom);
+    return code;
+}
+
+int make_render(view_session& session, const hair_scene& scene, const hair_render_desc& desc)
+{
+    if (session.render && !differs(session.render_desc, desc)) return HAIR_EXIT_OK;
+    if (session.render) hair_render_destroy(session.render);
+    session.render = nullptr;
+    session.render_desc = desc;
+    int code = hair_render_create(TOOL, &desc, &session.render);
+    return code ? code : make_mesh(session, scene);
+}
+
+} // namespace
+
+int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), view_session& out)
+{
+    hair_context_desc desc = hair_context_desc_default();
+    out.host = host;
+    desc.host = &out.host;
+    desc.get_proc = get_proc;
+    desc.timings = true;
+    return hair_exit_for(hair_context_create(&desc, &out.context));
+}
+
+void view_session_close(view_session& session)
+{
+    hair_destroy(session.hair);
+    hair_world_destroy(session.world);
+    if (session.render) hair_render_destroy(session.render);
+    hair_context_destroy(session.context);
+    hair_groom_destroy(session.groom);
+}
+
+int view_session_apply(view_session& session, hair_scene& scene, const std::string& name)
+{
+    bool is_first = !session.applied;
+    session.name = name;
+    bool with_groom = is_first || groom_differs(*session.applied, scene);
+    bool with_world = !is_first && session.applied->bullet.object != scene.bullet.object;
+    int code = HAIR_EXIT_OK;
+    if (with_groom || with_world || differs(session.applied->settings.desc, scene.settings.desc)) {
+        code = remake(session, scene, with_groom);
+    } else {
+        code = hair_exit_for(change_hair(session, scene));
+        if (code) restore(session);
+    }
+    if (code) return code;
+    bool has_other_mesh =
+        !is_first && (session.applied->head != scene.head || session.applied->subject != scene.subject ||
+                      session.applied->ball_radius != scene.ball_radius);
+    if (has_other_mesh && session.render) {
+        hair_render_destroy(session.render);
+        session.render = nullptr;
+    }
+    fit(session, scene);
+    if (is_first) session.applied = std::make_unique<hair_scene>();
+    *session.applied = scene;
+    hair_motion_at(&scene.motion, (float)session.time, session.transform);
+    return hair_exit_for(set_colliders(session, scene));
+}
+
+int view_session_step(view_session& session, const hair_scene& scene, float dt, bool plays)
+{
+    float step = std::min(dt, longest_step);
+    if (plays) session.time += step;
+    hair_motion_at(&scene.motion, (float)session.time, session.transform);
+    hair_result result = hair_set_transform(session.hair, session.transform);
+    if (!result) result = set_colliders(session, scene);
+    if (!result)
+        result =
+            hair_set_pins(session.hair, session.pins.data(), (uint32_t)session.pins.size(), sizeof(hair_pin));
+    if (!result) result = hair_step(session.hair, step);
+    return hair_exit_for(result);
+}
+
+int view_session_reset(view_session& session, const hair_scene& scene)
+{
+    session.time = 0;
+    session.pins.clear();
+    hair_motion_at(&scene.motion, 0, session.transform);
+    hair_result result = hair_teleport(session.hair, session.transform);
+    if (!result) result = hair_reset(session.hair);
+    if (!result) result = set_colliders(session, scene);
+    return hair_exit_for(result);
+}
+
+int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                      const view_quality& quality)
+{
+    const hair_image* image;
+    hair_scene drawn = scene;
+    drawn.width = std::max(1u, (uint32_t)lroundf((float)width * quality.resolution));
+    drawn.height = std::max(1u, (uint32_t)lroundf((float)height * quality.resolution));
+    if (quality.coarse) {
+        hair_settings& settings = drawn.settings;
+        settings.has_lod = true;
+        settings.lod.strand_pixels = std::max(settings.lod.strand_pixels, 1.0f);
+        settings.lod.segment_pixels = std::max(settings.lod.segment_pixels, 8.0f);
+        drawn.shadow = false;
+        for (uint32_t i = 0; i < drawn.lights.count; ++i) drawn.lights.at[i].shadow = false;
+    }
+    hair_render_desc desc = {};
+    desc.width = drawn.width;
+    desc.height = drawn.height;
+    desc.samples = quality.samples;
+    desc.supersample = 1;
+    desc.on_gpu = true;
+    int code = make_render(session, scene, desc);
+    if (code) return code;
+    return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
+}

@@ -1,0 +1,53 @@
+// session.h - The living hair of a document: groom, instance, motion, and the drawn picture.
+#ifndef HAIR_TOOLS_VIEW_SESSION_H
+#define HAIR_TOOLS_VIEW_SESSION_H
+
+#include "tools/view/common.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+// Cost of a picture. A smaller `resolution` draws fewer pixels.
+struct view_quality {
+    float resolution = 1; // fraction of the pixels along each side
+    uint32_t samples = 4;
+    bool coarse = false; // level of detail for a moving picture, without shadow maps
+};
+
+struct view_session {
+    hair_host host = {};
+    hair_context* context = nullptr;
+    hair_groom* groom = nullptr;
+    hair_instance* hair = nullptr;
+    hair_world* world = nullptr;
+    hair_render* render = nullptr;
+    hair_render_desc render_desc = {};
+    hair_groom_info info = {};
+    std::unique_ptr<hair_scene> applied; // scene that the hair has now
+    std::string name; // name of the scene, for messages
+    std::vector<hair_collider> colliders;
+    std::vector<hair_pin> pins; // strands that the mouse holds
+    float reach = 1; // radius of the head's reach, m
+    float transform[16] = {}; // of the head
+    double time = 0; // of the motion, s
+};
+
+// Create the context of the library. Return an exit status, after printing any error.
+int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), view_session& out);
+void view_session_close(view_session& session);
+
+// Make the hair follow a scene. Only what differs is made anew. The camera of a scene without one
+// is set. On failure the hair keeps the scene that it had. Return an exit status.
+int view_session_apply(view_session& session, hair_scene& scene, const std::string& name);
+
+// Advance the hair by a time, in s. With `plays`, the head follows its motion.
+int view_session_step(view_session& session, const hair_scene& scene, float dt, bool plays);
+// Begin again, with the hair at rest.
+int view_session_reset(view_session& session, const hair_scene& scene);
+
+// Draw a picture of `width` by `height` pixels or fewer. Return an exit status.
+int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                      const view_quality& quality);
+
+#endif

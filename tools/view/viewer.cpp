@@ -1,0 +1,182 @@
+// viewer.cpp - The state of hair-view, and one frame of its loop.
+#include "tools/view/viewer.h"
+#include "tools/view/controls.h"
+#include "tools/view/panel.h"
+
+#include <epoxy/gl.h>
+
+#include <string.h>
+
+#include <algorithm>
+
+namespace
+{
+
+constexpr float script_dt = 1.0f / 60; // s
+constexpr size_t max_messages = 50;
+constexpr double rest = 250; // time without motion after which the picture has full quality, ms
+
+void log_sentence(hair_log_level level, const char* sentence, void* user)
+{
+    if (level == HAIR_LOG_INFO) return;
+    hair_complain(TOOL, "%s", sentence);
+    (void)user;
+}
+
+void hear_sentence(const char* sentence, void* user)
+{
+    viewer_say(*static_cast<viewer*>(user), sentence);
+}
+
+int open(viewer& viewer)
+{
+    hair_host host = {};
+    host.log = log_sentence;
+    int code =
+        viewer.options.script.empty() ? HAIR_EXIT_OK : view_script_read(viewer.options.script, viewer.script);
+    if (!code) code = view_stage_open(viewer.options, host, viewer.stage);
+    if (!code) code = view_session_open(host, view_stage_get_proc(viewer.stage), viewer.session);
+    if (!code && !view_gui_open(viewer.gui)) {
+        hair_complain(TOOL, "the panels cannot be drawn with this OpenGL");
+        code = HAIR_EXIT_OPENGL;
+    }
+    if (!code) code = view_session_apply(viewer.session, *viewer.document.scene, viewer.document.name);
+    if (code) return code;
+    *viewer.document.committed = *viewer.document.scene;
+    hair_complain_to(hear_sentence, &viewer);
+    return HAIR_EXIT_OK;
+}
+
+void close(viewer& viewer)
+{
+    hair_complain_to(nullptr, nullptr);
+    view_gui_close(viewer.gui);
+    view_session_close(viewer.session);
+    view_document_close(viewer.document);
+    view_stage_close(viewer.stage);
+}
+
+void take_events(viewer& viewer)
+{
+    SDL_Event event;
+    while (SDL_PollEvent(&event)) {
+        bool is_taken = view_gui_event(viewer.gui, event) && viewer.drag == VIEW_DRAG_NONE;
+        if (!is_taken) view_controls_event(viewer, event);
+        if (event.type == SDL_DROPFILE) SDL_free(event.drop.file);
+    }
+}
+
+// Make the hair follow the document. A scene that the library refuses is taken back.
+void follow_document(viewer& viewer)
+{
+    hair_scene& scene = *viewer.document.scene;
+    if (!memcmp(&scene, viewer.session.applied.get(), sizeof scene)) return;
+    viewer.moved = hair_now();
+    if (view_session_apply(viewer.session, scene, viewer.document.name)) scene = *viewer.session.applied;
+}
+
+float duration(const hair_motion& motion)
+{
+    return motion.count ? motion.key[motion.count - 1].time : 0;
+}
+
+int step(viewer& viewer, float dt)
+{
+    view_session& session = viewer.session;
+    const hair_scene& scene = *viewer.document.scene;
+    float end = duration(scene.motion);
+    if (viewer.pauses) return HAIR_EXIT_OK;
+    if (viewer.plays && viewer.loops && end > 0 && session.time >= end) session.time -= end;
+    if (viewer.plays && session.time < end) viewer.moved = hair_now();
+    return view_session_step(session, scene, dt, viewer.plays);
+}
+
+int draw_picture(viewer& viewer)
+{
+    view_quality quality;
+    view_session& session = viewer.session;
+    bool is_scripted = !viewer.options.script.empty();
+    if (!is_scripted && hair_now() - viewer.moved < rest) {
+        quality.coarse = true;
+        quality.resolution = 0.5f;
+        quality.samples = 1;
+    }
+    int code = view_session_draw(session, *viewer.document.scene, (uint32_t)viewer.stage.width,
+                                 (uint32_t)viewer.stage.height, quality);
+    if (code) return code;
+    unsigned texture = hair_render_texture(session.render);
+    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {0, 0},
+                                             ImGui::GetIO().DisplaySize);
+    return HAIR_EXIT_OK;
+}
+
+int write_shot(viewer& viewer)
+{
+    std::vector<unsigned char> pixels;
+    view_stage_read(viewer.stage, pixels);
+    hair_image image = {};
+    image.width = (uint32_t)viewer.stage.width;
+    image.height = (uint32_t)viewer.stage.height;
+    image.encoded = pixels.data();
+    hair_output output;
+    if (!hair_output_open(TOOL, viewer.options.shot.c_str(), &output)) return HAIR_EXIT_RUNTIME;
+    if (hair_image_write_png(&image, output.file))
+        return hair_output_commit(&output) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
+    hair_complain(TOOL, "%s: cannot write the picture", viewer.options.shot.c_str());
+    hair_output_discard(&output);
+    return HAIR_EXIT_RUNTIME;
+}
+
+// Return the time since the last frame, s.
+float tick(viewer& viewer)
+{
+    double now = hair_now();
+    float dt = viewer.last > 0 ? (float)(1e-3 * (now - viewer.last)) : script_dt;
+    viewer.last = now;
+    return viewer.options.script.empty() ? std::clamp(dt, 1e-4f, 0.5f) : script_dt;
+}
+
+int run_frame(viewer& viewer)
+{
+    bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
+    bool is_scripted = !viewer.options.script.empty();
+    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty());
+    int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
+    float dt = tick(viewer);
+    if (code) return code;
+    take_events(viewer);
+    view_stage_measure(viewer.stage);
+    float scale = viewer.options.scale > 0 ? viewer.options.scale : viewer.stage.scale;
+    view_gui_begin(viewer.gui, viewer.stage.width, viewer.stage.height, viewer.stage.density, scale, dt);
+    view_panels(viewer);
+    follow_document(viewer);
+    if (viewer.drag == VIEW_DRAG_NONE && !ImGui::IsAnyItemActive()) view_document_commit(viewer.document);
+    code = step(viewer, dt);
+    if (!code && draws) code = draw_picture(viewer);
+    if (draws) view_stage_begin(viewer.stage);
+    view_gui_end(viewer.gui, draws);
+    if (!code && is_last && !viewer.options.shot.empty()) code = write_shot(viewer);
+    if (draws) view_stage_end(viewer.stage);
+    ++viewer.frame;
+    viewer.quits = viewer.quits || is_last;
+    return code;
+}
+
+} // namespace
+
+void viewer_say(viewer& viewer, const std::string& sentence)
+{
+    viewer.messages.push_back(sentence);
+    if (viewer.messages.size() > max_messages) viewer.messages.erase(viewer.messages.begin());
+}
+
+int viewer_run(viewer& viewer)
+{
+    view_document_open(viewer.document, viewer.options.scene, viewer.options.name, viewer.options.file);
+    int code = open(viewer);
+    while (!code && !viewer.quits) code = run_frame(viewer);
+    close(viewer);
+    return code;
+}
