@@ -5,7 +5,10 @@
 
 #include "tools/bullet/world.h"
 #include "tools/common/capture_options.h"
+#include "tools/common/dump.h"
 #include "tools/common/file.h"
+#include "tools/common/frame_hash.h"
+#include "tools/common/interrupt.h"
 #include "tools/common/render.h"
 #include "tools/common/frame_writer.h"
 #include "tools/common/stats.h"
@@ -13,19 +16,14 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <xxhash.h>
 
 #define TOOL "hair-capture"
 #define MAX_SHADER ((size_t)1 << 20) // bytes
 // Maximum step, s, the default of hair_desc.max_dt. A longer frame is stepped in parts.
 #define LONGEST_STEP 0.1f
-#define GRACE 1u // Time that a frame has to end after a signal, s.
-
-static volatile sig_atomic_t interrupted;
 
 struct capture {
     struct hair_capture_options options;
@@ -42,43 +40,10 @@ struct capture {
     struct hair_frame_writer sink;
     struct hair_stats stats;
     float reach; // radius of the head's reach, m
-    float* vertices; // vertices of all guides, for the hash
-    XXH3_state_t* strands;
-    XXH3_state_t* pixels;
+    struct hair_frame_hash hash;
+    struct hair_dump guides, followers;
     double started; // ms
 };
-
-// End the program at once, in a signal handler.
-static void give_up(int number)
-{
-    static const char sentence[] = TOOL ": interrupted within a frame\n";
-    (void)number;
-    hair_output_remove_all();
-    if (write(STDERR_FILENO, sentence, sizeof sentence - 1) < 0) {} // Nobody is left to tell.
-    _exit(HAIR_EXIT_RUNTIME);
-}
-
-// End after the current frame. A frame that takes longer than GRACE, and a second signal, end the
-// program at once.
-static void interrupt(int number)
-{
-    if (interrupted) give_up(number);
-    interrupted = 1;
-    alarm(GRACE);
-}
-
-static void catch_signals(void)
-{
-    struct sigaction action = {0};
-    action.sa_handler = interrupt;
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
-    action.sa_handler = give_up;
-    sigaction(SIGALRM, &action, NULL);
-    action.sa_handler = SIG_IGN; // A failed write reports a reader that went away.
-    sigaction(SIGPIPE, &action, NULL);
-}
 
 static void say_all(hair_log_level level, const char* sentence, void* tool)
 {
@@ -219,19 +184,10 @@ static int make_hair(struct capture* capture)
     return exit_for_settings(capture, hair_exit_for(result));
 }
 
-static int make_hashes(struct capture* capture)
+static int make_hash(struct capture* capture)
 {
     if (!capture->options.hash) return HAIR_EXIT_OK;
-    capture->vertices = malloc(((size_t)capture->stats.groom.guide_vertex_count + 1) * 3 * sizeof(float));
-    capture->strands = XXH3_createState();
-    capture->pixels = XXH3_createState();
-    if (!capture->vertices || !capture->strands || !capture->pixels) {
-        hair_complain(TOOL, "out of memory for hashes");
-        return HAIR_EXIT_RUNTIME;
-    }
-    XXH3_64bits_reset(capture->strands);
-    XXH3_64bits_reset(capture->pixels);
-    return HAIR_EXIT_OK;
+    return hair_frame_hash_create(TOOL, capture->stats.groom.guide_vertex_count, &capture->hash);
 }
 
 // Frames ------------------------------------------------------------------------------------------
@@ -246,7 +202,7 @@ static hair_result settle(struct capture* capture)
 {
     const struct hair_scene* scene = &capture->options.scene;
     hair_result result = HAIR_OK;
-    for (float time = 0; time < scene->settle && !result && !interrupted; time += LONGEST_STEP)
+    for (float time = 0; time < scene->settle && !result && !hair_interrupted(); time += LONGEST_STEP)
         result = hair_step(capture->hair, fminf(LONGEST_STEP, scene->settle - time));
     return result;
 }
@@ -267,29 +223,28 @@ static hair_result step(struct capture* capture, uint32_t frame)
     return result;
 }
 
-static hair_result hash(struct capture* capture, const struct hair_image* image)
+static int dump(struct capture* capture)
 {
-    uint32_t count, room = capture->stats.groom.guide_vertex_count;
-    hair_result result =
-        hair_read_positions(capture->hair, HAIR_READ_GUIDES, capture->vertices, room, &count);
-    if (result) return result;
-    XXH3_64bits_update(capture->strands, capture->vertices, (size_t)count * 3 * sizeof(float));
-    XXH3_64bits_update(capture->pixels, image->encoded, (size_t)image->width * image->height * 3);
-    return HAIR_OK;
+    int code = hair_dump_put(&capture->guides, capture->hair);
+    return code ? code : hair_dump_put(&capture->followers, capture->hair);
 }
 
 static int show(struct capture* capture, uint32_t frame)
 {
-    const struct hair_scene* scene = &capture->options.scene;
+    const struct hair_capture_options* options = &capture->options;
+    const struct hair_scene* scene = &options->scene;
     const struct hair_image* image;
     float transform[16];
     double before = hair_now();
+    if (!options->out && !options->stats && !options->hash) return dump(capture);
     hair_motion_at(&scene->motion, time_of(capture, frame), transform);
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
     code = exit_for_settings(capture, code);
     if (code) return code;
     hair_clock_add(&capture->stats.draw, hair_now() - before);
-    if (capture->options.hash) code = hair_exit_for(hash(capture, image));
+    if (capture->options.hash)
+        code = hair_exit_for(hair_frame_hash_add(&capture->hash, capture->hair, image));
+    if (!code) code = dump(capture);
     if (!code && !hair_frame_writer_put(&capture->sink, image, frame)) code = HAIR_EXIT_RUNTIME;
     return code;
 }
@@ -319,7 +274,7 @@ static int run_frames(struct capture* capture)
         if (!code && frame >= options->first) code = show(capture, frame);
         if (code) return code;
         show_progress(capture, frame + 1);
-        if (interrupted) {
+        if (hair_interrupted()) {
             hair_complain(TOOL, "interrupted after frame %u", frame);
             return HAIR_EXIT_RUNTIME;
         }
@@ -339,7 +294,7 @@ static int make(struct capture* capture)
                                  &capture->world);
     if (!code) code = make_shader(capture);
     if (!code) code = make_hair(capture);
-    if (!code) code = make_hashes(capture);
+    if (!code) code = make_hash(capture);
     return code;
 }
 
@@ -360,12 +315,38 @@ static int write_stats(struct capture* capture)
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
-static int print_hashes(const struct capture* capture)
+static int open_outputs(struct capture* capture)
 {
-    if (!capture->options.hash) return HAIR_EXIT_OK;
-    printf("strands %016llx\npixels %016llx\n", (unsigned long long)XXH3_64bits_digest(capture->strands),
-           (unsigned long long)XXH3_64bits_digest(capture->pixels));
-    return hair_flush(TOOL);
+    const struct hair_capture_options* options = &capture->options;
+    double fps = (double)options->scene.fps;
+    struct hair_dump_frames frames = {options->first, options->end - options->first, fps};
+    if (!hair_frame_writer_open(&capture->sink, fps)) return HAIR_EXIT_RUNTIME;
+    int code = hair_dump_open(TOOL, options->dump_guides, HAIR_READ_SMOOTH, capture->hair, &frames,
+                              &capture->guides);
+    if (!code)
+        code = hair_dump_open(TOOL, options->dump_followers, HAIR_READ_FOLLOWERS, capture->hair, &frames,
+                              &capture->followers);
+    return code;
+}
+
+// Complete all outputs. If one cannot be completed, discard those that are left.
+static int commit_outputs(struct capture* capture)
+{
+    int code = hair_frame_writer_commit(&capture->sink) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
+    struct hair_dump* dumps[] = {&capture->guides, &capture->followers};
+    for (int i = 0; i < 2; ++i)
+        if (code)
+            hair_dump_discard(dumps[i]);
+        else
+            code = hair_dump_commit(dumps[i]);
+    return code;
+}
+
+static void discard_outputs(struct capture* capture)
+{
+    hair_frame_writer_discard(&capture->sink);
+    hair_dump_discard(&capture->guides);
+    hair_dump_discard(&capture->followers);
 }
 
 static int run(struct capture* capture)
@@ -376,14 +357,14 @@ static int run(struct capture* capture)
                                       options->end - options->first, &capture->sink);
     if (!code) code = make(capture);
     if (code) return code;
-    if (!hair_frame_writer_open(&capture->sink, (double)scene->fps)) return HAIR_EXIT_RUNTIME;
-    code = run_frames(capture);
+    code = open_outputs(capture);
+    if (!code) code = run_frames(capture);
     if (code)
-        hair_frame_writer_discard(&capture->sink);
-    else if (!hair_frame_writer_commit(&capture->sink))
-        code = HAIR_EXIT_RUNTIME;
+        discard_outputs(capture);
+    else
+        code = commit_outputs(capture);
     if (!code) code = write_stats(capture);
-    return code ? code : print_hashes(capture);
+    return code || !options->hash ? code : hair_frame_hash_print(TOOL, &capture->hash);
 }
 
 static void destroy(struct capture* capture)
@@ -396,9 +377,7 @@ static void destroy(struct capture* capture)
     hair_egl_destroy(capture->egl);
     hair_groom_destroy(capture->groom);
     hair_stats_free(&capture->stats);
-    XXH3_freeState(capture->strands);
-    XXH3_freeState(capture->pixels);
-    free(capture->vertices);
+    hair_frame_hash_free(&capture->hash);
     free(capture->colliders);
     hair_scene_free(&capture->options.scene);
     free(capture);
@@ -411,7 +390,7 @@ int main(int count, char** arguments)
         hair_complain(TOOL, "out of memory");
         return HAIR_EXIT_RUNTIME;
     }
-    catch_signals();
+    hair_interrupt_catch(TOOL);
     int code = hair_capture_parse(TOOL, count, arguments, &capture->options);
     if (code < 0) {
         capture->host.log = capture->options.verbose ? say_all : hair_print_log;

@@ -195,6 +195,36 @@ static void stats_contain_what_was_drawn(void** state)
     expect(0, "$T " SMALL " --frames 0:2 --stats - | cmp -n 20 - $D/s.json", "");
 }
 
+// Check header, size and order of dumps of the guides and followers of frames.
+static void dumps_contain_the_positions_of_every_frame(void** state)
+{
+    (void)state;
+    expect(0, "$T " SMALL " --frames 2:5 --dump-guides $D/g.dump --dump-followers $D/f.dump" CLEAN, "");
+    expect(0, "head -c 8 $D/g.dump", "HAIRDUMP");
+    expect(0, "od -An -tu4 -j8 -N24 -w24 $D/g.dump | tr -s ' '", " 1 32 63 3 2 0\n");
+    expect(0, "od -An -tu4 -j8 -N24 -w24 $D/f.dump | tr -s ' '", " 1 300 33 3 2 1\n");
+    expect(0, "od -An -tf8 -j32 -N8 $D/g.dump | tr -d ' '", "30\n");
+    expect(0, "stat -c %s $D/g.dump $D/f.dump | xargs", "72616 356440\n");
+    // Drawing does not change positions, and frames are in order.
+    expect(0, "$T " SMALL " --frames 2:5 --dump-followers - -o $D/d.y4m | cmp - $D/f.dump", "");
+    expect(0,
+           "$T " SMALL
+           " --frames 4:5 --dump-guides - | tail -c 24192 >$D/4; tail -c 24192 $D/g.dump | cmp - $D/4",
+           "");
+    expect(0, "! head -c 24232 $D/g.dump | tail -c 24192 | cmp -s - $D/4", "");
+}
+
+static void a_dump_that_fails_leaves_no_output(void** state)
+{
+    (void)state;
+    expect(1, "$T " SMALL " --frames 0:2 --dump-guides $D/n.dump --dump-followers /dev/full", "cannot write");
+    expect(0, "! test -e $D/n.dump" CLEAN, "");
+    expect(1, "$T " SMALL " --frames 0:2 -o $D/n.y4m --dump-guides $D/none/n.dump", "none/n.dump");
+    expect(0, "! test -e $D/n.y4m" CLEAN, "");
+    expect(2, "$T " SMALL " --dump-guides $D/n.txt", ".dump");
+    expect(2, "$T " SMALL " --dump-guides - --hash", "--dump-guides -");
+}
+
 static int start(void** state)
 {
     (void)state;
@@ -217,6 +247,8 @@ int main(void)
         cmocka_unit_test(interrupt_within_a_frame_exits_with_1_in_time),
         cmocka_unit_test(missing_output_folder_exits_with_1),
         cmocka_unit_test(stats_contain_what_was_drawn),
+        cmocka_unit_test(dumps_contain_the_positions_of_every_frame),
+        cmocka_unit_test(a_dump_that_fails_leaves_no_output),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

@@ -24,6 +24,8 @@ enum name {
     SET,
     DEVICE,
     STATS,
+    DUMP_GUIDES,
+    DUMP_FOLLOWERS,
     SHADER,
     HASH,
     QUIET,
@@ -66,6 +68,8 @@ static const struct row rows[] = {
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
     {"shader", SHADER, "FILE.glsl", "shade pixels of strands by this: hair_shader_desc in hair.h says how"},
     {"stats", STATS, "FILE.json", "write what was drawn and how long it took"},
+    {"dump-guides", DUMP_GUIDES, "FILE.dump", "write the guides of each frame, for hair-convert"},
+    {"dump-followers", DUMP_FOLLOWERS, "FILE.dump", "write the followers of each frame, for hair-convert"},
     {"hash", HASH, NULL, "print a hash of the strands and one of the pixels of the frames drawn"},
     {"quiet", QUIET, NULL, "no progress"},
     {"verbose", VERBOSE, NULL, "say more, such as which device was taken"},
@@ -246,6 +250,8 @@ static bool take(const char* tool, const struct row* row, const char* value, str
         out->device = (int)device;
         break;
     case STATS: out->stats = value; return hair_output_has_ending(tool, value, ".json");
+    case DUMP_GUIDES: out->dump_guides = value; return hair_output_has_ending(tool, value, ".dump");
+    case DUMP_FOLLOWERS: out->dump_followers = value; return hair_output_has_ending(tool, value, ".dump");
     case SHADER: out->shader = value; break;
     case HASH: out->hash = true; break;
     case QUIET: out->quiet = true; break;
@@ -335,14 +341,21 @@ static bool choose_frames(const char* tool, const struct said* said, struct hair
 
 static const char* find_clash(const struct said* said, const struct hair_capture_options* options)
 {
-    bool piped = options->out && !strcmp(options->out, "-"),
-         told = options->stats && !strcmp(options->stats, "-");
+    const char* outputs[] = {options->out, options->stats, options->dump_guides, options->dump_followers};
+    int piped = options->hash, asked = options->hash;
+    for (size_t i = 0; i < sizeof outputs / sizeof *outputs; ++i) {
+        piped += outputs[i] && !strcmp(outputs[i], "-");
+        asked += outputs[i] != NULL;
+    }
     if (said->scene_file && said->scene_name) return "a scene file and --scene are one too many";
     if (said->groom && said->style) return "--groom and --style are one too many";
-    if (piped + told + options->hash > 1)
-        return "only one of -o -, --stats - and --hash can have the standard output";
-    if (!options->out && !options->stats && !options->hash)
-        return "nothing to do: give -o OUT, --hash or --stats FILE.json (--help says more)";
+    if (piped > 1)
+        return "only one of -o -, --stats -, --dump-guides -, --dump-followers - and --hash can have the "
+               "standard output";
+    if (!asked)
+        return "nothing to do: give -o OUT, --hash, --stats FILE.json or --dump-guides FILE.dump (--help "
+               "says "
+               "more)";
     return NULL;
 }
 

@@ -10,6 +10,8 @@ struct hair_capture_options {
     bool is_of_file; // all settings that the library can refuse are of a scene file
     const char* out; // NULL disables it
     const char* stats; // NULL disables it
+    const char* dump_guides; // file of the guides of each frame, NULL disables it
+    const char* dump_followers; // file of the followers of each frame, NULL disables it
     const char* shader; // file with a pixel shader for strands, NULL disables it
     uint32_t first, end; // frames to draw, in the half-open range [first, end)
     uint32_t samples, supersample;

@@ -11,8 +11,8 @@ $(VENV)/installed: tools/convert/pyproject.toml
 	@touch $@
 
 # The variable HAIR_CONVERT_DATA names a folder of haircuts for further round trips.
-test-convert: convert $(B)/hair-groom ## Every test of hair-convert
-	@cd tools/convert && HAIR_GROOM=$(abspath $(B))/hair-groom $(abspath $(VENV))/bin/python -B -W error::DeprecationWarning \
+test-convert: convert $(B)/hair-groom $(B)/hair-capture ## Every test of hair-convert
+	@cd tools/convert && HAIR_GROOM=$(abspath $(B))/hair-groom HAIR_CAPTURE=$(abspath $(B))/hair-capture $(abspath $(VENV))/bin/python -B -W error::DeprecationWarning \
 	  -m unittest discover -t . -s tests $(if $(filter),-k $(filter))
 
 .PHONY: convert test-convert

@@ -5,6 +5,7 @@ import os
 import sys
 
 from hairconvert import __version__, info
+from hairconvert.dump import add_attributes
 from hairconvert.formats import FORMATS, find_format, read_groom, write_groom
 from hairconvert.guard import run_guarded
 from hairconvert.meshes import (check_mesh_output, describe_mesh, is_mesh, read_mesh,
@@ -64,8 +65,18 @@ def make_parser():
     convert.add_argument("output", metavar="OUT")
     _add_input_options(convert)
     _add_output_options(convert)
-    convert.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
-                         help="of curves in USD, both go through the vertices; linear")
+    _add_curve_options(convert)
+    motion = commands.add_parser("motion", help="write a dump of hair-capture as USD time samples "
+                                 "or as an Alembic cache")
+    motion.add_argument("input", metavar="DUMP", help="of hair-capture --dump-guides or "
+                        "--dump-followers")
+    motion.add_argument("output", metavar="OUT")
+    motion.add_argument("--groom", metavar="FILE", help="the haircut whose attributes the strands "
+                        "get, matched by the roots of the first frame")
+    _add_output_options(motion)
+    _add_curve_options(motion)
+    motion.set_defaults(scale=None, up=None, frame=None, samples=None, tip_first=False, take="all",
+                        vertices=None, mesh=None)
     scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .obj, .tfxmesh) to "
                                 ".obj or .tfxmesh, with texture coordinates or skin weights")
     scalp.add_argument("input", metavar="IN")
@@ -74,6 +85,13 @@ def make_parser():
     _add_mesh_option(scalp)
     _add_output_options(scalp)
     return parser
+
+
+def _add_curve_options(parser):
+    parser.add_argument("--basis", choices=("linear", "catmullRom"), default="linear",
+                        help="of curves in USD, both go through the vertices; linear")
+    parser.add_argument("--width", metavar="X", type=_number(1e-7, 1),
+                        help="diameter of strands, m, if the input has no widths")
 
 
 def _add_mesh_option(parser):
@@ -126,7 +144,8 @@ def run(options, temporary=None):
         if options.command == "info":
             print("\n".join(_describe(options, report)))
         else:
-            command = {"convert": _convert, "scalp": _convert_mesh}[options.command]
+            command = {"convert": _convert, "motion": _convert_motion,
+                       "scalp": _convert_mesh}[options.command]
             _write_whole(command, options, temporary or temporary_name(options.output), report)
     except InputError as error:
         status, sentence = EXIT_INPUT, f"{options.input}: {error}"
@@ -164,6 +183,21 @@ def _write_whole(command, options, temporary, report):
 def _convert(options, temporary, report):
     find_format(options.output, to_write=True)
     groom = read_groom(options.input, options, report)
+    write_groom(groom, temporary, options.output, options, report)
+
+
+def _convert_motion(options, temporary, report):
+    if not find_format(options.output, to_write=True).keeps_motion:
+        raise UsageError(f"the format of {options.output} holds no motion, but USD and Alembic do")
+    if find_format(options.input).name != "dump":
+        raise UsageError(f"the name {options.input} does not end in .dump")
+    groom = read_groom(options.input, options, report)
+    if options.groom:
+        try:
+            rest = read_groom(options.groom, options, report)
+        except InputError as error:
+            raise InputError(f"the haircut {options.groom}: {error}") from None
+        add_attributes(groom, rest, report)
     write_groom(groom, temporary, options.output, options, report)
 
 

@@ -4,7 +4,9 @@ import dataclasses
 import importlib
 import os
 
-from hairconvert.groom import Motion, check_counts, clean, place, resample, reverse, select, unplace
+import numpy as np
+
+from hairconvert.groom import Attribute, Motion, check_counts, clean, place, resample, reverse, select, unplace
 from hairconvert.report import InputError, MissingPackage, UsageError, find_reason
 
 MAX_FILE = 1 << 34  # bytes
@@ -31,6 +33,7 @@ FORMATS = [
     Format("USD", (".usda", ".usdc", ".usd"), "usd_read", "usd_write", from_path=True, keeps_motion=True),
     Format("Alembic", (".abc",), "alembic_read", "alembic_write", from_path=True, unit=0.01,
            keeps_motion=True),
+    Format("dump", (".dump",), "dump", from_path=True),
     Format("USDZ", (".usdz",), "usd_read", from_path=True),
 ]
 
@@ -107,6 +110,8 @@ def write_groom(groom, path, name, options, report):
     """Write a groom to a path in the format of the final name."""
     f = find_format(name, to_write=True)
     module = _load_module(f, f.writer)
+    if options.width and "width" not in groom.attributes:
+        groom.attributes["width"] = Attribute("groom", np.array([options.width], np.float32))
     if groom.motion and not f.keeps_motion:
         report.lose(f"the motion of {len(groom.motion)} frames",
                     f"a {f.name} file holds one pose: --frame chooses the pose")

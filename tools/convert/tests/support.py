@@ -103,9 +103,10 @@ class ConvertTest(unittest.TestCase):
     def guarded(self, *arguments):
         """Run hair-convert as a user does, in a child process. Return status and stderr."""
         with tempfile.TemporaryFile() as file:
-            saved = os.dup(2), os.dup(1)
+            saved, null = (os.dup(2), os.dup(1)), os.open(os.devnull, os.O_WRONLY)
             os.dup2(file.fileno(), 2)
-            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+            os.dup2(null, 1)
+            os.close(null)
             try:
                 status = main([str(a) for a in arguments])
             finally:
