@@ -307,6 +307,7 @@ clean: ## Remove build/
 include tests/gates.mk
 include tools/convert/convert.mk
 include tools/packaging/packaging.mk
+include tools/python/python.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:

@@ -1,0 +1,428 @@
+"""Haircuts, grooms, collision meshes, contexts and hair."""
+
+import threading
+
+import numpy as np
+
+from ._native import call, egl, ffi, hair, host, new_desc, to_dict
+from .settings import CLASSES
+
+_current = threading.local()
+SOURCES = {"guides": "HAIR_READ_GUIDES", "smooth": "HAIR_READ_SMOOTH", "followers": "HAIR_READ_FOLLOWERS"}
+
+
+def _floats(values, width, name):
+    """Return values as an array of rows of floats."""
+    out = np.ascontiguousarray(values, dtype=np.float32)
+    if out.size % width:
+        raise ValueError(f"{name} has {out.size} numbers, which is no multiple of {width}")
+    return out.reshape(-1, width)
+
+
+def _integers(values, name):
+    """Return values as an array of unsigned integers of 32 bits."""
+    out = np.asarray(values)
+    if out.size and (out.dtype.kind not in "iu" or out.min() < 0 or out.max() > 0xFFFFFFFF):
+        raise ValueError(f"{name} must be integers from 0 to 4294967295")
+    return np.ascontiguousarray(out, dtype=np.uint32).ravel()
+
+
+def _pointer(kind, array):
+    return ffi.cast(kind + "*", ffi.from_buffer(array))
+
+
+def _matrix(transform):
+    """Return a matrix of numpy, which has rows first, as the column-major array of the library."""
+    out = np.asarray(transform, dtype=np.float32)
+    if out.shape != (4, 4):
+        raise ValueError(f"a transform is a 4x4 matrix, and this array has the shape {out.shape}")
+    return np.ascontiguousarray(out.T)
+
+
+def _array(pointer, count, width, dtype):
+    """Return a copy of an array of the library, or None for NULL."""
+    if pointer == ffi.NULL:
+        return None
+    data = np.frombuffer(ffi.buffer(pointer, count * width * np.dtype(dtype).itemsize), dtype).copy()
+    return data.reshape(count, width) if width > 1 else data
+
+
+class Asset:
+    """A haircut as arrays. Asset.read() and Asset.generate() make it."""
+
+    def __init__(self, pointer):
+        self._c = ffi.gc(pointer, hair.hair_asset_destroy)
+
+    @classmethod
+    def read(cls, source, **members):
+        """Read the bytes of a .hair or .tfx file, or the file of a path. `members` are those of Import."""
+        if not isinstance(source, (bytes, bytearray, memoryview)):
+            with open(source, "rb") as file:
+                source = file.read()
+        desc, settings, out = new_desc("hair_asset_desc"), CLASSES["Import"](members), ffi.new("hair_asset**")
+        setattr(desc, "import", settings._c)
+        desc.host = host
+        source = bytes(source)
+        call(hair.hair_asset_read, desc, source, len(source), out)
+        return cls(out[0])
+
+    @classmethod
+    def generate(cls, style="long", **members):
+        """Make a built-in haircut. `members` are those of StyleDesc."""
+        desc, out = CLASSES["StyleDesc"](members, style=style), ffi.new("hair_asset**")
+        desc._c.host = host
+        call(hair.hair_asset_generate, desc._c, out)
+        return cls(out[0])
+
+    def write(self, format="hair"):
+        """Return the bytes of a file: "hair" or "tfx4"."""
+        formats = {"hair": hair.HAIR_FORMAT_HAIR, "tfx4": hair.HAIR_FORMAT_TFX4}
+        if format not in formats:
+            raise ValueError(f'the format is {format!r}, not "hair" or "tfx4"')
+        size = ffi.new("size_t*")
+        call(hair.hair_asset_write, self._c, formats[format], ffi.NULL, 0, size)
+        out = ffi.new("char[]", size[0])
+        call(hair.hair_asset_write, self._c, formats[format], out, size[0], size)
+        return bytes(ffi.buffer(out, size[0]))
+
+    def _info(self):
+        info = new_desc("hair_asset_info")
+        call(hair.hair_asset_describe, self._c, info)
+        return info
+
+    @property
+    def info(self):
+        """The numbers of hair_asset_info."""
+        return to_dict(self._info()[0])
+
+    @property
+    def arrays(self):
+        """The arrays of hair_asset_info, copied. Those that the haircut lacks are None."""
+        info = self._info()
+        return {
+            "positions": _array(info.positions, info.vertex_count, 3, np.float32),
+            "strand_vertices": _array(info.strand_vertices, info.strand_count, 1, np.uint32),
+            "strand_radii": _array(info.strand_radii, info.strand_count, 1, np.float32),
+            "strand_colors": _array(info.strand_colors, info.strand_count * 8, 3, np.float32),
+            "scalp_positions": _array(info.scalp_positions, info.scalp_vertex_count, 3, np.float32),
+            "scalp_triangles": _array(info.scalp_triangles, info.scalp_triangle_count, 3, np.uint32),
+        }
+
+
+class Groom:
+    """An immutable haircut that hair is made from.
+
+    The strands are those of an asset, or arrays: positions of all vertices, strand after strand, and the
+    number of vertices of each strand. `members` are those of GroomDesc.
+    """
+
+    def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
+                 scalp_triangles=None, members=None, **more):  # fmt: skip
+        desc, out, kept = CLASSES["GroomDesc"](), ffi.new("hair_groom**"), []
+        c = desc._c
+        if asset is not None:
+            call(hair.hair_asset_to_groom_desc, asset._c, c)
+        else:
+            if positions is None or strand_vertices is None:
+                raise ValueError("a groom needs an asset, or positions and strand_vertices")
+            kept += [_floats(positions, 3, "positions"), _integers(strand_vertices, "strand_vertices")]
+            if int(kept[1].sum(dtype=np.uint64)) != len(kept[0]):
+                raise ValueError(f"strand_vertices add up to {kept[1].sum()}, and there are {len(kept[0])} positions")
+            c.positions, c.strand_vertices = _pointer("float", kept[0]), _pointer("uint32_t", kept[1])
+            c.strand_count = len(kept[1])
+        if scalp_positions is not None:
+            points = _floats(scalp_positions, 3, "scalp_positions")
+            triangles = _integers(() if scalp_triangles is None else scalp_triangles, "scalp_triangles")
+            kept += [points, triangles]
+            c.scalp_positions, c.scalp_vertex_count = _pointer("float", points), len(points)
+            c.scalp_triangles, c.scalp_triangle_count = _pointer("uint32_t", triangles), len(triangles) // 3
+        desc.update(members or {}, **more)
+        c.host = host
+        call(hair.hair_groom_create, c, out)
+        self._c = ffi.gc(out[0], hair.hair_groom_destroy)
+
+    @property
+    def info(self):
+        """The numbers of hair_groom_info."""
+        out = new_desc("hair_groom_info")
+        call(hair.hair_groom_describe, self._c, out)
+        return to_dict(out[0])
+
+
+class CollisionMesh:
+    """A triangle mesh to collide with. `members` are those of CollisionMeshDesc."""
+
+    def __init__(self, positions, triangles, **members):
+        desc, out = CLASSES["CollisionMeshDesc"](), ffi.new("hair_collision_mesh**")
+        points, corners = _floats(positions, 3, "positions"), _integers(triangles, "triangles")
+        c = desc._c
+        c.positions, c.vertex_count = _pointer("float", points), len(points)
+        c.triangles, c.triangle_count = _pointer("uint32_t", corners), len(corners) // 3
+        desc.update(members)
+        c.host = host
+        call(hair.hair_collision_mesh_create, c, out)
+        self._c = ffi.gc(out[0], hair.hair_collision_mesh_destroy)
+
+    @property
+    def info(self):
+        """The numbers of hair_collision_mesh_info."""
+        out = new_desc("hair_collision_mesh_info")
+        call(hair.hair_collision_mesh_describe, self._c, out)
+        return to_dict(out[0])
+
+
+class Context:
+    """The objects of the library in an OpenGL context.
+
+    Context() makes an OpenGL context without a window, on the EGL device of an index or, for -1, on the first
+    that works. Context(current=True) takes the OpenGL context that is current on this thread. It is then
+    up to the caller to keep that current. `get_proc` gives the addresses of its functions, by name as bytes,
+    if EGL did not make the context.
+
+    Close a context, or use it in a with statement. Its hair is closed with it.
+    """
+
+    def __init__(self, device=-1, *, current=False, get_proc=None, **members):
+        self._c = self._egl = None
+        if not current:
+            out = ffi.new("hair_egl**")
+            call(egl().hair_egl_create, host, device, out)
+            self._egl = out[0]
+            _current.context = self
+        desc, out = CLASSES["ContextDesc"](members), ffi.new("hair_context**")
+        desc._c.host = host
+        self.get_proc = egl().hair_egl_get_proc
+        if get_proc is not None:
+            self.get_proc = ffi.callback(
+                "void*(const char*, void*)", lambda name, _user: ffi.cast("void*", get_proc(ffi.string(name)) or 0)
+            )
+        desc._c.get_proc = self.get_proc
+        try:
+            call(hair.hair_context_create, desc._c, out)
+        except Exception:
+            self.close()
+            raise
+        self._c = out[0]
+
+    @property
+    def has_window(self):
+        """Whether the caller has made the OpenGL context."""
+        return self._egl is None
+
+    def make_current(self):
+        """Make the context without a window current on this thread, as every call of its hair does."""
+        if self._c is None and self._egl is None:
+            raise ValueError("the context is closed")
+        if self._egl is not None and getattr(_current, "context", None) is not self:
+            call(egl().hair_egl_make_current, self._egl)
+            _current.context = self
+
+    def close(self):
+        """Destroy the context with all its hair."""
+        if self._c is not None:
+            self.make_current()
+            hair.hair_context_destroy(self._c)
+            self._c = None
+        if self._egl is not None:
+            egl().hair_egl_destroy(self._egl)
+            self._egl = None
+            if getattr(_current, "context", None) is self:
+                _current.context = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    @property
+    def memory(self):
+        """The numbers of hair_memory."""
+        out = new_desc("hair_memory")
+        self.make_current()
+        call(hair.hair_get_memory, self._c, out)
+        return to_dict(out[0])
+
+
+class Hair:
+    """The simulated hair of one head. `members` are those of Desc.
+
+    A transform is a 4x4 matrix of numpy from the groom to the world, for column vectors. Close hair, or use
+    it in a with statement.
+    """
+
+    def __init__(self, context, groom, *, look=None, physics=None, transform=None, **members):
+        desc, out = CLASSES["Desc"](members), ffi.new("hair_instance**")
+        if look is not None:
+            desc._point("look", look._c)
+        if physics is not None:
+            desc._point("physics", physics._c)
+        if transform is not None:
+            desc._c.transform = _matrix(transform).ravel().tolist()
+        context.make_current()
+        call(hair.hair_create, context._c, groom._c, desc._c, out)
+        self._c, self.context, self._kept = out[0], context, []
+
+    def _call(self, function, *arguments):
+        if self._c is None or self.context._c is None:
+            raise ValueError("the hair is closed")
+        self.context.make_current()
+        call(function, self._c, *arguments)
+
+    def close(self):
+        """Destroy the hair."""
+        if self._c is not None:
+            if self.context._c is not None:
+                self.context.make_current()
+            hair.hair_destroy(self._c)
+            self._c = None
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def step(self, dt):
+        """Advance the simulation by a time in s."""
+        self._call(hair.hair_step, dt)
+
+    def reset(self):
+        """Put every strand at rest under the current transform."""
+        self._call(hair.hair_reset)
+
+    @property
+    def transform(self):
+        """The pose of the head. Setting it moves the head in the next step."""
+        out = ffi.new("float[16]")
+        self._call(hair.hair_get_transform, out)
+        return np.array(list(out), dtype=np.float32).reshape(4, 4).T
+
+    @transform.setter
+    def transform(self, transform):
+        self._call(hair.hair_set_transform, _pointer("float", _matrix(transform)))
+
+    def teleport(self, transform):
+        """Move the head together with the hair."""
+        self._call(hair.hair_teleport, _pointer("float", _matrix(transform)))
+
+    def set_scalp(self, positions, to_world=None):
+        """Set the positions of the scalp's vertices. None places them in the world."""
+        points = _floats(positions, 3, "positions")
+        matrix = ffi.NULL if to_world is None else _pointer("float", _matrix(to_world))
+        self._call(hair.hair_set_scalp, _pointer("float", points), len(points), 12, matrix)
+
+    def _get(self, title, function):
+        out = CLASSES[title]()
+        self._call(function, out._c)
+        return out
+
+    @property
+    def look(self):
+        """A copy of the look. Setting it changes the hair."""
+        return self._get("Look", hair.hair_get_look)
+
+    @look.setter
+    def look(self, look):
+        self._call(hair.hair_set_look, look._c)
+
+    @property
+    def physics(self):
+        """A copy of the physics. Setting it changes the hair."""
+        return self._get("Physics", hair.hair_get_physics)
+
+    @physics.setter
+    def physics(self, physics):
+        self._call(hair.hair_set_physics, physics._c)
+
+    @property
+    def wind(self):
+        """A copy of the wind, without its sources. Setting it changes the hair. None disables it."""
+        out = self._get("Wind", hair.hair_get_wind)
+        out._c.sources, out._c.source_count = ffi.NULL, 0
+        return out
+
+    @wind.setter
+    def wind(self, wind):
+        self.set_wind(wind)
+
+    def set_wind(self, wind, sources=()):
+        """Set the wind with local sources, which are of WindSource."""
+        if wind is not None:
+            wind = wind.copy()
+            wind._point("sources", _structs("hair_wind_source", sources))
+            wind._c.source_count = len(sources)
+        self._call(hair.hair_set_wind, ffi.NULL if wind is None else wind._c)
+
+    def set_colliders(self, colliders):
+        """Replace the colliders, which are of Collider. set_mesh() gives a collider a mesh."""
+        array = _structs("hair_collider", colliders)
+        self._call(hair.hair_set_colliders, array, len(colliders), ffi.sizeof("hair_collider"))
+
+    def set_pins(self, pins):
+        """Replace the pins, which are of Pin."""
+        self._call(hair.hair_set_pins, _structs("hair_pin", pins), len(pins), ffi.sizeof("hair_pin"))
+
+    @property
+    def bounds(self):
+        """The lower and the upper corner of the hair in the world."""
+        lower, upper = ffi.new("float[3]"), ffi.new("float[3]")
+        self._call(hair.hair_get_bounds, lower, upper)
+        return np.array([list(lower), list(upper)], dtype=np.float32)
+
+    def read(self, source="guides"):
+        """Return the positions of "guides", "smooth" guides or "followers", a row xyz for each vertex.
+
+        Followers have look.strand.segments + 1 vertices each.
+        """
+        if source not in SOURCES:
+            raise ValueError(f"the source is {source!r}, not one of {', '.join(SOURCES)}")
+        kind, count = getattr(hair, SOURCES[source]), ffi.new("uint32_t*")
+        self._call(hair.hair_read_positions, kind, ffi.NULL, 0, count)
+        out = np.empty((count[0], 3), dtype=np.float32)
+        self._call(hair.hair_read_positions, kind, _pointer("float", out), count[0], count)
+        return out
+
+    @property
+    def solver_stats(self):
+        """The numbers of hair_solver_stats."""
+        out = new_desc("hair_solver_stats")
+        self._call(hair.hair_get_solver_stats, out)
+        return to_dict(out[0])
+
+    def save(self):
+        """Return the state of the motion as bytes."""
+        size = ffi.new("size_t*")
+        self._call(hair.hair_save, ffi.NULL, 0, size)
+        out = ffi.new("char[]", size[0])
+        self._call(hair.hair_save, out, size[0], size)
+        return bytes(ffi.buffer(out, size[0]))
+
+    def load(self, state):
+        """Restore a state of save()."""
+        state = bytes(state)
+        self._call(hair.hair_load, state, len(state))
+
+    def draw(self, view, lights=None, lod=None):
+        """Draw into the bound framebuffer and viewport, with View, a list of Light, and Lod."""
+        view = view.copy()
+        if lights is not None:
+            view._point("lights", _structs("hair_light", lights))
+            view._c.light_count = len(lights)
+        if lod is not None:
+            view._point("lod", lod._c)
+        self._call(hair.hair_draw, view._c)
+
+
+def set_mesh(collider, mesh):
+    """Give a Collider the shape of a CollisionMesh."""
+    collider["shape"] = "mesh"
+    collider._point("mesh", mesh._c)
+
+
+def _structs(name, settings):
+    """Return structs of settings as one array."""
+    array = ffi.new(name + "[]", len(settings))
+    for i, one in enumerate(settings):
+        array[i] = one._c[0]
+    return array
