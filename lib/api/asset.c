@@ -74,7 +74,7 @@ const char* hair_format_name(hair_format format)
 }
 
 // Compute lengths and bounds of the strands.
-static void measure(const struct hair_strands* strands, hair_asset_info* info)
+static void measure_strands(const struct hair_strands* strands, hair_asset_info* info)
 {
     double sum = 0;
     const float* at = strands->positions;
@@ -119,7 +119,7 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
         .scalp_triangle_count = asset->scalp_triangle_count,
         .strand_colors = asset->strands.colors,
     };
-    measure(&asset->strands, &info);
+    measure_strands(&asset->strands, &info);
     return HAIR_COPY_OUT(&asset->host, hair_asset_info, &info, out);
 }
 

@@ -5,7 +5,7 @@
 // Factor for hair that stretches a little and for followers that stray from their guides.
 #define GIVE 1.05f
 
-static void include(hair_vec3 at, float around, hair_vec3 bounds[2])
+static void include_sphere(hair_vec3 at, float around, hair_vec3 bounds[2])
 {
     bounds[0] = hair_v3(fminf(bounds[0].x, at.x - around), fminf(bounds[0].y, at.y - around),
                         fminf(bounds[0].z, at.z - around));
@@ -20,7 +20,7 @@ float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2])
     bounds[1] = hair_load3(info->upper);
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         hair_vec4 root = groom->rest[groom->guides[i].first].position;
-        include(hair_v3(root.x, root.y, root.z), GIVE * info->length[2], bounds);
+        include_sphere(hair_v3(root.x, root.y, root.z), GIVE * info->length[2], bounds);
     }
     return GIVE * info->length[2];
 }
@@ -33,7 +33,7 @@ static void include_pins(const hair_instance* hair, int world, hair_vec3 bounds[
     for (uint32_t i = 0; i < count; ++i) {
         const double* at = pins[i].place;
         if (pins[i].world == world)
-            include(hair_v3((float)at[0], (float)at[1], (float)at[2]), hair->longest, bounds);
+            include_sphere(hair_v3((float)at[0], (float)at[1], (float)at[2]), hair->longest, bounds);
     }
 }
 

@@ -6,7 +6,8 @@
     ((uint32_t)(HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT | HAIR_ATTRIBUTE_STRAND |                   \
                 HAIR_ATTRIBUTE_PREV_POSITION))
 
-static hair_result check(const hair_instance* hair, hair_read_source source, const hair_buffers* wanted)
+static hair_result check_request(const hair_instance* hair, hair_read_source source,
+                                 const hair_buffers* wanted)
 {
     const hair_host* host = &hair->context->host;
     if (source != HAIR_READ_SMOOTH && source != HAIR_READ_FOLLOWERS)
@@ -38,7 +39,7 @@ hair_result hair_get_buffers(hair_instance* hair, hair_read_source source, hair_
     const struct hair_pose* head = &hair->sim.head_at_last_step;
     hair_buffers wanted, own = hair_buffers_default();
     HAIR_TRY(HAIR_COPY_IN(host, hair_buffers, out, &wanted));
-    HAIR_TRY(check(hair, source, &wanted));
+    HAIR_TRY(check_request(hair, source, &wanted));
     HAIR_TRY(hair_check_current(hair->context));
     own.attributes = wanted.attributes;
     own.frame_index = wanted.frame_index;

@@ -44,7 +44,7 @@ static void empty_member(hair_context* context, struct hair_context_member* memb
 }
 
 // Let go of a context. The last holder frees its struct.
-static void let_go(hair_context* context)
+static void drop_holder(hair_context* context)
 {
     HAIR_ASSERT(context->holder_count > 0);
     if (--context->holder_count) return;
@@ -62,7 +62,7 @@ void hair_context_remove(hair_context* context, struct hair_context_member* memb
         empty_member(context, member);
         hair_gl_copy_deletions(&was, &context->gl);
     }
-    let_go(context);
+    drop_holder(context);
 }
 
 // Free everything in a context but the structs that the application knows.
@@ -85,7 +85,7 @@ void hair_context_destroy(hair_context* context)
         if (context->gl.is_lost || hair_check_current(context)) hair_gl_ignore_deletions(&context->gl);
         end(context);
     }
-    let_go(context);
+    drop_holder(context);
 }
 
 void hair_context_abandon(hair_context* context)

@@ -46,7 +46,7 @@ static hair_look wetted(const hair_look* look)
 }
 
 // Find the bounds of the hair in the head's frame.
-static void find_bounds(hair_instance* hair, const hair_groom* groom)
+static void find_hair_bounds(hair_instance* hair, const hair_groom* groom)
 {
     hair->longest = hair_find_bounds(groom, hair->bounds);
     HAIR_ASSERT(hair->longest > 0);
@@ -65,7 +65,7 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     sim->has_snapshots = context->desc.restorable;
     sim->sdf_pool = &context->sdf_pool;
     sim->field = &hair->field;
-    find_bounds(hair, groom);
+    find_hair_bounds(hair, groom);
     hair_field_create(&hair->field, sim->sdf_pool, groom, hair->creation.field_voxel);
     HAIR_TRY(hair_sim_create(&hair->sim, gl, groom, sim));
     hair->told = hair_rods_report_none().softened;
@@ -78,8 +78,8 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
     return HAIR_OK;
 }
 
-static hair_result fill(hair_instance* hair, hair_context* context, const hair_groom* groom,
-                        const hair_desc* desc)
+static hair_result fill_instance(hair_instance* hair, hair_context* context, const hair_groom* groom,
+                                 const hair_desc* desc)
 {
     const hair_host* host = &context->host;
     hair->max_dt = (double)desc->max_dt;
@@ -144,7 +144,7 @@ hair_result hair_create(hair_context* context, const hair_groom* groom, const ha
     if (!hair) return hair_fail_memory(host, "an instance");
     hair->context = context;
     hair_context_add(context, &hair->member, hair_instance_empty);
-    hair_result result = fill(hair, context, groom, &own);
+    hair_result result = fill_instance(hair, context, groom, &own);
     if (result) {
         release(hair);
         return result;

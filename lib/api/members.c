@@ -92,7 +92,7 @@ static bool find_element(const hair_member* member, struct hair_span rest, uint3
     return *out < member->count;
 }
 
-static bool find(struct hair_schema schema, struct hair_span name, struct hair_member_place* out)
+static bool find_member(struct hair_schema schema, struct hair_span name, struct hair_member_place* out)
 {
     for (uint32_t i = 0; i < schema.count; ++i) {
         const hair_member* member = &schema.member[i];
@@ -112,7 +112,7 @@ hair_result hair_find_member(const hair_host* host, struct hair_schema schema, s
                              struct hair_span name, struct hair_member_place* out)
 {
     char quoted[64];
-    if (!find(schema, name, out))
+    if (!find_member(schema, name, out))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s has no member %s", schema.name,
                          name.length ? hair_quote(name, quoted) : "without a name");
     const hair_member* member = out->member;

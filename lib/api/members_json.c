@@ -55,7 +55,7 @@ hair_result hair_write_json(const hair_host* host, hair_struct kind, const void*
 
 // Reading -----------------------------------------------------------------------------------------
 
-struct reader {
+struct json_reader {
     const hair_host* host;
     struct hair_schema schema;
     const char* text;
@@ -63,14 +63,14 @@ struct reader {
     uint32_t seen[MAX_MEMBERS]; // elements of each member that have a value, as bits
 };
 
-static hair_result fail(const struct reader* reader, const char* wanted)
+static hair_result fail_at(const struct json_reader* reader, const char* wanted)
 {
     return hair_fail(reader->host, HAIR_ERROR_FILE, "byte %zu of the JSON of %s: %s", reader->at,
                      reader->schema.name, wanted);
 }
 
 // Skip white space. Return the next byte, or 0 at the end.
-static char peek(struct reader* reader)
+static char peek(struct json_reader* reader)
 {
     while (reader->at < reader->length && strchr(" \t\r\n", reader->text[reader->at]) &&
            reader->text[reader->at])
@@ -78,30 +78,30 @@ static char peek(struct reader* reader)
     return reader->at < reader->length ? reader->text[reader->at] : 0;
 }
 
-static hair_result expect(struct reader* reader, char wanted)
+static hair_result expect(struct json_reader* reader, char wanted)
 {
     char sentence[] = "there is no ' '";
     sentence[sizeof sentence - 3] = wanted;
-    if (peek(reader) != wanted) return fail(reader, sentence);
+    if (peek(reader) != wanted) return fail_at(reader, sentence);
     ++reader->at;
     return HAIR_OK;
 }
 
 // Read a string without escapes, which no name or choice needs.
-static hair_result read_string(struct reader* reader, struct hair_span* out)
+static hair_result read_string(struct json_reader* reader, struct hair_span* out)
 {
     HAIR_TRY(expect(reader, '"'));
     size_t start = reader->at;
     while (reader->at < reader->length && reader->text[reader->at] != '"') {
-        if (reader->text[reader->at] == '\\') return fail(reader, "an escape is in no name");
-        if ((unsigned char)reader->text[reader->at] < ' ') return fail(reader, "a control character");
+        if (reader->text[reader->at] == '\\') return fail_at(reader, "an escape is in no name");
+        if ((unsigned char)reader->text[reader->at] < ' ') return fail_at(reader, "a control character");
         ++reader->at;
     }
     *out = (struct hair_span){reader->text + start, reader->at - start};
     return expect(reader, '"');
 }
 
-static size_t skip_digits(struct reader* reader)
+static size_t skip_digits(struct json_reader* reader)
 {
     size_t start = reader->at;
     while (reader->at < reader->length && reader->text[reader->at] >= '0' && reader->text[reader->at] <= '9')
@@ -109,7 +109,7 @@ static size_t skip_digits(struct reader* reader)
     return reader->at - start;
 }
 
-static bool skip(struct reader* reader, const char* characters)
+static bool skip(struct json_reader* reader, const char* characters)
 {
     if (reader->at == reader->length || !reader->text[reader->at]) return false;
     if (!strchr(characters, reader->text[reader->at])) return false;
@@ -118,21 +118,22 @@ static bool skip(struct reader* reader, const char* characters)
 }
 
 // Read a number by the grammar of JSON, which has no "+1", "01", ".5" or "5.".
-static hair_result read_number(struct reader* reader)
+static hair_result read_number(struct json_reader* reader)
 {
     skip(reader, "-");
     bool zero = reader->at < reader->length && reader->text[reader->at] == '0';
     size_t digits = skip_digits(reader);
-    if (!digits || (zero && digits > 1)) return fail(reader, "there is no number");
-    if (skip(reader, ".") && !skip_digits(reader)) return fail(reader, "there is no digit after the point");
+    if (!digits || (zero && digits > 1)) return fail_at(reader, "there is no number");
+    if (skip(reader, ".") && !skip_digits(reader))
+        return fail_at(reader, "there is no digit after the point");
     if (skip(reader, "eE")) {
         skip(reader, "+-");
-        if (!skip_digits(reader)) return fail(reader, "there is no digit in the exponent");
+        if (!skip_digits(reader)) return fail_at(reader, "there is no digit in the exponent");
     }
     return HAIR_OK;
 }
 
-static hair_result read_word(struct reader* reader)
+static hair_result read_word(struct json_reader* reader)
 {
     static const char* const words[] = {"true", "false"};
     for (int i = 0; i < 2; ++i) {
@@ -142,11 +143,11 @@ static hair_result read_word(struct reader* reader)
         reader->at += length;
         return HAIR_OK;
     }
-    return fail(reader, "there is no true or false");
+    return fail_at(reader, "there is no true or false");
 }
 
 // Read the numbers of an array. The result lacks the brackets.
-static hair_result read_array(struct reader* reader, struct hair_span* out)
+static hair_result read_array(struct json_reader* reader, struct hair_span* out)
 {
     HAIR_TRY(expect(reader, '['));
     size_t start = reader->at;
@@ -158,7 +159,7 @@ static hair_result read_array(struct reader* reader, struct hair_span* out)
     return expect(reader, ']');
 }
 
-static hair_result read_value(struct reader* reader, const struct hair_member_place* place,
+static hair_result read_value(struct json_reader* reader, const struct hair_member_place* place,
                               struct hair_span* out)
 {
     peek(reader);
@@ -170,7 +171,7 @@ static hair_result read_value(struct reader* reader, const struct hair_member_pl
     return HAIR_OK;
 }
 
-static hair_result read_member(struct reader* reader, void* desc, size_t size)
+static hair_result read_member(struct json_reader* reader, void* desc, size_t size)
 {
     struct hair_span name, value;
     struct hair_member_place place;
@@ -194,7 +195,7 @@ hair_result hair_read_json(const hair_host* host, hair_struct kind, void* desc, 
     unsigned char own[HAIR_MAX_STRUCT];
     HAIR_TRY(hair_check_struct(&own_host, kind, desc, size));
     if (!text) return hair_fail(&own_host, HAIR_ERROR_ARGUMENT, "text is NULL");
-    struct reader reader = {&own_host, hair_schema_of_kind(kind), text, length, 0, {0}};
+    struct json_reader reader = {&own_host, hair_schema_of_kind(kind), text, length, 0, {0}};
     HAIR_ASSERT(reader.schema.count <= MAX_MEMBERS);
     memcpy(own, desc, size);
     HAIR_TRY(expect(&reader, '{'));
@@ -205,7 +206,7 @@ hair_result hair_read_json(const hair_host* host, hair_struct kind, void* desc, 
     }
     HAIR_TRY(expect(&reader, '}'));
     peek(&reader);
-    if (reader.at < length) return fail(&reader, "there is text after the object");
+    if (reader.at < length) return fail_at(&reader, "there is text after the object");
     memcpy(desc, own, size);
     return HAIR_OK;
 }

@@ -135,8 +135,8 @@ static const struct hair_gl_frame* find_frame(hair_instance* hair, int waits, fl
     return NULL;
 }
 
-static hair_report_row row_of(const hair_instance* hair, const struct hair_gl_frame* frame,
-                              hair_gl_category work, float ms)
+static hair_report_row report_row_of(const hair_instance* hair, const struct hair_gl_frame* frame,
+                                     hair_gl_category work, float ms)
 {
     const struct hair_frame_requests* requests = &hair->requests[frame->number % HAIR_GL_FRAMES];
     hair_report_row row = {.stage = hair_gl_category_label(work),
@@ -173,7 +173,7 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     own.frame = frame->number;
     own.age = hair->profiler.number - frame->number;
     for (int work = 0; work < HAIR_GL_CATEGORIES; ++work) {
-        hair_report_row row = row_of(hair, frame, (hair_gl_category)work, ms[work]);
+        hair_report_row row = report_row_of(hair, frame, (hair_gl_category)work, ms[work]);
         own.ms += row.ms;
         own.bytes += row.bytes;
         if (*count < capacity) memcpy((unsigned char*)rows + *count * stride, &row, sizeof row);

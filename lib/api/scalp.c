@@ -4,8 +4,8 @@
 #define FARTHEST 1e9f // Maximum coordinate of a position, m.
 #define LONGEST 4096u // Maximum stride, bytes.
 
-static hair_result check(const hair_instance* hair, size_t stride, const float* to_world,
-                         struct hair_pose* space)
+static hair_result check_scalp(const hair_instance* hair, size_t stride, const float* to_world,
+                               struct hair_pose* space)
 {
     const hair_host* host = &hair->context->host;
     *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
@@ -20,8 +20,8 @@ static hair_result check(const hair_instance* hair, size_t stride, const float* 
 
 // Return the positions packed. Return NULL and set `result` if memory runs out or a position is
 // invalid.
-static float* take(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
-                   hair_result* result)
+static float* copy_positions(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
+                             hair_result* result)
 {
     const hair_host* host = &hair->context->host;
     HAIR_ASSERT(stride >= 12 && stride % sizeof *positions == 0);
@@ -48,13 +48,13 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
     const hair_host* host = &hair->context->host;
     struct hair_pose space;
     if (!positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: positions is NULL", hair->label);
-    HAIR_TRY(check(hair, stride, to_world, &space));
+    HAIR_TRY(check_scalp(hair, stride, to_world, &space));
     uint32_t vertices = hair_scalp_motion_vertex_count(&hair->sim);
     if (count != vertices)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
                          hair->label, count, vertices);
     hair_result result;
-    float* packed = take(hair, positions, count, stride, &result);
+    float* packed = copy_positions(hair, positions, count, stride, &result);
     if (!packed) return result;
     hair_enter(hair);
     result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
@@ -106,7 +106,7 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     HAIR_TRY(hair_check_instance(hair));
     struct hair_pose space;
     size_t from = 0, size = 0;
-    HAIR_TRY(check(hair, stride, to_world, &space));
+    HAIR_TRY(check_scalp(hair, stride, to_world, &space));
     hair_result result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
     if (result) return hair_check_lost(hair->context, result);
     hair_enter(hair);

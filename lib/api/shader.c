@@ -1,7 +1,7 @@
 // shader.c - public calls on the application's own shading.
 #include "lib/api/api.h"
 
-static hair_result fill(hair_shader* shader, hair_context* context, const hair_shader_desc* desc)
+static hair_result fill_shader(hair_shader* shader, hair_context* context, const hair_shader_desc* desc)
 {
     struct hair_gl* gl = &context->gl;
     GLuint program = 0;
@@ -33,7 +33,7 @@ hair_result hair_shader_create(hair_context* context, const hair_shader_desc* de
     if (!shader) return hair_fail_memory(host, "a shader");
     shader->context = context;
     hair_context_add(context, &shader->member, empty);
-    hair_result result = fill(shader, context, &own);
+    hair_result result = fill_shader(shader, context, &own);
     if (result) {
         hair_shader_destroy(shader);
         return result;

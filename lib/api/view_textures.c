@@ -22,7 +22,8 @@ static bool has_depth_in_red(const struct hair_gl* gl, GLuint texture)
     return bits >= 16;
 }
 
-static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t light, const char* name)
+static hair_result check_shadow_map(const hair_instance* hair, GLuint texture, uint32_t light,
+                                    const char* name)
 {
     const struct hair_gl* gl = &hair->context->gl;
     if (!texture) return HAIR_OK;
@@ -32,11 +33,11 @@ static hair_result check_map(const hair_instance* hair, GLuint texture, uint32_t
                      hair->label, light, name, texture, is_flat ? " of depth" : "");
 }
 
-static hair_result check_maps(const hair_instance* hair, const hair_view* view)
+static hair_result check_shadow_maps(const hair_instance* hair, const hair_view* view)
 {
     for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count; ++i) {
-        HAIR_TRY(check_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map"));
-        HAIR_TRY(check_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map"));
+        HAIR_TRY(check_shadow_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map"));
+        HAIR_TRY(check_shadow_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map"));
     }
     return HAIR_OK;
 }
@@ -62,7 +63,7 @@ static hair_result check_depth(const hair_instance* hair, const hair_view* view)
 
 hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view)
 {
-    HAIR_TRY(check_maps(hair, view));
+    HAIR_TRY(check_shadow_maps(hair, view));
     HAIR_TRY(check_color(hair, view));
     return check_depth(hair, view);
 }

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-static double segment(const float* p)
+static double segment_length(const float* p)
 {
     double x = (double)p[3] - p[0], y = (double)p[4] - p[1], z = (double)p[5] - p[2];
     double length = sqrt(x * x + y * y + z * z);
@@ -16,14 +16,14 @@ void hair_strand_colors(const float* positions, uint32_t vertices, const float* 
 {
     HAIR_ASSERT(vertices > 0);
     double length = 0, passed = 0;
-    for (uint32_t i = 1; i < vertices; ++i) length += segment(positions + 3 * (size_t)(i - 1));
+    for (uint32_t i = 1; i < vertices; ++i) length += segment_length(positions + 3 * (size_t)(i - 1));
     uint32_t at = 0; // segment that contains the point
-    double each = vertices > 1 ? segment(positions) : 0;
+    double each = vertices > 1 ? segment_length(positions) : 0;
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k) {
         double place = length * k / (HAIR_STRAND_COLORS - 1);
         while (at + 2 < vertices && place > passed + each) {
             passed += each;
-            each = segment(positions + 3 * (size_t)++at);
+            each = segment_length(positions + 3 * (size_t)++at);
         }
         HAIR_ASSERT(at + 1 < vertices || vertices == 1);
         float t = each > 0 ? (float)fmin(fmax((place - passed) / each, 0), 1) : 0;

@@ -19,7 +19,7 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     memset(strands, 0, sizeof *strands);
 }
 
-static void place(const hair_import* import, struct hair_strands* strands)
+static void place_strands(const hair_import* import, struct hair_strands* strands)
 {
     for (size_t i = 0; i < strands->vertex_count; ++i) {
         float* p = strands->positions + 3 * i;
@@ -67,8 +67,8 @@ static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t stra
                 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
 }
 
-static void keep(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
-                 uint32_t vertices)
+static void keep_strand(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
+                        uint32_t vertices)
 {
     HAIR_ASSERT(kept->strands <= strand && kept->vertices <= first);
     float* from = strands->positions + 3 * first;
@@ -79,7 +79,7 @@ static void keep(struct hair_strands* strands, struct kept* kept, uint32_t stran
     kept->vertices += vertices;
 }
 
-static void cut(struct hair_strands* strands, struct kept kept)
+static void truncate_strands(struct hair_strands* strands, struct kept kept)
 {
     HAIR_ASSERT(kept.strands <= strands->strand_count);
     strands->strand_count = kept.strands;
@@ -88,7 +88,7 @@ static void cut(struct hair_strands* strands, struct kept kept)
 
 // Draw one random strand out of run `run` of `wanted` runs of equal length. The selection is even
 // along the file, whatever its order, and has no rhythm that could coincide with one of the file.
-static uint32_t draw(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
+static uint32_t draw_random(uint32_t count, uint32_t wanted, uint32_t run, uint32_t* random)
 {
     HAIR_ASSERT(run < wanted && wanted <= count);
     uint32_t begin = (uint32_t)((uint64_t)run * count / wanted);
@@ -105,18 +105,18 @@ static void thin_out(const hair_import* import, struct hair_strands* strands)
     if (wanted == 0) wanted = 1;
 
     uint32_t random = import->seed;
-    uint32_t drawn = draw(count, wanted, 0, &random);
+    uint32_t drawn = draw_random(count, wanted, 0, &random);
     struct kept kept = {0};
     size_t first = 0;
     for (uint32_t i = 0; i < count && kept.strands < wanted; ++i) {
-        uint32_t vertices = strands->vertices[i]; // Read before keep() may write there.
+        uint32_t vertices = strands->vertices[i]; // Read before keep_strand() may write there.
         if (i == drawn) {
-            keep(strands, &kept, i, first, vertices);
-            if (kept.strands < wanted) drawn = draw(count, wanted, kept.strands, &random);
+            keep_strand(strands, &kept, i, first, vertices);
+            if (kept.strands < wanted) drawn = draw_random(count, wanted, kept.strands, &random);
         }
         first += vertices;
     }
-    cut(strands, kept);
+    truncate_strands(strands, kept);
 }
 
 static uint32_t remove_nonfinite(float* p, uint32_t vertices)
@@ -133,8 +133,8 @@ static uint32_t remove_nonfinite(float* p, uint32_t vertices)
 // Sample a strand at `count` points, out of place. Samples of a strand that folds back on itself
 // may coincide. They are merged, and segments are split instead. Return the vertices left: `count`,
 // or 0 if the strand is dropped.
-static uint32_t sample(const float* p, uint32_t vertices, float* out, uint32_t count,
-                       hair_import_stats* repairs)
+static uint32_t resample_strand(const float* p, uint32_t vertices, float* out, uint32_t count,
+                                hair_import_stats* repairs)
 {
     hair_strand_resample(p, vertices, out, count);
     uint32_t left = hair_strand_merge(out, count);
@@ -154,7 +154,7 @@ static uint32_t bring_down(float* p, uint32_t vertices, hair_import_stats* repai
     HAIR_ASSERT(vertices > HAIR_STRAND_MAX_VERTICES);
     float sampled[3 * HAIR_STRAND_MAX_VERTICES];
     ++repairs->resampled;
-    uint32_t left = sample(p, vertices, sampled, HAIR_STRAND_MAX_VERTICES, repairs);
+    uint32_t left = resample_strand(p, vertices, sampled, HAIR_STRAND_MAX_VERTICES, repairs);
     memcpy(p, sampled, 3 * (size_t)left * sizeof *p);
     return left;
 }
@@ -188,10 +188,10 @@ static void repair_all(const hair_import* import, struct hair_strands* strands, 
         uint32_t left = repair_strand(p, vertices, repairs);
         if (left > HAIR_STRAND_MAX_VERTICES && import->strand_vertices == 0)
             left = bring_down(p, left, repairs);
-        if (left) keep(strands, &kept, i, first, left);
+        if (left) keep_strand(strands, &kept, i, first, left);
         first += vertices;
     }
-    cut(strands, kept);
+    truncate_strands(strands, kept);
 }
 
 static hair_result resample_all(const hair_host* host, uint32_t count, struct hair_strands* strands,
@@ -206,7 +206,7 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
     for (uint32_t i = 0; i < strands->strand_count; ++i) {
         uint32_t vertices = strands->vertices[i];
         float* out = sampled + 3 * (size_t)kept.vertices;
-        if (sample(strands->positions + 3 * first, vertices, out, count, repairs)) {
+        if (resample_strand(strands->positions + 3 * first, vertices, out, count, repairs)) {
             HAIR_ASSERT(kept.strands <= i);
             strands->vertices[kept.strands] = count;
             keep_rest(strands, kept.strands, i);
@@ -217,7 +217,7 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
     }
     hair_free(host, strands->positions);
     strands->positions = sampled;
-    cut(strands, kept);
+    truncate_strands(strands, kept);
     return HAIR_OK;
 }
 
@@ -254,7 +254,7 @@ hair_result hair_strands_clean(const hair_host* host, const hair_import* import,
 {
     uint32_t vertices = strands->vertex_count;
     *repairs = (hair_import_stats){0};
-    place(import, strands);
+    place_strands(import, strands);
     if (import->tip_first) reverse_all(strands);
     thin_out(import, strands);
     repair_all(import, strands, repairs);

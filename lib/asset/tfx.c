@@ -33,30 +33,30 @@ struct section {
     const char* what;
 };
 
-struct layout {
+struct tfx_layout {
     uint32_t header, floats; // bytes of the header, floats of a position
     uint32_t colors_at; // byte of the offset of colours
     struct section sections[SECTIONS]; // positions first
 };
 
-static const struct layout version3 = {296,
-                                       3,
-                                       156,
-                                       {{144, 12, 1, "positions"},
-                                        {148, 4, 0, "thicknesses"},
-                                        {152, 8, 0, "texture coordinates of strands"},
-                                        {156, 16, 1, "colours"},
-                                        {160, 4, 0, "guides of strands"},
-                                        {164, 8, 1, "texture coordinates of vertices"}}};
+static const struct tfx_layout version3 = {296,
+                                           3,
+                                           156,
+                                           {{144, 12, 1, "positions"},
+                                            {148, 4, 0, "thicknesses"},
+                                            {152, 8, 0, "texture coordinates of strands"},
+                                            {156, 16, 1, "colours"},
+                                            {160, 4, 0, "guides of strands"},
+                                            {164, 8, 1, "texture coordinates of vertices"}}};
 
-static const struct layout version4 = {160,
-                                       4,
-                                       28,
-                                       {{12, 16, 1, "positions"},
-                                        {16, 8, 0, "texture coordinates of strands"},
-                                        {20, 8, 1, "texture coordinates of vertices"},
-                                        {24, 4, 0, "thicknesses"},
-                                        {28, 16, 1, "colours"}}};
+static const struct tfx_layout version4 = {160,
+                                           4,
+                                           28,
+                                           {{12, 16, 1, "positions"},
+                                            {16, 8, 0, "texture coordinates of strands"},
+                                            {20, 8, 1, "texture coordinates of vertices"},
+                                            {24, 4, 0, "thicknesses"},
+                                            {28, 16, 1, "colours"}}};
 
 bool hair_is_tfx3(const unsigned char* bytes, size_t size)
 {
@@ -69,23 +69,23 @@ bool hair_is_tfx4(const unsigned char* bytes, size_t size)
 }
 
 // Return the bytes of the section at an offset that is not 0.
-static uint64_t size_of(const struct section* section, uint64_t strands, uint64_t vertices)
+static uint64_t size_of_section(const struct section* section, uint64_t strands, uint64_t vertices)
 {
     return (section->per_vertex ? vertices : strands) * section->size;
 }
 
 // Return the maximum offset of a section: the header, all sections and a gap lie before it.
-static uint64_t find_max_offset(const unsigned char* bytes, const struct layout* layout, uint64_t strands,
+static uint64_t find_max_offset(const unsigned char* bytes, const struct tfx_layout* layout, uint64_t strands,
                                 uint64_t vertices)
 {
     uint64_t max = layout->header + MAX_GAP;
     for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i)
         if (hair_read_u32(bytes + layout->sections[i].at))
-            max += size_of(&layout->sections[i], strands, vertices);
+            max += size_of_section(&layout->sections[i], strands, vertices);
     return max;
 }
 
-static uint64_t max_size(const unsigned char* bytes, size_t size, const struct layout* layout)
+static uint64_t max_size(const unsigned char* bytes, size_t size, const struct tfx_layout* layout)
 {
     uint64_t max = layout->header;
     if (size < layout->header) return max;
@@ -95,7 +95,7 @@ static uint64_t max_size(const unsigned char* bytes, size_t size, const struct l
     for (uint32_t i = 0; i < SECTIONS && layout->sections[i].size; ++i) {
         const struct section* section = &layout->sections[i];
         uint64_t offset = hair_read_u32(bytes + section->at),
-                 end = offset + size_of(section, strands, vertices);
+                 end = offset + size_of_section(section, strands, vertices);
         if (offset > max_offset) return layout->header;
         if (offset && end > max) max = end;
     }
@@ -112,7 +112,7 @@ uint64_t hair_max_size_of_tfx4(const unsigned char* bytes, size_t size)
     return max_size(bytes, size, &version4);
 }
 
-static hair_result check_section(const struct hair_source* source, const struct layout* layout,
+static hair_result check_section(const struct hair_source* source, const struct tfx_layout* layout,
                                  const struct section* section, uint64_t strands, uint64_t vertices)
 {
     uint32_t offset = hair_read_u32(source->bytes + section->at);
@@ -131,8 +131,8 @@ static hair_result check_section(const struct hair_source* source, const struct 
 }
 
 // Read the header. On success all sections lie in the file.
-static hair_result read_header(const struct hair_source* source, const struct layout* layout,
-                               uint32_t* strands, uint32_t* each)
+static hair_result read_tfx_header(const struct hair_source* source, const struct tfx_layout* layout,
+                                   uint32_t* strands, uint32_t* each)
 {
     HAIR_TRY(hair_check_section(source, "header", 0, layout->header, 1));
     *strands = hair_read_u32(source->bytes + 4);
@@ -148,11 +148,12 @@ static hair_result read_header(const struct hair_source* source, const struct la
     return HAIR_OK;
 }
 
-static hair_result decode(const struct hair_source* source, const struct layout* layout, hair_asset* asset)
+static hair_result decode_tfx(const struct hair_source* source, const struct tfx_layout* layout,
+                              hair_asset* asset)
 {
     uint32_t count = 0, each = 0;
     struct hair_strands* strands = &asset->strands;
-    HAIR_TRY(read_header(source, layout, &count, &each));
+    HAIR_TRY(read_tfx_header(source, layout, &count, &each));
     HAIR_TRY(hair_strands_allocate(source->host, strands, count, count * each));
 
     HAIR_ASSERT((uint64_t)count * each == strands->vertex_count);
@@ -167,12 +168,12 @@ static hair_result decode(const struct hair_source* source, const struct layout*
 
 hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset)
 {
-    return decode(source, &version3, asset);
+    return decode_tfx(source, &version3, asset);
 }
 
 hair_result hair_decode_tfx4(const struct hair_source* source, hair_asset* asset)
 {
-    return decode(source, &version4, asset);
+    return decode_tfx(source, &version4, asset);
 }
 
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size)

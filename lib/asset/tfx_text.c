@@ -17,7 +17,7 @@
 
 #include <math.h>
 
-struct reader {
+struct text_reader {
     const struct hair_source* source;
     struct hair_text text;
     struct hair_strands* fill; // NULL only counts.
@@ -27,12 +27,12 @@ struct reader {
     float scale, rotation[3], translation[3];
 };
 
-static hair_result complain(const struct reader* reader, size_t at, const char* sentence)
+static hair_result complain(const struct text_reader* reader, size_t at, const char* sentence)
 {
     return hair_fail(reader->source->host, HAIR_ERROR_FILE, "at byte %zu %s", at, sentence);
 }
 
-static hair_result read_numbers(const struct reader* reader, struct hair_line* line, float* out,
+static hair_result read_numbers(const struct text_reader* reader, struct hair_line* line, float* out,
                                 uint32_t count)
 {
     struct hair_token token;
@@ -49,7 +49,7 @@ static hair_result read_numbers(const struct reader* reader, struct hair_line* l
 }
 
 // Read numbers that must be finite, because they transform the whole haircut.
-static hair_result read_finite(const struct reader* reader, struct hair_line* line, float* out,
+static hair_result read_finite(const struct text_reader* reader, struct hair_line* line, float* out,
                                uint32_t count)
 {
     HAIR_TRY(read_numbers(reader, line, out, count));
@@ -58,7 +58,7 @@ static hair_result read_finite(const struct reader* reader, struct hair_line* li
     return HAIR_OK;
 }
 
-static hair_result read_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
+static hair_result read_count(const struct text_reader* reader, struct hair_line* line, uint32_t* out)
 {
     struct hair_token token;
     double value;
@@ -83,7 +83,8 @@ static bool is_unused(const struct hair_token* name)
     return false;
 }
 
-static hair_result read_setting(struct reader* reader, const struct hair_token* name, struct hair_line* line)
+static hair_result read_setting(struct text_reader* reader, const struct hair_token* name,
+                                struct hair_line* line)
 {
     if (hair_token_is(name, "scale")) return read_finite(reader, line, &reader->scale, 1);
     if (hair_token_is(name, "rotation")) return read_finite(reader, line, reader->rotation, 3);
@@ -103,7 +104,7 @@ static hair_result read_setting(struct reader* reader, const struct hair_token* 
     return HAIR_OK;
 }
 
-static hair_result find_vertex_count(const struct reader* reader, struct hair_line* line, uint32_t* out)
+static hair_result find_vertex_count(const struct text_reader* reader, struct hair_line* line, uint32_t* out)
 {
     struct hair_token token;
     while (hair_line_next(line, &token))
@@ -124,7 +125,7 @@ static void turn(const float rotation[3], double p[3])
     }
 }
 
-static void place(const struct reader* reader, float* position)
+static void place_vertex(const struct text_reader* reader, float* position)
 {
     const float *r = reader->rotation, *t = reader->translation;
     double p[3] = {position[0], position[1], position[2]};
@@ -133,7 +134,7 @@ static void place(const struct reader* reader, float* position)
     for (int i = 0; i < 3; ++i) position[i] = (float)(p[i] + t[i]);
 }
 
-static hair_result read_vertex(struct reader* reader, size_t strand_at)
+static hair_result read_vertex(struct text_reader* reader, size_t strand_at)
 {
     struct hair_line line;
     float position[3] = {0};
@@ -144,14 +145,14 @@ static hair_result read_vertex(struct reader* reader, size_t strand_at)
     HAIR_TRY(read_numbers(reader, &line, position, 3));
     if (reader->fill) {
         HAIR_ASSERT(reader->vertices < reader->fill->vertex_count);
-        place(reader, position);
+        place_vertex(reader, position);
         memcpy(reader->fill->positions + 3 * (size_t)reader->vertices, position, sizeof position);
     }
     ++reader->vertices;
     return HAIR_OK;
 }
 
-static hair_result read_strand(struct reader* reader, struct hair_line* line)
+static hair_result read_strand(struct text_reader* reader, struct hair_line* line)
 {
     uint32_t count = 0;
     HAIR_TRY(find_vertex_count(reader, line, &count));
@@ -164,7 +165,7 @@ static hair_result read_strand(struct reader* reader, struct hair_line* line)
     return HAIR_OK;
 }
 
-static void rewind_to_start(struct reader* reader, struct hair_strands* fill)
+static void rewind_to_start(struct text_reader* reader, struct hair_strands* fill)
 {
     bool bom = reader->source->size >= 3 && memcmp(reader->source->bytes, "\xef\xbb\xbf", 3) == 0;
     reader->text = (struct hair_text){reader->source->bytes, reader->source->size, bom ? 3 : 0};
@@ -173,7 +174,7 @@ static void rewind_to_start(struct reader* reader, struct hair_strands* fill)
     reader->vertices = 0;
 }
 
-static hair_result read_all(struct reader* reader)
+static hair_result read_all(struct text_reader* reader)
 {
     struct hair_line line;
     while (hair_text_next(&reader->text, &line)) {
@@ -185,7 +186,7 @@ static hair_result read_all(struct reader* reader)
     return HAIR_OK;
 }
 
-static hair_result check_counts(const struct reader* reader)
+static hair_result check_text_counts(const struct text_reader* reader)
 {
     size_t end = reader->source->size;
     if (reader->has_count && reader->count != reader->strands)
@@ -217,14 +218,14 @@ uint64_t hair_max_size_of_tfx_text(const unsigned char* bytes, size_t size)
 
 hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset)
 {
-    struct reader reader = {.source = source, .scale = 1};
+    struct text_reader reader = {.source = source, .scale = 1};
     if (source->size > HAIR_TEXT_MAX_BYTES)
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the text goes on after byte %zu, which is the maximum of a text",
                          HAIR_TEXT_MAX_BYTES);
     rewind_to_start(&reader, NULL);
     HAIR_TRY(read_all(&reader));
-    HAIR_TRY(check_counts(&reader));
+    HAIR_TRY(check_text_counts(&reader));
     HAIR_TRY(hair_strands_allocate(source->host, &asset->strands, reader.strands, reader.vertices));
 
     asset->strand_set = HAIR_STRAND_SET_GUIDES;

@@ -61,12 +61,6 @@ static inline hair_vec3 hair_cross(hair_vec3 a, hair_vec3 b)
 {
     return (hair_vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-
-static inline int hair_is_finite(hair_vec3 a)
-{
-    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
-}
-
 // Return whether a has the length 1, within 1e-3.
 static inline int hair_is_unit(hair_vec3 a)
 {

@@ -41,7 +41,7 @@ static hair_result check_rotation(const hair_host* host, const hair_collider* co
                      (double)sqrtf(norm));
 }
 
-static hair_result check(const hair_host* host, const hair_collider* collider, uint32_t i)
+static hair_result check_collider(const hair_host* host, const hair_collider* collider, uint32_t i)
 {
     hair_collider used = *collider;
     for (int k = sizes_of(used.shape); k < 3; ++k) used.size[k] = 0; // The shape ignores them.
@@ -90,7 +90,8 @@ static hair_result reserve_all(const hair_host* host, struct hair_colliders* col
 
 // Replace a list that has room. New collision meshes are held before old ones are released, because
 // they may be equal.
-static void put(struct hair_collider_list* list, const hair_collider* from, uint32_t count, size_t stride)
+static void append_colliders(struct hair_collider_list* list, const hair_collider* from, uint32_t count,
+                             size_t stride)
 {
     HAIR_ASSERT(count <= list->capacity);
     for (uint32_t i = 0; i < count; ++i) hair_collision_mesh_hold(collider_at(from, i, stride).mesh);
@@ -127,7 +128,7 @@ static hair_result check_list(const hair_host* host, const hair_collider* from, 
                          sizeof(hair_collider));
     for (uint32_t i = 0; i < count; ++i) {
         hair_collider collider = collider_at(from, i, stride);
-        HAIR_TRY(check(host, &collider, i));
+        HAIR_TRY(check_collider(host, &collider, i));
     }
     return HAIR_OK;
 }
@@ -158,7 +159,7 @@ hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* col
     HAIR_TRY(reserve_all(host, colliders, count, colliders->previous.count));
     HAIR_TRY(hair_match_colliders(host, from, count, stride, colliders->previous.collider,
                                   colliders->previous.count, colliders->match));
-    put(&colliders->current, from, count, stride);
+    append_colliders(&colliders->current, from, count, stride);
     count_contacts(colliders);
     colliders->changed = 1;
     return HAIR_OK;
@@ -172,8 +173,8 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
     HAIR_TRY(check_list(host, before, count_before, sizeof *before));
     HAIR_TRY(reserve_all(host, colliders, count, count_before));
     HAIR_TRY(hair_match_colliders(host, now, count, sizeof *now, before, count_before, colliders->match));
-    put(&colliders->current, now, count, sizeof *now);
-    put(&colliders->previous, before, count_before, sizeof *before);
+    append_colliders(&colliders->current, now, count, sizeof *now);
+    append_colliders(&colliders->previous, before, count_before, sizeof *before);
     count_contacts(colliders);
     colliders->changed = 1;
     return HAIR_OK;
@@ -181,8 +182,8 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
 
 void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders)
 {
-    put(&colliders->current, NULL, 0, 0);
-    put(&colliders->previous, NULL, 0, 0);
+    append_colliders(&colliders->current, NULL, 0, 0);
+    append_colliders(&colliders->previous, NULL, 0, 0);
     hair_free(host, colliders->current.collider);
     hair_free(host, colliders->previous.collider);
     hair_free(host, colliders->match);
@@ -204,13 +205,13 @@ void hair_colliders_end_step(struct hair_colliders* colliders)
     if (!colliders->changed) return;
     colliders->changed = 0;
     HAIR_ASSERT(colliders->current.count <= colliders->capacity);
-    put(&colliders->previous, colliders->current.collider, colliders->current.count,
-        sizeof *colliders->current.collider);
+    append_colliders(&colliders->previous, colliders->current.collider, colliders->current.count,
+                     sizeof *colliders->current.collider);
     for (uint32_t i = 0; i < colliders->current.count; ++i) colliders->match[i] = i;
 }
 
 void hair_colliders_reset(struct hair_colliders* colliders)
 {
-    put(&colliders->previous, NULL, 0, 0);
+    append_colliders(&colliders->previous, NULL, 0, 0);
     colliders->changed = 1;
 }

@@ -16,7 +16,7 @@
 #define MAX_WORK 500000000 // Maximum number of triangles and boxes visited.
 #define SWEEPS 8 // One per combination of directions along the three axes.
 
-static hair_result check_arrays(const hair_host* host, const hair_collision_mesh_desc* desc)
+static hair_result check_mesh_arrays(const hair_host* host, const hair_collision_mesh_desc* desc)
 {
     for (size_t i = 0; i < 3 * (size_t)desc->vertex_count; ++i)
         if (!(fabsf(desc->positions[i]) <= 1e6f))
@@ -62,8 +62,8 @@ static void choose_voxel(const hair_collision_mesh_desc* desc, const struct hair
     HAIR_ASSERT(info->voxel_size > 0 && info->thickness >= 0);
 }
 
-static hair_result build_grid(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
-                              hair_collision_mesh* mesh)
+static hair_result build_mesh_grid(const hair_collision_mesh_desc* desc, const struct hair_triangles* t,
+                                   hair_collision_mesh* mesh)
 {
     const hair_host* host = &mesh->host;
     float side = longest(hair_sub(t->bounds.upper, t->bounds.lower)), far = farthest_from_origin(t);
@@ -149,8 +149,8 @@ static hair_result measure_near(hair_collision_mesh* mesh, struct hair_triangles
 
 // Give a node the triangle of node `from`, one step before it, if that triangle is nearer than its
 // own.
-static void take(hair_collision_mesh* mesh, const struct hair_triangles* t, uint32_t* nearest, size_t node,
-                 size_t from, hair_vec3 place)
+static void improve_nearest(hair_collision_mesh* mesh, const struct hair_triangles* t, uint32_t* nearest,
+                            size_t node, size_t from, hair_vec3 place)
 {
     if (nearest[from] == nearest[node] || mesh->distance[from] - mesh->voxel >= mesh->distance[node]) return;
     HAIR_ASSERT(nearest[from] < t->count);
@@ -162,7 +162,8 @@ static void take(hair_collision_mesh* mesh, const struct hair_triangles* t, uint
 
 // Propagate triangles from the preceding nodes along each axis. Each bit of `backwards` reverses an
 // axis.
-static void sweep(hair_collision_mesh* mesh, const struct hair_triangles* t, uint32_t* nearest, int backwards)
+static void sweep_axis(hair_collision_mesh* mesh, const struct hair_triangles* t, uint32_t* nearest,
+                       int backwards)
 {
     const size_t step[3] = {1, mesh->size[0], (size_t)mesh->size[0] * mesh->size[1]};
     uint32_t i[3], at[3];
@@ -174,18 +175,18 @@ static void sweep(hair_collision_mesh* mesh, const struct hair_triangles* t, uin
                 hair_vec3 place = place_of(mesh, t, at);
                 for (int k = 0; k < 3; ++k)
                     if (i[k])
-                        take(mesh, t, nearest, node, backwards >> k & 1 ? node + step[k] : node - step[k],
-                             place);
+                        improve_nearest(mesh, t, nearest, node,
+                                        backwards >> k & 1 ? node + step[k] : node - step[k], place);
             }
 }
 
-static hair_result measure(hair_collision_mesh* mesh, struct hair_triangles* t)
+static hair_result measure_mesh(hair_collision_mesh* mesh, struct hair_triangles* t)
 {
     size_t nodes = (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
     uint32_t* nearest = hair_alloc(&mesh->host, nodes, sizeof *nearest);
     hair_result result = nearest ? measure_near(mesh, t, nearest)
                                  : hair_fail_memory(&mesh->host, "a collision mesh's triangles");
-    for (int i = 0; i < SWEEPS && !result; ++i) sweep(mesh, t, nearest, i % 8);
+    for (int i = 0; i < SWEEPS && !result; ++i) sweep_axis(mesh, t, nearest, i % 8);
     hair_free(&mesh->host, nearest);
     return result;
 }
@@ -210,7 +211,7 @@ static void tell(struct sides* sides, size_t node, unsigned char side)
 }
 
 // Find all nodes on the same side as the nodes on the stack.
-static void spread(struct sides* sides)
+static void flood_side(struct sides* sides)
 {
     const hair_collision_mesh* mesh = sides->form;
     const size_t step[3] = {1, mesh->size[0], (size_t)mesh->size[0] * mesh->size[1]};
@@ -245,7 +246,7 @@ static hair_result find_sides(hair_collision_mesh* mesh, struct hair_triangles* 
                 if (t->work > MAX_WORK) result = too_much(mesh, t);
                 int is_inside = fabsf(hair_triangles_winding(t, place_of(mesh, t, at))) > 0.5f;
                 tell(&sides, node, is_inside ? INSIDE : OUTSIDE);
-                spread(&sides);
+                flood_side(&sides);
             }
     for (node = 0; node < nodes && !result; ++node)
         if (sides.side[node] == INSIDE) mesh->distance[node] = -mesh->distance[node];
@@ -279,8 +280,8 @@ static uint64_t hash_content(const hair_collision_mesh* mesh)
     return mark ? mark : 1;
 }
 
-static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triangles* t,
-                        hair_collision_mesh* mesh)
+static hair_result fill_mesh(const hair_collision_mesh_desc* desc, struct hair_triangles* t,
+                             hair_collision_mesh* mesh)
 {
     HAIR_TRY(hair_triangles_build(&mesh->host, desc->positions, desc->triangles, desc->triangle_count, t));
     if (!t->count)
@@ -289,8 +290,8 @@ static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triang
                          desc->triangle_count);
     mesh->info.unused = desc->triangle_count - t->count;
     mesh->info.is_closed = (uint32_t)hair_triangles_are_closed(t);
-    HAIR_TRY(build_grid(desc, t, mesh));
-    HAIR_TRY(measure(mesh, t));
+    HAIR_TRY(build_mesh_grid(desc, t, mesh));
+    HAIR_TRY(measure_mesh(mesh, t));
     if (mesh->info.is_closed) return find_sides(mesh, t);
     thicken(mesh);
     hair_log(&mesh->host, HAIR_LOG_WARNING, "a collision mesh of %u triangles is not closed: a shell of %g m",
@@ -301,14 +302,14 @@ static hair_result fill(const hair_collision_mesh_desc* desc, struct hair_triang
 hair_result hair_collision_mesh_build(const hair_host* host, const hair_collision_mesh_desc* desc,
                                       hair_collision_mesh** out)
 {
-    HAIR_TRY(check_arrays(host, desc));
+    HAIR_TRY(check_mesh_arrays(host, desc));
     hair_collision_mesh* mesh = hair_alloc(host, 1, sizeof *mesh);
     if (!mesh) return hair_fail_memory(host, "a collision mesh");
     struct hair_triangles triangles = {0};
     mesh->host = *host;
     mesh->info = hair_collision_mesh_info_default();
     atomic_init(&mesh->holders, 1);
-    hair_result result = fill(desc, &triangles, mesh);
+    hair_result result = fill_mesh(desc, &triangles, mesh);
     hair_triangles_free(host, &triangles);
     if (result) {
         hair_collision_mesh_release(mesh);

@@ -55,7 +55,7 @@ static float radius_around(const hair_collider* collider)
 }
 
 // Compute the axis and radius of a sphere or capsule, or of a sphere around another collider.
-static void place(const hair_collider* collider, const struct hair_pose* head, hair_vec4 ends[2])
+static void compute_axis(const hair_collider* collider, const struct hair_pose* head, hair_vec4 ends[2])
 {
     hair_vec3 center = from_head(collider, head), middle, sides;
     float half = collider->shape == HAIR_SHAPE_CAPSULE ? collider->size[1] : 0;
@@ -97,8 +97,8 @@ static struct hair_capsule capsule_of(const hair_collider* before, const hair_co
                                       const struct hair_pose* head_before, const struct hair_pose* head_now)
 {
     struct hair_capsule around = {.spin = spin_between(before, now)};
-    place(before, head_before, around.start);
-    place(now, head_now, around.end);
+    compute_axis(before, head_before, around.start);
+    compute_axis(now, head_now, around.end);
     around.spin.w = fmaxf(way_of(around.start[0], around.end[0]), way_of(around.start[1], around.end[1]));
     return around;
 }
@@ -107,7 +107,7 @@ static struct hair_capsule capsule_of(const hair_collider* before, const hair_co
 static float distance_of(const hair_collider* collider, const struct hair_pose* head)
 {
     hair_vec4 end[2];
-    place(collider, head, end);
+    compute_axis(collider, head, end);
     hair_vec3 a = {end[0].x, end[0].y, end[0].z}, b = {end[1].x, end[1].y, end[1].z}, axis = hair_sub(b, a);
     float t = -hair_dot(a, axis) / fmaxf(hair_dot(axis, axis), 1e-20f);
     return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
@@ -115,8 +115,8 @@ static float distance_of(const hair_collider* collider, const struct hair_pose* 
 
 // Choose the nearest colliders of the shapes up to `last`, preserving order. At equal distances the
 // first one stays.
-static uint32_t choose(const struct hair_colliders* colliders, const struct hair_pose* head, hair_shape last,
-                       uint32_t chosen[HAIR_STEP_COLLIDERS])
+static uint32_t choose_nearest(const struct hair_colliders* colliders, const struct hair_pose* head,
+                               hair_shape last, uint32_t chosen[HAIR_STEP_COLLIDERS])
 {
     float distance[HAIR_STEP_COLLIDERS];
     uint32_t count = 0, farthest = 0;
@@ -151,11 +151,11 @@ static struct hair_body body_of(const hair_collider* before, const hair_collider
         .size = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
 }
 
-static uint32_t fill(const struct hair_colliders* colliders, const struct hair_pose* head_before,
-                     const struct hair_pose* head_now, hair_shape last, struct hair_capsule* around,
-                     struct hair_body* out)
+static uint32_t fill_contacts(const struct hair_colliders* colliders, const struct hair_pose* head_before,
+                              const struct hair_pose* head_now, hair_shape last, struct hair_capsule* around,
+                              struct hair_body* out)
 {
-    uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose(colliders, head_now, last, chosen);
+    uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose_nearest(colliders, head_now, last, chosen);
     for (uint32_t i = 0; i < count; ++i) {
         const hair_collider *now = &colliders->current.collider[chosen[i]],
                             *before = hair_colliders_previous(colliders, chosen[i]);
@@ -169,7 +169,7 @@ uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const s
                                  const struct hair_pose* head_now,
                                  struct hair_capsule out[HAIR_STEP_COLLIDERS])
 {
-    return fill(colliders, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
+    return fill_contacts(colliders, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
 }
 
 uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const struct hair_pose* head_before,
@@ -177,7 +177,7 @@ uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const str
                                struct hair_capsule around[HAIR_STEP_COLLIDERS],
                                struct hair_body out[HAIR_STEP_COLLIDERS])
 {
-    return fill(colliders, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
+    return fill_contacts(colliders, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
 }
 
 struct hair_contact hair_colliders_contact(const struct hair_colliders* colliders, uint32_t i,

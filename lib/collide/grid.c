@@ -11,7 +11,7 @@ uint32_t hair_entry_rounds(uint32_t member)
 
 // Room --------------------------------------------------------------------------------------------
 
-static hair_result make_room(const hair_host* host, struct hair_collider_grid* grid, uint32_t count)
+static hair_result reserve_grid(const hair_host* host, struct hair_collider_grid* grid, uint32_t count)
 {
     if (count <= grid->room) return HAIR_OK;
     uint32_t room = count + count / 2;
@@ -116,7 +116,7 @@ hair_result hair_collider_grid_gather(const hair_host* host, struct hair_collide
 {
     grid->contacts = 0;
     grid->bodies = 0;
-    hair_result result = make_room(host, grid, colliders->current.count);
+    hair_result result = reserve_grid(host, grid, colliders->current.count);
     for (uint32_t i = 0; i < colliders->current.count && !result; ++i) {
         const hair_collider* collider = &colliders->current.collider[i];
         if (collider->shape == HAIR_SHAPE_MESH && !collider->mesh) continue;

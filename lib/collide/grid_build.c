@@ -88,8 +88,8 @@ static float moved_by(const hair_vec4* from, const hair_vec4* to)
 
 // Return the maximum distance of a contact's axis from the centres of cells that list it. Cells at
 // the corners of the box around a round collider are farther away.
-static float reach_of(const struct hair_collider_grid* grid, const struct hair_collider_grid_desc* desc,
-                      uint32_t i)
+static float collider_reach(const struct hair_collider_grid* grid, const struct hair_collider_grid_desc* desc,
+                            uint32_t i)
 {
     const struct hair_capsule* around = &grid->contact[i].around;
     float moved =
@@ -118,7 +118,7 @@ static struct span span_of(const struct hair_collider_grid* grid, const struct h
     const hair_vec4* end = grid->contact[i].around.end;
     hair_vec3 from = {end[0].x, end[0].y, end[0].z}, to = {end[1].x, end[1].y, end[1].z};
     hair_vec3 axis = hair_sub(to, from);
-    return (struct span){from, axis, 1 / fmaxf(hair_dot(axis, axis), 1e-20f), reach_of(grid, desc, i)};
+    return (struct span){from, axis, 1 / fmaxf(hair_dot(axis, axis), 1e-20f), collider_reach(grid, desc, i)};
 }
 
 static int is_within(const struct span* span, hair_vec3 at)
@@ -343,8 +343,8 @@ static int is_as_before(const struct hair_collider_grid* grid, const struct hair
     return !memcmp(&made_for, desc, sizeof made_for);
 }
 
-static hair_result keep(const hair_host* host, struct hair_collider_grid* grid,
-                        const struct hair_collider_grid_desc* desc)
+static hair_result keep_grid(const hair_host* host, struct hair_collider_grid* grid,
+                             const struct hair_collider_grid_desc* desc)
 {
     if (grid->contacts > grid->last_room) {
         hair_free(host, grid->last);
@@ -373,7 +373,7 @@ hair_result hair_collider_grid_build(const hair_host* host, struct hair_collider
         scale *= 2;
     } while (pairs > max);
     hair_result result = build_lists(host, grid, desc, (uint32_t)pairs);
-    if (!result) result = keep(host, grid, desc);
+    if (!result) result = keep_grid(host, grid, desc);
     if (result) grid->entries = 0;
     return result;
 }

@@ -31,7 +31,7 @@ static int same(hair_vec3 a, hair_vec3 b)
 // Order -------------------------------------------------------------------------------------------
 
 // Spread the lowest ten bits to every third bit.
-static uint32_t spread(uint32_t x)
+static uint32_t spread_bits(uint32_t x)
 {
     x = (x | x << 16) & 0x030000ffu;
     x = (x | x << 8) & 0x0300f00fu;
@@ -48,12 +48,12 @@ static uint32_t code_of(const struct hair_triangles* t, uint32_t place, float sc
 {
     hair_vec3 sum = hair_add(hair_add(corner(t, place, 0), corner(t, place, 1)), corner(t, place, 2));
     hair_vec3 at = hair_scale(sum, 1.0f / 3), lower = t->bounds.lower;
-    return spread(cell(at.x, lower.x, scale)) | spread(cell(at.y, lower.y, scale)) << 1 |
-           spread(cell(at.z, lower.z, scale)) << 2;
+    return spread_bits(cell(at.x, lower.x, scale)) | spread_bits(cell(at.y, lower.y, scale)) << 1 |
+           spread_bits(cell(at.z, lower.z, scale)) << 2;
 }
 
 // Sort by the upper half of the keys, with the least significant digit first. The sort is stable.
-static void sort(uint64_t* keys, uint64_t* other, uint32_t count)
+static void sort_keys(uint64_t* keys, uint64_t* other, uint32_t count)
 {
     for (int round = 0; round < ROUNDS; ++round) {
         uint32_t start[1 << DIGIT] = {0}, at = 0;
@@ -84,7 +84,7 @@ static hair_result put_in_order(const hair_host* host, struct hair_triangles* t)
     }
     uint64_t* other = keys + t->count;
     for (uint32_t i = 0; i < t->count; ++i) keys[i] = (uint64_t)code_of(t, i, scale) << 32 | i;
-    sort(keys, other, t->count);
+    sort_keys(keys, other, t->count);
     // After an odd number of rounds, they are in the other half.
     for (uint32_t i = 0; i < t->count; ++i) memcpy(sorted[i], t->indices[(uint32_t)other[i]], sizeof *sorted);
     hair_free(host, keys);
@@ -153,7 +153,7 @@ static void make_nodes(struct hair_triangles* t)
     }
 }
 
-static void find_bounds(struct hair_triangles* t)
+static void find_mesh_bounds(struct hair_triangles* t)
 {
     HAIR_ASSERT(t->count > 0);
     struct hair_box bounds = {corner(t, 0, 0), corner(t, 0, 0)};
@@ -179,7 +179,7 @@ hair_result hair_triangles_build(const hair_host* host, const float* positions, 
         t.count += !same(a, b) && !same(b, c) && !same(c, a);
     }
     if (t.count) {
-        find_bounds(&t);
+        find_mesh_bounds(&t);
         t.leaves = (t.count + HAIR_TRIANGLES_PER_LEAF - 1) / HAIR_TRIANGLES_PER_LEAF;
         for (t.lowest = 1; 2 * t.lowest <= 2 * t.leaves - 1;) t.lowest *= 2;
         HAIR_ASSERT((t.lowest & (t.lowest - 1)) == 0 && t.lowest <= 2 * t.leaves - 1);
@@ -325,21 +325,21 @@ float hair_triangles_winding(struct hair_triangles* t, hair_vec3 point)
 // Closed ------------------------------------------------------------------------------------------
 
 // Mix bits by the final step of Murmur3.
-static uint64_t mix(uint64_t x)
+static uint64_t mix_bits(uint64_t x)
 {
     x = (x ^ x >> 33) * 0xff51afd7ed558ccdu;
     x = (x ^ x >> 33) * 0xc4ceb9fe1a85ec53u;
     return x ^ x >> 33;
 }
 
-static uint64_t hash_of(hair_vec3 p)
+static uint64_t hash_of_point(hair_vec3 p)
 {
     uint64_t hash = 0x9e3779b97f4a7c15u;
     float v[3] = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}; // Turns -0 into 0.
     for (int k = 0; k < 3; ++k) {
         uint32_t bits;
         memcpy(&bits, &v[k], sizeof bits);
-        hash = mix(hash ^ bits) + 0x9e3779b97f4a7c15u;
+        hash = mix_bits(hash ^ bits) + 0x9e3779b97f4a7c15u;
     }
     return hash;
 }
@@ -351,10 +351,12 @@ int hair_triangles_are_closed(const struct hair_triangles* t)
 {
     uint64_t sum = 0;
     for (uint32_t i = 0; i < t->count; ++i) {
-        uint64_t v[4] = {hash_of(corner(t, i, 0)), hash_of(corner(t, i, 1)), hash_of(corner(t, i, 2))};
+        uint64_t v[4] = {hash_of_point(corner(t, i, 0)), hash_of_point(corner(t, i, 1)),
+                         hash_of_point(corner(t, i, 2))};
         v[3] = v[0];
         for (int k = 0; k < 3; ++k) {
-            uint64_t edge = mix(mix(v[k] < v[k + 1] ? v[k] : v[k + 1]) + (v[k] < v[k + 1] ? v[k + 1] : v[k]));
+            uint64_t edge =
+                mix_bits(mix_bits(v[k] < v[k + 1] ? v[k] : v[k + 1]) + (v[k] < v[k + 1] ? v[k + 1] : v[k]));
             sum += v[k] < v[k + 1] ? edge : 0 - edge;
         }
     }

@@ -17,7 +17,7 @@ static float grey_speed(const hair_wind* wind)
     return speed > 0 ? speed : 1;
 }
 
-static void widen(struct hair_debug_params* params, int i)
+static void widen_arrow(struct hair_debug_params* params, int i)
 {
     float more = 0.5f * (AROUND - 1);
     hair_vec4 *corner = &params->corner, *side = &params->side[i];
@@ -35,7 +35,7 @@ static uint32_t write_arrows(const struct hair_field_box* box, const hair_wind* 
     HAIR_ASSERT(longest > 0 && slice != HAIR_SLICE_NONE);
     hair_draw_write_slice(box, slice, view->slice_at, params);
     for (uint32_t i = 0; i < 2; ++i) {
-        widen(params, (int)i);
+        widen_arrow(params, (int)i);
         along[i] = (ARROWS * box->bricks[((uint32_t)slice + i) % 3] + longest - 1) / longest;
     }
     float apart = AROUND * HAIR_BRICK * box->voxel * (float)longest / ARROWS;

@@ -42,7 +42,7 @@ double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* 
 }
 
 // Return how far hair reaches beyond the box of roots, in metres.
-static double reach_of(const struct hair_renderer* renderer, const hair_lod* lod)
+static double hair_reach_beyond(const struct hair_renderer* renderer, const hair_lod* lod)
 {
     const hair_look* look = &renderer->geometry->look;
     double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump.width), 1) * renderer->extent.reach);
@@ -76,7 +76,7 @@ static void find_corner(const hair_view* view, const struct hair_pose* head, hai
 // because each plane is linear in clip space.
 enum { LEFT, RIGHT, BELOW, ABOVE, BEHIND, FAR, NEAR, SIDES };
 
-static unsigned find_outside(const double clip[4], const double edge[2])
+static unsigned outside_planes(const double clip[4], const double edge[2])
 {
     double x = clip[0], y = clip[1], z = clip[2], w = clip[3];
     return (unsigned)(x < -w * edge[0]) << LEFT | (unsigned)(x > w * edge[0]) << RIGHT |
@@ -89,14 +89,14 @@ bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct
 {
     const struct hair_gl* gl = renderer->gl;
     GLfloat viewport[4] = {0};
-    double edge[2], reach = reach_of(renderer, view->lod);
+    double edge[2], reach = hair_reach_beyond(renderer, view->lod);
     unsigned outside = (1u << SIDES) - 1;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     for (int k = 0; k < 2; ++k) edge[k] = hair_draw_edge(viewport[2 + k], view->jitter[k]);
     for (int i = 0; i < 8 && outside; ++i) {
         double clip[4];
         find_corner(view, head, corner_of(&renderer->extent, reach, i), clip);
-        outside &= find_outside(clip, edge);
+        outside &= outside_planes(clip, edge);
     }
     // If depth clamping is enabled, the near and far planes cut nothing off.
     if (outside & (1u << FAR | 1u << NEAR))
@@ -108,7 +108,7 @@ void hair_draw_find_window(const struct hair_renderer* renderer, const struct ha
                            const hair_lod* lod, const hair_mat4* to_texture, float window[4])
 {
     float matrix[16], all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    double reach = reach_of(renderer, lod);
+    double reach = hair_reach_beyond(renderer, lod);
     memcpy(matrix, to_texture, sizeof matrix);
     for (int i = 0; i < 8; ++i) {
         hair_vec3 at = hair_rotate(head->rotation, corner_of(&renderer->extent, reach, i));

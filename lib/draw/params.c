@@ -29,8 +29,8 @@ static void write_clip(const struct hair_renderer* renderer, const struct hair_p
 }
 
 // Write the matrices from the head's origins to clip space, of this frame and of the previous one.
-static void write_motion(const struct hair_vertex_history* history, const hair_view* view,
-                         struct hair_draw_params* out)
+static void write_motion_matrices(const struct hair_vertex_history* history, const hair_view* view,
+                                  struct hair_draw_params* out)
 {
     float matrix[16], turn[16] = {[15] = 1}, placed[16], clip[16];
     struct hair_pose was = {.rotation = {0, 0, 0, 1}};
@@ -56,7 +56,7 @@ static void write_view(const struct hair_renderer* renderer, const struct hair_p
                               hair_draw_cell(renderer, view)};
     out->head = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     write_clip(renderer, head, view, out);
-    if (view->pass == HAIR_PASS_MOTION) write_motion(&renderer->geometry->history, view, out);
+    if (view->pass == HAIR_PASS_MOTION) write_motion_matrices(&renderer->geometry->history, view, out);
 }
 
 void hair_draw_write_params(const struct hair_renderer* renderer, const struct hair_pose* head,

@@ -100,7 +100,7 @@ void hair_draw_free_strand_list(struct hair_renderer* renderer)
 
 // Describe the inputs of a strand list. All views share a list if the level of detail does not
 // depend on the view.
-static struct hair_strand_list_key describe(const struct hair_renderer* renderer,
+static struct hair_strand_list_key list_key(const struct hair_renderer* renderer,
                                             const struct hair_draw_params* params)
 {
     struct hair_strand_list_key of;
@@ -127,7 +127,7 @@ void hair_draw_update_strand_list(struct hair_renderer* renderer, const struct h
     struct hair_strand_list* strand_list = &renderer->strand_list;
     GLuint buffers[] = {strand_list->start, strand_list->strand, strand_list->command};
     HAIR_ASSERT(strand_list->key && strand_list->command);
-    struct hair_strand_list_key of = describe(renderer, params);
+    struct hair_strand_list_key of = list_key(renderer, params);
     hair_gl_pass with = plan->has_occlusion ? HAIR_GL_WITH(OCCLUSION) : 0;
     if (!plan->has_occlusion && memcmp(&of, strand_list->key, sizeof of) == 0) return;
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_START, 3, buffers);

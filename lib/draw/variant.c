@@ -52,7 +52,8 @@ static hair_gl_pass find_draw_row(const struct hair_draw_plan* plan)
 }
 
 // Add all rows from `first` to `last`, each with the features that it supports.
-static void add(struct hair_draw_plan* plan, hair_gl_pass first, hair_gl_pass last, hair_gl_pass features)
+static void add_rows(struct hair_draw_plan* plan, hair_gl_pass first, hair_gl_pass last,
+                     hair_gl_pass features)
 {
     for (hair_gl_pass row = first; row <= last; ++row) {
         HAIR_ASSERT(plan->pass_count < HAIR_DRAW_MAX_PASSES);
@@ -67,19 +68,20 @@ void hair_draw_find_passes(const struct hair_renderer* renderer, hair_gl_pass st
     int shade_row = find_shade_row(plan);
     plan->pass_count = 0;
     plan->features = features;
-    if (state & HAIR_GL_WITH(OCCLUSION)) add(plan, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, features);
+    if (state & HAIR_GL_WITH(OCCLUSION))
+        add_rows(plan, HAIR_GL_HIZ_REDUCE_DEPTH, HAIR_GL_CULL_PATCHES, features);
     if (plan->vertices == HAIR_VERTICES_CACHED || plan->light_values)
-        add(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
+        add_rows(plan, HAIR_GL_EXPAND, HAIR_GL_EXPAND, features);
     if (plan->light_values && plan->view->lod)
-        add(plan, HAIR_GL_EXPAND_DRAWN, HAIR_GL_EXPAND_DRAWN, features);
-    if (plan->light_values) add(plan, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, features);
-    if (plan->has_strand_list) add(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);
-    if (shade_row >= 0) add(plan, (hair_gl_pass)shade_row, (hair_gl_pass)shade_row, features);
+        add_rows(plan, HAIR_GL_EXPAND_DRAWN, HAIR_GL_EXPAND_DRAWN, features);
+    if (plan->light_values) add_rows(plan, HAIR_GL_DENSITY_BOUNDS, HAIR_GL_VERTEX_TRANSMITTANCE, features);
+    if (plan->has_strand_list) add_rows(plan, HAIR_GL_SCAN_STRANDS, HAIR_GL_COMPACT_STRANDS, features);
+    if (shade_row >= 0) add_rows(plan, (hair_gl_pass)shade_row, (hair_gl_pass)shade_row, features);
     plan->shade = shade_row >= 0 ? plan->pass[plan->pass_count - 1] : 0;
-    if (plan->is_computed) add(plan, HAIR_GL_RASTER_CLEAR, HAIR_GL_COMPOSE_TILES, features);
-    if (plan->blending == HAIR_BLENDING_SORTED) add(plan, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, features);
+    if (plan->is_computed) add_rows(plan, HAIR_GL_RASTER_CLEAR, HAIR_GL_COMPOSE_TILES, features);
+    if (plan->blending == HAIR_BLENDING_SORTED) add_rows(plan, HAIR_GL_HISTOGRAM, HAIR_GL_SCATTER, features);
     if (shade_row == HAIR_GL_SHADE) features = (features & ~SHADE_FEATURES) | HAIR_GL_WITH(SHADED);
-    add(plan, row, row, features);
+    add_rows(plan, row, row, features);
     plan->draw = plan->pass[plan->pass_count - 1];
 }
 

@@ -12,7 +12,7 @@ static const struct {
 
 // Return the size of a part in bytes. Drawn ribbons have two sides and no tangent. Compute
 // rasterisation uses tangents. Buffers keep the larger size.
-static size_t size_of(const struct hair_draw_plan* plan, int part, size_t vertices)
+static size_t size_of_part(const struct hair_draw_plan* plan, int part, size_t vertices)
 {
     if (part == HAIR_VIEW_CACHE_TANGENT && plan->has_sides) return 0;
     if (part == HAIR_VIEW_CACHE_SHADED && plan->view->pass == HAIR_PASS_DEPTH) return 0;
@@ -45,7 +45,7 @@ hair_result hair_draw_ensure_view_cache(struct hair_renderer* renderer, struct h
     if (view_cache->vertices != vertices) hair_draw_free_view_cache(renderer);
     view_cache->vertices = vertices;
     for (int i = 0; i < HAIR_VIEW_CACHE_PARTS && !result; ++i)
-        result = ensure_part(renderer, i, size_of(plan, i, vertices));
+        result = ensure_part(renderer, i, size_of_part(plan, i, vertices));
     if (result) hair_draw_free_view_cache(renderer);
     return result;
 }

@@ -20,13 +20,13 @@ static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t 
 
 // Bricks from `first` up to, not including, `end`. overlap() returns those that a collider's band
 // touches within a range.
-struct range {
+struct brick_range {
     uint32_t first[3], end[3];
 };
 
-static struct range overlap(const struct hair_placed_collider* placed, const struct range* with)
+static struct brick_range overlap(const struct hair_placed_collider* placed, const struct brick_range* with)
 {
-    struct range range;
+    struct brick_range range;
     for (int i = 0; i < 3; ++i) {
         range.first[i] = placed->first[i] > with->first[i] ? placed->first[i] : with->first[i];
         range.end[i] = placed->end[i] < with->end[i] ? placed->end[i] : with->end[i];
@@ -40,9 +40,9 @@ static struct range overlap(const struct hair_placed_collider* placed, const str
         for (uint32_t y = (range).first[1]; y < (range).end[1]; ++y)                                         \
             for (uint32_t x = (range).first[0]; x < (range).end[0]; ++x)
 
-static struct range all_of(const struct hair_field_box* box)
+static struct brick_range all_of(const struct hair_field_box* box)
 {
-    return (struct range){{0, 0, 0}, {box->bricks[0], box->bricks[1], box->bricks[2]}};
+    return (struct brick_range){{0, 0, 0}, {box->bricks[0], box->bricks[1], box->bricks[2]}};
 }
 
 // Mark the bricks that a collider changes. If others are nearer everywhere in a brick, the collider
@@ -50,8 +50,8 @@ static struct range all_of(const struct hair_field_box* box)
 void hair_field_mark_dirty(struct hair_collider_field* field, const struct hair_placed_collider* placed)
 {
     const struct hair_field_box* box = &field->box;
-    struct range all = all_of(box);
-    struct range range = overlap(placed, &all);
+    struct brick_range all = all_of(box);
+    struct brick_range range = overlap(placed, &all);
     EACH_BRICK(range, x, y, z)
     {
         uint32_t brick = brick_at(box, x, y, z);
@@ -61,12 +61,12 @@ void hair_field_mark_dirty(struct hair_collider_field* field, const struct hair_
 }
 
 // Find the bounds of all marked bricks. Return the number of marked bricks.
-static uint32_t find_dirty(const struct hair_collider_field* field, struct range* out)
+static uint32_t find_dirty(const struct hair_collider_field* field, struct brick_range* out)
 {
     const struct hair_field_box* box = &field->box;
-    struct range all = all_of(box);
+    struct brick_range all = all_of(box);
     uint32_t count = 0;
-    *out = (struct range){{UINT32_MAX, UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
+    *out = (struct brick_range){{UINT32_MAX, UINT32_MAX, UINT32_MAX}, {0, 0, 0}};
     EACH_BRICK(all, x, y, z)
     {
         if (!field->dirty[brick_at(box, x, y, z)]) continue;
@@ -83,13 +83,13 @@ static uint32_t find_dirty(const struct hair_collider_field* field, struct range
 void hair_field_begin(struct hair_collider_field* field, struct hair_field_job* job)
 {
     const struct hair_field_box* box = &field->box;
-    struct range dirty;
+    struct brick_range dirty;
     memset(job, 0, sizeof *job);
     if (!find_dirty(field, &dirty)) return;
     // Compute an upper bound of each brick's member count.
     memset(field->brick_colliders, 0, hair_field_bricks(box) * sizeof *field->brick_colliders);
     for (uint32_t i = 0; i < field->count; ++i) {
-        struct range range = overlap(&field->placed[i], &dirty);
+        struct brick_range range = overlap(&field->placed[i], &dirty);
         EACH_BRICK(range, x, y, z) field->brick_colliders[brick_at(box, x, y, z)]++;
     }
     job->end = hair_field_bricks(box);
@@ -117,19 +117,19 @@ static uint32_t take_bricks(const struct hair_collider_field* field, const struc
 }
 
 // List the pairs by collider, then by brick. Return their number.
-static uint32_t find_pairs(struct hair_collider_field* field, const struct hair_field_job* job, uint32_t end,
-                           struct pair* pairs)
+static uint32_t find_brick_pairs(struct hair_collider_field* field, const struct hair_field_job* job,
+                                 uint32_t end, struct pair* pairs)
 {
     const struct hair_field_box* box = &field->box;
     uint32_t layer = box->bricks[0] * box->bricks[1], count = 0;
     HAIR_ASSERT(job->next < end && end <= job->end);
-    struct range slab = all_of(box);
+    struct brick_range slab = all_of(box);
     slab.first[2] = job->next / layer;
     slab.end[2] = (end - 1) / layer + 1;
     for (uint32_t b = job->next; b < end; ++b)
         if (field->dirty[b]) field->best[b] = box->far;
     for (uint32_t i = 0; i < field->count; ++i) {
-        struct range range = overlap(&field->placed[i], &slab);
+        struct brick_range range = overlap(&field->placed[i], &slab);
         EACH_BRICK(range, x, y, z)
         {
             uint32_t brick = brick_at(box, x, y, z);
@@ -222,7 +222,7 @@ hair_result hair_field_next(struct hair_collider_field* field, struct hair_field
     if (!bricks) return HAIR_OK;
     struct pair* pairs = hair_alloc(host, max, sizeof *pairs);
     struct hair_field_brick* whole = hair_alloc(host, bricks, sizeof *whole);
-    uint32_t count = pairs ? find_pairs(field, job, end, pairs) : 0;
+    uint32_t count = pairs ? find_brick_pairs(field, job, end, pairs) : 0;
     HAIR_ASSERT(count <= max);
     job->brick = hair_alloc(host, bricks + count / MAX_MESHES_IN_ROUND, sizeof *job->brick);
     job->brick_collider = hair_alloc(host, count, sizeof *job->brick_collider);

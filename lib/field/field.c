@@ -38,7 +38,7 @@ void hair_field_destroy(struct hair_collider_field* field)
     if (field->gl) clear(field);
 }
 
-static hair_result make(struct hair_collider_field* field)
+static hair_result make_field(struct hair_collider_field* field)
 {
     HAIR_ASSERT(!field->distance && !field->dirty);
     struct hair_gl* gl = field->gl;
@@ -64,7 +64,7 @@ static hair_result make(struct hair_collider_field* field)
 
 // Placing -----------------------------------------------------------------------------------------
 
-static hair_result make_room(struct hair_collider_field* field, uint32_t count)
+static hair_result reserve_colliders(struct hair_collider_field* field, uint32_t count)
 {
     HAIR_ASSERT(field->count <= field->room);
     if (count <= field->room) return HAIR_OK;
@@ -156,8 +156,9 @@ static uint32_t find_end(const struct hair_field_brick* brick, uint32_t first, u
     return end;
 }
 
-static void run(struct hair_collider_field* field, hair_gl_pass pass, const struct hair_field_brick* brick,
-                uint32_t bricks, int part, const GLintptr* at, const GLsizeiptr* length)
+static void run_pass(struct hair_collider_field* field, hair_gl_pass pass,
+                     const struct hair_field_brick* brick, uint32_t bricks, int part, const GLintptr* at,
+                     const GLsizeiptr* length)
 {
     HAIR_ASSERT(2 <= part && part < PARTS);
     const GLuint buffers[] = {field->work, field->work};
@@ -173,7 +174,7 @@ static void run(struct hair_collider_field* field, hair_gl_pass pass, const stru
     }
 }
 
-static hair_result dispatch(struct hair_collider_field* field, const struct hair_field_job* job)
+static hair_result dispatch_job(struct hair_collider_field* field, const struct hair_field_job* job)
 {
     struct hair_gl* gl = field->gl;
     HAIR_ASSERT(job->with_meshes <= job->bricks && field->work);
@@ -207,10 +208,10 @@ static hair_result dispatch(struct hair_collider_field* field, const struct hair
     if (plain) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE));
     if (job->with_meshes) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_VOXELISE_MESHES));
     gl->BindTextureUnit(HAIR_UNIT_WORK, field->work_texture);
-    run(field, HAIR_GL_VOXELISE, job->brick, plain, 2, at, length);
+    run_pass(field, HAIR_GL_VOXELISE, job->brick, plain, 2, at, length);
     if (job->with_meshes)
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_NODE, 1, &field->sdf_pool->nodes);
-    run(field, HAIR_GL_VOXELISE_MESHES, job->brick + plain, job->with_meshes, 3, at, length);
+    run_pass(field, HAIR_GL_VOXELISE_MESHES, job->brick + plain, job->with_meshes, 3, at, length);
     return HAIR_OK;
 }
 
@@ -228,7 +229,7 @@ static hair_result write_marked(struct hair_collider_field* field)
             gl->BindImageTexture(HAIR_IMAGE_COLLIDER, field->number, 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
         }
         ran = 1;
-        result = dispatch(field, &job);
+        result = dispatch_job(field, &job);
         if (result) break;
     }
     hair_field_end(field, &job);
@@ -247,10 +248,10 @@ static int is_same(hair_quat a, hair_quat b)
 static hair_result update(struct hair_collider_field* field, const hair_collider* colliders, uint32_t count,
                           const struct hair_pose* head)
 {
-    HAIR_TRY(make_room(field, count));
+    HAIR_TRY(reserve_colliders(field, count));
     HAIR_TRY(place_all(field, colliders, count, head));
     if (field->near && !field->distance) {
-        HAIR_TRY(make(field));
+        HAIR_TRY(make_field(field));
         write_params(field, head->rotation);
     }
     if (!field->distance) return HAIR_OK;

@@ -9,7 +9,7 @@
 #define STILL 0.01f
 #define EVERYWHERE 1e9f // Distance beyond everything, in metres.
 
-static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
+static void include_ball(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
 {
     *lower = hair_v3(fminf(lower->x, at.x - around), fminf(lower->y, at.y - around),
                      fminf(lower->z, at.z - around));
@@ -21,7 +21,7 @@ static void include(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upp
 // strand around it, but never beyond the reach of strands. Hair mostly stays near its rest shape. A
 // box of everything in reach would be several times as long for long hair, and mostly empty. Hair
 // that swings farther meets no collider there, but guides do not depend on the field.
-static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_vec3* upper)
+static void find_groom_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_vec3* upper)
 {
     hair_vec3 reach[2] = {{EVERYWHERE, EVERYWHERE, EVERYWHERE}, {-EVERYWHERE, -EVERYWHERE, -EVERYWHERE}};
     float longest = 0;
@@ -30,8 +30,8 @@ static void find_bounds(const struct hair_groom* groom, hair_vec3* lower, hair_v
         const struct hair_guide* guide = &groom->guides[i];
         for (uint32_t k = 0; k < guide->count; ++k) {
             hair_vec4 at = groom->rest[guide->first + k].position;
-            include(hair_v3(at.x, at.y, at.z), 0, lower, upper);
-            if (k == 0) include(hair_v3(at.x, at.y, at.z), guide->arc_length, &reach[0], &reach[1]);
+            include_ball(hair_v3(at.x, at.y, at.z), 0, lower, upper);
+            if (k == 0) include_ball(hair_v3(at.x, at.y, at.z), guide->arc_length, &reach[0], &reach[1]);
         }
         longest = fmaxf(longest, guide->arc_length);
     }
@@ -52,7 +52,7 @@ static uint32_t count_bricks(float length, float voxel)
 struct hair_field_box hair_field_box_of(const struct hair_groom* groom, float voxel)
 {
     hair_vec3 lower, upper;
-    find_bounds(groom, &lower, &upper);
+    find_groom_bounds(groom, &lower, &upper);
     hair_vec3 size = hair_sub(upper, lower), middle = hair_lerp(lower, upper, 0.5f);
     float longest = fmaxf(size.x, fmaxf(size.y, size.z));
     struct hair_field_box box;

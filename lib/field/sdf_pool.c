@@ -11,7 +11,7 @@ static size_t count_nodes(const hair_collision_mesh* mesh)
     return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
 }
 
-static void upload(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled_sdf* pooled)
+static void upload_sdf(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled_sdf* pooled)
 {
     size_t count = count_nodes(pooled->mesh);
     HAIR_ASSERT(pool->used + count <= pool->room);
@@ -22,7 +22,7 @@ static void upload(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled
 }
 
 // Make a buffer that holds all used grids and `more` nodes.
-static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
+static hair_result reserve_nodes(struct hair_sdf_pool* pool, size_t more)
 {
     if (pool->nodes && pool->used + more <= pool->room) return HAIR_OK;
     GLuint buffer = 0;
@@ -38,12 +38,12 @@ static hair_result make_room(struct hair_sdf_pool* pool, size_t more)
     pool->room = room;
     pool->used = 0;
     for (uint32_t i = 0; i < pool->count; ++i)
-        if (pool->pooled[i].mesh) upload(pool, buffer, &pool->pooled[i]);
+        if (pool->pooled[i].mesh) upload_sdf(pool, buffer, &pool->pooled[i]);
     return HAIR_OK;
 }
 
 // Find a free place, or append one.
-static hair_result find_place(struct hair_sdf_pool* pool, uint32_t* place)
+static hair_result reserve_place(struct hair_sdf_pool* pool, uint32_t* place)
 {
     HAIR_ASSERT(pool->count <= pool->capacity);
     for (*place = 0; *place < pool->count; ++*place)
@@ -86,15 +86,15 @@ hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collisi
             *place = i;
             return HAIR_OK;
         }
-    hair_result result = make_room(pool, count_nodes(mesh));
-    if (!result) result = find_place(pool, place);
+    hair_result result = reserve_nodes(pool, count_nodes(mesh));
+    if (!result) result = reserve_place(pool, place);
     if (result) {
         free_if_empty(pool);
         return result;
     }
     hair_collision_mesh_hold(mesh);
     pool->pooled[*place] = (struct hair_pooled_sdf){.mesh = mesh, .users = 1};
-    upload(pool, pool->nodes, &pool->pooled[*place]);
+    upload_sdf(pool, pool->nodes, &pool->pooled[*place]);
     return HAIR_OK;
 }
 

@@ -53,7 +53,7 @@ static bool is_whole(const unsigned char* bytes, size_t size, struct hair_gl_key
            hair_read_u64(bytes + size - TRAILER) == hair_hash_bytes(HAIR_HASH_BEGIN, bytes, size - TRAILER);
 }
 
-static bool load(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
+static bool load_program(struct hair_gl* gl, const unsigned char* bytes, size_t size, GLuint program)
 {
     GLint done = 0;
     GLenum format = hair_read_u32(bytes + 16);
@@ -71,7 +71,7 @@ bool hair_gl_cache_load(struct hair_gl* gl, struct hair_gl_key key, GLuint progr
     unsigned char* bytes = hair_alloc(&gl->host, size, 1);
     if (!bytes) return false; // The program can be compiled without the cache.
     int there = cache->get(key.hash, bytes, size, cache->user) == size && is_whole(bytes, size, key) &&
-                load(gl, bytes, size, program);
+                load_program(gl, bytes, size, program);
     hair_free(&gl->host, bytes);
     return there;
 }

@@ -36,7 +36,7 @@ static hair_result judge(struct hair_gl* gl, const struct captured* captured, si
     return HAIR_OK;
 }
 
-static void draw(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint framebuffer)
+static void draw_captured(struct hair_gl* gl, GLuint program, GLuint feedback, GLuint framebuffer)
 {
     struct hair_gl_capture was;
     hair_gl_begin_capture(gl, framebuffer, &was);
@@ -71,7 +71,7 @@ hair_result hair_gl_find_driver_quirks(struct hair_gl* gl)
     }
     if (!result) {
         gl->TransformFeedbackBufferBase(feedback, 0, buffer);
-        draw(gl, program, feedback, framebuffer);
+        draw_captured(gl, program, feedback, framebuffer);
         gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * sizeof *captured), captured);
         result = judge(gl, captured, count);
     }

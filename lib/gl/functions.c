@@ -10,7 +10,7 @@
 
 // Load one function. ISO C has no cast from void* to a function pointer, but both have the same
 // bytes wherever there is OpenGL.
-static bool find(const hair_context_desc* desc, const char* name, void* function)
+static bool find_function(const hair_context_desc* desc, const char* name, void* function)
 {
     void* address = desc->get_proc(name, desc->get_proc_user);
     memcpy(function, &address, sizeof address);
@@ -63,7 +63,7 @@ static void find_own_context(struct hair_gl* gl, const hair_context_desc* desc)
     // Some drivers have a function for every name that begins with "gl". It returns nonsense.
     int count = desc->get_proc("glXHairIsThere", desc->get_proc_user) ? 2 : 3;
     for (int i = 0; i < count; ++i) {
-        if (find(desc, names[i], &gl->get_current)) gl->own_context = gl->get_current();
+        if (find_function(desc, names[i], &gl->get_current)) gl->own_context = gl->get_current();
         if (gl->own_context) return;
     }
     gl->get_current = NULL;
@@ -118,7 +118,8 @@ static bool find_subgroup(const struct hair_gl* gl)
 hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
 {
     const hair_host* host = &gl->host;
-    if (!find(desc, "glGetIntegerv", &gl->GetIntegerv) || !find(desc, "glGetString", &gl->GetString))
+    if (!find_function(desc, "glGetIntegerv", &gl->GetIntegerv) ||
+        !find_function(desc, "glGetString", &gl->GetString))
         return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find glGetIntegerv");
     if (!gl->GetString(GL_VERSION))
         return hair_fail(host, HAIR_ERROR_OPENGL, "no OpenGL context is current on this thread");
@@ -129,7 +130,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
         return hair_fail(host, HAIR_ERROR_OPENGL, "the OpenGL context is version %d.%d, not 4.5 or newer",
                          major, minor);
 #define FUNCTION(type, name, parameters)                                                                     \
-    if (!find(desc, "gl" #name, &gl->name))                                                                  \
+    if (!find_function(desc, "gl" #name, &gl->name))                                                         \
         return hair_fail(host, HAIR_ERROR_OPENGL, "hair_context_desc.get_proc does not find gl" #name);
 #include "lib/gl/functions.inl"
 #undef FUNCTION

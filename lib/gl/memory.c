@@ -29,7 +29,7 @@ static uint32_t find_slot(const struct hair_gl_memory* memory, GLuint name, bool
 }
 
 // Make room for one more object.
-static hair_result grow(struct hair_gl* gl, const char* label)
+static hair_result grow_objects(struct hair_gl* gl, const char* label)
 {
     struct hair_gl_memory* memory = &gl->memory;
     if (2 * (memory->count + 1) <= memory->room) return HAIR_OK;
@@ -65,7 +65,7 @@ hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t s
 {
     const struct hair_gl_memory* memory = &gl->memory;
     if (!memory->limit || (memory->bytes <= memory->limit && size <= memory->limit - memory->bytes))
-        return grow(gl, label);
+        return grow_objects(gl, label);
     return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
                      "%s: %llu more bytes than the %llu in use would be beyond the limit of %llu", label,
                      (unsigned long long)size, (unsigned long long)memory->bytes,

@@ -21,7 +21,7 @@ struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass
     return NULL;
 }
 
-static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
+static struct hair_gl_program* add_program(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (gl->programs == gl->room) {
         uint32_t room = gl->room ? 2 * gl->room : 16;
@@ -45,7 +45,7 @@ static struct hair_gl_program* add(struct hair_gl* gl, hair_gl_pass pass)
 struct hair_gl_program* hair_gl_get_or_add(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* known = hair_gl_find(gl, pass);
-    if (!known) known = add(gl, pass);
+    if (!known) known = add_program(gl, pass);
     if (!known) hair_fail_memory(&gl->host, "a pass");
     return known;
 }

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char* const features[] = {
+static const char* const stage_features[] = {
 #define FEATURE(name, define) define,
 #include "lib/gl/passes.inl"
 };
@@ -93,7 +93,7 @@ static hair_result define_all(struct recipe* recipe)
     for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
         if (recipe->pass & HAIR_GL_BIT(i)) {
             char name[64];
-            snprintf(name, sizeof name, "%s 1", features[i]);
+            snprintf(name, sizeof name, "%s 1", stage_features[i]);
             HAIR_TRY(define(recipe, name));
         }
     if (!recipe->shader) return HAIR_OK;
@@ -109,7 +109,7 @@ static const char* wanted_stage(const struct recipe* recipe, const char* word)
     int without = *word == '!';
     size_t length = (size_t)(name - word) - (size_t)without;
     for (uint32_t i = 0; i < HAIR_GL_FEATURES; ++i)
-        if (strlen(features[i]) == length && strncmp(features[i], word + without, length) == 0)
+        if (strlen(stage_features[i]) == length && strncmp(stage_features[i], word + without, length) == 0)
             return ((recipe->pass & HAIR_GL_BIT(i)) == 0) == without ? name + 1 : NULL;
     return NULL;
 }
@@ -140,7 +140,7 @@ static hair_result read_stages(struct recipe* recipe, const char* stages)
     return HAIR_OK;
 }
 
-static struct hair_gl_key key_of(const struct recipe* recipe)
+static struct hair_gl_key key_of_recipe(const struct recipe* recipe)
 {
     struct hair_gl_key key = hair_gl_key_begin(recipe->gl);
     for (uint32_t i = 0; i < recipe->stages; ++i) {
@@ -153,7 +153,7 @@ static struct hair_gl_key key_of(const struct recipe* recipe)
 
 // Give the driver everything it needs to link, and query nothing, so that it may compile in
 // parallel.
-static hair_result start(struct recipe* recipe, GLuint program)
+static hair_result start_program(struct recipe* recipe, GLuint program)
 {
     struct hair_gl* gl = recipe->gl;
     for (uint32_t i = 0; i < recipe->stages; ++i) HAIR_TRY(start_stage(recipe, &recipe->stage[i], program));
@@ -182,16 +182,16 @@ static hair_result tell_why(const struct recipe* recipe, GLuint program)
 }
 
 // Start a program, or load it from the application's cache and set *kept.
-static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* kept, GLuint* out)
+static hair_result begin_program(struct recipe* recipe, struct hair_gl_key* key, int* kept, GLuint* out)
 {
     struct hair_gl* gl = recipe->gl;
     GLuint program = gl->CreateProgram();
     if (!program)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "the driver makes no program for %s", recipe->label);
     gl->ObjectLabel(GL_PROGRAM, program, -1, recipe->label);
-    if (gl->cache.get) *key = key_of(recipe);
+    if (gl->cache.get) *key = key_of_recipe(recipe);
     *kept = gl->cache.get && hair_gl_cache_load(gl, *key, program);
-    hair_result result = *kept ? HAIR_OK : start(recipe, program);
+    hair_result result = *kept ? HAIR_OK : start_program(recipe, program);
     if (result)
         gl->DeleteProgram(program);
     else
@@ -199,14 +199,14 @@ static hair_result begin(struct recipe* recipe, struct hair_gl_key* key, int* ke
     return result;
 }
 
-static hair_result make(struct recipe* recipe, GLuint* out)
+static hair_result make_program(struct recipe* recipe, GLuint* out)
 {
     struct hair_gl* gl = recipe->gl;
     HAIR_ASSERT(recipe->stages > 0);
     struct hair_gl_key key = {0, 0};
     GLuint program = 0;
     int kept = 0;
-    hair_result result = begin(recipe, &key, &kept, &program);
+    hair_result result = begin_program(recipe, &key, &kept, &program);
     if (!result && !kept && !is_linked(gl, program)) {
         result = tell_why(recipe, program);
         gl->DeleteProgram(program);
@@ -248,7 +248,7 @@ hair_result hair_gl_link(struct hair_gl* gl, const char* label, const char* stag
     struct recipe* recipe = open_recipe(gl, NULL, 0, label, stages);
     if (!recipe) return HAIR_ERROR_MEMORY;
     recipe->captured = captured;
-    hair_result result = recipe->result ? recipe->result : make(recipe, out);
+    hair_result result = recipe->result ? recipe->result : make_program(recipe, out);
     close_recipe(recipe);
     return result;
 }
@@ -260,7 +260,7 @@ hair_result hair_gl_link_pass(struct hair_gl* gl, const struct hair_gl_shader* s
     if (!known) return HAIR_ERROR_MEMORY;
     struct recipe* recipe = open_recipe(gl, shader, pass, known->label, hair_gl_row_stages(pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
-    hair_result result = recipe->result ? recipe->result : make(recipe, out);
+    hair_result result = recipe->result ? recipe->result : make_program(recipe, out);
     close_recipe(recipe);
     return result;
 }
@@ -278,7 +278,7 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
 
 // Wait for an asynchronous program and use it. If it failed to link, delete it. Compiling it again
 // reports the error.
-static void finish(struct hair_gl* gl, struct hair_gl_program* own)
+static void finish_program(struct hair_gl* gl, struct hair_gl_program* own)
 {
     HAIR_ASSERT(own->begun && !own->program);
     if (is_linked(gl, own->begun)) {
@@ -299,11 +299,11 @@ static hair_result begin_async(struct hair_gl* gl, struct hair_gl_program* own)
     if (!gl->parallel && gl->pending++) return HAIR_OK;
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
-    hair_result result = recipe->result ? recipe->result : begin(recipe, &own->key, &kept, &program);
+    hair_result result = recipe->result ? recipe->result : begin_program(recipe, &own->key, &kept, &program);
     close_recipe(recipe);
     HAIR_TRY(result);
     *(kept ? &own->program : &own->begun) = program;
-    if (!kept && !gl->parallel) finish(gl, own);
+    if (!kept && !gl->parallel) finish_program(gl, own);
     if (!kept && gl->parallel) ++gl->pending;
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
 }
@@ -314,7 +314,7 @@ static hair_result look_after(struct hair_gl* gl, struct hair_gl_program* own)
     GLint there = 0;
     gl->GetProgramiv(own->begun, GL_COMPLETION_STATUS_KHR, &there);
     gl->pending += !there;
-    if (there) finish(gl, own);
+    if (there) finish_program(gl, own);
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
 }
 
@@ -324,7 +324,7 @@ hair_result hair_gl_ensure_program(struct hair_gl* gl, hair_gl_pass pass)
     if (!own) return HAIR_ERROR_MEMORY;
     if (own->program) return HAIR_OK;
     if (gl->async) return own->begun ? look_after(gl, own) : begin_async(gl, own);
-    if (own->begun) finish(gl, own);
+    if (own->begun) finish_program(gl, own);
     return own->program ? HAIR_OK : compile_again(gl, own);
 }
 
@@ -356,7 +356,7 @@ hair_result hair_gl_compile(struct hair_gl* gl)
     hair_result first = HAIR_OK;
     ++gl->program_generation;
     for (uint32_t i = 0; i < gl->programs; ++i) {
-        if (gl->program[i]->begun) finish(gl, gl->program[i]);
+        if (gl->program[i]->begun) finish_program(gl, gl->program[i]);
         hair_result result = gl->program[i]->program ? compile_again(gl, gl->program[i]) : HAIR_OK;
         if (!first) first = result;
     }

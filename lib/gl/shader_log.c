@@ -16,7 +16,7 @@ struct line {
 
 // Find the place in a line. Drivers begin it with the number of the file, as in "2:50(7): error"
 // (Mesa) or "2(50) : error" (NVIDIA).
-static struct line find_place(const struct hair_gl_source* source, bool has_own, const char* message)
+static struct line parse_place(const struct hair_gl_source* source, bool has_own, const char* message)
 {
     struct line out = {.text = message, .length = (int)strcspn(message, "\n")};
     const char* at = strncmp(message, "ERROR: ", 7) == 0 ? message + 7 : message;
@@ -47,7 +47,7 @@ static void log_rest(struct hair_gl* gl, const struct hair_gl_source* source, co
 {
     for (const char* at = next_line(message); *at; at = next_line(at)) {
         struct line line = {.text = at, .length = (int)strcspn(at, "\n")};
-        if (source) line = find_place(source, own != NULL, at);
+        if (source) line = parse_place(source, own != NULL, at);
         if (line.length > 0)
             hair_log(&gl->host, HAIR_LOG_INFO, "%s%s%s%.*s", own ? own : "",
                      !own          ? ""
@@ -60,7 +60,7 @@ static void log_rest(struct hair_gl* gl, const struct hair_gl_source* source, co
 hair_result hair_gl_report_compile(struct hair_gl* gl, const struct hair_gl_source* source, const char* own,
                                    const char* name, const char* message)
 {
-    struct line first = find_place(source, own != NULL, message);
+    struct line first = parse_place(source, own != NULL, message);
     if (!*first.where) snprintf(first.where, sizeof first.where, "glsl/%s: ", source->file[0]);
     if (own) {
         hair_result result = hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s:%s%s%.*s", own,

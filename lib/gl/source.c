@@ -77,7 +77,7 @@ static size_t parse_include(const char* line, const char* end, const char** name
     return (size_t)(last - first - 1);
 }
 
-struct reader {
+struct source_reader {
     const hair_host* host;
     const char* folder;
     const char* prefix;
@@ -86,11 +86,11 @@ struct reader {
     struct hair_gl_source* out;
 };
 
-static hair_result read_one(struct reader* reader, const char* name, size_t length);
+static hair_result read_one(struct source_reader* reader, const char* name, size_t length);
 
 // Return the number of a file in #line directives. One compiler reports some errors of any file in
 // file 0. If the application has a text, that text is file 0.
-static uint32_t called(const struct reader* reader, uint32_t number)
+static uint32_t called(const struct source_reader* reader, uint32_t number)
 {
     HAIR_ASSERT(number < reader->out->files);
     if (!reader->own) return number;
@@ -98,7 +98,7 @@ static uint32_t called(const struct reader* reader, uint32_t number)
     return strcmp(reader->out->file[number], HAIR_GL_USER_SHADER) == 0 ? 0 : number;
 }
 
-static hair_result put_lines(struct reader* reader, const char* text, uint32_t number)
+static hair_result put_lines(struct source_reader* reader, const char* text, uint32_t number)
 {
     int line_number = 1;
     for (const char* line = text; *line; ++line_number) {
@@ -127,7 +127,7 @@ static hair_result put_lines(struct reader* reader, const char* text, uint32_t n
     return HAIR_OK;
 }
 
-static hair_result read_one(struct reader* reader, const char* name, size_t length)
+static hair_result read_one(struct source_reader* reader, const char* name, size_t length)
 {
     struct hair_gl_source* out = reader->out;
     uint32_t number = out->files;
@@ -166,7 +166,7 @@ hair_result hair_gl_read_source_with(const hair_host* host, const char* glsl_dir
                                      const char* prefix, const char* own, struct hair_gl_source* out)
 {
     memset(out, 0, sizeof *out);
-    struct reader reader = {
+    struct source_reader reader = {
         .host = host, .folder = glsl_dir, .prefix = prefix, .own = own, .text = {.host = host}, .out = out};
     hair_result result = read_one(&reader, name, strlen(name));
     if (!result && reader.text.failed) result = hair_fail_memory(host, "shader text");

@@ -33,7 +33,7 @@ void hair_gl_free_shader(struct hair_gl* gl, struct hair_gl_shader* shader)
     memset(shader, 0, sizeof *shader);
 }
 
-static hair_result make_room(struct hair_gl* gl, struct hair_gl_shader* shader)
+static hair_result reserve_programs(struct hair_gl* gl, struct hair_gl_shader* shader)
 {
     if (shader->count < shader->room) return HAIR_OK;
     uint32_t room = shader->room ? 2 * shader->room : 4;
@@ -59,7 +59,7 @@ hair_result hair_gl_ensure_user_program(struct hair_gl* gl, struct hair_gl_shade
             *out = shader->programs[i].program;
             return HAIR_OK;
         }
-    HAIR_TRY(make_room(gl, shader));
+    HAIR_TRY(reserve_programs(gl, shader));
     HAIR_TRY(hair_gl_link_pass(gl, shader, pass, out));
     HAIR_ASSERT(shader->count < shader->room);
     shader->programs[shader->count++] = (struct hair_gl_user_program){pass, *out};

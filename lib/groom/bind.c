@@ -141,8 +141,9 @@ static void fit_offset(const struct fit* fit, const struct hair_guide_spline* gu
     }
 }
 
-static struct hair_follower bind(const struct hair_groom_builder* builder, const struct fit* fit,
-                                 uint32_t candidate, uint32_t guide, const struct hair_guide_spline* spline)
+static struct hair_follower bind_follower(const struct hair_groom_builder* builder, const struct fit* fit,
+                                          uint32_t candidate, uint32_t guide,
+                                          const struct hair_guide_spline* spline)
 {
     uint32_t strand = builder->strand_of[candidate];
     uint32_t random = hair_candidate_random(builder, strand);
@@ -167,7 +168,7 @@ hair_result hair_strand_followers(struct hair_groom_builder* builder)
             uint32_t candidate = builder->bin_first[guide] + i;
             HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
             builder->groom->followers[builder->place[candidate]] =
-                bind(builder, &fit, candidate, guide, &spline);
+                bind_follower(builder, &fit, candidate, guide, &spline);
         }
     }
     return HAIR_OK;

@@ -26,7 +26,8 @@ static float reach_along(const struct hair_groom* groom, const struct hair_follo
 
 // Return a bound of the distance of a follower from `from`. The follower is at most as far from its
 // guides as its control points.
-static float reach_of(const struct hair_groom* groom, const struct hair_follower* follower, hair_vec3 from)
+static float follower_reach(const struct hair_groom* groom, const struct hair_follower* follower,
+                            hair_vec3 from)
 {
     const hair_vec4* offset = follower->offset;
     float max = reach_along(groom, follower, follower->guide0, from), away = 0;
@@ -50,7 +51,7 @@ void hair_measure_patches(struct hair_groom* groom)
         hair_vec3 from = hair_guide_root(groom, patch->guide);
         for (uint32_t j = 0; j < patch->count; ++j) {
             float length = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
-            patch->reach = fmaxf(patch->reach, reach_of(groom, &follower[j], from));
+            patch->reach = fmaxf(patch->reach, follower_reach(groom, &follower[j], from));
             patch->length = fmaxf(patch->length, length);
         }
     }

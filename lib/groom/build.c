@@ -37,7 +37,7 @@ static hair_result make_followers(struct hair_groom_builder* builder)
     return hair_guide_followers(builder);
 }
 
-static void describe(struct hair_groom_builder* builder)
+static void compute_info(struct hair_groom_builder* builder)
 {
     hair_groom_info* info = &builder->groom->info;
     const struct hair_strands* strands = &builder->strands;
@@ -60,7 +60,7 @@ static void describe(struct hair_groom_builder* builder)
     }
 }
 
-static hair_result build(struct hair_groom_builder* builder)
+static hair_result build_groom(struct hair_groom_builder* builder)
 {
     HAIR_TRY(hair_build_strands(builder));
     HAIR_TRY(hair_build_scalp(builder));
@@ -76,7 +76,7 @@ static hair_result build(struct hair_groom_builder* builder)
     hair_apply_thickness(builder);
     hair_measure_patches(builder->groom);
     builder->groom->head_sphere = hair_find_head_sphere(builder->groom);
-    describe(builder);
+    compute_info(builder);
     return HAIR_OK;
 }
 
@@ -110,7 +110,7 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     atomic_init(&groom->holders, 1);
     struct hair_groom_builder builder = {
         .host = &groom->host, .desc = desc, .import = import, .groom = groom};
-    hair_result result = build(&builder);
+    hair_result result = build_groom(&builder);
     free_builder(&builder);
     if (result)
         hair_groom_release(groom);

@@ -84,7 +84,7 @@ void hair_guide_spline_fit(const struct hair_groom* groom, uint32_t guide, struc
     }
 }
 
-static hair_quat mix(hair_quat a, hair_quat b, float w)
+static hair_quat mix_rotations(hair_quat a, hair_quat b, float w)
 {
     float sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1.0f : 1.0f;
     float u = 1 - w, v = sign * w;
@@ -103,6 +103,6 @@ struct hair_guide_spline_point hair_guide_spline_at(const struct hair_guide_spli
         hair_normalize(hair_lerp(spline->tangent[k], spline->tangent[k + 1], w), spline->tangent[k]);
     point.position = hair_lerp(spline->position[k], spline->position[k + 1], w);
     point.position = hair_add(point.position, hair_scale(point.tangent, fmaxf(u - 1, 0) * spline->length));
-    point.frame = mix(spline->frame[k], spline->frame[k + 1], w);
+    point.frame = mix_rotations(spline->frame[k], spline->frame[k + 1], w);
     return point;
 }

@@ -30,7 +30,7 @@ struct cell {
     double mean[AXES], squared[AXES];
 };
 
-static struct cell measure(const struct choice* choice, uint32_t* order, uint32_t count)
+static struct cell measure_cell(const struct choice* choice, uint32_t* order, uint32_t count)
 {
     struct cell cell = {.order = order, .count = count};
     for (uint32_t i = 0; i < count; ++i)
@@ -55,7 +55,7 @@ static struct cell measure(const struct choice* choice, uint32_t* order, uint32_
 //   N^(d/(d+2)) (r^d)^(2/(d+2)) = (N r^2)^(2/3),
 //
 // with d = 4, two dimensions for the root and two for the shape.
-static double weigh(const struct cell* cell)
+static double cell_weight(const struct cell* cell)
 {
     double sum = 0;
     for (int a = 0; a < AXES; ++a) sum += cell->squared[a];
@@ -91,7 +91,7 @@ static uint32_t widest(const struct cell* cell)
 }
 
 // Move the strands before the mean to the front. Return their number.
-static uint32_t cut(const struct choice* choice, const struct cell* cell)
+static uint32_t split_cell(const struct choice* choice, const struct cell* cell)
 {
     uint32_t axis = widest(cell), front = 0;
     for (uint32_t i = 0; i < cell->count; ++i) {
@@ -107,7 +107,7 @@ static uint32_t cut(const struct choice* choice, const struct cell* cell)
 // one per strand.
 static uint32_t count_front_guides(const struct cell* front, const struct cell* back, uint32_t guides)
 {
-    double a = weigh(front), b = weigh(back);
+    double a = cell_weight(front), b = cell_weight(back);
     if (!(a + b > 0)) a = front->count, b = back->count;
     uint32_t wanted = (uint32_t)(guides * (a / (a + b)) + 0.5);
     uint32_t min = guides > back->count ? guides - back->count : 1;
@@ -116,22 +116,22 @@ static uint32_t count_front_guides(const struct cell* front, const struct cell* 
     return wanted < min ? min : wanted > max ? max : wanted;
 }
 
-static void choose(struct choice* choice, const struct cell* cell, uint32_t guides, uint32_t depth)
+static void choose_guides(struct choice* choice, const struct cell* cell, uint32_t guides, uint32_t depth)
 {
     HAIR_ASSERT(1 <= guides && guides <= cell->count);
     if (guides == 1) {
         make_guide(choice, cell);
         return;
     }
-    uint32_t at = cut(choice, cell);
+    uint32_t at = split_cell(choice, cell);
     if (at == 0 || at == cell->count || depth > DEEPEST) at = cell->count / 2;
     HAIR_ASSERT(0 < at && at < cell->count);
-    struct cell front = measure(choice, cell->order, at);
-    struct cell back = measure(choice, cell->order + at, cell->count - at);
+    struct cell front = measure_cell(choice, cell->order, at);
+    struct cell back = measure_cell(choice, cell->order + at, cell->count - at);
     uint32_t front_guides = count_front_guides(&front, &back, guides);
     HAIR_ASSERT(1 <= front_guides && front_guides < guides);
-    choose(choice, &front, front_guides, depth + 1);
-    choose(choice, &back, guides - front_guides, depth + 1);
+    choose_guides(choice, &front, front_guides, depth + 1);
+    choose_guides(choice, &back, guides - front_guides, depth + 1);
 }
 
 static uint32_t count_guides(const struct hair_groom_builder* builder)
@@ -156,8 +156,8 @@ static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guide
     for (uint32_t i = 0; i < count; ++i) order[i] = i;
     struct choice choice = {
         .shape_samples = builder->shape_samples, .chosen = builder->chosen, .owner = builder->owner};
-    struct cell all = measure(&choice, order, count);
-    choose(&choice, &all, guides, 0);
+    struct cell all = measure_cell(&choice, order, count);
+    choose_guides(&choice, &all, guides, 0);
     HAIR_ASSERT(choice.found == guides);
     hair_free(builder->host, order);
     return HAIR_OK;

@@ -6,7 +6,7 @@
 
 #define FARTHEST 1e6f // Maximum distance from the origin, m, as for strands.
 
-static hair_result count_vertices(const struct hair_groom_builder* builder, uint32_t* out)
+static hair_result count_strand_vertices(const struct hair_groom_builder* builder, uint32_t* out)
 {
     const hair_groom_desc* desc = builder->desc;
     uint64_t sum = 0; // fits 2^22 strands of 2^32 vertices
@@ -64,7 +64,7 @@ static hair_result copy_strands(struct hair_groom_builder* builder)
 {
     const hair_groom_desc* desc = builder->desc;
     struct hair_strands* strands = &builder->strands;
-    HAIR_TRY(count_vertices(builder, &strands->vertex_count));
+    HAIR_TRY(count_strand_vertices(builder, &strands->vertex_count));
     strands->strand_count = desc->strand_count;
     strands->positions = hair_alloc(builder->host, strands->vertex_count, 3 * sizeof(float));
     strands->vertices = hair_alloc(builder->host, strands->strand_count, sizeof(uint32_t));
@@ -94,7 +94,7 @@ static hair_result clean(struct hair_groom_builder* builder)
 }
 
 // Compute the first vertex, the length and the shape samples of each strand.
-static void measure(struct hair_groom_builder* builder)
+static void measure_import(struct hair_groom_builder* builder)
 {
     const struct hair_strands* strands = &builder->strands;
     uint32_t first = 0;
@@ -120,7 +120,7 @@ hair_result hair_build_strands(struct hair_groom_builder* builder)
         hair_alloc(builder->host, count, 3 * HAIR_SHAPE_SAMPLES * sizeof *builder->shape_samples);
     if (!builder->first || !builder->length || !builder->shape_samples)
         return hair_fail_memory(builder->host, "strands");
-    measure(builder);
+    measure_import(builder);
     return HAIR_OK;
 }
 

@@ -16,7 +16,7 @@ static float coordinate(struct hair_point_set point_set, uint32_t point, uint32_
     return point_set.points[(size_t)point * point_set.dimensions + axis];
 }
 
-static void swap(uint32_t* order, uint32_t i, uint32_t j)
+static void swap_points(uint32_t* order, uint32_t i, uint32_t j)
 {
     uint32_t kept = order[i];
     order[i] = order[j];
@@ -63,9 +63,9 @@ static struct thirds divide(struct hair_point_set point_set, uint32_t* order, ui
         uint32_t weight = weights ? weights[order[i]] : 1;
         if (x < pivot) {
             thirds.weight_before += weight;
-            swap(order, i++, thirds.equal++);
+            swap_points(order, i++, thirds.equal++);
         } else if (x > pivot) {
-            swap(order, i, --thirds.after);
+            swap_points(order, i, --thirds.after);
         } else {
             thirds.weight_equal += weight;
             ++i;
@@ -106,7 +106,7 @@ uint32_t hair_kd_split(struct hair_point_set point_set, uint32_t* order, uint32_
     return low < count ? low : count - 1;
 }
 
-static void plant(struct hair_kd_tree* tree, uint32_t low, uint32_t high)
+static void build_nodes(struct hair_kd_tree* tree, uint32_t low, uint32_t high)
 {
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
@@ -115,7 +115,7 @@ static void plant(struct hair_kd_tree* tree, uint32_t low, uint32_t high)
         hair_kd_split(tree->point_set, tree->order + low, high - low, axis, NULL, middle - low);
         tree->plane[middle] =
             (struct hair_kd_plane){coordinate(tree->point_set, tree->order[middle], axis), axis};
-        plant(tree, low, middle);
+        build_nodes(tree, low, middle);
         low = middle;
     }
 }
@@ -131,7 +131,7 @@ hair_result hair_kd_tree_build(const hair_host* host, struct hair_point_set poin
         return hair_fail_memory(host, "the search for near strands");
     }
     for (uint32_t i = 0; i < count; ++i) tree->order[i] = i;
-    plant(tree, 0, count);
+    build_nodes(tree, 0, count);
     return HAIR_OK;
 }
 
@@ -142,19 +142,19 @@ void hair_kd_tree_free(const hair_host* host, struct hair_kd_tree* tree)
     *tree = (struct hair_kd_tree){0};
 }
 
-struct search {
+struct tree_search {
     const struct hair_kd_tree* tree;
     const float* point;
     struct hair_kd_neighbor* near;
     uint32_t found, wanted;
 };
 
-static float farthest(const struct search* search)
+static float farthest(const struct tree_search* search)
 {
     return search->found < search->wanted ? FLT_MAX : search->near[search->found - 1].squared;
 }
 
-static void consider(struct search* search, uint32_t index)
+static void consider(struct tree_search* search, uint32_t index)
 {
     HAIR_ASSERT(index < search->tree->count);
     const struct hair_point_set point_set = search->tree->point_set;
@@ -174,14 +174,14 @@ static void consider(struct search* search, uint32_t index)
     HAIR_ASSERT(i + 1 == search->found || squared <= search->near[i + 1].squared);
 }
 
-static void descend(struct search* search, uint32_t low, uint32_t high)
+static void search_nodes(struct tree_search* search, uint32_t low, uint32_t high)
 {
     const struct hair_kd_tree* tree = search->tree;
     while (high - low > LEAF) {
         uint32_t middle = low + (high - low) / 2;
         float d = search->point[tree->plane[middle].axis] - tree->plane[middle].at;
         bool front = d < 0;
-        descend(search, front ? low : middle, front ? middle : high);
+        search_nodes(search, front ? low : middle, front ? middle : high);
         if (d * d >= farthest(search)) return;
         if (front)
             low = middle;
@@ -195,7 +195,7 @@ uint32_t hair_kd_tree_nearest(const struct hair_kd_tree* tree, const float* poin
                               struct hair_kd_neighbor* near, uint32_t found, uint32_t wanted)
 {
     HAIR_ASSERT(found <= wanted && wanted > 0);
-    struct search search = {tree, point, near, found, wanted};
-    descend(&search, 0, tree->count);
+    struct tree_search search = {tree, point, near, found, wanted};
+    search_nodes(&search, 0, tree->count);
     return search.found;
 }

@@ -7,7 +7,7 @@
 
 #define ALIKE (1.0f / 16) // Maximum difference of densities within a patch.
 
-struct layout {
+struct patch_layout {
     struct hair_groom_builder* builder;
     struct hair_point_set centres;
     uint32_t* queue; // candidates in the order of their followers
@@ -16,19 +16,20 @@ struct layout {
     uint32_t patch_count;
 };
 
-static float density_of(const struct layout* layout, uint32_t bin)
+static float density_of(const struct patch_layout* layout, uint32_t bin)
 {
     return layout->builder->bin_density ? layout->builder->bin_density[bin] : 1;
 }
 
-static uint64_t count_candidates(const struct layout* layout, const uint32_t* order, uint32_t count)
+static uint64_t count_patch_candidates(const struct patch_layout* layout, const uint32_t* order,
+                                       uint32_t count)
 {
     uint64_t sum = 0;
     for (uint32_t i = 0; i < count; ++i) sum += layout->builder->bin_candidates[order[i]];
     return sum;
 }
 
-static bool are_alike(const struct layout* layout, const uint32_t* order, uint32_t count)
+static bool are_similar(const struct patch_layout* layout, const uint32_t* order, uint32_t count)
 {
     float min = 1, max = 0;
     for (uint32_t i = 0; i < count; ++i) {
@@ -56,7 +57,7 @@ static void shuffle(uint32_t* queue, uint32_t count, uint32_t random)
 // Any run of candidates of a root bin is spread evenly over it, which thins a patch more evenly
 // than a random order. The candidates of one root bin therefore keep their order. Each root bin
 // contributes its candidates at even distances, from a random start.
-static void merge(const struct hair_groom_builder* builder, uint32_t* queue, uint32_t count)
+static void merge_queue(const struct hair_groom_builder* builder, uint32_t* queue, uint32_t count)
 {
     HAIR_ASSERT(count <= HAIR_MAX_ISOLINES);
     float from[HAIR_MAX_ISOLINES];
@@ -69,11 +70,11 @@ static void merge(const struct hair_groom_builder* builder, uint32_t* queue, uin
 }
 
 // Make one patch, or the minimum number of patches of even size if one cannot hold all.
-static void make_patches(struct layout* layout, uint32_t first, uint32_t total, float density)
+static void make_patches(struct patch_layout* layout, uint32_t first, uint32_t total, float density)
 {
     HAIR_ASSERT(total > 0 && first + total <= layout->queued);
     if (layout->builder->is_scattered && total <= HAIR_MAX_ISOLINES)
-        merge(layout->builder, layout->queue + first, total);
+        merge_queue(layout->builder, layout->queue + first, total);
     // One root bin keeps its order.
     else if (!layout->builder->is_scattered || layout->builder->map_density)
         shuffle(layout->queue + first, total, layout->builder->desc->seed ^ hair_hash(first));
@@ -90,7 +91,7 @@ static void make_patches(struct layout* layout, uint32_t first, uint32_t total, 
 
 // Split the candidates by the map value that differs too much, until maps allow one patch for each
 // part.
-static void part(struct layout* layout, uint32_t first, uint32_t total, float density)
+static void part(struct patch_layout* layout, uint32_t first, uint32_t total, float density)
 {
     for (;;) {
         uint32_t front = hair_map_split(layout->builder, layout->queue + first, total);
@@ -103,7 +104,7 @@ static void part(struct layout* layout, uint32_t first, uint32_t total, float de
     make_patches(layout, first, total, density);
 }
 
-static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
+static void fill_patches(struct patch_layout* layout, const uint32_t* order, uint32_t count)
 {
     const struct hair_groom_builder* builder = layout->builder;
     uint32_t first = layout->queued;
@@ -118,13 +119,13 @@ static void fill(struct layout* layout, const uint32_t* order, uint32_t count)
     part(layout, first, total, (float)(sum / total));
 }
 
-static void lay_out(struct layout* layout, uint32_t* order, uint32_t count)
+static void lay_out(struct patch_layout* layout, uint32_t* order, uint32_t count)
 {
     for (;;) {
         HAIR_ASSERT(count > 0);
-        uint64_t total = count_candidates(layout, order, count);
-        if (count == 1 || (total <= HAIR_MAX_ISOLINES && are_alike(layout, order, count))) {
-            fill(layout, order, count);
+        uint64_t total = count_patch_candidates(layout, order, count);
+        if (count == 1 || (total <= HAIR_MAX_ISOLINES && are_similar(layout, order, count))) {
+            fill_patches(layout, order, count);
             return;
         }
         uint64_t parts = (total - 1) / HAIR_MAX_ISOLINES + 1;
@@ -157,7 +158,7 @@ hair_result hair_build_patches(struct hair_groom_builder* builder)
     struct hair_groom* groom = builder->groom;
     uint32_t* order = hair_alloc(builder->host, builder->bin_count, sizeof *order);
     uint32_t* queue = hair_alloc(builder->host, builder->candidate_count, sizeof *queue);
-    struct layout layout = {.builder = builder, .centres = {builder->bin_centres, 3}, .queue = queue};
+    struct patch_layout layout = {.builder = builder, .centres = {builder->bin_centres, 3}, .queue = queue};
     builder->place = hair_alloc(builder->host, builder->candidate_count, sizeof *builder->place);
     layout.patches = groom->patches = hair_alloc(builder->host, max, sizeof *groom->patches);
     hair_result result = HAIR_OK;

@@ -22,12 +22,12 @@ static hair_vec3 vertex(const float* p, size_t i)
     return hair_load3(p + 3 * i);
 }
 
-static hair_vec3 segment(const float* p, size_t i)
+static hair_vec3 segment_vector(const float* p, size_t i)
 {
     return hair_normalize(hair_sub(vertex(p, i + 1), vertex(p, i)), Y_AXIS);
 }
 
-static uint32_t count_vertices(const struct hair_groom_builder* builder, uint32_t guide)
+static uint32_t count_guide_vertices(const struct hair_groom_builder* builder, uint32_t guide)
 {
     uint32_t vertices = builder->strands.vertices[builder->chosen[guide]];
     uint32_t max = builder->desc->guide_vertices;
@@ -59,7 +59,7 @@ static uint32_t space_out(float* positions, uint32_t vertices, uint32_t count)
 // are split. This preserves shape and length. If the strand has more, vertices at equal distances
 // replace them. Each arc of length s and radius r is then shortened to its chord, by (s/r)^2 / 24
 // of its length.
-static void sample(const float* positions, uint32_t vertices, float* out, uint32_t count)
+static void sample_strand(const float* positions, uint32_t vertices, float* out, uint32_t count)
 {
     uint32_t have = vertices;
     if (vertices > count) {
@@ -85,7 +85,7 @@ static hair_vec3 mean_direction(const struct hair_groom_builder* builder)
 {
     hair_vec3 sum = {0};
     for (uint32_t i = 0; i < builder->groom->info.guide_count; ++i)
-        sum = hair_add(sum, segment(builder->strands.positions, builder->first[builder->chosen[i]]));
+        sum = hair_add(sum, segment_vector(builder->strands.positions, builder->first[builder->chosen[i]]));
     return hair_normalize(sum, Y_AXIS);
 }
 
@@ -111,9 +111,9 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
         if (i + 1 < count) length = hair_distance(at, vertex(p, i + 1));
         if (i + 2 < count) over_two = hair_distance(at, vertex(p, i + 2));
         if (i > 0 && i + 1 < count) {
-            hair_vec3 to = segment(p, i);
+            hair_vec3 to = segment_vector(p, i);
             direction = hair_normalize(hair_rotate(hair_quat_conjugate(frame), to), Y_AXIS);
-            hair_quat turn = hair_quat_between(segment(p, i - 1), to);
+            hair_quat turn = hair_quat_between(segment_vector(p, i - 1), to);
             frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
         }
         rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
@@ -126,15 +126,15 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
     HAIR_ASSERT(guide->arc_length > 0);
 }
 
-static void write_guide(struct hair_groom_builder* builder, uint32_t number, hair_vec3 mean)
+static void write_rest_guide(struct hair_groom_builder* builder, uint32_t number, hair_vec3 mean)
 {
     struct hair_guide* guide = &builder->groom->guides[number];
     uint32_t strand = builder->chosen[number];
     HAIR_ASSERT(2 <= guide->count && guide->count <= HAIR_MAX_GUIDE_VERTICES);
     float p[3 * HAIR_MAX_GUIDE_VERTICES];
-    sample(builder->strands.positions + 3 * (size_t)builder->first[strand], builder->strands.vertices[strand],
-           p, guide->count);
-    hair_quat frame = find_root_frame(mean, segment(p, 0));
+    sample_strand(builder->strands.positions + 3 * (size_t)builder->first[strand],
+                  builder->strands.vertices[strand], p, guide->count);
+    hair_quat frame = find_root_frame(mean, segment_vector(p, 0));
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
     write_rest(p, guide->count, guide, builder->groom->rest + guide->first);
 }
@@ -146,7 +146,7 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
     groom->guides = hair_alloc(builder->host, info->guide_count, sizeof *groom->guides);
     if (!groom->guides) return hair_fail_memory(builder->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
-        uint32_t count = count_vertices(builder, i);
+        uint32_t count = count_guide_vertices(builder, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
         info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
         if (count > groom->max_vertices) groom->max_vertices = count;
@@ -154,6 +154,6 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
     groom->rest = hair_alloc(builder->host, info->guide_vertex_count, sizeof *groom->rest);
     if (!groom->rest) return hair_fail_memory(builder->host, "guides");
     hair_vec3 mean = mean_direction(builder);
-    for (uint32_t i = 0; i < info->guide_count; ++i) write_guide(builder, i, mean);
+    for (uint32_t i = 0; i < info->guide_count; ++i) write_rest_guide(builder, i, mean);
     return HAIR_OK;
 }

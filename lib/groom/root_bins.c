@@ -1,7 +1,7 @@
 // root_bins.c - root bins, which followers grow on. They are guides or scalp triangles.
 #include "lib/groom/groom_builder.h"
 
-static hair_result make_room(struct hair_groom_builder* builder, uint32_t count)
+static hair_result reserve_bins(struct hair_groom_builder* builder, uint32_t count)
 {
     builder->bin_count = count;
     builder->bin_candidates = hair_alloc(builder->host, count, sizeof *builder->bin_candidates);
@@ -15,7 +15,7 @@ static hair_result make_room(struct hair_groom_builder* builder, uint32_t count)
 hair_result hair_guide_bins(struct hair_groom_builder* builder)
 {
     uint32_t guides = builder->groom->info.guide_count;
-    HAIR_TRY(make_room(builder, guides));
+    HAIR_TRY(reserve_bins(builder, guides));
     for (uint32_t i = 0; i < guides; ++i)
         hair_store3(builder->bin_centres + 3 * (size_t)i, hair_guide_root(builder->groom, i));
     return HAIR_OK;
@@ -24,7 +24,7 @@ hair_result hair_guide_bins(struct hair_groom_builder* builder)
 hair_result hair_scalp_bins(struct hair_groom_builder* builder)
 {
     uint32_t triangles = builder->desc->scalp_triangle_count;
-    HAIR_TRY(make_room(builder, triangles));
+    HAIR_TRY(reserve_bins(builder, triangles));
     builder->bin_density = builder->density;
     for (uint32_t i = 0; i < triangles; ++i) {
         hair_vec3 a = hair_scalp_corner(builder, i, 0), b = hair_scalp_corner(builder, i, 1);

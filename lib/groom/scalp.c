@@ -212,8 +212,8 @@ static hair_vec3 in_root_frame(const struct hair_groom* groom, uint32_t guide, h
     return hair_rotate(hair_quat_conjugate((hair_quat){q.x, q.y, q.z, q.w}), v);
 }
 
-static struct hair_follower grow(const struct hair_groom* groom, const struct trio* trio, hair_vec3 root,
-                                 uint32_t* random)
+static struct hair_follower grow_follower(const struct hair_groom* groom, const struct trio* trio,
+                                          hair_vec3 root, uint32_t* random)
 {
     uint32_t guide = trio->guide[0];
     hair_vec3 blended = {0};
@@ -255,11 +255,12 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
         draw_first(&trio, &random);
         respect_partings(builder->groom, &trio);
         HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
-        builder->groom->followers[builder->place[candidate]] = grow(builder->groom, &trio, root, &random);
+        builder->groom->followers[builder->place[candidate]] =
+            grow_follower(builder->groom, &trio, root, &random);
     }
 }
 
-static hair_result plant(struct scalp* scalp)
+static hair_result generate_followers(struct scalp* scalp)
 {
     const struct hair_groom_builder* builder = scalp->builder;
     uint32_t guides = builder->groom->info.guide_count;
@@ -279,8 +280,8 @@ hair_result hair_scalp_followers(struct hair_groom_builder* builder)
     struct scalp scalp = {.builder = builder};
     scalp.points = hair_alloc(builder->host, builder->groom->info.guide_count, 3 * sizeof *scalp.points);
     scalp.guide_at = hair_alloc(builder->host, builder->desc->scalp_vertex_count, sizeof *scalp.guide_at);
-    hair_result result =
-        scalp.points && scalp.guide_at ? plant(&scalp) : hair_fail_memory(builder->host, "followers");
+    hair_result result = scalp.points && scalp.guide_at ? generate_followers(&scalp)
+                                                        : hair_fail_memory(builder->host, "followers");
     hair_free(builder->host, scalp.points);
     hair_free(builder->host, scalp.guide_at);
     return result;

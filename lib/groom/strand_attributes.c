@@ -41,8 +41,8 @@ static float mean_radius(const struct hair_groom_builder* builder)
 
 // Scale the radius of a follower by the radii of its strands. Random variation is kept unless the
 // follower is itself a strand of the groom.
-static void widen(const struct hair_groom_builder* builder, const struct mix* mix, float mean,
-                  struct hair_follower* follower)
+static void widen_strand(const struct hair_groom_builder* builder, const struct mix* mix, float mean,
+                         struct hair_follower* follower)
 {
     float radius = 0;
     for (int i = 0; i < 3; ++i) radius += mix->weight[i] * builder->strands.radii[mix->strand[i]];
@@ -76,7 +76,7 @@ hair_result hair_build_strand_attributes(struct hair_groom_builder* builder)
         HAIR_ASSERT(builder->place[i] < builder->candidate_count);
         struct hair_follower* follower = &groom->followers[builder->place[i]];
         struct mix mix = mix_of(builder, i, follower);
-        if (strands->radii) widen(builder, &mix, mean, follower);
+        if (strands->radii) widen_strand(builder, &mix, mean, follower);
         if (strands->colors)
             paint(builder, &mix, groom->colors + 4 * HAIR_STRAND_COLORS * (size_t)builder->place[i]);
     }

@@ -29,7 +29,7 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
     return HAIR_OK;
 }
 
-static hair_result build(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
+static hair_result build_style(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
     asset->host = *host;
     asset->format = HAIR_FORMAT_NONE;
@@ -47,7 +47,7 @@ hair_result hair_style_build(const hair_host* host, const hair_style_desc* desc,
 {
     struct hair_asset* asset = hair_alloc(host, 1, sizeof *asset);
     if (!asset) return hair_fail_memory(host, "a haircut");
-    hair_result result = build(host, desc, asset);
+    hair_result result = build_style(host, desc, asset);
     if (result)
         hair_asset_free(asset);
     else

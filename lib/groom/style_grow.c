@@ -113,7 +113,7 @@ static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_v
     return p;
 }
 
-static void run(const struct walk* walk, hair_vec3 root, struct hair_style_path* path)
+static void run_walk(const struct walk* walk, hair_vec3 root, struct hair_style_path* path)
 {
     hair_vec3 p = root, normal = hair_skull_normal(root);
     hair_vec3 d = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
@@ -132,7 +132,7 @@ static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_
 {
     walk->max = length;
     walk->floor = -INFINITY;
-    run(walk, root, path);
+    run_walk(walk, root, path);
     hair_style_path_trim(path, length);
 }
 
@@ -141,7 +141,7 @@ static void run_to(struct walk* walk, hair_vec3 root, float length, struct hair_
 static void run_cut(struct walk* walk, hair_vec3 root, float scale, float min, struct hair_style_path* path)
 {
     walk->max = 0.6f;
-    run(walk, root, path);
+    run_walk(walk, root, path);
     if (scale == 1 && path->length >= min) return;
     run_to(walk, root, fmaxf(path->length, min) * scale, path);
 }

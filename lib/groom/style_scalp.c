@@ -233,7 +233,7 @@ static int is_inside_outline(const struct build* build, double x, double y)
     return inside;
 }
 
-static hair_result triangulate(struct build* build)
+static hair_result triangulate_scalp(struct build* build)
 {
     uint32_t* triangles = build->scalp.triangles;
     project(build);
@@ -307,7 +307,7 @@ static void choose_spacing(struct build* build, float area, uint32_t vertex_coun
     add_outline(build);
 }
 
-static hair_result fill(struct build* build, uint32_t vertex_count)
+static hair_result fill_scalp(struct build* build, uint32_t vertex_count)
 {
     float fraction;
     draw_candidates(build, &fraction);
@@ -316,10 +316,10 @@ static hair_result fill(struct build* build, uint32_t vertex_count)
     float area = fraction * 4 * PI * HAIR_SKULL_Y * HAIR_SKULL_Z;
     choose_spacing(build, area, vertex_count);
     fill_gaps(build, vertex_count);
-    HAIR_TRY(triangulate(build));
+    HAIR_TRY(triangulate_scalp(build));
     for (int i = 0; i < RELAXATIONS; ++i) {
         relax(build);
-        HAIR_TRY(triangulate(build));
+        HAIR_TRY(triangulate_scalp(build));
     }
     return HAIR_OK;
 }
@@ -357,7 +357,7 @@ hair_result hair_scalp_build(const hair_host* host, uint32_t vertex_count, struc
         !build.area || !build.plane)
         result = hair_fail_memory(host, "the scalp");
     else
-        result = fill(&build, vertex_count);
+        result = fill_scalp(&build, vertex_count);
     HAIR_ASSERT(build.scalp.vertex_count <= max);
     if (!result) lift(&build);
 

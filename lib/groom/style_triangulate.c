@@ -23,14 +23,14 @@ struct edge {
     uint32_t a, b;
 };
 
-struct place {
+struct vertex_place {
     double x;
     uint32_t index;
 };
 
 struct work {
     double* points; // followed by the three far corners
-    struct place* order;
+    struct vertex_place* order;
     struct face* faces; // not yet final
     struct edge* edges;
     uint32_t face_count, edge_count;
@@ -68,7 +68,7 @@ static void toggle_edge(struct work* work, uint32_t a, uint32_t b)
     work->edges[work->edge_count++] = (struct edge){a, b};
 }
 
-static void keep(struct work* work, const struct face* face)
+static void keep_face(struct work* work, const struct face* face)
 {
     const uint32_t* corner = face->corner;
     if (corner[0] >= work->count || corner[1] >= work->count || corner[2] >= work->count) return;
@@ -88,7 +88,7 @@ static void insert(struct work* work, uint32_t point)
     for (uint32_t i = 0; i < work->face_count;) {
         struct face* face = &work->faces[i];
         if (is_final(face, p[0])) {
-            keep(work, face);
+            keep_face(work, face);
         } else if (encloses(face, p)) {
             for (uint32_t k = 0; k < 3; ++k) toggle_edge(work, face->corner[k], face->corner[(k + 1) % 3]);
         } else {
@@ -114,19 +114,19 @@ static void copy_points(const double* points, uint32_t count, double* out)
     memcpy(out + 2 * count, corners, sizeof corners);
 }
 
-static int compare(const void* a, const void* b)
+static int compare_places(const void* a, const void* b)
 {
-    double x = ((const struct place*)a)->x, y = ((const struct place*)b)->x;
+    double x = ((const struct vertex_place*)a)->x, y = ((const struct vertex_place*)b)->x;
     return (x > y) - (x < y);
 }
 
 static void triangulate(struct work* work)
 {
-    for (uint32_t i = 0; i < work->count; ++i) work->order[i] = (struct place){work->points[2 * i], i};
-    qsort(work->order, work->count, sizeof *work->order, compare);
+    for (uint32_t i = 0; i < work->count; ++i) work->order[i] = (struct vertex_place){work->points[2 * i], i};
+    qsort(work->order, work->count, sizeof *work->order, compare_places);
     work->faces[work->face_count++] = make_face(work->points, work->count, work->count + 1, work->count + 2);
     for (uint32_t i = 0; i < work->count; ++i) insert(work, work->order[i].index);
-    for (uint32_t i = 0; i < work->face_count; ++i) keep(work, &work->faces[i]);
+    for (uint32_t i = 0; i < work->face_count; ++i) keep_face(work, &work->faces[i]);
 }
 
 uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t count, uint32_t* out)
@@ -135,7 +135,7 @@ uint32_t hair_triangulate(const hair_host* host, const double* points, uint32_t 
     // edges while it is found.
     size_t max = 2 * (size_t)count + 8;
     struct work work = {.points = hair_alloc(host, 2 * ((size_t)count + 3), sizeof(double)),
-                        .order = hair_alloc(host, count, sizeof(struct place)),
+                        .order = hair_alloc(host, count, sizeof(struct vertex_place)),
                         .faces = hair_alloc(host, max, sizeof(struct face)),
                         .edges = hair_alloc(host, 3 * max, sizeof(struct edge)),
                         .count = count,

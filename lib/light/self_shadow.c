@@ -43,8 +43,8 @@ static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl
     return geometry->follower_collision.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
 }
 
-static hair_result ensure_buffers(struct hair_lighting* lighting, const struct hair_geometry* geometry,
-                                  uint32_t each)
+static hair_result ensure_shadow_buffers(struct hair_lighting* lighting, const struct hair_geometry* geometry,
+                                         uint32_t each)
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
@@ -56,7 +56,7 @@ static hair_result ensure_buffers(struct hair_lighting* lighting, const struct h
     return result ? result : make_light(lighting, geometry, each);
 }
 
-static void fill(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t groups)
+static void fill_grid(struct hair_lighting* lighting, const struct hair_geometry* geometry, uint32_t groups)
 {
     static const GLuint none = 0, outermost = UINT32_MAX;
     struct hair_gl* gl = lighting->gl;
@@ -100,7 +100,7 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     struct hair_self_shadow_state* own = &lighting->self_shadow;
     HAIR_ASSERT(params->light_values > 0);
     hair_result result = hair_geometry_ensure_vertex_cache(geometry, is_part ? params : NULL);
-    if (!result) result = ensure_buffers(lighting, geometry, params->light_values);
+    if (!result) result = ensure_shadow_buffers(lighting, geometry, params->light_values);
     if (result) return result;
     hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
     hair_geometry_bind(geometry);
@@ -110,7 +110,7 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     GLuint buffers[] = {own->nodes, geometry->vertex_cache.position, own->light};
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
-    if (own->filled != geometry->vertex_cache.writes) fill(lighting, geometry, groups);
+    if (own->filled != geometry->vertex_cache.writes) fill_grid(lighting, geometry, groups);
     if (is_found(lighting, view, params)) return HAIR_OK;
     if (is_part) own->frame = 0; // Another view draws other vertices.
     if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);

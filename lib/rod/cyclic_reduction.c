@@ -69,7 +69,7 @@ static double entry(const struct hair_rod* rod, uint32_t count, uint32_t i, uint
     return sum;
 }
 
-static struct block_row row_of(const struct hair_rod* rod, uint32_t count, uint32_t block)
+static struct block_row row_of_block(const struct hair_rod* rod, uint32_t count, uint32_t block)
 {
     uint32_t i = 2 * block;
     double off = entry(rod, count, i + 1, i);
@@ -115,7 +115,7 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
     uint32_t count = (guide->count + 1) / 2, round = 0, heard = 0;
     HAIR_ASSERT(0 < count && count <= MAX_BLOCKS);
     struct block_row row[2][MAX_BLOCKS];
-    for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of(rod, guide->count, b);
+    for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of_block(rod, guide->count, b);
     for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
         const struct block_row* from = row[round % 2];
         struct block_row* to = row[(round + 1) % 2];

@@ -20,14 +20,14 @@
 #define RELATIVE 2.0
 #define LARGEST 1e30 // Maximum number of a rod. Extreme physics can exceed the range of floats.
 
-static float float_of(double v)
+static float clamp_to_float(double v)
 {
     return (float)fmax(-LARGEST, fmin(LARGEST, v));
 }
 
 static hair_vec4 vec4_of(hair_dvec3 v, double w)
 {
-    return (hair_vec4){float_of(v.x), float_of(v.y), float_of(v.z), float_of(w)};
+    return (hair_vec4){clamp_to_float(v.x), clamp_to_float(v.y), clamp_to_float(v.z), clamp_to_float(w)};
 }
 
 // Find the first moment about vertex i of the masses beyond. Return their moment of inertia.
@@ -109,7 +109,7 @@ static void write_segment(const struct hair_rod_shape* s, uint32_t i, double sof
     double elastic = stiffness > 0 ? stiffness / (stiffness + weight) : 0;
     double relative = i > 0 ? RELATIVE * elastic : 0;
     double damping = find_damping(elastic, s->length[i] * arm / inertia, relative);
-    out->segment.w = float_of(relative * swing);
+    out->segment.w = clamp_to_float(relative * swing);
     out->strain = vec4_of(hair_dscale(aim, 1 / inertia), c / inertia);
     out->factor = vec4_of(hair_dscale(across, 1 / inertia), (double)out->factor.w);
     out->factor_euler = vec4_of(r, damping * swing);

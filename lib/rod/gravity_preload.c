@@ -143,7 +143,7 @@ static double find_pose(struct search* a)
 }
 
 // Return the maximum distance of a vertex of the pose from its position in `place`.
-static double distance(const struct search* a, const hair_dvec3* place)
+static double max_distance(const struct search* a, const hair_dvec3* place)
 {
     double max = 0;
     for (uint32_t i = 1; i < a->shape->count; ++i)
@@ -159,7 +159,7 @@ static bool is_reached(const struct search* a)
     for (uint32_t i = 0; i + 1 < a->shape->count; ++i) length += a->shape->length[i];
     hair_rod_pose_at(a->shape, a->shape->frame, &released);
     hair_rod_settle(a->shape, a->rest, 1, LAST_STEPS, &released);
-    return distance(a, released.place) < SAME * length;
+    return max_distance(a, released.place) < SAME * length;
 }
 
 // Find the pose to hold and its rest shape. Return the distance of that pose from the groom.
@@ -167,7 +167,7 @@ static double sag(struct search* a)
 {
     double t = find_pose(a);
     while (t <= 1) {
-        if (holds(a, MARGIN) && is_reached(a)) return distance(a, a->shape->place);
+        if (holds(a, MARGIN) && is_reached(a)) return max_distance(a, a->shape->place);
         if (t >= 1) break;
         t = fmin(t + STEP, 1);
         holds_at(a, t);
@@ -176,7 +176,7 @@ static double sag(struct search* a)
     memcpy(a->rest, a->own, sizeof a->rest);
     hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
     hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
-    return distance(a, a->shape->place);
+    return max_distance(a, a->shape->place);
 }
 
 static bool resists(const struct hair_rod_shape* s)
@@ -186,7 +186,7 @@ static bool resists(const struct hair_rod_shape* s)
     return true;
 }
 
-static void start(struct search* a, struct hair_rod_shape* s)
+static void start_search(struct search* a, struct hair_rod_shape* s)
 {
     a->shape = s;
     memcpy(a->bend, s->bend, s->count * sizeof *a->bend);
@@ -197,7 +197,7 @@ static void start(struct search* a, struct hair_rod_shape* s)
 }
 
 // Set the stress that the rest strain causes in the groom. Set rest_real to the rest shape.
-static void finish(struct search* a)
+static void finish_search(struct search* a)
 {
     struct hair_rod_shape* s = a->shape;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
@@ -213,7 +213,7 @@ struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
     struct hair_rod_preload held = {.stiffest = 1};
     struct search a;
     if (hair_ddot(s->load, s->load) == 0) return held;
-    start(&a, s);
+    start_search(&a, s);
     if (!resists(s)) { // No multiple of the stiffness helps.
         hair_rod_load(s, 1, &a.pose);
         hair_rod_balance(s, &a.pose);
@@ -233,6 +233,6 @@ struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
         else
             holds(&a, MARGIN);
     }
-    finish(&a);
+    finish_search(&a);
     return held;
 }

@@ -55,7 +55,7 @@ static double implicit_ratio(const struct hair_rod_shape* s)
 }
 
 // Return the row of vertex i, for the vertices before, at and after it.
-static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
+static hair_dvec3 row_of_vertex(const struct hair_rod_shape* s, uint32_t i)
 {
     HAIR_ASSERT(i + 1 < s->count && s->length[i] > 0);
     double before = i > 0 ? 1 / s->length[i - 1] : 0, after = 1 / s->length[i];
@@ -65,7 +65,7 @@ static hair_dvec3 row_of(const struct hair_rod_shape* s, uint32_t i)
 double hair_rod_max_stiffness(const struct hair_rod_shape* s, uint32_t i, double h)
 {
     HAIR_ASSERT(h > 0);
-    hair_dvec3 row = row_of(s, i);
+    hair_dvec3 row = row_of_vertex(s, i);
     double after = row.z * row.z / s->mass[i + 1], max = after;
     if (i > 0) max = fmax(max, row.y * row.y / s->mass[i]);
     if (i > 1 || (i == 1 && !s->held)) max = fmax(max, row.x * row.x / s->mass[i - 1]);
@@ -88,7 +88,7 @@ static void find_bands(const struct hair_rod_shape* s, const double* stiffness, 
 {
     double ratio = implicit_ratio(s);
     for (uint32_t i = 0; i < s->count; ++i) k[i] = (struct band){0, 0, 0};
-    for (uint32_t i = 0; i + 1 < s->count; ++i) add_row(k, i, row_of(s, i), ratio * stiffness[i]);
+    for (uint32_t i = 0; i + 1 < s->count; ++i) add_row(k, i, row_of_vertex(s, i), ratio * stiffness[i]);
     // No force moves a held vertex. Its motion is known.
     for (uint32_t i = 0; i < s->count; ++i) {
         if (!is_fixed(s, i)) continue;

@@ -165,8 +165,8 @@ static void turn_by(const struct hair_rod_shape* s, const hair_dquat* from, cons
 
 // Take a step along the turns that does not raise the energy. Return false if there is no such
 // step.
-static bool descend(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
-                    const hair_dvec3* turns, struct hair_rod_pose* pose)
+static bool step_downhill(const struct hair_rod_shape* s, const hair_rod_rest* rest, double gravity,
+                          const hair_dvec3* turns, struct hair_rod_pose* pose)
 {
     hair_dquat from[HAIR_MAX_GUIDE_VERTICES];
     double before = energy_of(s, rest, gravity, pose), max = 0;
@@ -204,6 +204,6 @@ double hair_rod_settle(const struct hair_rod_shape* s, const hair_rod_rest* rest
             shift = fmax(SHIFT_GROWTH * shift, FIRST_SHIFT * stiffness);
             if (!(shift < LAST_SHIFT * stiffness)) return left;
         }
-        if (!descend(s, rest, gravity, turns, pose)) return left;
+        if (!step_downhill(s, rest, gravity, turns, pose)) return left;
     }
 }

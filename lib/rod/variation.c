@@ -37,12 +37,12 @@
 
 #include <string.h>
 
-struct block {
+struct block3 {
     double m[3][3];
 };
 
 // Compute out += a b.
-static void add_product(struct block* out, const struct block* a, const struct block* b)
+static void add_product(struct block3* out, const struct block3* a, const struct block3* b)
 {
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
@@ -50,7 +50,7 @@ static void add_product(struct block* out, const struct block* a, const struct b
 }
 
 // Compute out += sign a^T b.
-static void add_transposed(struct block* out, double sign, const struct block* a, const struct block* b)
+static void add_transposed(struct block3* out, double sign, const struct block3* a, const struct block3* b)
 {
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 3; ++c)
@@ -60,7 +60,7 @@ static void add_transposed(struct block* out, double sign, const struct block* a
 
 // Factor a = L L^T. Read only the lower half of a, and write L there. Return false if a is not
 // positive.
-static bool factor(struct block* a)
+static bool factor(struct block3* a)
 {
     for (int c = 0; c < 3; ++c) {
         double d = a->m[c][c];
@@ -77,7 +77,7 @@ static bool factor(struct block* a)
 }
 
 // Compute x = L^-1 x.
-static void solve_lower(const struct block* l, double* x, int stride)
+static void solve_lower(const struct block3* l, double* x, int stride)
 {
     for (int r = 0; r < 3; ++r) {
         HAIR_ASSERT(l->m[r][r] > 0);
@@ -87,7 +87,7 @@ static void solve_lower(const struct block* l, double* x, int stride)
 }
 
 // Compute x = L^-T x.
-static void solve_upper(const struct block* l, double* x)
+static void solve_upper(const struct block3* l, double* x)
 {
     for (int r = 3; r-- > 0;) {
         for (int n = r + 1; n < 3; ++n) x[r] -= l->m[n][r] * x[n];
@@ -97,7 +97,7 @@ static void solve_upper(const struct block* l, double* x)
 
 // Second derivatives of a vertex's energy by the turns a a, b a and b b.
 struct hinge {
-    struct block before, between, after;
+    struct block3 before, between, after;
 };
 
 static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
@@ -137,31 +137,31 @@ static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_r
 }
 
 // Return D_i of segment i.
-static struct block swing_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
+static struct block3 swing_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
 {
     hair_dvec3 x = hair_drotate(pose->frame[i], (hair_dvec3){s->length[i], 0, 0});
     hair_dvec3 z = hair_drotate(pose->frame[i], (hair_dvec3){0, 0, s->length[i]});
-    return (struct block){{{z.x, 0, -x.x}, {z.y, 0, -x.y}, {z.z, 0, -x.z}}};
+    return (struct block3){{{z.x, 0, -x.x}, {z.y, 0, -x.y}, {z.z, 0, -x.z}}};
 }
 
-// Quadratic energy of the part beyond a vertex, V_(i+1) before eliminate() and V_i after it:
+// Quadratic energy of the part beyond a vertex, V_(i+1) before eliminate_blocks() and V_i after it:
 //
 //   V(x, a) = x . xx x / 2 + x . xa a + a . aa a / 2 + along_x . x + along_a . a
 struct beyond {
-    struct block xx, xa, aa;
+    struct block3 xx, xa, aa;
     double along_x[3], along_a[3];
 };
 
-struct stage {
+struct variation_stage {
     // L of b's matrix, and L^-1 times the derivatives of b's slope by x and by a.
-    struct block pivot, by_x, by_a;
+    struct block3 pivot, by_x, by_a;
     double slope[3]; // L^-1 times b's slope.
 };
 
-static struct block pivot_of(const struct hair_rod_pose* pose, uint32_t i, double length,
-                             const struct block* swing, const struct beyond* v, struct stage* out)
+static struct block3 pivot_of(const struct hair_rod_pose* pose, uint32_t i, double length,
+                              const struct block3* swing, const struct beyond* v, struct variation_stage* out)
 {
-    struct block x_b = v->xa, b = v->aa;
+    struct block3 x_b = v->xa, b = v->aa;
     add_product(&x_b, &v->xx, swing);
     add_transposed(&b, 1, swing, &x_b);
     add_transposed(&b, 1, &v->xa, swing);
@@ -182,11 +182,12 @@ struct matrix {
 
 // Advance from V_(i+1) to V_i. Return false if there is no minimum. `slope` is the derivative of
 // the energy by the turn of segment i. NULL omits the linear terms.
-static bool eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
-                      struct matrix matrix, const hair_dvec3* slope, struct beyond* v, struct stage* out)
+static bool eliminate_blocks(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
+                             struct matrix matrix, const hair_dvec3* slope, struct beyond* v,
+                             struct variation_stage* out)
 {
     struct hinge h = hinge_of(s, pose, i);
-    struct block swing = swing_of(s, pose, i);
+    struct block3 swing = swing_of(s, pose, i);
     double pull = s->mass[i + 1] * (s->pull[i + 1] - matrix.squared_frequency);
     for (int r = 0; r < 3; ++r) v->xx.m[r][r] += pull;
     out->pivot = pivot_of(pose, i, s->length[i], &swing, v, out);
@@ -200,7 +201,7 @@ static bool eliminate(const struct hair_rod_shape* s, const struct hair_rod_pose
         solve_lower(&out->pivot, &out->by_x.m[0][c], 3);
         solve_lower(&out->pivot, &out->by_a.m[0][c], 3);
     }
-    v->xa = (struct block){0};
+    v->xa = (struct block3){0};
     v->aa = h.before;
     add_transposed(&v->xx, -1, &out->by_x, &out->by_x);
     add_transposed(&v->xa, -1, &out->by_x, &out->by_a);
@@ -226,23 +227,24 @@ bool hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_po
                         double squared_frequency)
 {
     struct beyond v = {0};
-    struct stage stage;
+    struct variation_stage stage;
     for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage)) return false;
+        if (!eliminate_blocks(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage))
+            return false;
     return true;
 }
 
 bool hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, double shift,
                         const hair_dvec3* slope, hair_dvec3* out)
 {
-    struct stage stage[HAIR_MAX_GUIDE_VERTICES];
+    struct variation_stage stage[HAIR_MAX_GUIDE_VERTICES];
     struct beyond v = {0};
     double x[3] = {0}, a[3] = {0};
     for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return false;
+        if (!eliminate_blocks(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return false;
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        const struct stage* at = stage + i;
-        struct block swing = swing_of(s, pose, i);
+        const struct variation_stage* at = stage + i;
+        struct block3 swing = swing_of(s, pose, i);
         double b[3];
         for (int r = 0; r < 3; ++r) {
             b[r] = -at->slope[r];

@@ -10,8 +10,8 @@
 // loop_budget.c.
 #define MAX_ROUNDS 630
 
-static struct hair_collider_grid_desc describe(const struct hair_sim* sim, double dt, float fraction_start,
-                                               double longest)
+static struct hair_collider_grid_desc describe_grid(const struct hair_sim* sim, double dt,
+                                                    float fraction_start, double longest)
 {
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->head_at_last_step);
     float h = (float)longest, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
@@ -32,7 +32,7 @@ bool hair_contacts_are_any(const struct hair_sim* sim)
     return sim->rods && (sim->colliders.meshes || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
 }
 
-static void let_go(struct hair_sim* sim, const uint32_t* held, uint32_t count)
+static void release_meshes(struct hair_sim* sim, const uint32_t* held, uint32_t count)
 {
     for (uint32_t i = 0; i < count; ++i) hair_sdf_pool_release(sim->contacts.sdf_pool, held[i]);
 }
@@ -56,12 +56,12 @@ static hair_result retain_meshes(struct hair_sim* sim)
         if (!result) ++taken;
     }
     if (result) {
-        let_go(sim, held, taken);
+        release_meshes(sim, held, taken);
         hair_free(&sim->gl->host, held);
         return result;
     }
     HAIR_ASSERT(taken == count);
-    let_go(sim, contacts->held, contacts->holds);
+    release_meshes(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
     contacts->held = held;
     contacts->holds = taken;
@@ -72,8 +72,8 @@ static hair_result retain_meshes(struct hair_sim* sim)
     return result;
 }
 
-static hair_result put(struct hair_gl* gl, const char* label, GLenum format, size_t size, const void* data,
-                       GLuint* buffer, GLuint* texture)
+static hair_result ensure_texture_buffer(struct hair_gl* gl, const char* label, GLenum format, size_t size,
+                                         const void* data, GLuint* buffer, GLuint* texture)
 {
     size_t texel = format == GL_R32UI ? 4 : 16;
     HAIR_ASSERT(size > 0 && size % texel == 0);
@@ -87,18 +87,20 @@ static hair_result put(struct hair_gl* gl, const char* label, GLenum format, siz
     return hair_gl_resize(gl, label, size, data, *buffer);
 }
 
-static hair_result upload(struct hair_sim* sim)
+static hair_result upload_contacts(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
     const struct hair_collider_grid* cells = &contacts->grid;
     const struct hair_contact none = {.grid = {0, 0, 0, 0}};
-    HAIR_TRY(put(sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
-                 cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture));
-    return put(sim->gl, "hair contact cells", GL_R32UI, cells->entries * sizeof *cells->entry, cells->entry,
-               &contacts->cell, &contacts->cell_texture);
+    HAIR_TRY(ensure_texture_buffer(
+        sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
+        cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture));
+    return ensure_texture_buffer(sim->gl, "hair contact cells", GL_R32UI,
+                                 cells->entries * sizeof *cells->entry, cells->entry, &contacts->cell,
+                                 &contacts->cell_texture);
 }
 
-static hair_result find(struct hair_sim* sim, const struct hair_collider_grid_desc* desc)
+static hair_result find_contacts(struct hair_sim* sim, const struct hair_collider_grid_desc* desc)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_collider_grid* cells = &sim->contacts.grid;
@@ -107,13 +109,13 @@ static hair_result find(struct hair_sim* sim, const struct hair_collider_grid_de
         hair_collider_grid_gather(host, cells, &sim->colliders, &sim->head_at_last_step, &sim->head, desc));
     HAIR_TRY(retain_meshes(sim));
     HAIR_TRY(hair_collider_grid_build(host, cells, desc, &others));
-    return others ? upload(sim) : HAIR_OK;
+    return others ? upload_contacts(sim) : HAIR_OK;
 }
 
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start, double longest)
 {
-    struct hair_collider_grid_desc desc = describe(sim, dt, fraction_start, longest);
-    hair_result result = find(sim, &desc);
+    struct hair_collider_grid_desc desc = describe_grid(sim, dt, fraction_start, longest);
+    hair_result result = find_contacts(sim, &desc);
     if (result) sim->contacts.grid.entries = 0; // The lists on the GPU may be incomplete.
     return result;
 }
@@ -142,7 +144,7 @@ void hair_contacts_bind(const struct hair_sim* sim)
 void hair_contacts_free(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
-    let_go(sim, contacts->held, contacts->holds);
+    release_meshes(sim, contacts->held, contacts->holds);
     hair_free(&sim->gl->host, contacts->held);
     hair_gl_free_array(sim->gl, &contacts->collider, &contacts->collider_texture);
     hair_gl_free_array(sim->gl, &contacts->cell, &contacts->cell_texture);

@@ -74,7 +74,7 @@ static uint32_t node_at(const struct hair_grid* hair_grid, uint32_t x, uint32_t 
 }
 
 // Arrays for the computation of the grid at rest.
-struct layout {
+struct grid_layout {
     double* mass; // Mass of every vertex, half the length of its adjacent segments, m.
     double* volume; // Volume of every vertex, in cells.
     double* filled; // Volume at every node, in cells.
@@ -82,8 +82,8 @@ struct layout {
     uint32_t* vertex; // Vertices sorted by cell.
 };
 
-static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, const struct hair_rest* rest,
-                  double* mass)
+static void compute_masses(const struct hair_sim* sim, const struct hair_guide* guides,
+                           const struct hair_rest* rest, double* mass)
 {
     for (uint32_t g = 0; g < sim->guides; ++g)
         for (uint32_t i = 0; i < guides[g].count; ++i) {
@@ -93,7 +93,7 @@ static void weigh(const struct hair_sim* sim, const struct hair_guide* guides, c
         }
 }
 
-static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struct layout* layout)
+static void sort_by_cell(const struct hair_sim* sim, const struct hair_rest* rest, struct grid_layout* layout)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
     for (int place = 0; place < 2; ++place) {
@@ -114,7 +114,7 @@ static void sort(const struct hair_sim* sim, const struct hair_rest* rest, struc
 // minimum is the mass of a straight strand along an axis, the direction that puts the most mass
 // into a node. A strand by itself thus fills no node, whatever its position and direction.
 static double mass_around(const struct hair_sim* sim, const struct hair_rest* rest,
-                          const struct layout* layout, uint32_t i)
+                          const struct grid_layout* layout, uint32_t i)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
     struct stencil s = stencil_at(hair_grid, &rest[i].position);
@@ -136,7 +136,7 @@ static double mass_around(const struct hair_sim* sim, const struct hair_rest* re
     return fmax(sum, fmax(cell, layout->mass[i]));
 }
 
-static void fill(const struct hair_sim* sim, const struct hair_rest* rest, struct layout* layout)
+static void fill_layout(const struct hair_sim* sim, const struct hair_rest* rest, struct grid_layout* layout)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) {
@@ -178,7 +178,8 @@ static hair_result upload_splats(struct hair_sim* sim, hair_gl_category category
 
 // Upload the contributions of vertices and the volume limit of each node. A node exerts pressure
 // above the volume of a full cell, or above its volume at rest if that is greater.
-static hair_result upload(struct hair_sim* sim, const struct hair_guide* guides, const struct layout* layout)
+static hair_result upload_grid(struct hair_sim* sim, const struct hair_guide* guides,
+                               const struct grid_layout* layout)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_grid* hair_grid = &sim->hair_grid;
@@ -207,7 +208,7 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     uint32_t vertices = sim->guide_vertices, nodes;
     place_grid(sim, guides, rest);
     nodes = node_count(&sim->hair_grid);
-    struct layout layout = {0};
+    struct grid_layout layout = {0};
     layout.mass = hair_alloc(host, vertices, sizeof *layout.mass);
     layout.volume = hair_alloc(host, vertices, sizeof *layout.volume);
     layout.filled = hair_alloc(host, nodes, sizeof *layout.filled);
@@ -216,13 +217,13 @@ static hair_result make_rest(struct hair_sim* sim, const struct hair_guide* guid
     int whole = layout.mass && layout.volume && layout.filled && layout.bin && layout.vertex;
     hair_result result = whole ? HAIR_OK : hair_fail_memory(host, "the hair grid");
     if (!result) {
-        weigh(sim, guides, rest, layout.mass);
+        compute_masses(sim, guides, rest, layout.mass);
         sim->hair_grid.metres = 0;
         for (uint32_t i = 0; i < vertices; ++i) sim->hair_grid.metres += layout.mass[i];
-        sort(sim, rest, &layout);
+        sort_by_cell(sim, rest, &layout);
         HAIR_ASSERT(layout.bin[nodes] == vertices);
-        fill(sim, rest, &layout);
-        result = upload(sim, guides, &layout);
+        fill_layout(sim, rest, &layout);
+        result = upload_grid(sim, guides, &layout);
     }
     hair_free(host, layout.mass);
     hair_free(host, layout.volume);
@@ -239,7 +240,7 @@ hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
     const struct hair_guide* guides = hair_sim_guides(sim, &rest);
     double* mass = hair_alloc(host, sim->guide_vertices, sizeof *mass);
     if (!mass) return hair_fail_memory(host, "the lengths of guides");
-    weigh(sim, guides, rest, mass);
+    compute_masses(sim, guides, rest, mass);
     *metres = 0;
     for (uint32_t i = 0; i < sim->guide_vertices; ++i) *metres += mass[i] / HAIR_GRID_UNITS;
     hair_result result = upload_splats(sim, HAIR_GL_CATEGORY_WIND, guides, mass, NULL, splat);
@@ -247,8 +248,8 @@ hair_result hair_grid_weigh(struct hair_sim* sim, GLuint* splat, double* metres)
     return result;
 }
 
-static hair_result make_all(struct hair_sim* sim, const struct hair_guide* guides,
-                            const struct hair_rest* rest)
+static hair_result make_grid(struct hair_sim* sim, const struct hair_guide* guides,
+                             const struct hair_rest* rest)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_grid* hair_grid = &sim->hair_grid;
@@ -267,7 +268,7 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
                              const struct hair_rest* rest)
 {
     if (!hair_grid_is_on(sim) || sim->hair_grid.texture) return HAIR_OK;
-    hair_result result = make_all(sim, guides, rest);
+    hair_result result = make_grid(sim, guides, rest);
     if (result) hair_grid_free(sim);
     return result;
 }
@@ -292,7 +293,7 @@ static uint32_t block_length(const struct hair_sim* sim)
     return hair_sim_block_length(sim, BLOCK);
 }
 
-static void write_params(const struct hair_sim* sim, struct hair_grid_params* params)
+static void write_grid_params(const struct hair_sim* sim, struct hair_grid_params* params)
 {
     const struct hair_grid* hair_grid = &sim->hair_grid;
     double time = block_length(sim) * sim->substep, rate = (double)sim->physics.hair_hair.cohesion;
@@ -341,7 +342,7 @@ void hair_grid_update(struct hair_sim* sim)
     uint32_t groups = (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
     HAIR_ASSERT(hair_grid->texture && sim->last_substep > 0);
     hair_grid_reset(sim);
-    write_params(sim, &params);
+    write_grid_params(sim, &params);
     hair_gl_write_uniform(gl, hair_grid->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_HAIR_GRID_PARAMS, 1, &hair_grid->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STATE, 6, storage);

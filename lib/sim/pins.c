@@ -12,7 +12,7 @@ static hair_pin pin_at(const hair_pin* from, uint32_t i, size_t stride)
     return pin;
 }
 
-static hair_result check(const struct hair_sim* sim, const hair_pin* pin, uint32_t i)
+static hair_result check_pin(const struct hair_sim* sim, const hair_pin* pin, uint32_t i)
 {
     const hair_host* host = &sim->gl->host;
     if (pin->guide >= sim->guides)
@@ -36,19 +36,19 @@ static hair_result check_all(const struct hair_sim* sim, const hair_pin* from, u
                          count);
     for (uint32_t i = 0; i < count; ++i) {
         hair_pin pin = pin_at(from, i, stride);
-        HAIR_TRY(check(sim, &pin, i));
+        HAIR_TRY(check_pin(sim, &pin, i));
     }
     return HAIR_OK;
 }
 
-static int compare(const void* a, const void* b)
+static int compare_pins(const void* a, const void* b)
 {
     const struct hair_resolved_pin *p = a, *q = b;
     if (p->guide != q->guide) return p->guide < q->guide ? -1 : 1;
     return (p->vertex > q->vertex) - (p->vertex < q->vertex);
 }
 
-static uint32_t hash_of(const struct hair_resolved_pin* resolved_pin, uint32_t count)
+static uint32_t hash_of_pins(const struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
     uint32_t vertex_hash = 0;
     for (uint32_t i = 0; i < count; ++i)
@@ -66,13 +66,13 @@ static uint32_t max_per_guide(const struct hair_resolved_pin* resolved_pin, uint
     return max;
 }
 
-static bool are_alike(const struct hair_pins* pins, const struct hair_resolved_pin* resolved_pin,
-                      uint32_t count)
+static bool are_same_pins(const struct hair_pins* pins, const struct hair_resolved_pin* resolved_pin,
+                          uint32_t count)
 {
     int alike = pins->count == count;
     for (uint32_t i = 0; i < count && alike; ++i) {
         const struct hair_resolved_pin* other = &pins->resolved_pin[i];
-        alike = compare(other, &resolved_pin[i]) == 0 && other->world == resolved_pin[i].world &&
+        alike = compare_pins(other, &resolved_pin[i]) == 0 && other->world == resolved_pin[i].world &&
                 memcmp(other->place, resolved_pin[i].place, sizeof other->place) == 0;
     }
     return alike;
@@ -87,12 +87,13 @@ const struct hair_resolved_pin* hair_pins_get(const struct hair_sim* sim, uint32
 void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count)
 {
     HAIR_ASSERT(count <= HAIR_MAX_PINS && (resolved_pin || !count));
-    for (uint32_t i = 1; i < count; ++i) HAIR_ASSERT(compare(&resolved_pin[i - 1], &resolved_pin[i]) < 0);
+    for (uint32_t i = 1; i < count; ++i)
+        HAIR_ASSERT(compare_pins(&resolved_pin[i - 1], &resolved_pin[i]) < 0);
     hair_free(&sim->gl->host, sim->pins.resolved_pin);
     sim->pins.resolved_pin = resolved_pin;
     sim->pins.count = count;
     sim->pins.max_per_guide = max_per_guide(resolved_pin, count);
-    sim->pins.vertex_hash = hash_of(resolved_pin, count);
+    sim->pins.vertex_hash = hash_of_pins(resolved_pin, count);
 }
 
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
@@ -112,10 +113,10 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
         resolved_pin[i].given = i;
         for (int k = 0; k < 3; ++k) resolved_pin[i].place[k] = (double)pin.position[k];
     }
-    if (count) qsort(resolved_pin, count, sizeof *resolved_pin, compare);
+    if (count) qsort(resolved_pin, count, sizeof *resolved_pin, compare_pins);
     hair_result result = HAIR_OK;
     for (uint32_t i = 1; i < count && !result; ++i)
-        if (compare(&resolved_pin[i - 1], &resolved_pin[i]) == 0)
+        if (compare_pins(&resolved_pin[i - 1], &resolved_pin[i]) == 0)
             result =
                 hair_fail(host, HAIR_ERROR_ARGUMENT, "pins[%u] and pins[%u] both hold vertex %u of guide %u",
                           resolved_pin[i - 1].given, resolved_pin[i].given, resolved_pin[i].vertex,
@@ -123,7 +124,7 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
     if (result) {
         hair_free(host, resolved_pin);
     } else {
-        if (!are_alike(&sim->pins, resolved_pin, count)) hair_sleep_wake(sim);
+        if (!are_same_pins(&sim->pins, resolved_pin, count)) hair_sleep_wake(sim);
         hair_pins_adopt(sim, resolved_pin, count);
     }
     return result;
@@ -139,7 +140,7 @@ hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolv
             return hair_fail(&sim->gl->host, HAIR_ERROR_FILE,
                              "pin %u of the saved state holds vertex %u of guide %u, which there is not", i,
                              k->vertex, k->guide);
-        if (i > 0 && compare(k - 1, k) >= 0)
+        if (i > 0 && compare_pins(k - 1, k) >= 0)
             return hair_fail(&sim->gl->host, HAIR_ERROR_FILE,
                              "pin %u of the saved state does not come after the one before", i);
     }

@@ -116,7 +116,7 @@ static double find_substep(const struct hair_sim* sim, int mixed, int had_contac
 
 // Upload rods to the buffers of a set. The set has the simulation's buffer of forces and turns
 // where there is one.
-static hair_result upload(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
+static hair_result upload_rods(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
 {
     HAIR_TRY(make_reduction(sim, rod, out->substep, &out->reduction, &out->rounds));
     HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", sim->guide_vertices * sizeof *rod,
@@ -187,7 +187,7 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
     hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
                   &sim->physics, sim->solver, out->mixed, out->substep, rod);
     out->stiff = is_stiff(sim, rod);
-    hair_result result = upload(sim, rod, out);
+    hair_result result = upload_rods(sim, rod, out);
     if (result) {
         hair_sim_free_rod_set(sim, out);
         *out = (struct hair_rod_set){0};
@@ -196,7 +196,7 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
     return result;
 }
 
-static hair_result make_buffers(struct hair_sim* sim)
+static hair_result make_rod_buffers(struct hair_sim* sim)
 {
     size_t vertices = sim->guide_vertices;
     HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
@@ -218,7 +218,7 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
     memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
     memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
-    HAIR_TRY(make_buffers(sim));
+    HAIR_TRY(make_rod_buffers(sim));
     struct hair_rod_set first;
     HAIR_TRY(create(sim, 0, &first));
     hair_sim_swap_rods(sim, &first);

@@ -40,7 +40,7 @@ void hair_sim_save(struct hair_sim* sim, unsigned char* bytes)
 
 // Upload the buffers by GPU copies, which run in order with dispatches. One driver was seen to lose
 // CPU writes into a buffer that a dispatch had just written.
-static hair_result upload(const struct hair_serializer* s)
+static hair_result upload_state(const struct hair_serializer* s)
 {
     GLuint source = 0;
     HAIR_TRY(hair_gl_buffer(s->gl, HAIR_GL_NO_CATEGORY, "hair loaded", s->end, s->native, &source));
@@ -53,7 +53,7 @@ static hair_result upload(const struct hair_serializer* s)
 }
 
 // Load a state whose frame has been checked, into a simulation that has all buffers of the state.
-static hair_result load(struct hair_sim* sim, const unsigned char* bytes, size_t size, int skinned)
+static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, size_t size, int skinned)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_sim own = *sim; // Copy that receives the loaded state.
@@ -72,7 +72,7 @@ static hair_result load(struct hair_sim* sim, const unsigned char* bytes, size_t
     }
     if (!result && !skinned && hair_scalp_motion_is_on(sim))
         result = hair_scalp_motion_make_rest(sim, &still);
-    if (!result) result = upload(&s);
+    if (!result) result = upload_state(&s);
     if (!result && sim->bend && s.lacks_bend)
         sim->gl->ClearNamedBufferData(sim->bend, GL_R32F, GL_RED, GL_FLOAT, NULL);
     if (!result && still) hair_scalp_motion_restore_rest(&own, still);
@@ -113,7 +113,7 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
             "the saved state is another's: its scalp is skinned, and the instance's groom has none");
     bool was_skinned = hair_scalp_motion_is_on(sim);
     if (skinned) HAIR_TRY(hair_scalp_motion_create(sim));
-    hair_result result = load(sim, bytes, size, skinned);
+    hair_result result = load_state(sim, bytes, size, skinned);
     if (result && skinned && !was_skinned) hair_scalp_motion_undo_create(sim);
     return result;
 }

@@ -44,7 +44,7 @@ static struct hair_root_transform* make_root_transforms(const struct hair_sim* s
     return root_transforms;
 }
 
-static hair_result make_buffers(struct hair_sim* sim, GLuint* root_transform)
+static hair_result make_scalp_buffers(struct hair_sim* sim, GLuint* root_transform)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_scalp_motion* motion = &sim->scalp_motion;
@@ -104,7 +104,7 @@ hair_result hair_scalp_motion_create(struct hair_sim* sim)
     HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1)));
     HAIR_TRY(hair_gl_ensure_program(
         gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices)));
-    hair_result result = make_buffers(sim, &root_transform);
+    hair_result result = make_scalp_buffers(sim, &root_transform);
     if (result) {
         hair_gl_free_buffer(gl, &root_transform);
         free_buffers(sim);
@@ -141,7 +141,7 @@ void hair_scalp_motion_set(struct hair_sim* sim, const float* positions, const s
     motion->changed = 1;
 }
 
-static void bind(struct hair_sim* sim, GLuint scalp, struct hair_scalp_params params)
+static void bind_scalp(struct hair_sim* sim, GLuint scalp, struct hair_scalp_params params)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_scalp_motion* motion = &sim->scalp_motion;
@@ -167,7 +167,7 @@ void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t of
                 size);
     GLintptr at = (GLintptr)offset;
     GLsizeiptr whole = (GLsizeiptr)size;
-    bind(sim, motion->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
+    bind_scalp(sim, motion->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
     // Shaders of the application may have written the buffer.
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -198,7 +198,7 @@ static void take_changed(struct hair_sim* sim)
     motion->offset = (hair_vec4){away.x, away.y, away.z, 0};
 }
 
-static void run(struct hair_sim* sim, struct hair_scalp_params params)
+static void run_scalp_pass(struct hair_sim* sim, struct hair_scalp_params params)
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     if (motion->changed) {
@@ -207,25 +207,25 @@ static void run(struct hair_sim* sim, struct hair_scalp_params params)
     }
     motion->changed = 0;
     hair_sim_bind(sim);
-    bind(sim, motion->scalp[0], params);
+    bind_scalp(sim, motion->scalp[0], params);
     hair_gl_run(sim->gl, HAIR_GL_ROOT_TRANSFORMS, (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
 }
 
 void hair_scalp_motion_run(struct hair_sim* sim, int again, uint32_t substeps, float before, float after)
 {
     HAIR_ASSERT(0 <= before && before <= after && after <= 1);
-    run(sim, (struct hair_scalp_params){.flags = again ? HAIR_SCALP_AGAIN : 0,
-                                        .substeps = substeps,
-                                        .fraction_before = before,
-                                        .fraction_after = after});
+    run_scalp_pass(sim, (struct hair_scalp_params){.flags = again ? HAIR_SCALP_AGAIN : 0,
+                                                   .substeps = substeps,
+                                                   .fraction_before = before,
+                                                   .fraction_after = after});
 }
 
 void hair_scalp_motion_reset(struct hair_sim* sim)
 {
-    run(sim, (struct hair_scalp_params){.flags = HAIR_SCALP_RESET});
+    run_scalp_pass(sim, (struct hair_scalp_params){.flags = HAIR_SCALP_RESET});
 }
 
 void hair_scalp_motion_bind_all(struct hair_sim* sim, uint32_t followers)
 {
-    bind(sim, sim->scalp_motion.scalp[0], (struct hair_scalp_params){.followers = followers});
+    bind_scalp(sim, sim->scalp_motion.scalp[0], (struct hair_scalp_params){.followers = followers});
 }

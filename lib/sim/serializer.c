@@ -17,7 +17,7 @@ static bool can_read(struct hair_serializer* s, const char* name, size_t size)
     return false;
 }
 
-static void check(struct hair_serializer* s, const char* name, double value, double min, double max)
+static void check_value(struct hair_serializer* s, const char* name, double value, double min, double max)
 {
     if (s->result || (value >= min && value <= max)) return; // NaN fails this test too.
     s->result = hair_fail(s->host, HAIR_ERROR_FILE,
@@ -31,7 +31,7 @@ void hair_serialize_uint(struct hair_serializer* s, const char* name, uint32_t* 
     if (s->write) hair_write_u32(s->write + s->at, *value);
     if (can_read(s, name, 4)) {
         uint32_t read = hair_read_u32(s->read + s->at);
-        check(s, name, read, 0, max);
+        check_value(s, name, read, 0, max);
         if (!s->result) *value = read;
     }
     s->at += 4;
@@ -49,7 +49,7 @@ void hair_serialize_float(struct hair_serializer* s, const char* name, float* va
     if (s->write) hair_write_float(s->write + s->at, *value);
     if (can_read(s, name, 4)) {
         *value = hair_read_float(s->read + s->at);
-        check(s, name, (double)*value, -max, max);
+        check_value(s, name, (double)*value, -max, max);
     }
     s->at += 4;
 }
@@ -59,7 +59,7 @@ void hair_serialize_double(struct hair_serializer* s, const char* name, double* 
     if (s->write) hair_write_double(s->write + s->at, *value);
     if (can_read(s, name, 8)) {
         *value = hair_read_double(s->read + s->at);
-        check(s, name, *value, min, max);
+        check_value(s, name, *value, min, max);
     }
     s->at += 8;
 }

@@ -35,7 +35,7 @@ static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 }
 
 // Count the guides and their vertices, and find everything that depends on their numbers.
-static void measure(struct hair_sim* sim, const struct hair_groom* groom)
+static void measure_groom(struct hair_sim* sim, const struct hair_groom* groom)
 {
     sim->guides = groom->info.guide_count;
     sim->guide_vertices = groom->info.guide_vertex_count;
@@ -55,7 +55,7 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
     HAIR_ASSERT(!sim->gl && 2 <= groom->max_vertices && groom->max_vertices <= HAIR_MAX_GUIDE_VERTICES);
     sim->gl = gl;
     set_up(sim, desc);
-    measure(sim, groom);
+    measure_groom(sim, groom);
     size_t state = sim->guide_vertices * sizeof(struct hair_state);
     size_t solver_stats =
         sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
@@ -99,7 +99,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_snapshots_free(sim);
 }
 
-static float fraction_of(double from, double dt)
+static float fraction_of_step(double from, double dt)
 {
     return (float)fmin(fmax(from / dt, -1), 1);
 }
@@ -114,7 +114,7 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt, double 
     if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
     if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
-    if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of(from, dt), longest));
+    if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of_step(from, dt), longest));
     return hair_sim_ensure_solver(sim);
 }
 
@@ -226,7 +226,7 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
     sim->next_substep = sim->substep;
     hair_sim_write_physics(sim, &params);
     hair_sim_write_colliders(sim, &params);
-    params.fraction_start = fraction_of(from, dt);
+    params.fraction_start = fraction_of_step(from, dt);
     if (hair_scalp_motion_is_on(sim)) move_roots(sim, again, total, from, dt);
     bind_buffers(sim);
     for (uint32_t done = 0, count; done < total; done += count) {

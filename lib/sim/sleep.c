@@ -95,7 +95,7 @@ static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const
     return !bound || !(hair_length(mid) > max);
 }
 
-static bool are_alike(const hair_collider* a, const hair_collider* b)
+static bool are_same_colliders(const hair_collider* a, const hair_collider* b)
 {
     return memcmp(a, b, sizeof *a) == 0;
 }
@@ -107,11 +107,11 @@ static bool has_collider_near(const struct hair_sim* sim)
     if (!colliders->changed) return false;
     for (uint32_t i = 0; i < now->count; ++i) {
         const hair_collider* was = hair_colliders_previous(colliders, i);
-        int is = was != &now->collider[i] && are_alike(was, &now->collider[i]);
+        int is = was != &now->collider[i] && are_same_colliders(was, &now->collider[i]);
         if (!is && comes_near(sim, was, &now->collider[i])) return true;
     }
     for (uint32_t i = 0; i < before->count; ++i) {
-        int is = i < now->count && are_alike(&before->collider[i], &now->collider[i]);
+        int is = i < now->count && are_same_colliders(&before->collider[i], &now->collider[i]);
         if (!is && comes_near(sim, &before->collider[i], &before->collider[i])) return true;
     }
     return false;
@@ -152,7 +152,7 @@ static void reset_quiet_time(struct hair_sim* sim)
 
 // Measurements ------------------------------------------------------------------------------------
 
-static hair_result make(struct hair_sim* sim)
+static hair_result make_sleep(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_sleep* sleep = &sim->sleep;
@@ -173,7 +173,7 @@ static hair_result make(struct hair_sim* sim)
 
 hair_result hair_sleep_create(struct hair_sim* sim)
 {
-    hair_result result = make(sim);
+    hair_result result = make_sleep(sim);
     if (result) hair_sleep_free(sim);
     return result;
 }

@@ -54,7 +54,7 @@ static void serialize(struct hair_serializer* s, struct hair_sim* sim)
 }
 
 // Begin a snapshot of the current state.
-static hair_result begin(struct hair_sim* sim)
+static hair_result begin_snapshot(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     struct hair_snapshots* snapshots = &sim->snapshots;
@@ -89,7 +89,7 @@ hair_result hair_snapshots_update(struct hair_sim* sim)
         bool is_done = status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;
         if (is_done && !hair_gl_find_loss(sim->gl)) complete(snapshots);
     }
-    return begin(sim);
+    return begin_snapshot(sim);
 }
 
 hair_result hair_snapshots_load(struct hair_sim* sim, struct hair_snapshots* from)

@@ -147,7 +147,7 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
 
 // Report ------------------------------------------------------------------------------------------
 
-static float float_of(uint32_t bits)
+static float float_of_bits(uint32_t bits)
 {
     float value;
     memcpy(&value, &bits, sizeof value);
@@ -168,8 +168,8 @@ hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solve
     solver_stats->gaining = count[HAIR_SOLVER_STATS_GAINING];
     solver_stats->restless = found[HAIR_FOUND_RESTLESS];
     solver_stats->overstretched = found[HAIR_FOUND_OVERSTRETCHED];
-    solver_stats->fastest = float_of(found[HAIR_FOUND_FASTEST]);
-    solver_stats->stretch = float_of(found[HAIR_FOUND_STRETCH]);
+    solver_stats->fastest = float_of_bits(found[HAIR_FOUND_FASTEST]);
+    solver_stats->stretch = float_of_bits(found[HAIR_FOUND_STRETCH]);
     solver_stats->substep = (float)sim->substep;
     solver_stats->stiffened = held.stiffened;
     solver_stats->max_stiffening = held.stiffest;

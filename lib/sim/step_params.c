@@ -5,7 +5,7 @@
 // Maximum displacement in a substep, m. Beyond it redblack.comp resets strands to their rest pose.
 #define FARTHEST 1e4f
 
-static hair_vec4 vec4_of(hair_vec3 v, float w)
+static hair_vec4 vec4_with(hair_vec3 v, float w)
 {
     return (hair_vec4){v.x, v.y, v.z, w};
 }
@@ -43,7 +43,7 @@ void hair_sim_write_now(const struct hair_sim* sim, struct hair_step_params* par
     params->rotation_before = hair_quat_to_vec4(sim->last_before.rotation);
     params->rotation_after = hair_quat_to_vec4(sim->last_after.rotation);
     params->rotation_now = hair_quat_to_vec4(sim->head.rotation);
-    params->last_displacement = vec4_of(far ? hair_v3(0, 0, 0) : moved, 0);
+    params->last_displacement = vec4_with(far ? hair_v3(0, 0, 0) : moved, 0);
 }
 
 void hair_sim_upload(struct hair_sim* sim, const struct hair_step_params* params)
@@ -76,7 +76,7 @@ void hair_sim_write_substeps(struct hair_sim* sim, struct hair_step_params* para
         sim->last_after = hair_pose_between(&sim->head_at_last_step, &sim->head, fraction);
         params->substep[i].rotation = hair_quat_to_vec4(sim->last_after.rotation);
         params->substep[i].displacement =
-            vec4_of(hair_pose_offset(&sim->last_after, &sim->last_before), (float)fraction);
+            vec4_with(hair_pose_offset(&sim->last_after, &sim->last_before), (float)fraction);
     }
     params->substeps = count;
 }

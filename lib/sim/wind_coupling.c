@@ -101,7 +101,7 @@ void hair_wind_coupling_reset(struct hair_sim* sim)
     sim->wind_coupling.substeps_done = 0;
 }
 
-static uint32_t block_length(const struct hair_sim* sim)
+static uint32_t wind_block_length(const struct hair_sim* sim)
 {
     return hair_sim_block_length(sim, BLOCK);
 }
@@ -146,12 +146,12 @@ static struct hair_fluid_strands strands_of(const struct hair_sim* sim)
 
 bool hair_wind_coupling_is_due(const struct hair_sim* sim)
 {
-    return hair_wind_coupling_is_on(sim) && hair_wind_coupling_substeps_left(sim) == block_length(sim);
+    return hair_wind_coupling_is_on(sim) && hair_wind_coupling_substeps_left(sim) == wind_block_length(sim);
 }
 
 uint32_t hair_wind_coupling_substeps_left(const struct hair_sim* sim)
 {
-    return hair_sim_block_left(sim->wind_coupling.substeps_done, block_length(sim));
+    return hair_sim_block_left(sim->wind_coupling.substeps_done, wind_block_length(sim));
 }
 
 void hair_wind_coupling_update(struct hair_sim* sim, double dt)
@@ -165,7 +165,7 @@ void hair_wind_coupling_update(struct hair_sim* sim, double dt)
                                  .wind = hair_load3(sim->wind.velocity),
                                  .gusts =
                                      hair_wind_find_gusts(&sim->wind_state, &sim->wind, &sim->last_after),
-                                 .dt = block_length(sim) * sim->substep,
+                                 .dt = wind_block_length(sim) * sim->substep,
                                  .field = wind_coupling->field,
                                  .colliders = &sim->colliders,
                                  .colliders_dt = dt};
@@ -177,8 +177,8 @@ void hair_wind_coupling_update(struct hair_sim* sim, double dt)
 
 void hair_wind_coupling_count(struct hair_sim* sim, uint32_t substeps)
 {
-    HAIR_ASSERT(sim->wind_coupling.substeps_done + substeps <= block_length(sim));
-    sim->wind_coupling.substeps_done = (sim->wind_coupling.substeps_done + substeps) % block_length(sim);
+    HAIR_ASSERT(sim->wind_coupling.substeps_done + substeps <= wind_block_length(sim));
+    sim->wind_coupling.substeps_done = (sim->wind_coupling.substeps_done + substeps) % wind_block_length(sim);
 }
 
 hair_vec4 hair_wind_coupling_box(const struct hair_sim* sim)

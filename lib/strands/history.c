@@ -19,7 +19,7 @@ void hair_geometry_free_history(struct hair_geometry* geometry)
     geometry->history.shown = 0;
 }
 
-static void swap(GLuint* a, GLuint* b)
+static void swap_buffers(GLuint* a, GLuint* b)
 {
     GLuint c = *a;
     *a = *b;
@@ -32,8 +32,8 @@ static void save(struct hair_vertex_history* history, uint32_t writes, GLuint* b
 {
     if (!history->buffer || !history->shown || history->shown != writes) return;
     HAIR_ASSERT(history->buffer != *buffer && history->texture != *texture);
-    swap(&history->buffer, buffer);
-    swap(&history->texture, texture);
+    swap_buffers(&history->buffer, buffer);
+    swap_buffers(&history->texture, texture);
 }
 
 void hair_geometry_save_history(struct hair_geometry* geometry)
@@ -48,8 +48,8 @@ void hair_geometry_save_guide_history(struct hair_geometry* geometry)
     save(&geometry->guide_history, smooth->runs, &smooth->buffer[0], &smooth->texture[0]);
 }
 
-static void begin(struct hair_vertex_history* history, uint32_t writes, const struct hair_pose* head,
-                  uint32_t frame)
+static void begin_history(struct hair_vertex_history* history, uint32_t writes, const struct hair_pose* head,
+                          uint32_t frame)
 {
     struct hair_history_pose now = {.turn = {0, 0, 0, 1}};
     // This is another view of the same frame.
@@ -64,7 +64,7 @@ static void begin(struct hair_vertex_history* history, uint32_t writes, const st
 
 void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
 {
-    begin(&geometry->history, geometry->vertex_cache.writes, head, frame);
+    begin_history(&geometry->history, geometry->vertex_cache.writes, head, frame);
 }
 
 hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, const struct hair_pose* head,
@@ -74,7 +74,7 @@ hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, co
     HAIR_TRY(hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_SMOOTH, "hair position before",
                                   geometry->smooth.vertices * sizeof(hair_vec4), &history->buffer, GL_RGBA32F,
                                   &history->texture));
-    begin(history, geometry->smooth.runs, head, frame);
+    begin_history(history, geometry->smooth.runs, head, frame);
     return HAIR_OK;
 }
 

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static hair_result ensure_buffers(struct hair_geometry* geometry)
+static hair_result ensure_cache_buffers(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* own = &geometry->vertex_cache;
@@ -72,7 +72,7 @@ hair_result hair_geometry_ensure_vertex_cache(struct hair_geometry* geometry,
     struct hair_gl* gl = geometry->gl;
     struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
     hair_gl_pass pass = hair_geometry_choose_variant(geometry, drawn ? HAIR_GL_EXPAND_DRAWN : HAIR_GL_EXPAND);
-    hair_result result = ensure_buffers(geometry);
+    hair_result result = ensure_cache_buffers(geometry);
     if (!result) result = hair_gl_ensure_program(gl, pass);
     if (result || is_fresh(geometry)) return result;
     struct hair_draw_params params;

@@ -56,7 +56,7 @@ static hair_result make_levels(struct hair_fluid* fluid)
     return HAIR_OK;
 }
 
-static hair_result make_all(struct hair_fluid* fluid)
+static hair_result make_fluid(struct hair_fluid* fluid)
 {
     struct hair_gl* gl = fluid->gl;
     hair_fluid_method method = fluid->desc.method;
@@ -85,7 +85,7 @@ hair_result hair_fluid_create(struct hair_fluid* fluid, struct hair_gl* gl,
 {
     HAIR_ASSERT(desc->side > 0 && 16 <= desc->cells && desc->cells <= 128 && desc->cells % 16 == 0);
     *fluid = (struct hair_fluid){.gl = gl, .desc = *desc};
-    hair_result result = make_all(fluid);
+    hair_result result = make_fluid(fluid);
     if (result)
         hair_fluid_destroy(fluid);
     else

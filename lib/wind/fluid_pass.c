@@ -14,7 +14,7 @@ void hair_fluid_free_buffer(struct hair_fluid* fluid, struct hair_fluid_buffer* 
     hair_gl_free_array(fluid->gl, &buffer->buffer, &buffer->texture);
 }
 
-static void bind(const struct hair_fluid* fluid, hair_gl_pass pass)
+static void bind_fluid(const struct hair_fluid* fluid, hair_gl_pass pass)
 {
     struct hair_gl* gl = fluid->gl;
     HAIR_ASSERT(fluid->now < 3 && fluid->current_pressure < 2);
@@ -55,7 +55,7 @@ void hair_fluid_run(struct hair_fluid* fluid, hair_gl_pass pass, uint32_t level,
     const GLintptr first = (GLintptr)(2 * level + color) * HAIR_FLUID_ALIGNMENT;
     const GLsizeiptr size = sizeof(struct hair_fluid_level);
     HAIR_ASSERT(level < fluid->levels && color < 2 && threads > 0);
-    bind(fluid, pass);
+    bind_fluid(fluid, pass);
     fluid->gl->BindBuffersRange(GL_UNIFORM_BUFFER, HAIR_BIND_LEVEL, 1, &fluid->level_params, &first, &size);
     hair_gl_run(fluid->gl, pass, (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     if (pass == HAIR_GL_FLUID_JACOBI) fluid->current_pressure = 1 - fluid->current_pressure;

@@ -1,7 +1,7 @@
 // porous.c - hair as an obstacle that closes faces of the fluid in part.
 #include "lib/wind/fluid.h"
 
-static hair_result make_buffers(struct hair_fluid* fluid)
+static hair_result make_porous_buffers(struct hair_fluid* fluid)
 {
     struct hair_fluid_hair* hair = &fluid->hair;
     size_t nodes = hair_fluid_nodes(fluid);
@@ -22,7 +22,7 @@ hair_result hair_fluid_ensure_hair(struct hair_fluid* fluid, int wanted)
     hair_fluid_free_hair(fluid);
     if (!wanted) return HAIR_OK;
     HAIR_TRY(hair_fluid_ensure_programs(fluid->gl, fluid->desc.method, 1));
-    hair_result result = make_buffers(fluid);
+    hair_result result = make_porous_buffers(fluid);
     if (result) hair_fluid_free_hair(fluid);
     return result;
 }

@@ -24,7 +24,7 @@ static uint32_t cubed(uint32_t n)
     return n * n * n;
 }
 
-static void sweep(struct hair_fluid* fluid, uint32_t level, uint32_t first)
+static void sweep_level(struct hair_fluid* fluid, uint32_t level, uint32_t first)
 {
     HAIR_ASSERT(level < fluid->levels && first < 2);
     uint32_t cells = cubed(fluid->level[level].cells) / 2;
@@ -41,14 +41,14 @@ static void cycle(struct hair_fluid* fluid)
     uint32_t last = fluid->levels - 1;
     HAIR_ASSERT(fluid->level[last].cells <= HAIR_FLUID_COARSEST);
     for (uint32_t i = 0; i < last; ++i) {
-        sweep(fluid, i, 0);
+        sweep_level(fluid, i, 0);
         hair_fluid_run(fluid, HAIR_GL_FLUID_RESTRICT, i, 0, cubed(fluid->level[i + 1].cells));
     }
     // One group, whatever its size.
     hair_fluid_run(fluid, HAIR_GL_FLUID_COARSE_SOLVE, last, 0, HAIR_GROUP_SIZE);
     for (uint32_t i = last; i-- > 0;) {
         hair_fluid_run(fluid, HAIR_GL_FLUID_PROLONG, i, 0, cubed(fluid->level[i].cells));
-        for (int k = 0; k < 3; ++k) sweep(fluid, i, 1);
+        for (int k = 0; k < 3; ++k) sweep_level(fluid, i, 1);
     }
 }
 
@@ -60,7 +60,7 @@ void hair_fluid_solve(struct hair_fluid* fluid)
         if (fluid->desc.method == HAIR_FLUID_MULTIGRID)
             cycle(fluid);
         else if (fluid->desc.method == HAIR_FLUID_RELAXATION)
-            sweep(fluid, 0, 0);
+            sweep_level(fluid, 0, 0);
         else
             hair_fluid_run(fluid, HAIR_GL_FLUID_JACOBI, 0, 0, cubed(fluid->desc.cells));
     }

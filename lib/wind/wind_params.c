@@ -214,7 +214,7 @@ static void write_starts(const struct hair_wind_step* step, struct hair_wind_par
     }
 }
 
-static void bind(const struct hair_wind_state* state, struct hair_gl* gl, GLuint volume)
+static void bind_wind(const struct hair_wind_state* state, struct hair_gl* gl, GLuint volume)
 {
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_WIND, 1, &state->params);
     if (state->gusts) { // Binding 0 would also unbind the application's textures of other targets.
@@ -248,10 +248,10 @@ void hair_wind_write(struct hair_wind_state* state, struct hair_gl* gl, const st
     write_volume(gl, step, &params);
     write_starts(step, &params);
     hair_gl_write_uniform(gl, state->params, sizeof params, &params);
-    bind(state, gl, params.volume ? wind->texture : 0);
+    bind_wind(state, gl, params.volume ? wind->texture : 0);
 }
 
 void hair_wind_bind(const struct hair_wind_state* state, struct hair_gl* gl, const hair_wind* wind)
 {
-    bind(state, gl, has_volume(gl, wind) ? wind->texture : 0);
+    bind_wind(state, gl, has_volume(gl, wind) ? wind->texture : 0);
 }
