@@ -12,7 +12,7 @@
 #define expect hair_test_shell_expect
 
 // A run of a script in a small window. Shell variables of the test name the script and the picture.
-#define RUN "$T $D/small.json --size 320x480 --script $D/s --frames 20 --shot $D/"
+#define RUN "$T $D/small.json --size 800x480 --script $D/s --frames 20 --shot $D/"
 
 static void wrong_use_exits_with_2(void** state)
 {
@@ -75,7 +75,7 @@ static void equal_scripts_give_equal_pictures(void** state)
 {
     (void)state;
     expect(0, "printf 'move 9 9' >$D/s; " RUN "a.png && " RUN "b.png && cmp $D/a.png $D/b.png", "");
-    expect(0, "head -c 24 $D/a.png | tail -c 8 | od -An -tu1", "   0   0   1  64   0   0   1 224");
+    expect(0, "head -c 24 $D/a.png | tail -c 8 | od -An -tu1", "   0   0   3  32   0   0   1 224");
 }
 
 // Each script must change the picture of the test above.
@@ -83,12 +83,12 @@ static void mouse_and_keys_change_the_picture(void** state)
 {
     (void)state;
     static const char* const scripts[] = {
-        "move 200 120\\ndown left\\nmove 260 120\\nup left\\nmove 9 9",
-        "move 200 120\\npress Left Alt\\ndown left\\nmove 260 120\\nup left\\nrelease Left Alt\\nmove 9 9",
-        "move 200 120\\nwheel 3\\nmove 9 9",
+        "move 400 120\\ndown left\\nmove 460 120\\nup left\\nmove 9 9",
+        "move 400 120\\npress Left Alt\\ndown left\\nmove 460 120\\nup left\\nrelease Left Alt\\nmove 9 9",
+        "move 400 120\\nwheel 3\\nmove 9 9",
         "key ?\\nmove 9 9",
         "key Tab\\nmove 9 9",
-        "click Show hair\\nmove 9 9",
+        "click Hair\\nmove 9 9",
         "key 1\\nmove 9 9",
         "key P\\nmove 9 9",
     };
@@ -99,7 +99,7 @@ static void mouse_and_keys_change_the_picture(void** state)
         expect(0, command, "");
     }
     expect(0,
-           "printf 'move 200 120\\nwheel 3\\nkey Ctrl+Z\\nmove 9 9' >$D/s; " RUN
+           "printf 'move 400 120\\nwheel 3\\nkey Ctrl+Z\\nmove 9 9' >$D/s; " RUN
            "b.png; cmp $D/a.png $D/b.png",
            "");
 }

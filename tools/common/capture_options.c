@@ -175,22 +175,9 @@ static bool parse_fps(const char* tool, const char* text, struct hair_scene* sce
 
 static bool parse_show(const char* tool, const char* text, struct hair_scene* scene)
 {
-    // In the order of enum hair_show.
-    static const char* const names[] = {"hair", "head", "guides", "colliders", "wind"};
-    const int count = (int)(sizeof names / sizeof *names);
-    scene->show = 0;
-    for (const char* at = text;;) {
-        size_t length = strcspn(at, ",");
-        int i = 0;
-        while (i < count && (strlen(names[i]) != length || strncmp(names[i], at, length))) ++i;
-        if (i == count) {
-            hair_complain(tool, "--show is %s, not some of hair, head, guides, colliders and wind", text);
-            return false;
-        }
-        scene->show |= 1u << i;
-        if (!at[length]) return true;
-        at += length + 1;
-    }
+    bool ok = hair_scene_set_show(text, scene);
+    if (!ok) hair_complain(tool, "--show is %s, not " HAIR_SCENE_SHOWN, text);
+    return ok;
 }
 
 // Apply "--set key=value" or an option such as "--tip-first", which sets tip_first to 1. Clear

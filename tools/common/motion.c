@@ -45,6 +45,10 @@ void hair_motion_at(const struct hair_motion* motion, float time, float transfor
 {
     float pose[CHANNELS] = {0};
     if (motion->count) pose_at(motion, time, pose);
+    for (int i = 0; i < 3; ++i) {
+        pose[i] += motion->pose.rotation[i];
+        pose[3 + i] += motion->pose.position[i];
+    }
 
     vec3 pivot = {motion->pivot[0], motion->pivot[1], motion->pivot[2]}, back;
     mat4 m = GLM_MAT4_IDENTITY_INIT;

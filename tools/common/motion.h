@@ -18,6 +18,7 @@ struct hair_motion {
     struct hair_key key[HAIR_MOTION_MAX_KEYS];
     uint32_t count; // 0 disables motion
     float pivot[3];
+    struct hair_key pose; // added to the pose at every time, by hand. Its time is ignored.
 };
 
 // Compute the head's transform at a time, column-major and rigid. The head keeps the first pose

@@ -47,6 +47,31 @@ void hair_scene_set_groom(const char* path, struct hair_scene* scene)
     if (!scene->head_is_said) scene->head = false;
 }
 
+const char* hair_scene_part(int i)
+{
+    // In the order of enum hair_show.
+    static const char* const names[] = {"hair", "head", "guides", "colliders", "wind", NULL};
+    return names[i];
+}
+
+bool hair_scene_set_show(const char* text, struct hair_scene* scene)
+{
+    uint32_t show = 0;
+    for (const char* at = text;;) {
+        size_t length = strcspn(at, ",");
+        int i = 0;
+        while (hair_scene_part(i) &&
+               (strlen(hair_scene_part(i)) != length || strncmp(hair_scene_part(i), at, length)))
+            ++i;
+        if (!hair_scene_part(i)) return false;
+        show |= 1u << i;
+        if (!at[length]) break;
+        at += length + 1;
+    }
+    scene->show = show;
+    return true;
+}
+
 static hair_style style_named(const char* name) // HAIR_STYLE_COUNT if there is none
 {
     int i = 0;
@@ -125,6 +150,15 @@ static bool read_bullet(const place* json, const char* key, const json_t* value,
     return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
 }
 
+static bool read_show(const place* json, const char* key, const json_t* value, void* out)
+{
+    const char* text = json_string_value(value);
+    // An empty text draws the background only.
+    if (text && !*text) ((struct hair_scene*)out)->show = 0;
+    return text && (!*text || hair_scene_set_show(text, out)) ? true
+                                                              : hair_json_wrong(json, key, HAIR_SCENE_SHOWN);
+}
+
 // Motion, camera, settings ------------------------------------------------------------------------
 
 static bool read_motion(const place* json, const char* key, const json_t* value, void* out)
@@ -171,6 +205,9 @@ static const entry light[] = {
     HAIR_NUMBERS("color", AT(settings.light.color), 3, 0, HAIR_SCENE_FAR),
     HAIR_NUMBERS("ambient", AT(settings.view.ambient), 3, 0, HAIR_SCENE_FAR),
     HAIR_BOOLEAN("shadow", AT(shadow)), HAIR_END};
+static const entry pose[] = {
+    HAIR_NUMBERS("rotation", AT(motion.pose.rotation), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+    HAIR_NUMBERS("position", AT(motion.pose.position), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR), HAIR_END};
 static const entry background[] = {HAIR_NUMBERS("centre", AT(background[0]), 3, 0, 100),
                                    HAIR_NUMBERS("edge", AT(background[1]), 3, 0, 100), HAIR_END};
 static const entry whole[] = {HAIR_OTHER("style", read_style),
@@ -182,6 +219,7 @@ static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_OTHER("maps", read_maps),
                               HAIR_OTHER("motion", read_motion),
                               HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
+                              HAIR_OBJECT("pose", pose),
                               HAIR_OTHER("camera", read_camera),
                               HAIR_OBJECT("light", light),
                               HAIR_OTHER("lights", read_lights),
@@ -193,6 +231,7 @@ static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_COUNTS("frames", AT(frames), 1, 1, 1000000),
                               HAIR_COUNTS("picture", AT(picture), 1, 0, 999999),
                               HAIR_COUNTS("size", AT(width), 2, 1, 16384),
+                              HAIR_OTHER("show", read_show),
                               HAIR_OTHER("settings", read_settings),
                               HAIR_END};
 

@@ -76,6 +76,11 @@ bool hair_scene_named(const char* tool, const char* name, struct hair_scene* sce
 bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene* scene);
 // Set the motion to a built-in one. Return false if the name is unknown.
 bool hair_scene_set_motion(const char* tool, const char* name, struct hair_scene* scene);
+// Set the parts to draw from a text such as "hair,head". Return false if a name is unknown.
+bool hair_scene_set_show(const char* text, struct hair_scene* scene);
+#define HAIR_SCENE_SHOWN "some of hair, head, guides, colliders and wind"
+// Name of the part of bit i of scene.show, or NULL beyond the last.
+const char* hair_scene_part(int i);
 // Set the haircut to a file.
 void hair_scene_set_groom(const char* path, struct hair_scene* scene);
 // Print the names of all built-in scenes, styles and motions.

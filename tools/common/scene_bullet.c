@@ -1,4 +1,5 @@
 // scene_bullet.c - Shapes and objects of Bullet in a scene, from JSON.
+#define _XOPEN_SOURCE 700
 #include "tools/common/scene_bullet.h"
 #include "tools/common/file.h"
 
@@ -7,6 +8,7 @@
 #include <string.h>
 
 #define MAX_OBJECTS 100000u
+#define MAX_PATH 4096
 #define MAX_ROWS 1048576u
 #define DEEPEST 8 // maximum depth of nested compounds
 
@@ -125,7 +127,7 @@ static bool read_heights(const place* json, const char* key, const json_t* value
 
 static bool read_mesh(const place* json, const char* key, const json_t* value, void* out)
 {
-    char path[4096];
+    char path[MAX_PATH];
     return hair_json_path(json, key, value, path, sizeof path) &&
            hair_obj_read(json->tool, path, &((shape*)out)->mesh);
 }
@@ -241,6 +243,35 @@ static bool read_children(const place* json, const char* key, const json_t* valu
     return true;
 }
 
+// Make the paths of all meshes absolute.
+static void make_absolute(const place* json, json_t* value)
+{
+    char path[MAX_PATH];
+    const char* name;
+    json_t* member;
+    size_t i;
+    json_array_foreach(value, i, member) make_absolute(json, member);
+    json_object_foreach(value, name, member)
+    {
+        if (strcmp(name, "mesh") || !json_is_string(member)) {
+            make_absolute(json, member);
+        } else if (hair_json_path(json, name, member, path, sizeof path)) {
+            char* absolute = realpath(path, NULL);
+            if (absolute) json_string_set(member, absolute);
+            free(absolute);
+        }
+    }
+}
+
+static char* write_text(const place* json, const json_t* value)
+{
+    json_t* copy = json_deep_copy(value);
+    make_absolute(json, copy);
+    char* text = json_dumps(copy, JSON_COMPACT);
+    json_decref(copy);
+    return text;
+}
+
 bool hair_scene_read_bullet(const place* json, const char* key, const json_t* value,
                             struct hair_bullet_list* out)
 {
@@ -256,6 +287,7 @@ bool hair_scene_read_bullet(const place* json, const char* key, const json_t* va
         if (!read_one(json, key, value, i, of_object, &object->shape, object->body.collider.rotation))
             return false;
     }
+    if (count) out->text = write_text(json, value);
     return true;
 }
 
@@ -273,5 +305,6 @@ void hair_scene_free_bullet(struct hair_bullet_list* objects)
 {
     for (uint32_t i = 0; i < objects->count; ++i) free_shape(&objects->object[i].shape);
     free(objects->object);
+    free(objects->text);
     memset(objects, 0, sizeof *objects);
 }

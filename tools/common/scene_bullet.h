@@ -51,6 +51,7 @@ struct hair_bullet_object {
 struct hair_bullet_list {
     struct hair_bullet_object* object;
     uint32_t count;
+    char* text; // JSON of the objects, with absolute paths, for saving. NULL without objects.
 };
 
 // Read the list. Return false after printing an error. Call hair_scene_free_bullet() in either

@@ -11,7 +11,7 @@
 bool hair_scene_set(const struct hair_json* json, const char* prefix, const char* name, const json_t* value,
                     struct hair_settings* settings)
 {
-    char key[64], text[64];
+    char key[64], text[256]; // A curve has eight numbers.
     snprintf(key, sizeof key, "%s%s", prefix, name);
     if (json_is_string(value))
         snprintf(text, sizeof text, "%s", json_string_value(value));

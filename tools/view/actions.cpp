@@ -1,6 +1,8 @@
 // actions.cpp - The table of all actions, each with a label and a key.
 #include "tools/view/actions.h"
-#include "tools/view/camera.h"
+#include "tools/view/hair_actions.h"
+
+#include <string.h>
 
 namespace
 {
@@ -29,6 +31,11 @@ void reset(viewer& viewer)
     view_session_reset(viewer.session, *viewer.document.scene);
 }
 
+void reset_head(viewer& viewer)
+{
+    memset(&viewer.document.scene->motion.pose, 0, sizeof viewer.document.scene->motion.pose);
+}
+
 void frame_hair(viewer& viewer)
 {
     hair_bounds bounds;
@@ -39,35 +46,77 @@ void frame_hair(viewer& viewer)
     hair_camera_frame(viewer.document.scene.get(), &bounds);
 }
 
-void undo(viewer& viewer)
+void single_step(viewer& viewer)
 {
-    view_document_undo(viewer.document);
-}
-void redo(viewer& viewer)
-{
-    view_document_redo(viewer.document);
+    viewer.pauses = true;
+    viewer.steps_once = true;
 }
 
+void undo(viewer& viewer)
+{
+    if (!view_document_undo(viewer.document)) viewer_say(viewer, "There is no change to take back.");
+}
+
+void redo(viewer& viewer)
+{
+    if (!view_document_redo(viewer.document)) viewer_say(viewer, "There is no change to do again.");
+}
+
+void save(viewer& viewer)
+{
+    viewer_save(viewer);
+}
+
+#define CTRL KMOD_CTRL
+
 const view_action actions[] = {
-    {"Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
-     toggle<&viewer::shows_help>, is<&viewer::shows_help>},
-    {"Panels", SDLK_TAB, 0, "Show or hide all panels.", toggle<&viewer::shows_panels>,
-     is<&viewer::shows_panels>},
-    {"Play", SDLK_SPACE, 0, "Move the head by its motion.", toggle<&viewer::plays>, is<&viewer::plays>},
-    {"Loop", SDLK_l, 0, "Repeat the motion of the head.", toggle<&viewer::loops>, is<&viewer::loops>},
-    {"Pause", SDLK_p, 0, "Stop the time.", toggle<&viewer::pauses>, is<&viewer::pauses>},
-    {"Reset", SDLK_r, 0, "Begin again, with the hair at rest.", reset, nullptr},
-    {"Frame the hair", SDLK_f, 0, "Move the camera until the hair fills the window.", frame_hair, nullptr},
-    {"Show hair", SDLK_1, 0, "Draw the strands.", toggle_show<HAIR_SHOW_HAIR>, shows<HAIR_SHOW_HAIR>},
-    {"Show head", SDLK_2, 0, "Draw the head.", toggle_show<HAIR_SHOW_HEAD>, shows<HAIR_SHOW_HEAD>},
-    {"Show guides", SDLK_3, 0, "Draw the simulated guides, coloured by their stretch.",
+    {"Scene", "Save", SDLK_s, CTRL, "Save the scene, with all changes, as the file above.", save, nullptr},
+    {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},
+    {"Scene", "Redo", SDLK_y, CTRL, "Do the change again.", redo, nullptr},
+    {"Time", "Play", SDLK_SPACE, 0, "Move the head by its motion.", toggle<&viewer::plays>,
+     is<&viewer::plays>},
+    {"Time", "Loop", SDLK_l, 0, "Repeat the motion of the head.", toggle<&viewer::loops>, is<&viewer::loops>},
+    {"Time", "Pause", SDLK_p, 0, "Stop the time.", toggle<&viewer::pauses>, is<&viewer::pauses>},
+    {"Time", "Slow motion", SDLK_o, 0, "Let the time run at an eighth of its speed.",
+     toggle<&viewer::is_slow>, is<&viewer::is_slow>},
+    {"Time", "Single step", SDLK_PERIOD, 0, "Pause, and advance by one frame of 1/60 s.", single_step,
+     nullptr},
+    {"Time", "Reset", SDLK_r, 0, "Begin again, with the hair at rest.", reset, nullptr},
+    {"Show", "Hair", SDLK_1, 0, "Draw the strands.", toggle_show<HAIR_SHOW_HAIR>, shows<HAIR_SHOW_HAIR>},
+    {"Show", "Head", SDLK_2, 0, "Draw the head.", toggle_show<HAIR_SHOW_HEAD>, shows<HAIR_SHOW_HEAD>},
+    {"Show", "Guides", SDLK_3, 0, "Draw the simulated guides, coloured by their stretch.",
      toggle_show<HAIR_SHOW_GUIDES>, shows<HAIR_SHOW_GUIDES>},
-    {"Show colliders", SDLK_4, 0, "Draw what hair collides with.", toggle_show<HAIR_SHOW_COLLIDERS>,
+    {"Show", "Colliders", SDLK_4, 0, "Draw what hair collides with.", toggle_show<HAIR_SHOW_COLLIDERS>,
      shows<HAIR_SHOW_COLLIDERS>},
-    {"Show wind", SDLK_5, 0, "Draw the air as arrows.", toggle_show<HAIR_SHOW_WIND>, shows<HAIR_SHOW_WIND>},
-    {"Undo", SDLK_z, KMOD_CTRL, "Take back the last change.", undo, nullptr},
-    {"Redo", SDLK_y, KMOD_CTRL, "Do the change again.", redo, nullptr},
-    {nullptr, SDLK_UNKNOWN, 0, nullptr, nullptr, nullptr}};
+    {"Show", "Air", SDLK_5, 0, "Draw the wind as arrows.", toggle_show<HAIR_SHOW_WIND>,
+     shows<HAIR_SHOW_WIND>},
+    {"Show", "Frame", SDLK_f, 0, "Move the camera until the hair fills the window.", frame_hair, nullptr},
+    {"Show", "Head at rest", SDLK_h, 0, "Put the head back where its motion wants it.", reset_head, nullptr},
+    {"Hair", "Next colour", SDLK_c, 0, "Take the next of the natural colours.", view_next_color, nullptr},
+    {"Hair", "Short", SDLK_s, 0, "Cut the strands to less than half.", view_toggle_short, view_is_short},
+    {"Hair", "Curly", SDLK_u, 0, "Curl the strands.", view_toggle_curly, view_is_curly},
+    {"Hair", "Multi-strand", SDLK_m, 0, "Interpolate each strand between several guides.", view_toggle_multi,
+     view_is_multi},
+    {"Hair", "Single-strand", SDLK_n, 0, "Let each strand follow one guide.", view_toggle_single,
+     view_is_single},
+    {"Wind", "Wind", SDLK_k, 0, "Let the wind blow.", view_toggle_wind, view_has_wind},
+    {"Wind", "Weaker", SDLK_LEFTBRACKET, 0, "Slow the wind by 1 m/s.", view_weaker_wind, nullptr},
+    {"Wind", "Stronger", SDLK_RIGHTBRACKET, 0, "Speed up the wind by 1 m/s.", view_stronger_wind, nullptr},
+    {"Detail", "Level of detail", SDLK_d, 0, "Draw fewer, wider strands where they are small.",
+     view_toggle_lod, view_has_lod},
+    {"Detail", "Dynamic", SDLK_a, 0, "Choose the level by the size on the screen, not by the sliders.",
+     view_toggle_dynamic, view_is_dynamic},
+    {"Detail", "Tessellation", SDLK_t, 0, "Make strands by the tessellation of the hardware.",
+     view_toggle_tessellation, view_is_tessellated},
+    {"Simulation", "Multi-pass", SDLK_x, 0, "Simulate by passes of transform feedback, as in 2010.",
+     view_toggle_passes, view_has_passes},
+    {"Simulation", "Fewer steps", SDLK_v, 0, "Simulate by fewer substeps, and the fewest out of the picture.",
+     view_toggle_simulation_lod, view_has_simulation_lod},
+    {"Window", "Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
+     toggle<&viewer::shows_help>, is<&viewer::shows_help>},
+    {"Window", "Panels", SDLK_TAB, 0, "Show or hide all panels.", toggle<&viewer::shows_panels>,
+     is<&viewer::shows_panels>},
+    {nullptr, nullptr, SDLK_UNKNOWN, 0, nullptr, nullptr, nullptr}};
 
 } // namespace
 
@@ -85,7 +134,7 @@ bool view_action_key(viewer& viewer, const SDL_Keysym& key)
         bool has_ctrl = action->modifiers & KMOD_CTRL, has_shift = action->modifiers & KMOD_SHIFT;
         bool found = is_help ? action->key == SDLK_QUESTION
                              : action->key == key.sym && has_ctrl == is_ctrl && has_shift == is_shift;
-        if (!found || action->key == SDLK_UNKNOWN) continue;
+        if (!found) continue;
         action->run(viewer);
         return true;
     }
@@ -94,7 +143,6 @@ bool view_action_key(viewer& viewer, const SDL_Keysym& key)
 
 std::string view_action_key_name(const view_action& action)
 {
-    if (action.key == SDLK_UNKNOWN) return "";
     std::string name = action.modifiers & KMOD_CTRL ? "Ctrl+" : "";
     if (action.modifiers & KMOD_SHIFT) name += "Shift+";
     return name + SDL_GetKeyName(action.key);

@@ -5,8 +5,9 @@
 #include "tools/view/viewer.h"
 
 struct view_action {
+    const char* group; // heading in the panel
     const char* label;
-    SDL_Keycode key; // SDLK_UNKNOWN if there is none
+    SDL_Keycode key;
     uint16_t modifiers; // some of KMOD_CTRL and KMOD_SHIFT
     const char* about;
     void (*run)(viewer& viewer);
@@ -19,7 +20,7 @@ const view_action* view_actions();
 // Run the action of a key. Return false if there is none.
 bool view_action_key(viewer& viewer, const SDL_Keysym& key);
 
-// Return the name of an action's key, such as "Ctrl+Z", or "".
+// Return the name of an action's key, such as "Ctrl+Z".
 std::string view_action_key_name(const view_action& action);
 
 #endif

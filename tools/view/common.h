@@ -12,6 +12,7 @@ extern "C" {
 #include "tools/common/groom_source.h"
 #include "tools/common/render.h"
 #include "tools/common/scene.h"
+#include "tools/common/scene_write.h"
 #include "tools/common/stats.h"
 }
 

@@ -52,8 +52,8 @@ void set_style(float scale)
     style.FrameRounding = 4;
     style.GrabRounding = 4;
     style.ScrollbarSize = 14;
-    style.FramePadding = {8, 4};
-    style.ItemSpacing = {8, 5};
+    style.FramePadding = {7, 3};
+    style.ItemSpacing = {8, 4};
     style.WindowBorderSize = 0;
     ImVec4* colors = style.Colors;
     colors[ImGuiCol_WindowBg] = {0.07f, 0.075f, 0.085f, 0.94f};

@@ -2,51 +2,72 @@
 #include "tools/view/panel.h"
 #include "tools/view/actions.h"
 #include "tools/view/controls.h"
+#include "tools/view/scene_panel.h"
+#include "tools/view/settings_panel.h"
+
+#include <string.h>
+
+#include <algorithm>
 
 namespace
 {
+
+constexpr float left_width = 280, right_width = 330; // at scale 1
+constexpr uint32_t message_frames = 300; // time that a message stays
+
+void show_help_row(const char* key, const char* label, const char* about)
+{
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(key);
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(label);
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", about);
+}
 
 void show_help(viewer& viewer)
 {
     if (!viewer.shows_help) return;
     ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, 0.96f * size.y});
+    ImGui::SetNextWindowFocus();
     ImGui::Begin("Keys and mouse", &viewer.shows_help,
-                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
-    if (ImGui::BeginTable("keys", 3, ImGuiTableFlags_SizingFixedFit)) {
-        for (const view_mouse_help* row = view_mouse_controls(); row->gesture; ++row) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(row->gesture);
-            ImGui::TableNextColumn();
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(row->about);
-        }
-        for (const view_action* action = view_actions(); action->label; ++action) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(view_action_key_name(*action).c_str());
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(action->label);
-            ImGui::TableNextColumn();
-            ImGui::TextDisabled("%s", action->about);
-        }
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+    if (ImGui::BeginTable("mouse", 3, ImGuiTableFlags_SizingFixedFit)) {
+        for (const view_mouse_help* row = view_mouse_controls(); row->gesture; ++row)
+            show_help_row(row->gesture, "", row->about);
+        for (const view_action* action = view_actions(); action->label; ++action)
+            show_help_row(view_action_key_name(*action).c_str(), action->label, action->about);
         ImGui::EndTable();
     }
     ImGui::End();
 }
 
-void show_actions(viewer& viewer)
+// Begin a panel between two edges of the window.
+bool begin_panel(const char* name, float left, float top, float width, float height)
 {
-    ImGui::SetNextWindowPos({10 * viewer.gui.scale, 10 * viewer.gui.scale}, ImGuiCond_FirstUseEver);
-    ImGui::Begin("hair-view", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-    for (const view_action* action = view_actions(); action->label; ++action) {
-        bool is_on = action->is_on && action->is_on(viewer);
-        bool is_pressed =
-            action->is_on ? ImGui::Checkbox(action->label, &is_on) : ImGui::Button(action->label);
-        view_gui_mark(viewer.gui, action->label);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s\nKey: %s", action->about, view_action_key_name(*action).c_str());
-        if (is_pressed) action->run(viewer);
-    }
+    ImGui::SetNextWindowPos({left, top});
+    ImGui::SetNextWindowSize({width, height});
+    return ImGui::Begin(name, nullptr,
+                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
+                            ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus);
+}
+
+void show_messages(const viewer& viewer)
+{
+    if (viewer.messages.empty() || viewer.frame - viewer.said > message_frames) return;
+    const view_place& picture = viewer.picture;
+    float margin = 10 * viewer.gui.scale;
+    ImGui::SetNextWindowPos({0.5f * (picture.left + picture.right), picture.bottom - margin},
+                            ImGuiCond_Always, {0.5f, 1});
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {picture.right - picture.left - 2 * margin, 1e6f});
+    ImGui::Begin("Messages", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                     ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::PushTextWrapPos(0.9f * (picture.right - picture.left));
+    ImGui::TextUnformatted(viewer.messages.back().c_str());
+    ImGui::PopTextWrapPos();
     ImGui::End();
 }
 
@@ -54,6 +75,18 @@ void show_actions(viewer& viewer)
 
 void view_panels(viewer& viewer)
 {
-    if (viewer.shows_panels) show_actions(viewer);
+    ImVec2 size = ImGui::GetIO().DisplaySize;
+    viewer.picture = {0, 0, size.x, size.y};
+    if (viewer.shows_panels) {
+        float left = std::min(left_width * viewer.gui.scale, 0.3f * size.x);
+        float right = std::min(right_width * viewer.gui.scale, 0.4f * size.x);
+        if (begin_panel("Scene", 0, 0, left, size.y)) view_scene_panel(viewer);
+        ImGui::End();
+        if (begin_panel("Settings", size.x - right, 0, right, size.y)) view_settings_panel(viewer);
+        ImGui::End();
+        viewer.picture.left = left;
+        viewer.picture.right = size.x - right;
+    }
     show_help(viewer);
+    show_messages(viewer);
 }

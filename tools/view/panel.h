@@ -4,7 +4,7 @@
 
 #include "tools/view/viewer.h"
 
-// Show all panels of a frame.
+// Show all panels of a frame, and set viewer.picture to what they leave of the window.
 void view_panels(viewer& viewer);
 
 #endif

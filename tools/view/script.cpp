@@ -32,6 +32,7 @@ const struct {
              {"drag", TEXT_AND_2, "LABEL X Y"},
              {"drop", TEXT, "PATH"},
              {"size", NUMBERS_2, "W H"},
+             {"save", TEXT, "PATH"},
              {"wait", NUMBERS_1, "N"}};
 
 int complain(const view_script& script, int line, const char* what, const std::string& text)
@@ -237,6 +238,8 @@ int run(view_script& script, const view_command& command, SDL_Window* window)
         push_text(command.text);
     } else if (verb == "drop") {
         push_drop(command.text);
+    } else if (verb == "save") {
+        script.save = command.text;
     } else if (verb == "size") {
         SDL_SetWindowSize(window, std::max(64, (int)command.x), std::max(64, (int)command.y));
     } else {

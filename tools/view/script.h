@@ -12,6 +12,7 @@
 //     drag LABEL X Y        drag a widget of a label by X and Y
 //     drop PATH             drop a file on the window
 //     size W H              resize the window
+//     save PATH             write the scene
 //     wait N                wait for N frames
 #ifndef HAIR_TOOLS_VIEW_SCRIPT_H
 #define HAIR_TOOLS_VIEW_SCRIPT_H
@@ -35,6 +36,7 @@ struct view_script {
     float mouse[2] = {-1, -1};
     uint32_t wait = 0; // frames until the next command
     uint16_t modifiers = 0;
+    std::string save; // file to write the scene to at the end of this frame, or ""
 };
 
 // Read a script. Return an exit status, after printing any error.

@@ -92,8 +92,9 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
 {
     hair_instance* hair = nullptr;
     hair_world* world = nullptr;
+    auto world_scene = std::make_unique<hair_scene>(scene);
     int code = hair_exit_for(create_hair(session, scene, groom, &hair));
-    if (!code) code = hair_world_create(TOOL, session.name.c_str(), &scene, &session.host, &world);
+    if (!code) code = hair_world_create(TOOL, session.name.c_str(), world_scene.get(), &session.host, &world);
     if (code) {
         hair_destroy(hair);
         if (groom != session.groom) hair_groom_destroy(groom);
@@ -104,6 +105,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     if (groom != session.groom) hair_groom_destroy(session.groom);
     session.hair = hair;
     session.world = world;
+    session.world_scene = std::move(world_scene);
     session.groom = groom;
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);

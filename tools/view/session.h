@@ -21,6 +21,7 @@ struct view_session {
     hair_groom* groom = nullptr;
     hair_instance* hair = nullptr;
     hair_world* world = nullptr;
+    std::unique_ptr<hair_scene> world_scene; // scene that the world was made of
     hair_render* render = nullptr;
     hair_render_desc render_desc = {};
     hair_groom_info info = {};

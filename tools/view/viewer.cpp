@@ -1,11 +1,13 @@
 // viewer.cpp - The state of hair-view, and one frame of its loop.
 #include "tools/view/viewer.h"
+#include "tools/view/arrows.h"
 #include "tools/view/controls.h"
 #include "tools/view/panel.h"
 
 #include <epoxy/gl.h>
 
 #include <string.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -14,6 +16,7 @@ namespace
 
 constexpr float script_dt = 1.0f / 60; // s
 constexpr size_t max_messages = 50;
+constexpr float slow_motion = 0.125f;
 constexpr double rest = 250; // time without motion after which the picture has full quality, ms
 
 void log_sentence(hair_log_level level, const char* sentence, void* user)
@@ -85,7 +88,10 @@ int step(viewer& viewer, float dt)
     view_session& session = viewer.session;
     const hair_scene& scene = *viewer.document.scene;
     float end = duration(scene.motion);
-    if (viewer.pauses) return HAIR_EXIT_OK;
+    if (viewer.pauses && !viewer.steps_once) return HAIR_EXIT_OK;
+    if (viewer.steps_once) dt = script_dt;
+    if (viewer.is_slow) dt *= slow_motion;
+    viewer.steps_once = false;
     if (viewer.plays && viewer.loops && end > 0 && session.time >= end) session.time -= end;
     if (viewer.plays && session.time < end) viewer.moved = hair_now();
     return view_session_step(session, scene, dt, viewer.plays);
@@ -101,14 +107,18 @@ int draw_picture(viewer& viewer)
         quality.resolution = 0.5f;
         quality.samples = 1;
     }
-    int code = view_session_draw(session, *viewer.document.scene, (uint32_t)viewer.stage.width,
-                                 (uint32_t)viewer.stage.height, quality);
+    const view_place& place = viewer.picture;
+    float density = viewer.stage.density;
+    uint32_t width = (uint32_t)std::max(1.0f, density * (place.right - place.left));
+    uint32_t height = (uint32_t)std::max(1.0f, density * (place.bottom - place.top));
+    int code = view_session_draw(session, *viewer.document.scene, width, height, quality);
     if (code) return code;
     unsigned texture = hair_render_texture(session.render);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {0, 0},
-                                             ImGui::GetIO().DisplaySize);
+    ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {place.left, place.top},
+                                             {place.right, place.bottom});
+    view_arrows(viewer);
     return HAIR_EXIT_OK;
 }
 
@@ -127,6 +137,23 @@ int write_shot(viewer& viewer)
     hair_complain(TOOL, "%s: cannot write the picture", viewer.options.shot.c_str());
     hair_output_discard(&output);
     return HAIR_EXIT_RUNTIME;
+}
+
+// Return a name of a scene file that does not exist yet.
+std::string find_path()
+{
+    std::string path = "scene.json";
+    for (int i = 2; i < 1000 && !access(path.c_str(), F_OK); ++i)
+        path = "scene-" + std::to_string(i) + ".json";
+    return path;
+}
+
+int save_by_script(viewer& viewer)
+{
+    std::string path;
+    path.swap(viewer.script.save);
+    bool ok = path.empty() || hair_scene_write(TOOL, path.c_str(), viewer.document.scene.get());
+    return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
 // Return the time since the last frame, s.
@@ -154,6 +181,7 @@ int run_frame(viewer& viewer)
     follow_document(viewer);
     if (viewer.drag == VIEW_DRAG_NONE && !ImGui::IsAnyItemActive()) view_document_commit(viewer.document);
     code = step(viewer, dt);
+    if (!code) code = save_by_script(viewer);
     if (!code && draws) code = draw_picture(viewer);
     if (draws) view_stage_begin(viewer.stage);
     view_gui_end(viewer.gui, draws);
@@ -169,12 +197,16 @@ int run_frame(viewer& viewer)
 void viewer_say(viewer& viewer, const std::string& sentence)
 {
     viewer.messages.push_back(sentence);
+    viewer.said = viewer.frame;
     if (viewer.messages.size() > max_messages) viewer.messages.erase(viewer.messages.begin());
 }
 
 int viewer_run(viewer& viewer)
 {
     view_document_open(viewer.document, viewer.options.scene, viewer.options.name, viewer.options.file);
+    viewer.path = !viewer.options.save.empty()   ? viewer.options.save
+                  : !viewer.options.file.empty() ? viewer.options.file
+                                                 : find_path();
     int code = open(viewer);
     while (!code && !viewer.quits) code = run_frame(viewer);
     close(viewer);

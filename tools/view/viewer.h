@@ -1,4 +1,4 @@
-// viewer.h - The state of hair-view, and one frame of its loop.
+// viewer.h - The state of hair-view, and its loop.
 #ifndef HAIR_TOOLS_VIEW_VIEWER_H
 #define HAIR_TOOLS_VIEW_VIEWER_H
 
@@ -13,7 +13,15 @@
 #include <vector>
 
 // Target of a drag of the mouse.
-enum view_drag { VIEW_DRAG_NONE, VIEW_DRAG_ORBIT, VIEW_DRAG_PAN };
+enum view_drag {
+    VIEW_DRAG_NONE,
+    VIEW_DRAG_ORBIT,
+    VIEW_DRAG_PAN,
+    VIEW_DRAG_LIGHT,
+    VIEW_DRAG_WIND,
+    VIEW_DRAG_TURN, // turns the head
+    VIEW_DRAG_MOVE // moves the head
+};
 
 struct viewer {
     view_options options;
@@ -22,6 +30,7 @@ struct viewer {
     view_script script;
     view_document document;
     view_session session;
+    view_place picture = {}; // part of the window that shows the hair
     view_drag drag = VIEW_DRAG_NONE;
     int drag_button = 0;
     float mouse[2] = {0, 0}; // units of SDL
@@ -29,16 +38,34 @@ struct viewer {
     bool plays = true; // the head follows its motion
     bool loops = true;
     bool pauses = false;
+    bool is_slow = false;
+    bool steps_once = false; // advances one frame although the time is paused
     bool shows_help = false;
     bool shows_panels = true;
+    float wind_direction[3] = {1, 0, 0}; // of the last wind
+    float wind_speed = 0; // before the wind was switched off, m/s
     uint32_t frame = 0;
     double moved = 0; // time of the last motion in the picture, ms
     double last = 0; // time of the last frame, ms
+    std::string path; // file that the scene is saved as
+    std::string filter; // words in the names of the settings that the panel shows
+    hair_scene usual = {}; // scene with the default settings of the style
+    bool has_usual = false;
+    bool only_changed = false; // the panel shows only settings without their default
     std::vector<std::string> messages; // newest last
+    uint32_t said = 0; // frame of the newest message
 };
 
 // Add a sentence to the messages of the window.
 void viewer_say(viewer& viewer, const std::string& sentence);
+
+// Open a scene file or a haircut instead of the present scene. A haircut keeps the rest of the
+// scene. On failure the present scene stays.
+void viewer_open(viewer& viewer, const std::string& path);
+// Save the scene as viewer.path.
+void viewer_save(viewer& viewer);
+// Take the scene of a name, with a style or one of the built-in scenes.
+void viewer_open_named(viewer& viewer, const char* name);
 
 // Run until the end. Return an exit status.
 int viewer_run(viewer& viewer);

@@ -1,0 +1,139 @@
+// actions_test.c - every action of hair-view changes the scene that it must, by its key and by its
+// label, undo takes the change back, and mouse controls and panels change the scene too.
+#include "tests/support/shell.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <cmocka.h>
+
+#define TOOL HAIR_BUILD_DIR "/hair-view"
+#define expect hair_test_shell_expect
+#define RUN "$T $D/small.json --size 900x1500 --script $D/s --frames "
+
+// An action, and a word in the line of the saved scene that it changes.
+struct action {
+    const char *label, *key, *word;
+};
+
+static const struct action actions[] = {
+    {"Hair", "1", "\"show\": \"head\""},
+    {"Head", "2", "\"show\": \"hair\""},
+    {"Guides", "3", "\"show\": \"hair,head,guides\""},
+    {"Colliders", "4", "\"show\": \"hair,head,colliders\""},
+    {"Air", "5", "\"show\": \"hair,head,wind\""},
+    {"Next colour", "C", "\"color.root.r\""},
+    {"Short", "S", "\"strand.length\""},
+    {"Curly", "U", "\"curl.radius\""},
+    {"Multi-strand", "M", "\"clump.interpolation\": \"multi\""},
+    {"Single-strand", "N", "\"clump.interpolation\": \"single\""},
+    {"Wind", "K", "\"wind.x\": \"4\""},
+    {"Stronger", "]", "\"wind.x\": \"1\""},
+    {"Level of detail", "D", "\"lod\": \"on\""},
+    {"Dynamic", "A", "\"lod\": \"on\""},
+    {"Tessellation", "T", "\"render_path\": \"cached\""},
+    {"Multi-pass", "X", "\"solver\": \"redblack\""},
+    {"Fewer steps", "V", "\"substep_rate\": \"0.25\""},
+};
+#define ACTIONS (sizeof actions / sizeof *actions)
+
+static void write_file(const char* name, const char* text)
+{
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
+    FILE* file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+static void actions_change_the_scene_by_key_and_label(void** state)
+{
+    (void)state;
+    static char script[16384];
+    const char* folder = hair_test_folder();
+    int used = snprintf(script, sizeof script, "key P\nsave %s/0.json\n", folder);
+    for (size_t i = 0; i < ACTIONS; ++i)
+        used += snprintf(script + used, sizeof script - (size_t)used,
+                         "key %s\nwait 2\nsave %s/k%zu.json\nkey Ctrl+Z\nsave %s/u%zu.json\n"
+                         "click %s\nsave %s/l%zu.json\nkey Ctrl+Z\n",
+                         actions[i].key, folder, i, folder, i, actions[i].label, folder, i);
+    write_file("s", script);
+    expect(0, RUN "500", "");
+    for (size_t i = 0; i < ACTIONS; ++i) {
+        char command[512];
+        snprintf(
+            command, sizeof command,
+            "diff $D/0.json $D/k%zu.json | grep '^>' | grep -qF '%s' && cmp $D/k%zu.json $D/l%zu.json && "
+            "cmp $D/0.json $D/u%zu.json || { echo %s; false; }",
+            i, actions[i].word, i, i, i, actions[i].label);
+        expect(0, command, "");
+    }
+}
+
+// Mouse controls over the picture, each with a word of the saved scene.
+static void mouse_controls_change_the_scene(void** state)
+{
+    (void)state;
+    static const char* const drags[][3] = {
+        {"", "left", "\"camera\""},
+        {"Left Alt", "left", "\"camera\""},
+        {"Left Shift", "left", "\"light_direction.x\""},
+        {"Left Shift", "right", "\"wind.z\""},
+        {"", "right", "\"pose\""},
+        {"", "middle", "\"pose\""},
+    };
+    char script[4096], command[256];
+    const char* folder = hair_test_folder();
+    int used = snprintf(script, sizeof script, "key P\nkey F\nwait 2\nsave %s/0.json\n", folder);
+    for (size_t i = 0; i < 6; ++i) {
+        const char *held = drags[i][0], *button = drags[i][1];
+        used += snprintf(script + used, sizeof script - (size_t)used,
+                         "move 420 400\n%s%s\ndown %s\nmove 470 430\n", *held ? "press " : "wait 1", held,
+                         button);
+        used += snprintf(script + used, sizeof script - (size_t)used,
+                         "up %s\n%s%s\nsave %s/d%zu.json\nkey Ctrl+Z\n", button,
+                         *held ? "release " : "wait 1", held, folder, i);
+    }
+    write_file("s", script);
+    expect(0, RUN "200", "");
+    for (size_t i = 0; i < 6; ++i) {
+        snprintf(command, sizeof command, "! cmp -s $D/0.json $D/d%zu.json && grep -qF '%s' $D/d%zu.json", i,
+                 drags[i][2], i);
+        expect(0, command, "");
+    }
+}
+
+static void panels_find_change_and_reset_settings(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    snprintf(script, sizeof script,
+             "key P\nsave %s/0.json\nclick Search\ntext damping\nwait 2\ndrag damping 30 0\nsave %s/1.json\n"
+             "click Reset damping\nsave %s/2.json\nclick Haircut\nclick bob\nsave %s/3.json\n",
+             folder, folder, folder, folder);
+    write_file("s", script);
+    expect(0, RUN "80", "");
+    expect(0, "grep -q '\"damping\"' $D/1.json && cmp $D/0.json $D/2.json", "");
+    expect(0, "grep -q '\"style\": \"bob\"' $D/3.json", "");
+}
+
+static int start(void** state)
+{
+    (void)state;
+    return hair_test_shell_start_capture(TOOL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(actions_change_the_scene_by_key_and_label),
+        cmocka_unit_test(mouse_controls_change_the_scene),
+        cmocka_unit_test(panels_find_change_and_reset_settings),
+    };
+    return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
+}
