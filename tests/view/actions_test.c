@@ -2,8 +2,10 @@
 // label, undo takes the change back, and mouse controls and panels change the scene too.
 #include "tests/support/shell.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -12,7 +14,7 @@
 
 #define TOOL HAIR_BUILD_DIR "/hair-view"
 #define expect hair_test_shell_expect
-#define RUN "$T $D/small.json --size 900x1500 --script $D/s --frames "
+#define RUN "$T $D/small.json --size 900x1500 --scale 1 --script $D/s --frames "
 
 // An action, and a word in the line of the saved scene that it changes.
 struct action {
@@ -30,6 +32,7 @@ static const struct action actions[] = {
     {"Curly", "U", "\"curl.radius\""},
     {"Multi-strand", "M", "\"clump.interpolation\": \"multi\""},
     {"Single-strand", "N", "\"clump.interpolation\": \"single\""},
+    {"Add a ball", "B", "\"shape\": \"sphere\""},
     {"Wind", "K", "\"wind.x\": \"4\""},
     {"Stronger", "]", "\"wind.x\": \"1\""},
     {"Level of detail", "D", "\"lod\": \"on\""},
@@ -122,6 +125,72 @@ static void panels_find_change_and_reset_settings(void** state)
     expect(0, "grep -q '\"style\": \"bob\"' $D/3.json", "");
 }
 
+// The held vertex must start near the cursor and follow it.
+static void grabbed_hair_follows_the_cursor(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    snprintf(script, sizeof script,
+             "key Space\nwait 30\nmove 765 300\npress Left Ctrl\ndown left\nreport %s/0.json\n"
+             "move 765 280\nwait 10\nmove 785 280\nwait 20\nreport %s/1.json\nup left\nreport %s/2.json\n",
+             folder, folder, folder);
+    write_file("s", script);
+    expect(0,
+           "$T $D/small.json --set guides=150 --set followers=2000 --size 1600x900 --scale 1 --script $D/s "
+           "--frames 90",
+           "");
+    json_t *before = hair_test_shell_json("0.json"), *after = hair_test_shell_json("1.json"),
+           *last = hair_test_shell_json("2.json");
+    const json_t *from = json_object_get(before, "held"), *to = json_object_get(after, "held");
+    assert_non_null(from);
+    assert_non_null(to);
+    assert_null(json_object_get(last, "held"));
+    assert_true(json_is_true(json_object_get(after, "is_finite")));
+    assert_true(fabs(hair_test_json_number(from, "x") - 765) < 40);
+    assert_true(fabs(hair_test_json_number(from, "y") - 300) < 40);
+    assert_true(fabs(hair_test_json_number(to, "x") - hair_test_json_number(from, "x") - 20) < 3);
+    assert_true(fabs(hair_test_json_number(to, "y") - hair_test_json_number(from, "y") + 20) < 3);
+    json_decref(before);
+    json_decref(after);
+    json_decref(last);
+}
+
+// Switches that are no part of a scene.
+static void switches_change_the_window_by_key_and_label(void** state)
+{
+    (void)state;
+    static const char* const switches[][3] = {
+        {"Play", "Space", "plays"},        {"Loop", "L", "loops"},
+        {"Pause", "P", "pauses"},          {"Slow motion", "O", "is_slow"},
+        {"Panels", "Tab", "shows_panels"}, {"Help", "?", "shows_help"},
+    };
+    char script[2048];
+    const char* folder = hair_test_folder();
+    int used = snprintf(script, sizeof script, "report %s/0.json\n", folder);
+    for (size_t i = 0; i < 6; ++i)
+        used +=
+            snprintf(script + used, sizeof script - (size_t)used,
+                     "key %s\nreport %s/k%zu.json\nkey %s\nclick %s\nreport %s/l%zu.json\nkey %s\n",
+                     switches[i][1], folder, i, switches[i][1], switches[i][0], folder, i, switches[i][1]);
+    write_file("s", script);
+    expect(0, RUN "120", "");
+    json_t* before = hair_test_shell_json("0.json");
+    for (size_t i = 0; i < 6; ++i) {
+        char key[16], label[16];
+        snprintf(key, sizeof key, "k%zu.json", i);
+        snprintf(label, sizeof label, "l%zu.json", i);
+        json_t *by_key = hair_test_shell_json(key), *by_label = hair_test_shell_json(label);
+        const char* name = switches[i][2];
+        bool was = json_is_true(json_object_get(before, name));
+        if (json_is_true(json_object_get(by_key, name)) == was) fail_msg("the key of %s", name);
+        if (json_is_true(json_object_get(by_label, name)) == was) fail_msg("the label of %s", name);
+        json_decref(by_key);
+        json_decref(by_label);
+    }
+    json_decref(before);
+}
+
 static int start(void** state)
 {
     (void)state;
@@ -133,6 +202,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(actions_change_the_scene_by_key_and_label),
         cmocka_unit_test(mouse_controls_change_the_scene),
+        cmocka_unit_test(grabbed_hair_follows_the_cursor),
+        cmocka_unit_test(switches_change_the_window_by_key_and_label),
         cmocka_unit_test(panels_find_change_and_reset_settings),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

@@ -357,3 +357,11 @@ unsigned hair_render_texture(const struct hair_render* render)
 {
     return render->targets.encoded;
 }
+
+void hair_render_depth(const struct hair_render* render, const struct hair_scene* scene,
+                       const float transform[16], const struct hair_matrices* matrices)
+{
+    struct frame frame = {.scene = scene, .transform = transform};
+    glEnable(GL_DEPTH_TEST);
+    draw_mesh(render, render->program[DEPTH], &frame, matrices);
+}

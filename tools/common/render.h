@@ -32,6 +32,10 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
 int hair_render_frame(struct hair_render* render, const struct hair_scene* scene, const float transform[16],
                       float reach, hair_instance* hair, const struct hair_image** out);
 
+// Draw the depth of the mesh into the bound framebuffer, as a camera of `matrices` sees it.
+void hair_render_depth(const struct hair_render* render, const struct hair_scene* scene,
+                       const float transform[16], const struct hair_matrices* matrices);
+
 // Return the sRGB-encoded picture as an OpenGL texture, whose first row is the top of the picture.
 unsigned hair_render_texture(const struct hair_render* render);
 

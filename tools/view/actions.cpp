@@ -1,5 +1,6 @@
 // actions.cpp - The table of all actions, each with a label and a key.
 #include "tools/view/actions.h"
+#include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 
 #include <string.h>
@@ -99,6 +100,8 @@ const view_action actions[] = {
      view_is_multi},
     {"Hair", "Single-strand", SDLK_n, 0, "Let each strand follow one guide.", view_toggle_single,
      view_is_single},
+    {"Hair", "Add a ball", SDLK_b, 0, "Add a ball that hair collides with. Ctrl + left drag moves it.",
+     view_add_ball, nullptr},
     {"Wind", "Wind", SDLK_k, 0, "Let the wind blow.", view_toggle_wind, view_has_wind},
     {"Wind", "Weaker", SDLK_LEFTBRACKET, 0, "Slow the wind by 1 m/s.", view_weaker_wind, nullptr},
     {"Wind", "Stronger", SDLK_RIGHTBRACKET, 0, "Speed up the wind by 1 m/s.", view_stronger_wind, nullptr},

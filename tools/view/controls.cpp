@@ -2,6 +2,7 @@
 #include "tools/view/controls.h"
 #include "tools/view/actions.h"
 #include "tools/view/camera.h"
+#include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 
 #include <math.h>
@@ -25,6 +26,8 @@ const view_mouse_help mouse_controls[] = {
     {"Shift + right drag", "turn the wind"},
     {"Right drag", "turn the head"},
     {"Middle drag", "move the head"},
+    {"Ctrl + left drag", "pull the hair under the cursor, or move a collider that is shown"},
+    {"Drop a file", "open a scene (.json) or a haircut (.hair, .tfx)"},
     {nullptr, nullptr},
 };
 
@@ -65,7 +68,9 @@ void move_head(hair_scene& scene, float x, float y)
 void press(viewer& viewer, const SDL_MouseButtonEvent& event)
 {
     if (viewer.drag != VIEW_DRAG_NONE) return;
-    viewer.drag = drag_of(event.button, SDL_GetModState());
+    bool grabs = event.button == SDL_BUTTON_LEFT && (SDL_GetModState() & KMOD_CTRL);
+    viewer.drag =
+        grabs ? view_grab(viewer, (float)event.x, (float)event.y) : drag_of(event.button, SDL_GetModState());
     viewer.drag_button = event.button;
     viewer.mouse[0] = (float)event.x;
     viewer.mouse[1] = (float)event.y;
@@ -86,6 +91,8 @@ void move(viewer& viewer, const SDL_MouseMotionEvent& event)
     case VIEW_DRAG_WIND: turn_direction(scene, x, y, scene.settings.wind.velocity); break;
     case VIEW_DRAG_TURN: turn_head(scene, x, y); break;
     case VIEW_DRAG_MOVE: move_head(scene, x, y); break;
+    case VIEW_DRAG_HAIR:
+    case VIEW_DRAG_COLLIDER: view_grab_move(viewer, x, y); break;
     case VIEW_DRAG_NONE: break;
     }
 }
@@ -107,7 +114,10 @@ void view_controls_event(viewer& viewer, const SDL_Event& event)
         view_camera_zoom(*viewer.document.scene, powf(wheel_factor, (float)event.wheel.y));
         break;
     case SDL_MOUSEBUTTONUP:
-        if (event.button.button == viewer.drag_button) viewer.drag = VIEW_DRAG_NONE;
+        if (event.button.button == viewer.drag_button) {
+            viewer.drag = VIEW_DRAG_NONE;
+            view_grab_end(viewer);
+        }
         break;
     case SDL_KEYDOWN: view_action_key(viewer, event.key.keysym); break;
     case SDL_DROPFILE: viewer_open(viewer, event.drop.file); break;

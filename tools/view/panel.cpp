@@ -12,7 +12,7 @@
 namespace
 {
 
-constexpr float left_width = 280, right_width = 330; // at scale 1
+constexpr float left_width = 280, right_width = 350; // at scale 1
 constexpr uint32_t message_frames = 300; // time that a message stays
 
 void show_help_row(const char* key, const char* label, const char* about)

@@ -33,6 +33,7 @@ const struct {
              {"drop", TEXT, "PATH"},
              {"size", NUMBERS_2, "W H"},
              {"save", TEXT, "PATH"},
+             {"report", TEXT, "PATH"},
              {"wait", NUMBERS_1, "N"}};
 
 int complain(const view_script& script, int line, const char* what, const std::string& text)
@@ -240,6 +241,8 @@ int run(view_script& script, const view_command& command, SDL_Window* window)
         push_drop(command.text);
     } else if (verb == "save") {
         script.save = command.text;
+    } else if (verb == "report") {
+        script.report = command.text;
     } else if (verb == "size") {
         SDL_SetWindowSize(window, std::max(64, (int)command.x), std::max(64, (int)command.y));
     } else {

@@ -13,6 +13,7 @@
 //     drop PATH             drop a file on the window
 //     size W H              resize the window
 //     save PATH             write the scene
+//     report PATH           write the state of the window
 //     wait N                wait for N frames
 #ifndef HAIR_TOOLS_VIEW_SCRIPT_H
 #define HAIR_TOOLS_VIEW_SCRIPT_H
@@ -37,6 +38,7 @@ struct view_script {
     uint32_t wait = 0; // frames until the next command
     uint16_t modifiers = 0;
     std::string save; // file to write the scene to at the end of this frame, or ""
+    std::string report; // file to write the state to at the end of this frame, or ""
 };
 
 // Read a script. Return an exit status, after printing any error.

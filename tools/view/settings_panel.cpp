@@ -129,7 +129,8 @@ void show_floats(viewer& viewer, const row& row)
     const hair_member& member = row.setting.member;
     float values[16];
     size_t size;
-    memcpy(values, bytes_of(row, viewer.document.scene->settings, size), std::min(sizeof values, size));
+    const char* bytes = bytes_of(row, viewer.document.scene->settings, size);
+    memcpy(values, bytes, std::min(sizeof values, size));
     if (member.layout == HAIR_LAYOUT_CURVE) {
         if (!show_curve(values, member.count, member)) return;
         std::string text;
@@ -207,7 +208,8 @@ bool is_changed(viewer& viewer, const row& row)
 {
     size_t size;
     const char* now = bytes_of(row, viewer.document.scene->settings, size);
-    return memcmp(now, bytes_of(row, viewer.usual.settings, size), size) != 0;
+    const char* usual = bytes_of(row, viewer.usual.settings, size);
+    return memcmp(now, usual, size) != 0;
 }
 
 void reset(viewer& viewer, const row& row)
@@ -219,10 +221,19 @@ void reset(viewer& viewer, const row& row)
             std::string key = row.key;
             if (row.elements > 1) key = key + "." + row.setting.member.elements[i];
             if (key != setting.key) continue;
-            char* to = (char*)hair_setting_bytes(&setting, &viewer.document.scene->settings, &size);
-            memcpy(to, hair_setting_bytes(&setting, &viewer.usual.settings, &size), size);
+            void* to = hair_setting_bytes(&setting, &viewer.document.scene->settings, &size);
+            const void* from = hair_setting_bytes(&setting, &viewer.usual.settings, &size);
+            memcpy(to, from, size);
         }
     }
+}
+
+// Return the key without the name of its group, which is shown above.
+const char* short_key(const row& row)
+{
+    size_t length = strlen(row.setting.member.group);
+    const char* at = length ? strstr(row.key.c_str(), row.setting.member.group) : nullptr;
+    return at && at[length] == '.' ? at + length + 1 : row.key.c_str();
 }
 
 void show_row(viewer& viewer, const row& row)
@@ -232,7 +243,7 @@ void show_row(viewer& viewer, const row& row)
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
     if (has_changed) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.55f, 0.8f, 1, 1));
-    ImGui::TextUnformatted(row.key.c_str());
+    ImGui::Text("%s%s", *row.setting.member.group ? "  " : "", short_key(row));
     if (has_changed) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) show_about(row);
     ImGui::TableNextColumn();
@@ -242,6 +253,15 @@ void show_row(viewer& viewer, const row& row)
     if (has_changed) view_gui_mark(viewer.gui, ("Reset " + row.key).c_str());
     if (has_changed && ImGui::IsItemHovered()) ImGui::SetTooltip("Reset to the default");
     ImGui::PopID();
+}
+
+void show_group(const row& row)
+{
+    if (!*row.setting.member.group) return;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextDisabled("%s", row.setting.member.group);
+    ImGui::TableNextRow();
 }
 
 bool is_shown(viewer& viewer, const row& row)
@@ -265,11 +285,16 @@ void show_heading(viewer& viewer, const char* heading)
     if (!is_open) return;
     float width = ImGui::GetContentRegionAvail().x;
     if (!ImGui::BeginTable(heading, 3)) return;
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 0.48f * width);
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 0.46f * width);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * ImGui::GetFontSize());
-    for (const row& row : rows())
-        if (!strcmp(heading_of(row.setting.kind), heading) && is_shown(viewer, row)) show_row(viewer, row);
+    std::string group;
+    for (const row& row : rows()) {
+        if (strcmp(heading_of(row.setting.kind), heading) || !is_shown(viewer, row)) continue;
+        if (group != row.setting.member.group) show_group(row);
+        group = row.setting.member.group;
+        show_row(viewer, row);
+    }
     ImGui::EndTable();
 }
 

@@ -121,7 +121,7 @@ void view_stage_measure(view_stage& stage)
     stage.height = std::max(stage.height, 1);
     stage.density = (float)stage.width / (float)std::max(width, 1);
     // A window of many pixels is on a dense display, or is seen from afar.
-    float wanted = std::max(stage.density * dpi / 96, (float)stage.height / 1080);
+    float wanted = std::max(stage.density * dpi / 96, (float)stage.height / 900);
     stage.scale = std::min(std::max(roundf(4 * wanted) / 4, 1.0f), 4.0f);
 }
 

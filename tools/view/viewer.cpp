@@ -3,6 +3,7 @@
 #include "tools/view/arrows.h"
 #include "tools/view/controls.h"
 #include "tools/view/panel.h"
+#include "tools/view/state_report.h"
 
 #include <epoxy/gl.h>
 
@@ -150,10 +151,12 @@ std::string find_path()
 
 int save_by_script(viewer& viewer)
 {
-    std::string path;
+    std::string path, report;
     path.swap(viewer.script.save);
+    report.swap(viewer.script.report);
     bool ok = path.empty() || hair_scene_write(TOOL, path.c_str(), viewer.document.scene.get());
-    return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
+    if (!ok) return HAIR_EXIT_RUNTIME;
+    return report.empty() ? HAIR_EXIT_OK : view_state_report(viewer, report);
 }
 
 // Return the time since the last frame, s.

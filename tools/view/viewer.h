@@ -20,7 +20,9 @@ enum view_drag {
     VIEW_DRAG_LIGHT,
     VIEW_DRAG_WIND,
     VIEW_DRAG_TURN, // turns the head
-    VIEW_DRAG_MOVE // moves the head
+    VIEW_DRAG_MOVE, // moves the head
+    VIEW_DRAG_HAIR, // pulls a strand
+    VIEW_DRAG_COLLIDER
 };
 
 struct viewer {
@@ -33,6 +35,7 @@ struct viewer {
     view_place picture = {}; // part of the window that shows the hair
     view_drag drag = VIEW_DRAG_NONE;
     int drag_button = 0;
+    int held_collider = -1; // index into the scene's colliders
     float mouse[2] = {0, 0}; // units of SDL
     bool quits = false;
     bool plays = true; // the head follows its motion

@@ -1,0 +1,58 @@
+// state_report.cpp - The state of the window as JSON, for tests and for reports of defects.
+#include "tools/view/state_report.h"
+#include "tools/view/arrows.h"
+
+#include <jansson.h>
+
+#include <math.h>
+
+#include <algorithm>
+
+namespace
+{
+
+bool read_guides(const viewer& viewer, std::vector<float>& out)
+{
+    uint32_t count = 0, room = viewer.session.info.guide_vertex_count;
+    out.resize(3 * (size_t)room);
+    return hair_read_positions(viewer.session.hair, HAIR_READ_GUIDES, out.data(), room, &count) == HAIR_OK;
+}
+
+// Return the held vertex with its place in the window.
+json_t* held_of(const viewer& viewer, const std::vector<float>& guides)
+{
+    const hair_pin& pin = viewer.session.pins[0];
+    size_t vertices = viewer.session.info.guide_vertex_count / std::max(1u, viewer.session.info.guide_count);
+    ImVec2 place = {-1, -1};
+    view_project(viewer, &guides[3 * (pin.guide * vertices + pin.vertex)], place);
+    return json_pack("{s:i, s:i, s:f, s:f}", "guide", (int)pin.guide, "vertex", (int)pin.vertex, "x",
+                     (double)place.x, "y", (double)place.y);
+}
+
+} // namespace
+
+int view_state_report(const viewer& viewer, const std::string& path)
+{
+    std::vector<float> guides;
+    if (!read_guides(viewer, guides)) return HAIR_EXIT_RUNTIME;
+    bool is_finite = std::all_of(guides.begin(), guides.end(), [](float x) { return isfinite(x); });
+    json_t* root =
+        json_pack("{s:i, s:f, s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:i}", "frame", (int)viewer.frame, "time",
+                  viewer.session.time, "plays", viewer.plays, "loops", viewer.loops, "pauses", viewer.pauses,
+                  "is_slow", viewer.is_slow, "shows_help", viewer.shows_help, "shows_panels",
+                  viewer.shows_panels, "is_finite", is_finite, "undo", (int)viewer.document.undo.size());
+    if (!viewer.session.pins.empty()) json_object_set_new(root, "held", held_of(viewer, guides));
+    json_t* messages = json_array();
+    for (const std::string& message : viewer.messages)
+        json_array_append_new(messages, json_string(message.c_str()));
+    json_object_set_new(root, "messages", messages);
+    hair_output output;
+    bool ok = hair_output_open(TOOL, path.c_str(), &output);
+    if (ok) {
+        json_dumpf(root, output.file, JSON_INDENT(2));
+        fputc('\n', output.file);
+        ok = hair_output_commit(&output);
+    }
+    json_decref(root);
+    return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
+}
