@@ -1,8 +1,7 @@
-// compose_tiles.comp - the list of tiles that contain hair, which are all that is drawn. In place of
-// the segment that is visible at a sample it writes the vertex before the sample, and the fraction
-// of the way from there to the next vertex. A work group has a tile, and a thread one pixel.
+// compose_tiles.comp - the list of tiles that contain hair. Only those are drawn. The visible
+// segment of a sample is replaced by the vertex before the sample, and the fraction of the way from
 #version 450 core
-#include "draw/raster.glsl"
+#include "draw/raster_quad.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_RASTER_TILE * HAIR_RASTER_TILE) in;
 

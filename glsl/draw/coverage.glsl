@@ -16,8 +16,8 @@ float fraction_before(float x, float outer, float inner)
 }
 
 // Return the covered fraction of a pixel. s.x: distance of its centre from the strand's middle,
-// pixels. y: half the strand's width, pixels. z, w: half the widths of the trapezoid's base and top,
-// which depend on the strand's direction.
+// pixels. y: half the strand's width, pixels. z, w: half the widths of the trapezoid's base and
+// top, which depend on the strand's direction.
 float coverage_of(vec4 s)
 {
     return clamp(fraction_before(s.x + s.y, s.z, s.w) - fraction_before(s.x - s.y, s.z, s.w), 0.0, 1.0);

@@ -29,7 +29,7 @@ void add_opacity(uint segment, raster_quad q, uint at, ivec2 pixel, vec2 place)
     if (!is_between(q, place)) return;
     if (!is_visible(pixel, depth_at(q, fraction_at(q, place), first, second))) return;
     float covered = coverage_of(vec4(off, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y)));
-    float left    = max(1.0 - covered * draw.viewport.w, HAIR_OPACITY_LEAST);
+    float left    = max(1.0 - covered * draw.viewport.w, HAIR_OPACITY_MIN_LEFT);
     uint  sum     = uint(-log2(left) * HAIR_OPACITY_SCALE + random(hash(segment) ^ at));
     if (sum > 0u && opacity[at] < HAIR_OPACITY_FULL) atomicAdd(opacity[at], sum);
 }

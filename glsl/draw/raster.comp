@@ -11,7 +11,7 @@
 #extension GL_ARB_gpu_shader_int64 : require
 #extension GL_NV_shader_atomic_int64 : require
 #endif
-#include "draw/raster.glsl"
+#include "draw/raster_quad.glsl"
 #include "draw/nearest.glsl"
 #include "workgroup.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
@@ -29,7 +29,7 @@ shared uint ends[HAIR_GROUP_SIZE]; // Inclusive prefix sum of their pieces.
 // The way over the pixels of a ribbon: lines of pixels across its longer extent. Along a line, few
 // pixels or none have a sample in a thin ribbon, and they are found without a search.
 struct raster_walk {
-    bool  upright;     // Whether lines are rows. Otherwise they are columns.
+    bool  upright;     // Lines are rows. Otherwise they are columns.
     int   first, last; // Lines.
     int   low, high;   // Pixels of a line.
     float start, slope; // Pixel of the middle line in the first line, and its increase by line.
@@ -105,15 +105,18 @@ uint large_of(uint piece)
     return first;
 }
 
-// Rasterise a segment, unless it is large. Return the number of its pieces then.
-uint fill_small(uint segment)
+// Rasterise one of raster.split lines of a segment, from number `own` on, unless the segment is
+// large. Return the number of its pieces then, for one of its threads.
+uint fill_small(uint segment, int own)
 {
     raster_quad q     = quad_of(ribbon_of(segment));
     raster_walk w     = walk_of(q);
     int         lines = w.last - w.first + 1;
-    if (float(lines) * min(2.0 * w.reach + 1.0, float(w.high - w.low + 1)) > HAIR_RASTER_SMALL)
-        return uint(lines) * pieces_of(w);
-    for (int line = w.first; line <= w.last; ++line) fill(segment, q, w, line, 0, w.high - w.low + 1);
+    float       width = min(2.0 * w.reach + 1.0, float(w.high - w.low + 1));
+    if (float(lines) * width > HAIR_RASTER_SMALL * float(raster.split))
+        return own == 0 ? uint(lines) * pieces_of(w) : 0u;
+    for (int line = w.first + own; line <= w.last; line += int(raster.split))
+        fill(segment, q, w, line, 0, w.high - w.low + 1);
     return 0u;
 }
 
@@ -122,7 +125,9 @@ void main()
     uint own = gl_LocalInvocationID.x, base = hair_group() * HAIR_GROUP_SIZE, pieces = 0u;
     if (own == 0u) large_count = 0u;
     synchronise();
-    if ((base + own) / draw.segments < command[0].strands) pieces = fill_small(base + own);
+    uint mine = (base + own) / raster.split;
+    int  line = int((base + own) % raster.split);
+    if (mine / draw.segments < command[0].strands) pieces = fill_small(mine, line);
     ends[own] = pieces;
     if (pieces > 0u) atomicAdd(large_count, 1u);
     synchronise();
@@ -135,10 +140,11 @@ void main()
     }
     for (uint i = own; i < ends[HAIR_GROUP_SIZE - 1]; i += HAIR_GROUP_SIZE) {
         uint        k    = large_of(i), piece = i - (k > 0u ? ends[k - 1u] : 0u);
-        raster_quad q    = quad_of(ribbon_of(base + k));
+        uint segment     = (base + k) / raster.split;
+        raster_quad q    = quad_of(ribbon_of(segment));
         raster_walk w    = walk_of(q);
         uint        each = pieces_of(w);
-        fill(base + k, q, w, w.first + int(piece / each), int(piece % each) * HAIR_RASTER_PIECE,
+        fill(segment, q, w, w.first + int(piece / each), int(piece % each) * HAIR_RASTER_PIECE,
              HAIR_RASTER_PIECE);
     }
 }

@@ -5,7 +5,7 @@
 #define HAIR_INSTANCE_STRANDS 64     // Strands per instance, when drawn without a tessellator.
 #define HAIR_SORT_BUCKETS 16384      // Bins of the depth histogram, from far to near.
 #define HAIR_RASTER_SAMPLES 16       // Maximum per pixel.
-#define HAIR_RASTER_SMALL 256.0      // Pixels that may belong to a segment which one thread covers.
+#define HAIR_RASTER_SMALL 256.0      // Pixels that a thread may cover of a segment.
 #define HAIR_RASTER_TILE 16          // Side of a tile, pixels. Tiles without hair are not composed.
 #define HAIR_RASTER_PIECE 32         // Pixels of a line that a thread covers at a time.
 // The list of tiles begins with the command that draws them. Then come their numbers.
@@ -18,10 +18,10 @@
 #define HAIR_TEST_FARTHER 2u // Greater.
 #define HAIR_TEST_EQUAL 4u
 // Opacities are added as binary logarithms of the light that is left, in units of 1 / SCALE. A sum
-// from FULL on leaves no light. A strand leaves at least LEAST, so that sums do not overflow.
+// from FULL on leaves no light. A strand leaves at least MIN_LEFT, so that sums do not overflow.
 #define HAIR_OPACITY_SCALE 4096.0
 #define HAIR_OPACITY_FULL 98304u
-#define HAIR_OPACITY_LEAST 0.000244140625
+#define HAIR_OPACITY_MIN_LEFT 0.000244140625
 #define HAIR_NOBODY 0xffffffffu      // Value of a sample in which no ribbon is visible.
 #define HAIR_COUNT_THREADS 256       // Threads of the work group that counts the drawn strands.
 
@@ -94,7 +94,8 @@ struct hair_raster_params {
     // Bits of the fraction in a number that holds a vertex and the fraction from there to the next.
     hair_uint fraction_bits;
     hair_uint tests; // HAIR_TEST_NEARER, ... of the application's depth, for opacity. 0 for none.
-    hair_uint unused0, unused1;
+    hair_uint split; // Threads of a segment.
+    hair_uint unused0;
     // Positions in the pixel of samples 2 i and 2 i + 1: xy and zw.
     hair_vec4 at[HAIR_RASTER_SAMPLES / 2];
 };

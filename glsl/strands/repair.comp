@@ -1,23 +1,20 @@
-// repair.comp - the curves of strands/repair.glsl that push followers out of colliders. One thread
-// per follower of the list of hit.comp.
+// repair.comp - the curves of strands/repair.glsl that push the followers in the list of hit.comp
+// out of colliders. A work group has HAIR_REPAIR_FOLLOWERS of them, with HAIR_REPAIR_LANES threads
+// each, which share the vertices of a follower.
 //
 // A strand that is deep inside has guides on different sides of the collider. It is freed of all
 // guides but its own (Tariq 2010), from well above the first vertex inside. Vertices that remain
-// inside are pushed out along the gradient of the distance field by Kaczmarz's method. For one
-// vertex after another, it makes the smallest change of control points that brings the vertex to
-// the surface. It repeats this several times. Then the curve is drawn to the length that the strand
-// had before.
+// inside are pushed out by strands/repair_push.glsl. Then the curve is drawn to the length that the
+// strand had before.
 #version 450 core
 #include "strands/follower.glsl"
 #include "field.glsl"
-#include "strands/repair.glsl"
-#include "workgroup.glsl"
-layout(local_size_x = HAIR_REPAIR_THREADS) in;
+#include "strands/repair_push.glsl"
+layout(local_size_x = HAIR_REPAIR_FOLLOWERS * HAIR_REPAIR_LANES) in;
 
 layout(std430, binding = HAIR_BIND_REPAIR) writeonly restrict buffer repair_buffer { uvec2 halves[]; };
 layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { uint list[]; };
 
-#define ROUNDS 10u        // Passes of pushing between updates of the length.
 #define LENGTHS 4u        // Updates of the length.
 // Depths up to which a strand keeps its guides and from which it is freed of them, m. The closer
 // they are, the faster a strand leaves its guides.
@@ -25,123 +22,111 @@ layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { 
 #define DEEP 0.025
 #define AHEAD 1           // Intervals above a vertex inside from which it is freed.
 
-shared vec4  control[HAIR_REPAIR_CONTROLS * HAIR_REPAIR_THREADS];
-shared float vertex[3 * (HAIR_REPAIR_SAMPLES + 1) * HAIR_REPAIR_THREADS];
-
-vec4 repair_control(int first, int i) { return control[i * HAIR_REPAIR_THREADS + first]; }
-
-vec3 vertex_at(uint i)
-{
-    uint at = 3u * i * HAIR_REPAIR_THREADS + gl_LocalInvocationID.x;
-    return vec3(vertex[at], vertex[at + HAIR_REPAIR_THREADS], vertex[at + 2u * HAIR_REPAIR_THREADS]);
-}
-
-void keep_vertex(uint i, vec3 p)
-{
-    uint at = 3u * i * HAIR_REPAIR_THREADS + gl_LocalInvocationID.x;
-    vertex[at] = p.x, vertex[at + HAIR_REPAIR_THREADS] = p.y, vertex[at + 2u * HAIR_REPAIR_THREADS] = p.z;
-}
-
-// Measure the unrepaired strand. Return its length. `deepest` is its greatest depth in a collider.
-// Set how far its control points are freed.
-float look(int own, hair_follower follower, uint samples, out float deepest)
+// Return the length of the strand, whose segments are in `depth`.
+float sum_of_segments(int samples)
 {
     float total = 0.0;
-    deepest     = 0.0;
-    vec3 before = vec3(0.0);
-    for (uint i = 0u; i <= samples; ++i) {
-        float t = float(i) / float(samples);
-        vec3  p = interpolate(follower, t, UNTOUCHED).position;
-        if (i > 0u) {
-            float depth = -field_distance(p);
-            float freed = clamp((depth - SHALLOW) / (DEEP - SHALLOW), 0.0, 1.0);
-            int   from  = clamp(int(t * float(HAIR_REPAIR_INTERVALS)) - AHEAD, 0, HAIR_REPAIR_CONTROLS - 1);
-            int   at    = from * HAIR_REPAIR_THREADS + own;
-            control[at].w = max(control[at].w, freed);
-            deepest = max(deepest, depth);
-            total += distance(p, before);
-        }
-        before = p;
-    }
-    for (int i = 1; i < HAIR_REPAIR_CONTROLS; ++i) {
-        int at        = i * HAIR_REPAIR_THREADS + own;
-        control[at].w = max(control[at].w, control[at - HAIR_REPAIR_THREADS].w);
-    }
+    for (int i = 1; i <= samples; ++i) total += depth[AT(i)];
     return total;
 }
 
 // Compute the vertices of the strand without its displacement.
-void place(int own, hair_follower follower, uint samples, float slide)
+void place(hair_follower follower, int samples, float slide)
 {
-    for (uint i = 0u; i <= samples; ++i) {
+    for (int i = lane; i <= samples; i += LANES) {
         float t = slide * float(i) / float(samples);
         repair r = UNTOUCHED;
-        r.freed  = repair_at(own, t).freed;
+        r.freed  = repair_at(follower_of_group, t).freed;
         keep_vertex(i, interpolate(follower, t, r).position);
     }
+    WAIT();
 }
 
-// Move the curve by `step` at t with the smallest change of control points.
-void push(int own, float t, vec3 step)
+// Return a vertex with its displacement.
+vec3 pushed_at(int i, int samples, float slide)
 {
-    float x;
-    int   k      = spline_place(t, x);
-    vec4  weight = spline(x);
-    if (k == 0) weight = vec4(0.0, 0.0, weight.z - weight.x, weight.w);
-    if (k == 1) weight.x = 0.0;
-    step /= max(dot(weight, weight), 1e-4);
-    for (int i = k == 0 ? 2 : 0; i < 4; ++i)
-        control[(k - 1 + i) * HAIR_REPAIR_THREADS + own].xyz += weight[i] * step;
+    return vertex_at(i) + repair_at(follower_of_group, slide * float(i) / float(samples)).away;
 }
 
-void push_out(int own, uint samples, float slide, float margin)
+float length_of(int samples, float slide)
 {
-    for (uint round = 0u; round < ROUNDS; ++round)
-        for (uint i = 1u; i <= samples; ++i) {
-            float t     = slide * float(i) / float(samples);
-            vec3  p     = vertex_at(i) + repair_at(own, t).away;
-            float short_of = margin - field_distance(p);
-            if (short_of > 0.0) push(own, t, short_of * direction_or(field_gradient(p), vec3(0.0, 1.0, 0.0)));
-        }
-}
-
-float length_of(int own, uint samples, float slide)
-{
-    vec3  before = vertex_at(0u);
-    float total  = 0.0;
-    for (uint i = 1u; i <= samples; ++i) {
-        vec3 p = vertex_at(i) + repair_at(own, slide * float(i) / float(samples)).away;
-        total += distance(p, before);
-        before = p;
-    }
+    for (int i = 1 + lane; i <= samples; i += LANES)
+        depth[AT(i)] = distance(pushed_at(i, samples, slide), pushed_at(i - 1, samples, slide));
+    WAIT();
+    float total = sum_of_segments(samples);
+    WAIT();
     return total;
 }
 
-void main()
+// Set how far control points are freed, by the depths of the unrepaired strand in colliders. Return
+// the greatest depth.
+float free_controls(int samples)
 {
-    uint slot = hair_group() * HAIR_REPAIR_THREADS + gl_LocalInvocationID.x;
-    if (slot >= list[draw.parity]) return;
-    int           own      = int(gl_LocalInvocationID.x);
-    uint          number   = list[2u + slot];
-    uint          samples  = min(draw.segments, HAIR_REPAIR_SAMPLES);
-    hair_follower follower = fetch_follower(number);
-    for (int i = 0; i < HAIR_REPAIR_CONTROLS; ++i) control[i * HAIR_REPAIR_THREADS + own] = vec4(0.0);
-
-    float deepest;
-    float wanted = look(own, follower, samples, deepest);
-    float margin = draw.collision_margin * smoothstep(0.0, SHALLOW, deepest);
-    float slide  = 1.0;
-    for (uint i = 0u; i < LENGTHS; ++i) {
-        place(own, follower, samples, slide);
-        push_out(own, samples, slide, margin);
-        slide = clamp(slide * wanted / max(length_of(own, samples, slide), 1e-6), 0.5, 2.0);
+    float deepest = 0.0;
+    for (int i = 1; i <= samples; ++i) deepest = max(deepest, depth[AT(i)]);
+    for (int c = lane; c < HAIR_REPAIR_CONTROLS; c += LANES) {
+        float freed = 0.0;
+        for (int i = 1; i <= samples; ++i) {
+            int from = clamp(i * HAIR_REPAIR_INTERVALS / samples - AHEAD, 0, HAIR_REPAIR_CONTROLS - 1);
+            if (from <= c) freed = max(freed, clamp((depth[AT(i)] - SHALLOW) / (DEEP - SHALLOW), 0.0, 1.0));
+        }
+        control[OF(c)] = vec4(0.0, 0.0, 0.0, freed);
     }
-    control[own].xyz = vec3(slide - 1.0, 0.0, 0.0);
-    for (int i = 0; i < HAIR_REPAIR_CONTROLS; ++i) {
-        vec4 c = control[i * HAIR_REPAIR_THREADS + own];
+    WAIT();
+    return deepest;
+}
+
+// Measure the unrepaired strand, whose vertices are placed. Return its length, and its greatest
+// depth.
+float measure(int samples, out float deepest)
+{
+    for (int i = 1 + lane; i <= samples; i += LANES) depth[AT(i)] = max(-field_distance(vertex_at(i)), 0.0);
+    WAIT();
+    deepest = free_controls(samples);
+    WAIT();
+    for (int i = 1 + lane; i <= samples; i += LANES) depth[AT(i)] = distance(vertex_at(i), vertex_at(i - 1));
+    WAIT();
+    float total = sum_of_segments(samples);
+    WAIT();
+    return total;
+}
+
+// Write the control points of a follower.
+void write(uint number, float slide)
+{
+    for (int i = lane; i < HAIR_REPAIR_CONTROLS; i += LANES) {
+        vec4 c = control[OF(i)];
+        if (i == 0) c.xyz = vec3(slide - 1.0, 0.0, 0.0);
         // The test uses bits, because comparisons with NaN may be compiled away. Control points
         // that half floats cannot hold become 0.
         if ((floatBitsToUint(dot(c, c)) & 0x7fffffffu) > floatBitsToUint(1e8)) c = vec4(0.0);
         halves[number * HAIR_REPAIR_CONTROLS + uint(i)] = uvec2(packHalf2x16(c.xy), packHalf2x16(c.zw));
     }
+}
+
+void main()
+{
+    uint first = hair_group() * HAIR_REPAIR_FOLLOWERS, count = list[draw.parity];
+    if (first >= count) return;
+    // Threads beyond the end of the list do the work of its last follower again, because all
+    // threads of a work group must meet at barriers.
+    uint          number   = list[2u + min(first + uint(follower_of_group), count - 1u)];
+    int           samples  = int(min(draw.segments, HAIR_REPAIR_SAMPLES));
+    hair_follower follower = fetch_follower(number);
+#if HAIR_REPAIR_LANES > 1
+    if (lane == 0) pushed[0] = pushed[1] = 0u;
+#endif
+    for (int i = lane; i < HAIR_REPAIR_CONTROLS; i += LANES)
+        control[OF(i)] = vec4(0.0);
+    WAIT();
+    float deepest, slide = 1.0;
+    place(follower, samples, slide);
+    float wanted = measure(samples, deepest);
+    float margin = draw.collision_margin * smoothstep(0.0, SHALLOW, deepest);
+    for (uint i = 0u; i < LENGTHS; ++i) {
+        place(follower, samples, slide);
+        push_out(samples, slide, margin);
+        slide = clamp(slide * wanted / max(length_of(samples, slide), 1e-6), 0.5, 2.0);
+    }
+    write(number, slide);
 }

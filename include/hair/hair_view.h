@@ -54,11 +54,14 @@ typedef enum hair_render_path {
     /// framebuffer. Fastest on GPUs with few raster units.
     ///
     /// Applies to ribbons of HAIR_PASS_COLOR and HAIR_PASS_DEPTH with HAIR_COVERAGE_MSAA, up to 16
-    /// samples, and without a shader at HAIR_SHADE_PIXELS. Other views use HAIR_RENDER_PATH_CACHED.
+    /// samples, and without a shader at HAIR_SHADE_PIXELS. Applies to HAIR_PASS_OPACITY with one
+    /// sample, if depth is not tested, or against level 0 of a 2D texture and without
+    /// GL_EQUAL, GL_NOTEQUAL and GL_NEVER. Other views use HAIR_RENDER_PATH_CACHED.
+    ///
     /// Blending applies only to the nearest strand. Depth functions other than less and greater
     /// count as less. With a hair_lod, each view writes its vertices, 32 bytes each. The image
-    /// takes 8 bytes per sample of every pixel that the hair can reach, or 4 for depth, plus one
-    /// half of this.
+    /// takes 8 bytes per sample of every pixel that the hair can reach, or 4 for depth and
+    /// opacity, plus one half of this.
     HAIR_RENDER_PATH_COMPUTE,
     /// The path that a built-in table has as the fastest on drivers of this name. Nothing is timed.
     /// hair_report() tells which path it is.

@@ -5,6 +5,7 @@
 
 #include <string.h>
 
+#define MANY_SEGMENTS 1000000u // Segments that keep a GPU busy with two threads each.
 #define BESIDE 2.0f // Pixels of margin around those that hair covers.
 
 // Find the positions of the samples in a pixel.
@@ -66,6 +67,17 @@ static void write_pixels(const float viewport[4], const float unit[16], float ma
     memcpy(&out->to_window, matrix, sizeof out->to_window);
 }
 
+static uint64_t count_segments(const struct hair_renderer* renderer)
+{
+    return (uint64_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
+}
+
+// Return the threads of a segment. A GPU is busy with many segments, and with the lines of few.
+static uint32_t split_segments(uint64_t segments)
+{
+    return segments < MANY_SEGMENTS ? 4 : segments < 4 * MANY_SEGMENTS ? 2 : 1;
+}
+
 // Return the bits that the numbers of vertices leave in 32 bits.
 static uint32_t find_fraction_bits(size_t vertices)
 {
@@ -124,6 +136,7 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);
     out->tests = plan->depth_test.tests;
+    out->split = split_segments(count_segments(renderer));
     out->fraction_bits = find_fraction_bits(hair_geometry_count_vertices(renderer->geometry));
     find_samples(gl, out);
     return true;
@@ -209,7 +222,7 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     GLuint buffers[] = {raster->nearest, raster->tile};
     size_t numbers = count_numbers(params, plan->draw);
     HAIR_ASSERT(raster->room >= numbers && raster->tile_room >= params->tiles + HAIR_TILE_FIRST);
-    uint64_t segments = (uint64_t)renderer->geometry->followers * renderer->geometry->look.strand.segments;
+    uint64_t segments = count_segments(renderer);
     gl->BindTextureUnit(HAIR_UNIT_STRAND, renderer->strand_list.strand_texture);
     gl->BindTextureUnit(HAIR_UNIT_TILE, raster->tile_texture);
     if (plan->depth_test.depth) {
@@ -221,11 +234,11 @@ void hair_draw_rasterise(struct hair_renderer* renderer, struct hair_draw_plan* 
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_COMMAND, 1, &renderer->strand_list.command);
     hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
     run(gl, HAIR_GL_RASTER_CLEAR, plan, groups_for((numbers + 3) / 4));
-    run(gl, HAIR_GL_RASTER, plan, groups_for(segments));
+    run(gl, HAIR_GL_RASTER, plan, groups_for(segments * params->split));
     if (!(plan->draw & HAIR_GL_WITH(DEPTH)) && !gl->long_atomics) {
         params->claims = 1;
         hair_gl_write_uniform(gl, raster->params, sizeof *params, params);
-        run(gl, HAIR_GL_RASTER, plan, groups_for(segments));
+        run(gl, HAIR_GL_RASTER, plan, groups_for(segments * params->split));
     }
     run(gl, HAIR_GL_COMPOSE_TILES, plan, params->tiles);
 }

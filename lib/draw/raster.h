@@ -13,7 +13,7 @@ struct hair_raster {
 // Depth test of the application, as a compute shader does it.
 struct hair_depth_test {
     GLuint depth; // Texture that is attached. 0 if nothing is tested.
-    uint32_t tests; // As in hair_raster_params.
+    uint32_t tests; // HAIR_TEST_NEARER, ... 0 if nothing is tested.
 };
 
 #endif

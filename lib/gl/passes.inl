@@ -149,7 +149,10 @@ PASS(PREPASS, "strands/hit_prepass", HIT, WITH(STYLED),
      "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese "
      "strands/hit.frag")
 PASS(PREPASS_HIT, "strands/hit_gather", HIT, 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 strands/hit.comp")
-PASS(REPAIR, "strands/repair", REPAIR, WITH(STYLED), "HAIR_FINDS_HITS=1 strands/repair.comp")
+PASS(REPAIR, "strands/repair", REPAIR, WITH(STYLED),
+     "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=HAIR_REPAIR_ALONE HAIR_REPAIR_LANES=1 strands/repair.comp")
+PASS(REPAIR_GROUP, "strands/repair_group", REPAIR, WITH(STYLED),
+     "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=1 HAIR_REPAIR_LANES=HAIR_REPAIR_THREADS strands/repair.comp")
 PASS(HIZ_REDUCE_DEPTH, "draw/hiz_reduce_depth", OCCLUSION, 0, "draw/hiz_reduce_depth.comp")
 PASS(HIZ_DOWNSAMPLE, "draw/hiz_downsample", OCCLUSION, 0, "draw/hiz_downsample.comp")
 PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")

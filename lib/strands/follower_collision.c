@@ -15,6 +15,12 @@ static hair_gl_pass pass_of(const struct hair_geometry* geometry)
     return hair_geometry_add_style(geometry, geometry->gl->software ? HAIR_GL_HIT : HAIR_GL_HIT_GROUP);
 }
 
+// Return the pass that pushes followers out.
+static hair_gl_pass repair_of(const struct hair_geometry* geometry)
+{
+    return hair_geometry_add_style(geometry, geometry->gl->software ? HAIR_GL_REPAIR : HAIR_GL_REPAIR_GROUP);
+}
+
 hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
@@ -22,7 +28,7 @@ hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
     if (!result && geometry->follower_collision.prepass)
         result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_PREPASS));
     if (!result && geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
-        result = hair_gl_ensure_program(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR));
+        result = hair_gl_ensure_program(gl, repair_of(geometry));
     return result;
 }
 
@@ -80,9 +86,9 @@ static void run(struct hair_geometry* geometry, const struct hair_collider_field
     }
     hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.
-    if (geometry->look.followers.collision == HAIR_FOLLOWER_COLLISION_PUSH_OUT)
-        hair_gl_run(gl, hair_geometry_add_style(geometry, HAIR_GL_REPAIR),
-                    (geometry->followers + HAIR_REPAIR_THREADS - 1) / HAIR_REPAIR_THREADS);
+    if (geometry->look.followers.collision != HAIR_FOLLOWER_COLLISION_PUSH_OUT) return;
+    each = gl->software ? HAIR_REPAIR_ALONE : 1;
+    hair_gl_run(gl, repair_of(geometry), (geometry->followers + each - 1) / each);
 }
 
 bool hair_geometry_has_follower_collision(const struct hair_geometry* geometry)

@@ -130,6 +130,31 @@ static void pushed_out_followers_are_outside_and_keep_their_length(void** state)
     hair_test_collided_finish(&f);
 }
 
+// Check that a work group and a thread push a follower out by the same curve. Drivers with and
+// without a GPU use one of them each.
+static void threads_of_a_group_push_as_one_thread_does(void** state)
+{
+    struct hair_test_collided f = hair_test_collided_start(*state, 0);
+    struct hair_gl* gl = &f.scene.test->context->gl;
+    float* own = hair_test_collided_read(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
+    float* none = hair_test_collided_read(&f, HAIR_FOLLOWER_COLLISION_NONE);
+    gl->software = !gl->software;
+    float* other = hair_test_collided_read(&f, HAIR_FOLLOWER_COLLISION_PUSH_OUT);
+    gl->software = !gl->software;
+    size_t values = 3 * f.scene.groom->info.follower_count * (f.look.strand.segments + 1);
+    double worst = 0, farthest = 0;
+    for (size_t i = 0; i < values; ++i) {
+        worst = fmax(worst, fabs((double)(own[i] - other[i])));
+        farthest = fmax(farthest, fabs((double)(own[i] - none[i])));
+    }
+    print_message("    moved by up to %.4f m, alike to %.2g m\n", farthest, worst);
+    assert_true(farthest > 0.01 && worst < 1e-5);
+    free(other);
+    free(none);
+    free(own);
+    hair_test_collided_finish(&f);
+}
+
 // Check that followers move continuously with a collider. Strands that the collider covers beyond
 // its middle are left out, because they leave on the other side. Simulated guides do not occur
 // there.
@@ -212,6 +237,7 @@ int main(void)
         HAIR_TEST(follower_beyond_its_hit_follows_a_single_guide),
         HAIR_TEST(push_out_curve_is_a_spline),
         HAIR_TEST(pushed_out_followers_are_outside_and_keep_their_length),
+        HAIR_TEST(threads_of_a_group_push_as_one_thread_does),
         HAIR_TEST(small_collider_motion_moves_followers_little),
         HAIR_TEST(follower_collision_costs_nothing_out_of_reach),
         HAIR_TEST(follower_collision_runs_once_per_pose),

@@ -201,6 +201,7 @@ static void every_struct_of_shared_h_is_tested(void** state)
 
 #define COLLIDERS HAIR_GL_WITH(COLLIDERS)
 #define THREAD HAIR_GL_WITH(THREAD_PER_GUIDE)
+#define OPACITY (HAIR_GL_WITH(DEPTH) | HAIR_GL_WITH(ALPHA_COVERAGE))
 
 // Check the binding and size of every buffer. The size of a storage buffer is the size of one
 // element.
@@ -284,7 +285,10 @@ static void pass_buffers_are_those_of_shared_h(void** state)
          sizeof(struct hair_raster_params)},
         STORAGE(HAIR_GL_RASTER, "nearest_buffer", NEAREST, 2 * sizeof(hair_uint)),
         STORAGE(HAIR_GL_RASTER | HAIR_GL_WITH(DEPTH), "nearest_buffer", NEAREST, sizeof(hair_uint)),
-        STORAGE(HAIR_GL_RASTER, "tile_buffer", TILE, sizeof(hair_uint)),
+        STORAGE(HAIR_GL_RASTER | OPACITY, "nearest_buffer", NEAREST, sizeof(hair_uint)),
+        STORAGE(HAIR_GL_RASTER_CLEAR, "tile_buffer", TILE, sizeof(hair_uint)),
+        STORAGE(HAIR_GL_COMPOSE_TILES, "nearest_buffer", NEAREST, 2 * sizeof(hair_uint)),
+        STORAGE(HAIR_GL_COMPOSE_TILES | OPACITY, "tile_buffer", TILE, sizeof(hair_uint)),
         DRAW(HAIR_GL_PROCEDURAL | HAIR_GL_WITH(FIBRES)),
         DRAW(HAIR_GL_CACHED | HAIR_GL_WITH(FIBRES)),
         DRAW(HAIR_GL_TESSELLATED | HAIR_GL_WITH(FIBRES))};

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "lib/draw/draw.h"
-#include "tests/support/render_paths.h"
 
 static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_MOTION, HAIR_PASS_ID,
                                    HAIR_PASS_OPACITY};
@@ -17,14 +16,30 @@ struct fixture {
     struct hair_lighting lighting;
     struct hair_renderer renderer;
     struct hair_gl_shader shader;
+    struct hair_gl gl;
     hair_lod lod;
     hair_light light;
 };
+
+// Pixels have one sample, and depth is not tested.
+static void APIENTRY get_integers(GLenum name, GLint* out)
+{
+    *out = name == GL_DEPTH_FUNC ? GL_LESS : 0;
+}
+
+static GLboolean APIENTRY is_enabled(GLenum capability)
+{
+    (void)capability;
+    return GL_FALSE;
+}
 
 static struct fixture* start(void)
 {
     static struct fixture f;
     memset(&f, 0, sizeof f);
+    f.gl.GetIntegerv = get_integers;
+    f.gl.IsEnabled = is_enabled;
+    f.renderer.gl = &f.gl;
     f.renderer.geometry = &f.geometry;
     f.renderer.lighting = &f.lighting;
     f.geometry.look = hair_look_default();
@@ -74,7 +89,7 @@ static void plans_take_the_path_that_the_header_documents(void** state)
         bool by_pixel = s.shader && s.shader->pixels;
         hair_render_path path = view->render_path;
         hair_draw_make_plan(&f->renderer, view, s.shader, &plan);
-        if (path == HAIR_RENDER_PATH_COMPUTE &&
+        if (path == HAIR_RENDER_PATH_COMPUTE && view->pass != HAIR_PASS_OPACITY &&
             (!has_colour_or_depth || view->primitive == HAIR_PRIMITIVE_LINES || by_pixel))
             path = HAIR_RENDER_PATH_CACHED;
         if (path == HAIR_RENDER_PATH_CACHED && view->lod && (!has_colour_or_depth || s.shader))
@@ -117,6 +132,7 @@ static void passes_of_plans_make_what_later_passes_read(void** state)
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND), is_lit || plan.vertices == HAIR_VERTICES_CACHED);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND_DRAWN), is_lit && s.view.lod);
         assert_int_equal(has_pass(&plan, HAIR_GL_RASTER), plan.is_computed);
+        assert_int_equal(has_pass(&plan, HAIR_GL_COMPOSE_TILES), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_RESOLVE_TILES), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_SCATTER), plan.blending == HAIR_BLENDING_SORTED);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND_VIEW) || has_pass(&plan, HAIR_GL_EXPAND_VIEW_SIDES),
