@@ -16,7 +16,10 @@ BULLET    ?= 1
 VIEW      ?= 1
 filter    ?=
 until     ?= 9999999999
-B         := build/$(config)
+# A compiler of MinGW makes hair.dll, without EGL, Bullet and tools, which need a desktop of Linux.
+WINDOWS   := $(findstring mingw,$(shell $(CC) -dumpmachine))
+HOST_CC   ?= cc
+B         := build/$(if $(WINDOWS),windows-)$(config)
 
 opt.release  := -O2 -DNDEBUG -fstack-protector-strong -fstack-clash-protection
 opt.debug    := -O0
@@ -30,6 +33,13 @@ WARN  := -Wall -Wextra -Wshadow -Wconversion -Werror
 # Builds in any folder are equal, because files have no paths outside of the project.
 FLAGS := -Iinclude -I. -g -fvisibility=hidden -ffp-contract=off -ffile-prefix-map=$(CURDIR)=. -MMD -MP $(opt.$(config))
 FLAGS += $(if $(filter release,$(config)),-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
+ifneq ($(WINDOWS),)
+override BULLET := 0
+override VIEW   := 0
+# Stack protection and checked functions would need a further library of MinGW.
+WARN  += -Wno-float-conversion
+FLAGS := $(filter-out -fstack-% -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2,$(FLAGS)) -D__USE_MINGW_ANSI_STDIO=1
+endif
 LINK_FLAGS := -Wl,-z,relro,-z,now -Wl,-z,noexecstack $(LDFLAGS)
 C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
 CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLAGS) $(CXXFLAGS)
@@ -58,6 +68,11 @@ EXAMPLES += $(if $(filter 0,$(BULLET)),,$(B)/examples/bullet_world)
 
 NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
 LIBRARIES := $(foreach n,$(NAMES),$(B)/lib$(n).a $(B)/lib$(n).so)
+ifneq ($(WINDOWS),)
+NAMES     := hair
+LIBRARIES := $(B)/libhair.a $(B)/hair.dll
+TOOLS     :=
+endif
 
 # Deferred variables, because pkg-config must run after `make setup` has installed the packages.
 packages   = $(shell pkg-config $(1) $(2))
@@ -144,7 +159,7 @@ $(B)/gen/sources.c: $(B)/embed $(GLSL)
 $(B)/embed: tools/embed.c
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CC) -std=c17 $(WARN) -O1 $< -o $@
+	$(Q)$(HOST_CC) -std=c17 -O1 $< -o $@
 $(B)/gen/%.c.o: $(B)/gen/%.c
 	$(call say,$@)
 	$(Q)$(C) -c $< -o $@
@@ -308,6 +323,7 @@ include tests/gates.mk
 include tools/convert/convert.mk
 include tools/packaging/packaging.mk
 include tools/python/python.mk
+include tools/packaging/windows.mk
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:

@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <malloc.h>
+#endif
 
 // Bytes before a block, which hold its size and keep its alignment.
 #define HEADER 16
@@ -13,14 +16,22 @@ static void* default_alloc(size_t size, size_t align, void* user)
 {
     (void)user;
     HAIR_ASSERT(align && (align & (align - 1)) == 0);
+#ifdef _WIN32
+    return _aligned_malloc(size, align);
+#else
     return aligned_alloc(align, (size + align - 1) / align * align);
+#endif
 }
 
 static void default_free(void* memory, size_t size, void* user)
 {
     (void)size;
     (void)user;
+#ifdef _WIN32
+    _aligned_free(memory);
+#else
     free(memory);
+#endif
 }
 
 hair_host hair_host_or_default(const hair_host* host)

@@ -5,7 +5,9 @@
 #include <hair/hair.h>
 #include "lib/base/assert.h"
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__)
+#define HAIR_PRINTF(string, first) __attribute__((format(gnu_printf, string, first)))
+#elif defined(__GNUC__)
 #define HAIR_PRINTF(string, first) __attribute__((format(printf, string, first)))
 #else
 #define HAIR_PRINTF(string, first)

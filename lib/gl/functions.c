@@ -17,6 +17,18 @@ static bool find_function(const hair_context_desc* desc, const char* name, void*
     return address != NULL;
 }
 
+// Older headers of OpenGL lack the constants of KHR_shader_subgroup.
+#ifndef GL_SUBGROUP_SIZE_KHR
+#define GL_SUBGROUP_SIZE_KHR 0x9532
+#define GL_SUBGROUP_SUPPORTED_STAGES_KHR 0x9533
+#define GL_SUBGROUP_SUPPORTED_FEATURES_KHR 0x9534
+#define GL_SUBGROUP_FEATURE_BASIC_BIT_KHR 0x1
+#define GL_SUBGROUP_FEATURE_VOTE_BIT_KHR 0x2
+#define GL_SUBGROUP_FEATURE_ARITHMETIC_BIT_KHR 0x4
+#define GL_SUBGROUP_FEATURE_BALLOT_BIT_KHR 0x8
+#define GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR 0x10
+#endif
+
 static void APIENTRY ignore_names(GLsizei count, const GLuint* names)
 {
     (void)count, (void)names;

@@ -3,6 +3,11 @@
 #ifndef HAIR_GL_GL_H
 #define HAIR_GL_GL_H
 
+// The calling convention of OpenGL on Windows, without which glcorearb.h includes windows.h. That
+// header defines macros such as near and far.
+#if defined(_WIN32) && !defined(APIENTRY)
+#define APIENTRY __stdcall
+#endif
 #include <GL/glcorearb.h>
 
 #include <stdbool.h>

@@ -103,11 +103,17 @@ static void wait_for_writes(struct hair_gl* gl)
                       GL_BUFFER_UPDATE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT);
 }
 
+// Return the wall time in ms. The C library of Windows has no timespec_get(), and its clock() tells
+// wall time.
 static double now(void)
 {
+#ifdef _WIN32
+    return 1e3 * (double)clock() / CLOCKS_PER_SEC;
+#else
     struct timespec time = {0};
     timespec_get(&time, TIME_UTC);
     return 1e3 * (double)time.tv_sec + 1e-6 * (double)time.tv_nsec;
+#endif
 }
 
 // Work groups of a pass to dispatch: those from `first` up to, not including, `end`, of all.

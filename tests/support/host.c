@@ -4,6 +4,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef _WIN32
+#include <malloc.h>
+#define ALIGNED_ALLOC(align, size) _aligned_malloc(size, align)
+#define ALIGNED_FREE _aligned_free
+#else
+#define ALIGNED_ALLOC(align, size) aligned_alloc(align, (size + align - 1) / align * align)
+#define ALIGNED_FREE free
+#endif
 
 static void* take(size_t size, size_t align, void* user)
 {
@@ -11,7 +19,7 @@ static void* take(size_t size, size_t align, void* user)
     ++host->allocations;
     if (host->allocations == host->refuse) return NULL;
     if (host->refuse && host->is_lasting && host->allocations > host->refuse) return NULL;
-    void* memory = aligned_alloc(align, (size + align - 1) / align * align);
+    void* memory = ALIGNED_ALLOC(align, size);
     if (!memory) return NULL;
     memset(memory, 0xa5, size);
     host->live += size;
@@ -25,7 +33,7 @@ static void give_back(void* memory, size_t size, void* user)
     struct hair_test_host* host = user;
     host->live -= size;
     --host->blocks;
-    free(memory);
+    ALIGNED_FREE(memory);
 }
 
 static void listen(hair_log_level level, const char* sentence, void* user)
