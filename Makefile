@@ -291,8 +291,9 @@ symbols: $(LIBRARIES)
 hardened: $(LIBRARIES) $(TOOLS)
 	@[ "$(config)" != release ] || sh tools/check/hardened.sh $(filter %.so,$(LIBRARIES)) $(TOOLS)
 
-consumer: install-tree ## Build and run tests/consumer out of an installed tree: C99 and C++11, static and shared
-	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
+consumer: install-tree amalgam ## Build and run tests/consumer out of an installed tree and with hair.c
+	@CC="$(CC)" CXX="$(CXX)" OPT="$(opt.$(config))" AMALGAM=$(AMALGAM) \
+	  sh tests/consumer/run.sh $(abspath $(B))/installed $(abspath $(B))/consumer
 install-tree: libraries tools
 	@rm -rf $(B)/installed && $(MAKE) install DESTDIR=$(abspath $(B))/installed PREFIX=/usr >/dev/null
 

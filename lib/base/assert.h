@@ -8,7 +8,7 @@
 // Stop the program unless `condition` holds. Name the condition with its file and line on stderr.
 // With NDEBUG, as in releases, the condition is not evaluated.
 #ifdef NDEBUG
-#define HAIR_ASSERT(condition) ((void)sizeof(!(condition)))
+#define HAIR_ASSERT(condition) ((void)(0 && (condition)))
 #else
 #define HAIR_ASSERT(condition) assert(condition)
 #endif

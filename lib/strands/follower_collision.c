@@ -32,7 +32,7 @@ hair_result hair_geometry_ensure_hit_programs(struct hair_geometry* geometry)
     return result;
 }
 
-static hair_result ensure_buffers(struct hair_geometry* geometry)
+static hair_result ensure_hit_buffers(struct hair_geometry* geometry)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_follower_collision_state* own = &geometry->follower_collision;
@@ -62,7 +62,8 @@ void hair_geometry_free_follower_collision(struct hair_geometry* geometry)
     hair_gl_free_texture(gl, &own->image);
 }
 
-static void run(struct hair_geometry* geometry, const struct hair_collider_field* field, float margin)
+static void run_collision(struct hair_geometry* geometry, const struct hair_collider_field* field,
+                          float margin)
 {
     struct hair_gl* gl = geometry->gl;
     struct hair_follower_collision_state* follower_collision = &geometry->follower_collision;
@@ -104,9 +105,9 @@ hair_result hair_geometry_update_follower_collision(struct hair_geometry* geomet
     follower_collision->active = field != NULL;
     follower_collision->field = field;
     if (field) {
-        hair_result result = ensure_buffers(geometry);
+        hair_result result = ensure_hit_buffers(geometry);
         if (result) return result;
-        run(geometry, field, margin);
+        run_collision(geometry, field, margin);
     }
     ++follower_collision->generation;
     follower_collision->valid = 1;

@@ -3,7 +3,7 @@
 # and in C++, with the static and the shared libraries. Check the manual pages and the completion of the
 # tools. Check that the README shows the program that is run.
 #   run.sh PREFIX OUT      The tree is installed in PREFIX/usr. Programs are written to OUT.
-# CC and CXX name the compilers. OPT has the options that the libraries were built with, such as
+# CC and CXX name the compilers. AMALGAM is the folder of hair.c. OPT has the options that the libraries were built with, such as
 # sanitizers.
 set -eu
 prefix=$1
@@ -114,7 +114,6 @@ rm -rf "$out/moved" && cp -a "$prefix" "$out/moved"
 cmake_programs shared -DBUILD_SHARED_LIBS=OFF -DKIND=shared
 cmake_programs static -DBUILD_SHARED_LIBS=OFF
 run_hello cmake-shared/hello
-run_hello cmake-static/hello
 if [ -e "$out/moved/usr/lib/libhair_bullet.a" ]; then
     for name in shared/bullet shared/bullet_static static/bullet_shared static/bullet; do
         output=$(ASAN_OPTIONS=detect_leaks=0 "$out/cmake-$name") || fail "cmake-$name does not run"
@@ -122,6 +121,17 @@ if [ -e "$out/moved/usr/lib/libhair_bullet.a" ]; then
     done
 fi
 echo "consumer: find_package(hair) works in a moved tree"
+
+# Compile hair.c alone, by clang too where it is installed, and link a program with the object.
+for compiler in "$CC" clang-14; do
+    command -v "$compiler" >/dev/null || continue
+    # shellcheck disable=SC2086
+    $compiler -std=c17 -Wall -Wextra -Werror $OPT -O0 -I"$AMALGAM" -c "$AMALGAM/hair.c" -o "$out/hair-$compiler.o" ||
+        fail "$compiler does not compile hair.c"
+done
+# shellcheck disable=SC2086
+build_and_run hello-amalgam "$CC -std=c99 -x c" "$out/hair-$CC.o" -I"$prefix/usr/include" "$prefix/usr/lib/libhair_egl.a" \
+    $(pkg-config --cflags --libs egl) $epoxy
 
 # Check that a manual page has every option of its tool, that the tool runs, and that bash completes it.
 for tool in hair-capture hair-groom hair-bench; do

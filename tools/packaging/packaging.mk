@@ -35,4 +35,14 @@ install-tools: $(PROGRAMS)
 	  install -m 644 tools/packaging/completion.bash $(TREE)/share/bash-completion/completions/$$n || exit 1; done
 	install -m 644 tools/scenes/* $(DOC)/scenes
 
-.PHONY: install install-libraries install-tools
+AMALGAM := build/amalgam
+amalgam: $(AMALGAM)/hair.c ## build/amalgam: all of libhair as one hair.c with its headers
+AMALGAMATED := $(patsubst $(B)/%.o,%,$(filter $(B)/lib/%,$(LIB))) $(B)/gen/sources.c
+$(AMALGAM)/hair.c: $(AMALGAMATED) $(wildcard $(ROOMS:%=lib/%/*.h) lib/*/*.inl lib/*/*/*.inl include/hair/*.h) $(GLSL) tools/packaging/amalgam.awk
+	@rm -rf $(AMALGAM) && mkdir -p $(AMALGAM)/hair
+	$(call say,$@)
+	@cp $(filter-out %/hair_egl.h %/hair_bullet.h,$(wildcard include/hair/*.h)) $(AMALGAM)/hair
+	@cp LICENSE $(AMALGAM)
+	@awk -v version=$(VERSION) -f tools/packaging/amalgam.awk $(AMALGAMATED) >$@
+
+.PHONY: amalgam install install-libraries install-tools
