@@ -161,14 +161,14 @@ static void switches_change_the_window_by_key_and_label(void** state)
 {
     (void)state;
     static const char* const switches[][3] = {
-        {"Play", "Space", "plays"},        {"Loop", "L", "loops"},
-        {"Pause", "P", "pauses"},          {"Slow motion", "O", "is_slow"},
-        {"Panels", "Tab", "shows_panels"}, {"Help", "?", "shows_help"},
+        {"Play", "Space", "plays"},      {"Loop", "L", "loops"},        {"Pause", "P", "pauses"},
+        {"Slow motion", "O", "is_slow"}, {"Strip", "I", "shows_strip"}, {"Panels", "Tab", "shows_panels"},
+        {"Help", "?", "shows_help"},
     };
     char script[2048];
     const char* folder = hair_test_folder();
     int used = snprintf(script, sizeof script, "report %s/0.json\n", folder);
-    for (size_t i = 0; i < 6; ++i)
+    for (size_t i = 0; i < 7; ++i)
         used +=
             snprintf(script + used, sizeof script - (size_t)used,
                      "key %s\nreport %s/k%zu.json\nkey %s\nclick %s\nreport %s/l%zu.json\nkey %s\n",
@@ -176,7 +176,7 @@ static void switches_change_the_window_by_key_and_label(void** state)
     write_file("s", script);
     expect(0, RUN "120", "");
     json_t* before = hair_test_shell_json("0.json");
-    for (size_t i = 0; i < 6; ++i) {
+    for (size_t i = 0; i < 7; ++i) {
         char key[16], label[16];
         snprintf(key, sizeof key, "k%zu.json", i);
         snprintf(label, sizeof label, "l%zu.json", i);

@@ -117,6 +117,8 @@ const view_action actions[] = {
      view_toggle_simulation_lod, view_has_simulation_lod},
     {"Window", "Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
      toggle<&viewer::shows_help>, is<&viewer::shows_help>},
+    {"Window", "Strip", SDLK_i, 0, "Show or hide timings and errors below the picture.",
+     toggle<&viewer::shows_strip>, is<&viewer::shows_strip>},
     {"Window", "Panels", SDLK_TAB, 0, "Show or hide all panels.", toggle<&viewer::shows_panels>,
      is<&viewer::shows_panels>},
     {nullptr, nullptr, SDLK_UNKNOWN, 0, nullptr, nullptr, nullptr}};

@@ -13,7 +13,7 @@
 namespace
 {
 
-constexpr int window = 15; // side of the square around the cursor in which hair is looked for, pixels
+constexpr int window = 15; // side of the square around the cursor that is searched, pixels
 constexpr float ball_radius = 0.05f; // m
 
 // Strand at a pixel, as HAIR_PASS_ID writes it.

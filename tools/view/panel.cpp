@@ -4,6 +4,7 @@
 #include "tools/view/controls.h"
 #include "tools/view/scene_panel.h"
 #include "tools/view/settings_panel.h"
+#include "tools/view/strip.h"
 
 #include <string.h>
 
@@ -12,7 +13,7 @@
 namespace
 {
 
-constexpr float left_width = 280, right_width = 350; // at scale 1
+constexpr float left_width = 280, right_width = 350, strip_height = 150; // at scale 1
 constexpr uint32_t message_frames = 300; // time that a message stays
 
 void show_help_row(const char* key, const char* label, const char* about)
@@ -45,13 +46,14 @@ void show_help(viewer& viewer)
 }
 
 // Begin a panel between two edges of the window.
-bool begin_panel(const char* name, float left, float top, float width, float height)
+bool begin_panel(const char* name, float left, float top, float width, float height, bool is_flat = false)
 {
     ImGui::SetNextWindowPos({left, top});
     ImGui::SetNextWindowSize({width, height});
     return ImGui::Begin(name, nullptr,
                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse |
-                            ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoBringToFrontOnFocus);
+                            ImGuiWindowFlags_NoTitleBar | (is_flat ? ImGuiWindowFlags_NoScrollbar : 0) |
+                            ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
 void show_messages(const viewer& viewer)
@@ -86,6 +88,14 @@ void view_panels(viewer& viewer)
         ImGui::End();
         viewer.picture.left = left;
         viewer.picture.right = size.x - right;
+        float strip = std::min(strip_height * viewer.gui.scale, 0.3f * size.y);
+        if (viewer.shows_strip) {
+            view_strip_update(viewer);
+            if (begin_panel("Strip", left, size.y - strip, size.x - left - right, strip, true))
+                view_strip(viewer);
+            ImGui::End();
+            viewer.picture.bottom = size.y - strip;
+        }
     }
     show_help(viewer);
     show_messages(viewer);

@@ -27,20 +27,6 @@ bool groom_differs(const hair_scene& a, const hair_scene& b)
            differs(a.maps, b.maps);
 }
 
-int make_mesh(view_session& session, const hair_scene& scene)
-{
-    head_mesh mesh;
-    bool ball = scene.subject == HAIR_SUBJECT_FUR;
-    if (!scene.head && !ball) return HAIR_EXIT_OK;
-    if (scene.head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene.ball_radius, &mesh)) {
-        hair_complain(TOOL, "out of memory for the head");
-        return HAIR_EXIT_RUNTIME;
-    }
-    hair_render_set_mesh(session.render, &mesh, !scene.head);
-    head_mesh_free(&mesh);
-    return HAIR_EXIT_OK;
-}
-
 // Set what depends on the size of the haircut.
 void fit(view_session& session, hair_scene& scene)
 {
@@ -107,6 +93,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     session.world = world;
     session.world_scene = std::move(world_scene);
     session.groom = groom;
+    session.look_is_cheap = false;
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);
     session.pins.clear();
@@ -122,6 +109,7 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
         result = hair_set_physics(session.hair, &scene.settings.physics);
     if (!result && differs(old.settings.look, scene.settings.look))
         result = hair_set_look(session.hair, &scene.settings.look);
+    session.look_is_cheap = false;
     if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
         hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
         result = hair_set_wind(session.hair, &wind);
@@ -146,14 +134,13 @@ int remake(view_session& session, hair_scene& scene, bool with_groom)
     return code;
 }
 
-int make_render(view_session& session, const hair_scene& scene, const hair_render_desc& desc)
+void destroy_renders(view_session& session)
 {
-    if (session.render && !differs(session.render_desc, desc)) return HAIR_EXIT_OK;
-    if (session.render) hair_render_destroy(session.render);
+    for (hair_render*& render : session.renders) {
+        if (render) hair_render_destroy(render);
+        render = nullptr;
+    }
     session.render = nullptr;
-    session.render_desc = desc;
-    int code = hair_render_create(TOOL, &desc, &session.render);
-    return code ? code : make_mesh(session, scene);
 }
 
 } // namespace
@@ -172,7 +159,7 @@ void view_session_close(view_session& session)
 {
     hair_destroy(session.hair);
     hair_world_destroy(session.world);
-    if (session.render) hair_render_destroy(session.render);
+    destroy_renders(session);
     hair_context_destroy(session.context);
     hair_groom_destroy(session.groom);
 }
@@ -194,10 +181,7 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
     bool has_other_mesh =
         !is_first && (session.applied->head != scene.head || session.applied->subject != scene.subject ||
                       session.applied->ball_radius != scene.ball_radius);
-    if (has_other_mesh && session.render) {
-        hair_render_destroy(session.render);
-        session.render = nullptr;
-    }
+    if (has_other_mesh) destroy_renders(session);
     fit(session, scene);
     if (is_first) session.applied = std::make_unique<hair_scene>();
     *session.applied = scene;
@@ -228,30 +212,4 @@ int view_session_reset(view_session& session, const hair_scene& scene)
     if (!result) result = hair_reset(session.hair);
     if (!result) result = set_colliders(session, scene);
     return hair_exit_for(result);
-}
-
-int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
-                      const view_quality& quality)
-{
-    const hair_image* image;
-    hair_scene drawn = scene;
-    drawn.width = std::max(1u, (uint32_t)lroundf((float)width * quality.resolution));
-    drawn.height = std::max(1u, (uint32_t)lroundf((float)height * quality.resolution));
-    if (quality.coarse) {
-        hair_settings& settings = drawn.settings;
-        settings.has_lod = true;
-        settings.lod.strand_pixels = std::max(settings.lod.strand_pixels, 1.0f);
-        settings.lod.segment_pixels = std::max(settings.lod.segment_pixels, 8.0f);
-        drawn.shadow = false;
-        for (uint32_t i = 0; i < drawn.lights.count; ++i) drawn.lights.at[i].shadow = false;
-    }
-    hair_render_desc desc = {};
-    desc.width = drawn.width;
-    desc.height = drawn.height;
-    desc.samples = quality.samples;
-    desc.supersample = 1;
-    desc.on_gpu = true;
-    int code = make_render(session, scene, desc);
-    if (code) return code;
-    return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
 }

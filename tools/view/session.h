@@ -3,17 +3,14 @@
 #define HAIR_TOOLS_VIEW_SESSION_H
 
 #include "tools/view/common.h"
+#include "tools/view/quality.h"
 
 #include <memory>
 #include <string>
 #include <vector>
 
-// Cost of a picture. A smaller `resolution` draws fewer pixels.
-struct view_quality {
-    float resolution = 1; // fraction of the pixels along each side
-    uint32_t samples = 4;
-    bool coarse = false; // level of detail for a moving picture, without shadow maps
-};
+// Renderers of moving pictures and of pictures at rest, whose sizes differ.
+enum view_render { VIEW_RENDER_MOVING, VIEW_RENDER_FULL, VIEW_RENDERS };
 
 struct view_session {
     hair_host host = {};
@@ -22,8 +19,10 @@ struct view_session {
     hair_instance* hair = nullptr;
     hair_world* world = nullptr;
     std::unique_ptr<hair_scene> world_scene; // scene that the world was made of
-    hair_render* render = nullptr;
-    hair_render_desc render_desc = {};
+    hair_render* renders[VIEW_RENDERS] = {};
+    hair_render_desc render_descs[VIEW_RENDERS] = {};
+    hair_render* render = nullptr; // renderer of the last picture
+    bool look_is_cheap = false; // the instance has the look of a quality without shadows
     hair_groom_info info = {};
     std::unique_ptr<hair_scene> applied; // scene that the hair has now
     std::string name; // name of the scene, for messages
@@ -47,8 +46,12 @@ int view_session_step(view_session& session, const hair_scene& scene, float dt, 
 // Begin again, with the hair at rest.
 int view_session_reset(view_session& session, const hair_scene& scene);
 
-// Draw a picture of `width` by `height` pixels or fewer. Return an exit status.
+// Draw a picture of `width` by `height` pixels or fewer by one of the renderers. Return an exit
+// status.
 int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
-                      const view_quality& quality);
+                      const view_quality& quality, view_render which);
+
+// Return whether the hair sleeps, because it is in equilibrium.
+bool view_session_sleeps(const view_session& session);
 
 #endif

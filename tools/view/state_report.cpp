@@ -36,11 +36,11 @@ int view_state_report(const viewer& viewer, const std::string& path)
     std::vector<float> guides;
     if (!read_guides(viewer, guides)) return HAIR_EXIT_RUNTIME;
     bool is_finite = std::all_of(guides.begin(), guides.end(), [](float x) { return isfinite(x); });
-    json_t* root =
-        json_pack("{s:i, s:f, s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:i}", "frame", (int)viewer.frame, "time",
-                  viewer.session.time, "plays", viewer.plays, "loops", viewer.loops, "pauses", viewer.pauses,
-                  "is_slow", viewer.is_slow, "shows_help", viewer.shows_help, "shows_panels",
-                  viewer.shows_panels, "is_finite", is_finite, "undo", (int)viewer.document.undo.size());
+    json_t* root = json_pack(
+        "{s:i, s:f, s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:i}", "frame", (int)viewer.frame, "time",
+        viewer.session.time, "plays", viewer.plays, "loops", viewer.loops, "pauses", viewer.pauses, "is_slow",
+        viewer.is_slow, "shows_help", viewer.shows_help, "shows_panels", viewer.shows_panels, "shows_strip",
+        viewer.shows_strip, "is_finite", is_finite, "undo", (int)viewer.document.undo.size());
     if (!viewer.session.pins.empty()) json_object_set_new(root, "held", held_of(viewer, guides));
     json_t* messages = json_array();
     for (const std::string& message : viewer.messages)

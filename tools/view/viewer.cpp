@@ -46,6 +46,8 @@ int open(viewer& viewer)
     }
     if (!code) code = view_session_apply(viewer.session, *viewer.document.scene, viewer.document.name);
     if (code) return code;
+    const char* renderer = (const char*)glGetString(GL_RENDERER);
+    if (renderer && strstr(renderer, "llvmpipe")) viewer.governor.level = view_quality_levels - 2;
     *viewer.document.committed = *viewer.document.scene;
     hair_complain_to(hear_sentence, &viewer);
     return HAIR_EXIT_OK;
@@ -94,25 +96,33 @@ int step(viewer& viewer, float dt)
     if (viewer.is_slow) dt *= slow_motion;
     viewer.steps_once = false;
     if (viewer.plays && viewer.loops && end > 0 && session.time >= end) session.time -= end;
-    if (viewer.plays && session.time < end) viewer.moved = hair_now();
-    return view_session_step(session, scene, dt, viewer.plays);
+    int code = view_session_step(session, scene, dt, viewer.plays);
+    bool is_moving =
+        (viewer.plays && session.time < end) || !session.pins.empty() || !view_session_sleeps(session);
+    if (is_moving) viewer.moved = hair_now();
+    return code;
 }
 
+// Draw the picture unless it is what it was.
 int draw_picture(viewer& viewer)
 {
-    view_quality quality;
     view_session& session = viewer.session;
-    bool is_scripted = !viewer.options.script.empty();
-    if (!is_scripted && hair_now() - viewer.moved < rest) {
-        quality.coarse = true;
-        quality.resolution = 0.5f;
-        quality.samples = 1;
-    }
     const view_place& place = viewer.picture;
     float density = viewer.stage.density;
-    uint32_t width = (uint32_t)std::max(1.0f, density * (place.right - place.left));
-    uint32_t height = (uint32_t)std::max(1.0f, density * (place.bottom - place.top));
-    int code = view_session_draw(session, *viewer.document.scene, width, height, quality);
+    int width = std::max(1, (int)(density * (place.right - place.left)));
+    int height = std::max(1, (int)(density * (place.bottom - place.top)));
+    bool is_equal = viewer.is_full && viewer.picture_size[0] == width && viewer.picture_size[1] == height;
+    viewer.is_moving = viewer.options.script.empty() && hair_now() - viewer.moved < rest;
+    int code = HAIR_EXIT_OK;
+    if (!is_equal || viewer.is_moving || !viewer.options.script.empty()) {
+        uint32_t level = viewer.is_moving ? viewer.governor.level : 0;
+        view_render which = viewer.is_moving ? VIEW_RENDER_MOVING : VIEW_RENDER_FULL;
+        code = view_session_draw(session, *viewer.document.scene, (uint32_t)width, (uint32_t)height,
+                                 view_quality_of(level), which);
+        viewer.is_full = level == 0;
+        viewer.picture_size[0] = width;
+        viewer.picture_size[1] = height;
+    }
     if (code) return code;
     unsigned texture = hair_render_texture(session.render);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -168,12 +178,22 @@ float tick(viewer& viewer)
     return viewer.options.script.empty() ? std::clamp(dt, 1e-4f, 0.5f) : script_dt;
 }
 
+// Adjust the quality to the time that the frame has taken without waiting for the display.
+void measure_frame(viewer& viewer, double before)
+{
+    glFinish();
+    double ms = hair_now() - before;
+    viewer.frame_ms += (viewer.frame_ms > 0 ? 0.1 : 1) * (ms - viewer.frame_ms);
+    if (viewer.is_moving) view_governor_add(viewer.governor, ms);
+}
+
 int run_frame(viewer& viewer)
 {
     bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
     bool is_scripted = !viewer.options.script.empty();
     bool draws = !is_scripted || (is_last && !viewer.options.shot.empty());
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
+    double before = hair_now();
     float dt = tick(viewer);
     if (code) return code;
     take_events(viewer);
@@ -189,6 +209,7 @@ int run_frame(viewer& viewer)
     if (draws) view_stage_begin(viewer.stage);
     view_gui_end(viewer.gui, draws);
     if (!code && is_last && !viewer.options.shot.empty()) code = write_shot(viewer);
+    if (draws) measure_frame(viewer, before);
     if (draws) view_stage_end(viewer.stage);
     ++viewer.frame;
     viewer.quits = viewer.quits || is_last;

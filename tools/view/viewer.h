@@ -25,6 +25,14 @@ enum view_drag {
     VIEW_DRAG_COLLIDER
 };
 
+// Newest values of the strip.
+struct view_measures {
+    hair_report_info info = {};
+    std::vector<hair_report_row> rows;
+    hair_solver_stats stats = {};
+    std::vector<float> fastest, stretch; // over time
+};
+
 struct viewer {
     view_options options;
     view_stage stage;
@@ -48,6 +56,13 @@ struct viewer {
     float wind_direction[3] = {1, 0, 0}; // of the last wind
     float wind_speed = 0; // before the wind was switched off, m/s
     uint32_t frame = 0;
+    view_governor governor;
+    bool is_full = false; // the picture has full quality, and nothing has moved since
+    bool is_moving = false; // the picture is that of a moving scene
+    int picture_size[2] = {0, 0}; // pixels
+    double frame_ms = 0; // smoothed time of a frame
+    bool shows_strip = true; // timings and errors below the picture
+    view_measures measures;
     double moved = 0; // time of the last motion in the picture, ms
     double last = 0; // time of the last frame, ms
     std::string path; // file that the scene is saved as

@@ -1,0 +1,100 @@
+// session_draw.cpp - Pictures of the living hair, in several qualities.
+#include "tools/view/session.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <algorithm>
+
+namespace
+{
+
+int make_mesh(hair_render* render, const hair_scene& scene)
+{
+    head_mesh mesh;
+    bool ball = scene.subject == HAIR_SUBJECT_FUR;
+    if (!scene.head && !ball) return HAIR_EXIT_OK;
+    if (scene.head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene.ball_radius, &mesh)) {
+        hair_complain(TOOL, "out of memory for the head");
+        return HAIR_EXIT_RUNTIME;
+    }
+    hair_render_set_mesh(render, &mesh, !scene.head);
+    head_mesh_free(&mesh);
+    return HAIR_EXIT_OK;
+}
+
+// Make the renderer of a size, or keep the present one.
+int make_render(view_session& session, const hair_scene& scene, const hair_render_desc& desc,
+                view_render which)
+{
+    hair_render*& render = session.renders[which];
+    session.render = render;
+    if (render && !memcmp(&session.render_descs[which], &desc, sizeof desc)) return HAIR_EXIT_OK;
+    if (render) hair_render_destroy(render);
+    render = nullptr;
+    session.render_descs[which] = desc;
+    int code = hair_render_create(TOOL, &desc, &render);
+    session.render = render;
+    return code ? code : make_mesh(render, scene);
+}
+
+// Give the instance the look of a quality.
+hair_result set_look(view_session& session, const hair_scene& scene, bool is_cheap)
+{
+    if (session.look_is_cheap == is_cheap) return HAIR_OK;
+    hair_look look = scene.settings.look;
+    if (is_cheap) {
+        look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
+        look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
+    }
+    session.look_is_cheap = is_cheap;
+    return hair_set_look(session.hair, &look);
+}
+
+void reduce(const view_quality& quality, hair_scene& scene)
+{
+    hair_lod& lod = scene.settings.lod;
+    if (quality.strand_pixels > 0) {
+        if (!scene.settings.has_lod) lod = hair_lod_default();
+        scene.settings.has_lod = true;
+        lod.strand_pixels = std::max(lod.strand_pixels, quality.strand_pixels);
+        lod.segment_pixels = std::max(lod.segment_pixels, quality.segment_pixels);
+    }
+    if (quality.shadows) return;
+    scene.shadow = false;
+    for (uint32_t i = 0; i < scene.lights.count; ++i) scene.lights.at[i].shadow = false;
+}
+
+} // namespace
+
+int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                      const view_quality& quality, view_render which)
+{
+    const hair_image* image;
+    hair_scene drawn = scene;
+    drawn.width = std::max(1u, (uint32_t)lroundf((float)width * quality.resolution));
+    drawn.height = std::max(1u, (uint32_t)lroundf((float)height * quality.resolution));
+    reduce(quality, drawn);
+    hair_render_desc desc;
+    memset(&desc, 0, sizeof desc); // Padding too, because descriptions are compared.
+    desc.width = drawn.width;
+    desc.height = drawn.height;
+    desc.samples = quality.samples;
+    desc.supersample = 1;
+    desc.on_gpu = true;
+    int code = make_render(session, scene, desc, which);
+    if (!code) code = hair_exit_for(set_look(session, scene, !quality.shadows));
+    if (code) return code;
+    return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
+}
+
+bool view_session_sleeps(const view_session& session)
+{
+    hair_report_info info = hair_report_info_default();
+    hair_report_row rows[64];
+    uint32_t count = 0;
+    if (hair_report(session.hair, false, &info, rows, sizeof *rows, 64, &count)) return false;
+    for (uint32_t i = 0; i < std::min(count, 64u); ++i)
+        if (!strcmp(rows[i].stage, "solve")) return rows[i].skip_reason == HAIR_SKIP_REASON_ASLEEP;
+    return false;
+}

@@ -1,0 +1,134 @@
+// strip.cpp - The strip below the picture: time and memory of each stage, and the errors of picture
+// and motion.
+#include "tools/view/strip.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <algorithm>
+
+namespace
+{
+
+constexpr uint32_t stats_frames = 20; // frames between two readings that wait for the GPU
+constexpr size_t history_length = 240;
+constexpr uint32_t max_rows = 64;
+
+void add(std::vector<float>& history, float value)
+{
+    history.push_back(isfinite(value) ? value : 0);
+    if (history.size() > history_length) history.erase(history.begin());
+}
+
+std::string bytes_of(uint64_t bytes)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.1f MB", (double)bytes * 1e-6);
+    return text;
+}
+
+void show_frame(const viewer& viewer)
+{
+    const view_measures& now = viewer.measures;
+    hair_memory memory = hair_memory_default();
+    hair_get_memory(viewer.session.context, &memory);
+    const char* quality = view_quality_of(viewer.is_moving ? viewer.governor.level : 0).about;
+    ImGui::TextDisabled("Frame");
+    ImGui::Text("%.1f frames/s", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0);
+    ImGui::Text("%.1f ms, hair %.1f ms", viewer.frame_ms, (double)now.info.ms);
+    ImGui::Text("%s", bytes_of(memory.bytes).c_str());
+    ImGui::TextDisabled("quality: %s", quality);
+    ImGui::TextDisabled("%u strands, %u guides", viewer.session.info.follower_count,
+                        viewer.session.info.guide_count);
+}
+
+// Show the stages that took time as bars, the longest first, and the others with the reason.
+void show_stages(const viewer& viewer)
+{
+    std::vector<hair_report_row> rows = viewer.measures.rows;
+    std::stable_sort(rows.begin(), rows.end(), [](const hair_report_row& a, const hair_report_row& b) {
+        bool a_ran = a.skip_reason == HAIR_SKIP_REASON_NONE, b_ran = b.skip_reason == HAIR_SKIP_REASON_NONE;
+        return a_ran != b_ran ? a_ran : a.ms > b.ms;
+    });
+    float max = rows.empty() ? 1 : std::max(rows[0].ms, 1e-3f);
+    ImGui::TextDisabled("Stages of the hair");
+    if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_ScrollY)) return;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 7 * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 5 * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
+    for (const hair_report_row& row : rows) {
+        bool has_run = row.skip_reason == HAIR_SKIP_REASON_NONE;
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(row.stage);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s\n%s", row.pass ? row.pass : "no pass", bytes_of(row.bytes).c_str());
+        ImGui::TableNextColumn();
+        if (has_run)
+            ImGui::Text("%.2f ms", (double)row.ms);
+        else
+            ImGui::TextDisabled("%s", hair_skip_reason_string(row.skip_reason));
+        ImGui::TableNextColumn();
+        ImVec2 at = ImGui::GetCursorScreenPos();
+        float height = ImGui::GetFontSize(), width = 0.9f * ImGui::GetContentRegionAvail().x;
+        if (has_run)
+            ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.2f * height},
+                                                      {at.x + width * row.ms / max, at.y + 0.8f * height},
+                                                      IM_COL32(66, 150, 250, 255), 2);
+    }
+    ImGui::EndTable();
+}
+
+void show_history(const char* label, const std::vector<float>& values, const char* format, float factor)
+{
+    char text[64];
+    snprintf(text, sizeof text, format, (double)(values.empty() ? 0 : values.back() * factor));
+    ImGui::Text("%s", label);
+    ImGui::SameLine(5.5f * ImGui::GetFontSize());
+    ImGui::PushID(label);
+    ImGui::PlotLines("##plot", values.data(), (int)values.size(), 0, text, 0, FLT_MAX,
+                     {ImGui::GetContentRegionAvail().x, 1.4f * ImGui::GetFontSize()});
+    ImGui::PopID();
+}
+
+void show_errors(const viewer& viewer)
+{
+    const view_measures& now = viewer.measures;
+    ImGui::TextDisabled("Motion");
+    show_history("fastest", now.fastest, "%.2f m/s", 1);
+    show_history("stretch", now.stretch, "%.4f %%", 100);
+    ImGui::Text("fallbacks %u, resets %u", now.stats.euler_fallbacks + now.stats.follow_fallbacks,
+                now.stats.reset);
+}
+
+} // namespace
+
+void view_strip_update(viewer& viewer)
+{
+    view_measures& now = viewer.measures;
+    hair_report_row rows[max_rows];
+    uint32_t count = 0;
+    now.info = hair_report_info_default();
+    if (!hair_report(viewer.session.hair, false, &now.info, rows, sizeof *rows, max_rows, &count))
+        now.rows.assign(rows, rows + std::min(count, max_rows));
+    if (viewer.frame % stats_frames) return;
+    now.stats = hair_solver_stats_default();
+    if (hair_get_solver_stats(viewer.session.hair, &now.stats)) return;
+    add(now.fastest, now.stats.fastest);
+    add(now.stretch, now.stats.stretch);
+}
+
+void view_strip(viewer& viewer)
+{
+    float font = ImGui::GetFontSize();
+    if (!ImGui::BeginTable("strip", 3)) return;
+    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 11.5f * font);
+    ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.2f);
+    ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthStretch, 1);
+    ImGui::TableNextColumn();
+    show_frame(viewer);
+    ImGui::TableNextColumn();
+    show_stages(viewer);
+    ImGui::TableNextColumn();
+    show_errors(viewer);
+    ImGui::EndTable();
+}
