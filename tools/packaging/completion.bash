@@ -1,4 +1,4 @@
-# bash completion for hair-capture, hair-groom and hair-bench. The words come from the
+# bash completion for hair-capture, hair-view, hair-groom and hair-bench. The words come from the
 # --help of the tool, so that they are those of the version that is installed.
 _hair_complete()
 {
@@ -31,4 +31,4 @@ _hair_complete()
     mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
     return 0
 }
-complete -o default -F _hair_complete hair-capture hair-groom hair-bench
+complete -o default -F _hair_complete hair-capture hair-view hair-groom hair-bench

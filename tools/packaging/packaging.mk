@@ -45,4 +45,14 @@ $(AMALGAM)/hair.c: $(AMALGAMATED) $(wildcard $(ROOMS:%=lib/%/*.h) lib/*/*.inl li
 	@cp LICENSE $(AMALGAM)
 	@awk -v version=$(VERSION) -f tools/packaging/amalgam.awk $(AMALGAMATED) >$@
 
-.PHONY: amalgam install install-libraries install-tools
+# The objects are built anew, because the system finds libraries without a path in the files.
+MULTIARCH = $(shell $(CC) -dumpmachine | sed 's/i.86-/i386-/')
+DEB      := build/deb
+deb: ## build/deb: Debian packages of libraries, development files and tools, which lintian accepts
+	@rm -rf $(DEB)/hair $(DEB)/*.deb $(DEB)/*.changes && mkdir -p $(DEB)/hair/debian
+	@$(MAKE) -j$(JOBS) B=$(DEB)/release BESIDE= libraries tools
+	@$(MAKE) B=$(DEB)/release BESIDE= SETUP=0 install DESTDIR=$(abspath $(DEB))/hair/tree PREFIX=/usr LIBDIR=lib/$(MULTIARCH) \
+	  DOC=$(abspath $(DEB))/hair/tree/usr/share/doc/libhair-dev >/dev/null
+	@sh tools/packaging/deb.sh $(DEB) $(VERSION)
+
+.PHONY: amalgam deb install install-libraries install-tools

@@ -22,7 +22,8 @@ from ._native import (
     HairVersionError,
     hair as _hair,
 )
-from .objects import Asset, CollisionMesh, Context, Groom, Hair, set_mesh
+from .haircut import Asset, CollisionMesh, Groom
+from .objects import Context, Hair, set_mesh
 from .picture import look_at, perspective, render, write_png
 from .settings import CLASSES as _CLASSES, Member, Settings
 

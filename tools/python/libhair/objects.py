@@ -1,174 +1,15 @@
-"""Haircuts, grooms, collision meshes, contexts and hair."""
+"""Contexts and hair."""
 
 import threading
 
 import numpy as np
 
 from ._native import call, egl, ffi, hair, host, new_desc, to_dict
+from .arrays import floats, matrix, pointer
 from .settings import CLASSES
 
 _current = threading.local()
 SOURCES = {"guides": "HAIR_READ_GUIDES", "smooth": "HAIR_READ_SMOOTH", "followers": "HAIR_READ_FOLLOWERS"}
-
-
-def _floats(values, width, name):
-    """Return values as an array of rows of floats."""
-    out = np.ascontiguousarray(values, dtype=np.float32)
-    if out.size % width:
-        raise ValueError(f"{name} has {out.size} numbers, which is no multiple of {width}")
-    return out.reshape(-1, width)
-
-
-def _integers(values, name):
-    """Return values as an array of unsigned integers of 32 bits."""
-    out = np.asarray(values)
-    if out.size and (out.dtype.kind not in "iu" or out.min() < 0 or out.max() > 0xFFFFFFFF):
-        raise ValueError(f"{name} must be integers from 0 to 4294967295")
-    return np.ascontiguousarray(out, dtype=np.uint32).ravel()
-
-
-def _pointer(kind, array):
-    return ffi.cast(kind + "*", ffi.from_buffer(array))
-
-
-def _matrix(transform):
-    """Return a matrix of numpy, which has rows first, as the column-major array of the library."""
-    out = np.asarray(transform, dtype=np.float32)
-    if out.shape != (4, 4):
-        raise ValueError(f"a transform is a 4x4 matrix, and this array has the shape {out.shape}")
-    return np.ascontiguousarray(out.T)
-
-
-def _array(pointer, count, width, dtype):
-    """Return a copy of an array of the library, or None for NULL."""
-    if pointer == ffi.NULL:
-        return None
-    data = np.frombuffer(ffi.buffer(pointer, count * width * np.dtype(dtype).itemsize), dtype).copy()
-    return data.reshape(count, width) if width > 1 else data
-
-
-class Asset:
-    """A haircut as arrays. Asset.read() and Asset.generate() make it."""
-
-    def __init__(self, pointer):
-        self._c = ffi.gc(pointer, hair.hair_asset_destroy)
-
-    @classmethod
-    def read(cls, source, **members):
-        """Read the bytes of a .hair or .tfx file, or the file of a path. `members` are those of Import."""
-        if not isinstance(source, (bytes, bytearray, memoryview)):
-            with open(source, "rb") as file:
-                source = file.read()
-        desc, settings, out = new_desc("hair_asset_desc"), CLASSES["Import"](members), ffi.new("hair_asset**")
-        setattr(desc, "import", settings._c)
-        desc.host = host
-        source = bytes(source)
-        call(hair.hair_asset_read, desc, source, len(source), out)
-        return cls(out[0])
-
-    @classmethod
-    def generate(cls, style="long", **members):
-        """Make a built-in haircut. `members` are those of StyleDesc."""
-        desc, out = CLASSES["StyleDesc"](members, style=style), ffi.new("hair_asset**")
-        desc._c.host = host
-        call(hair.hair_asset_generate, desc._c, out)
-        return cls(out[0])
-
-    def write(self, format="hair"):
-        """Return the bytes of a file: "hair" or "tfx4"."""
-        formats = {"hair": hair.HAIR_FORMAT_HAIR, "tfx4": hair.HAIR_FORMAT_TFX4}
-        if format not in formats:
-            raise ValueError(f'the format is {format!r}, not "hair" or "tfx4"')
-        size = ffi.new("size_t*")
-        call(hair.hair_asset_write, self._c, formats[format], ffi.NULL, 0, size)
-        out = ffi.new("char[]", size[0])
-        call(hair.hair_asset_write, self._c, formats[format], out, size[0], size)
-        return bytes(ffi.buffer(out, size[0]))
-
-    def _info(self):
-        info = new_desc("hair_asset_info")
-        call(hair.hair_asset_describe, self._c, info)
-        return info
-
-    @property
-    def info(self):
-        """The numbers of hair_asset_info."""
-        return to_dict(self._info()[0])
-
-    @property
-    def arrays(self):
-        """The arrays of hair_asset_info, copied. Those that the haircut lacks are None."""
-        info = self._info()
-        return {
-            "positions": _array(info.positions, info.vertex_count, 3, np.float32),
-            "strand_vertices": _array(info.strand_vertices, info.strand_count, 1, np.uint32),
-            "strand_radii": _array(info.strand_radii, info.strand_count, 1, np.float32),
-            "strand_colors": _array(info.strand_colors, info.strand_count * 8, 3, np.float32),
-            "scalp_positions": _array(info.scalp_positions, info.scalp_vertex_count, 3, np.float32),
-            "scalp_triangles": _array(info.scalp_triangles, info.scalp_triangle_count, 3, np.uint32),
-        }
-
-
-class Groom:
-    """An immutable haircut that hair is made from.
-
-    The strands are those of an asset, or arrays: positions of all vertices, strand after strand, and the
-    number of vertices of each strand. `members` are those of GroomDesc.
-    """
-
-    def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
-                 scalp_triangles=None, members=None, **more):  # fmt: skip
-        desc, out, kept = CLASSES["GroomDesc"](), ffi.new("hair_groom**"), []
-        c = desc._c
-        if asset is not None:
-            call(hair.hair_asset_to_groom_desc, asset._c, c)
-        else:
-            if positions is None or strand_vertices is None:
-                raise ValueError("a groom needs an asset, or positions and strand_vertices")
-            kept += [_floats(positions, 3, "positions"), _integers(strand_vertices, "strand_vertices")]
-            if int(kept[1].sum(dtype=np.uint64)) != len(kept[0]):
-                raise ValueError(f"strand_vertices add up to {kept[1].sum()}, and there are {len(kept[0])} positions")
-            c.positions, c.strand_vertices = _pointer("float", kept[0]), _pointer("uint32_t", kept[1])
-            c.strand_count = len(kept[1])
-        if scalp_positions is not None:
-            points = _floats(scalp_positions, 3, "scalp_positions")
-            triangles = _integers(() if scalp_triangles is None else scalp_triangles, "scalp_triangles")
-            kept += [points, triangles]
-            c.scalp_positions, c.scalp_vertex_count = _pointer("float", points), len(points)
-            c.scalp_triangles, c.scalp_triangle_count = _pointer("uint32_t", triangles), len(triangles) // 3
-        desc.update(members or {}, **more)
-        c.host = host
-        call(hair.hair_groom_create, c, out)
-        self._c = ffi.gc(out[0], hair.hair_groom_destroy)
-
-    @property
-    def info(self):
-        """The numbers of hair_groom_info."""
-        out = new_desc("hair_groom_info")
-        call(hair.hair_groom_describe, self._c, out)
-        return to_dict(out[0])
-
-
-class CollisionMesh:
-    """A triangle mesh to collide with. `members` are those of CollisionMeshDesc."""
-
-    def __init__(self, positions, triangles, **members):
-        desc, out = CLASSES["CollisionMeshDesc"](), ffi.new("hair_collision_mesh**")
-        points, corners = _floats(positions, 3, "positions"), _integers(triangles, "triangles")
-        c = desc._c
-        c.positions, c.vertex_count = _pointer("float", points), len(points)
-        c.triangles, c.triangle_count = _pointer("uint32_t", corners), len(corners) // 3
-        desc.update(members)
-        c.host = host
-        call(hair.hair_collision_mesh_create, c, out)
-        self._c = ffi.gc(out[0], hair.hair_collision_mesh_destroy)
-
-    @property
-    def info(self):
-        """The numbers of hair_collision_mesh_info."""
-        out = new_desc("hair_collision_mesh_info")
-        call(hair.hair_collision_mesh_describe, self._c, out)
-        return to_dict(out[0])
 
 
 class Context:
@@ -258,7 +99,7 @@ class Hair:
         if physics is not None:
             desc._point("physics", physics._c)
         if transform is not None:
-            desc._c.transform = _matrix(transform).ravel().tolist()
+            desc._c.transform = matrix(transform).ravel().tolist()
         context.make_current()
         call(hair.hair_create, context._c, groom._c, desc._c, out)
         self._c, self.context, self._kept = out[0], context, []
@@ -300,17 +141,17 @@ class Hair:
 
     @transform.setter
     def transform(self, transform):
-        self._call(hair.hair_set_transform, _pointer("float", _matrix(transform)))
+        self._call(hair.hair_set_transform, pointer("float", matrix(transform)))
 
     def teleport(self, transform):
         """Move the head together with the hair."""
-        self._call(hair.hair_teleport, _pointer("float", _matrix(transform)))
+        self._call(hair.hair_teleport, pointer("float", matrix(transform)))
 
     def set_scalp(self, positions, to_world=None):
         """Set the positions of the scalp's vertices. None places them in the world."""
-        points = _floats(positions, 3, "positions")
-        matrix = ffi.NULL if to_world is None else _pointer("float", _matrix(to_world))
-        self._call(hair.hair_set_scalp, _pointer("float", points), len(points), 12, matrix)
+        points = floats(positions, 3, "positions")
+        space = ffi.NULL if to_world is None else pointer("float", matrix(to_world))
+        self._call(hair.hair_set_scalp, pointer("float", points), len(points), 12, space)
 
     def _get(self, title, function):
         out = CLASSES[title]()
@@ -380,7 +221,7 @@ class Hair:
         kind, count = getattr(hair, SOURCES[source]), ffi.new("uint32_t*")
         self._call(hair.hair_read_positions, kind, ffi.NULL, 0, count)
         out = np.empty((count[0], 3), dtype=np.float32)
-        self._call(hair.hair_read_positions, kind, _pointer("float", out), count[0], count)
+        self._call(hair.hair_read_positions, kind, pointer("float", out), count[0], count)
         return out
 
     @property

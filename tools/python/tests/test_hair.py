@@ -139,7 +139,7 @@ class HairTest(unittest.TestCase):
         distance = np.linalg.norm(changed.read() - [0.1, 1.45, 0], axis=1)
         self.assertGreater(distance.min(), 0.09)
         corners = libhair.Asset.generate("long", guide_count=64).arrays["scalp_positions"]
-        changed.set_scalp(corners + [0, 0.01, 0])
+        changed.set_scalp(corners + [0, 0.01, 0], np.eye(4))
         changed.set_wind(None)
         changed.step(1 / 60)
         with self.assertRaises(libhair.HairArgumentError):
