@@ -30,6 +30,7 @@ struct hair_render {
     GLuint nothing; // vertex array without vertices
     struct hair_render_mesh mesh;
     uint32_t frames; // drawn so far
+    float shift[2]; // of the picture to the left and up, pixels
 };
 
 // Making ------------------------------------------------------------------------------------------
@@ -326,8 +327,8 @@ static hair_result draw_tiles(struct hair_render* render, struct frame* frame,
             struct tile tile = {.x = x, .y = y, .camera = *camera};
             tile.width = width - x < side ? width - x : side;
             tile.height = height - y < side ? height - y : side;
-            tile.at[0] = (float)x / (float)width;
-            tile.at[1] = (float)y / (float)height;
+            tile.at[0] = ((float)x + render->shift[0]) / (float)width;
+            tile.at[1] = ((float)y + render->shift[1]) / (float)height;
             tile.size[0] = (float)tile.width / (float)width;
             tile.size[1] = (float)tile.height / (float)height;
             hair_camera_crop(camera->projection, tile.at, tile.size, tile.camera.projection);
@@ -364,4 +365,14 @@ void hair_render_depth(const struct hair_render* render, const struct hair_scene
     struct frame frame = {.scene = scene, .transform = transform};
     glEnable(GL_DEPTH_TEST);
     draw_mesh(render, render->program[DEPTH], &frame, matrices);
+}
+
+unsigned hair_render_linear_texture(const struct hair_render* render)
+{
+    return render->targets.linear;
+}
+
+void hair_render_set_shift(struct hair_render* render, const float shift[2])
+{
+    memcpy(render->shift, shift, sizeof render->shift);
 }

@@ -32,11 +32,17 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
 int hair_render_frame(struct hair_render* render, const struct hair_scene* scene, const float transform[16],
                       float reach, hair_instance* hair, const struct hair_image** out);
 
+// Shift the following pictures to the left and up, in pixels.
+void hair_render_set_shift(struct hair_render* render, const float shift[2]);
+
 // Draw the depth of the mesh into the bound framebuffer, as a camera of `matrices` sees it.
 void hair_render_depth(const struct hair_render* render, const struct hair_scene* scene,
                        const float transform[16], const struct hair_matrices* matrices);
 
 // Return the sRGB-encoded picture as an OpenGL texture, whose first row is the top of the picture.
 unsigned hair_render_texture(const struct hair_render* render);
+
+// Return the linear colours before exposure as an OpenGL texture, in the same order.
+unsigned hair_render_linear_texture(const struct hair_render* render);
 
 #endif

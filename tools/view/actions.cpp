@@ -2,6 +2,7 @@
 #include "tools/view/actions.h"
 #include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
+#include "tools/view/record.h"
 
 #include <string.h>
 
@@ -68,10 +69,50 @@ void save(viewer& viewer)
     viewer_save(viewer);
 }
 
+void picture(viewer& viewer)
+{
+    viewer.wants_picture = true;
+}
+
+void record(viewer& viewer)
+{
+    if (viewer.film.is_on)
+        view_record_end(viewer);
+    else
+        view_record_begin(viewer, view_new_name(".mp4"));
+}
+
+bool is_recording(const viewer& viewer)
+{
+    return viewer.film.is_on;
+}
+
+void toggle_image_error(viewer& viewer)
+{
+    view_image_error_finish(viewer.image_error);
+    viewer.image_error.is_on = !viewer.image_error.is_on;
+}
+bool has_image_error(const viewer& viewer)
+{
+    return viewer.image_error.is_on;
+}
+
+void toggle_motion_error(viewer& viewer)
+{
+    viewer.motion_error.is_on = !viewer.motion_error.is_on;
+    if (!viewer.motion_error.is_on) view_motion_error_end(viewer.motion_error, viewer.session);
+}
+bool has_motion_error(const viewer& viewer)
+{
+    return viewer.motion_error.is_on;
+}
+
 #define CTRL KMOD_CTRL
 
 const view_action actions[] = {
     {"Scene", "Save", SDLK_s, CTRL, "Save the scene, with all changes, as the file above.", save, nullptr},
+    {"Scene", "Picture", SDLK_F12, 0, "Write a picture of the window, hair-view-N.png.", picture, nullptr},
+    {"Scene", "Record", SDLK_F9, 0, "Write a film of the window, hair-view-N.mp4.", record, is_recording},
     {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},
     {"Scene", "Redo", SDLK_y, CTRL, "Do the change again.", redo, nullptr},
     {"Time", "Play", SDLK_SPACE, 0, "Move the head by its motion.", toggle<&viewer::plays>,
@@ -115,6 +156,10 @@ const view_action actions[] = {
      view_toggle_passes, view_has_passes},
     {"Simulation", "Fewer steps", SDLK_v, 0, "Simulate by fewer substeps, and the fewest out of the picture.",
      view_toggle_simulation_lod, view_has_simulation_lod},
+    {"Errors", "Image error", SDLK_e, 0, "Measure the picture at rest against one of 1,024 samples.",
+     toggle_image_error, has_image_error},
+    {"Errors", "Motion error", SDLK_g, 0, "Measure the motion against short steps of the accurate solver.",
+     toggle_motion_error, has_motion_error},
     {"Window", "Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
      toggle<&viewer::shows_help>, is<&viewer::shows_help>},
     {"Window", "Strip", SDLK_i, 0, "Show or hide timings and errors below the picture.",

@@ -57,6 +57,13 @@ void view_arrows(const viewer& viewer)
     float centre[3], from[3], to[3], towards[3], speed = view_wind_speed(scene);
     float size = 0.3f * view_camera_height(scene);
     hair_camera_pivot(&scene, viewer.session.transform, centre);
+    ImVec2 tip;
+    const view_motion_error& error = viewer.motion_error;
+    if (error.is_on && error.rms >= 0 && view_project(viewer, error.worst_tip, tip)) {
+        ImDrawList* list = ImGui::GetBackgroundDrawList();
+        list->AddCircle(tip, 9 * viewer.gui.scale, IM_COL32(255, 90, 80, 255), 0, 2 * viewer.gui.scale);
+        list->AddText({tip.x + 11 * viewer.gui.scale, tip.y}, IM_COL32(255, 90, 80, 255), "worst motion");
+    }
     if (viewer.drag == VIEW_DRAG_LIGHT) {
         hair_light_direction(&scene, towards);
         for (int i = 0; i < 3; ++i) {

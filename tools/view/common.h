@@ -9,6 +9,7 @@ extern "C" {
 #include "tools/bullet/world.h"
 #include "tools/common/camera.h"
 #include "tools/common/file.h"
+#include "tools/common/frame_writer.h"
 #include "tools/common/groom_source.h"
 #include "tools/common/render.h"
 #include "tools/common/scene.h"

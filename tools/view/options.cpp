@@ -21,6 +21,8 @@ enum option_name {
     SCRIPT,
     FRAMES,
     SHOT,
+    FILM,
+    QUALITY,
     SAVE,
     DEVICE,
     VERSION
@@ -44,6 +46,8 @@ const row rows[] = {
     {"script", SCRIPT, "FILE", "run without a display, with the events of a file"},
     {"frames", FRAMES, "N", "end after this number of frames of 1/60 s"},
     {"shot", SHOT, "OUT.png", "write the picture of the last frame"},
+    {"film", FILM, "OUT.mp4", "write a film of the window"},
+    {"quality", QUALITY, "N", "of pictures at rest and of scripts, 0 full to 4 coarse; 0"},
     {"save", SAVE, "FILE.json", "file that Save writes; without it, the opened file or a new one"},
     {"device", DEVICE, "N", "run a script on the EGL device of that index; without it, the first that works"},
     {"help", 'h', nullptr, "(also -h) this"},
@@ -132,6 +136,8 @@ bool take(const row& row, const char* value, said_options& said, view_options& o
     case SCRIPT: out.script = value; break;
     case FRAMES: return parse_whole(row.name, value, 1, 1000000, out.frames);
     case SHOT: out.shot = value; return hair_output_has_ending(TOOL, value, ".png");
+    case FILM: out.film = value; return hair_output_has_ending(TOOL, value, ".mp4");
+    case QUALITY: return parse_whole(row.name, value, 0, 4, out.quality);
     case SAVE: out.save = value; return hair_output_has_ending(TOOL, value, ".json");
     case DEVICE:
         if (!parse_whole(row.name, value, 0, 1000, number)) return false;

@@ -55,8 +55,10 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
     session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + other_count);
     uint32_t count = hair_head_rig_colliders(&scene, time, session.transform, session.colliders.data());
     std::copy(others, others + other_count, session.colliders.begin() + count);
-    return hair_set_colliders(session.hair, session.colliders.data(), count + other_count,
-                              sizeof(hair_collider));
+    count += other_count;
+    result = hair_set_colliders(session.hair, session.colliders.data(), count, sizeof(hair_collider));
+    if (result || !session.twin) return result;
+    return hair_set_colliders(session.twin, session.colliders.data(), count, sizeof(hair_collider));
 }
 
 hair_result create_hair(view_session& session, const hair_scene& scene, hair_groom* groom,
@@ -87,6 +89,8 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
         return code;
     }
     hair_destroy(session.hair);
+    hair_destroy(session.twin);
+    session.twin = nullptr;
     hair_world_destroy(session.world);
     if (groom != session.groom) hair_groom_destroy(session.groom);
     session.hair = hair;
@@ -107,12 +111,14 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
     hair_result result = HAIR_OK;
     if (differs(old.settings.physics, scene.settings.physics))
         result = hair_set_physics(session.hair, &scene.settings.physics);
+    if (!result && session.twin) result = hair_set_physics(session.twin, &scene.settings.physics);
     if (!result && differs(old.settings.look, scene.settings.look))
         result = hair_set_look(session.hair, &scene.settings.look);
     session.look_is_cheap = false;
     if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
         hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
         result = hair_set_wind(session.hair, &wind);
+        if (!result && session.twin) result = hair_set_wind(session.twin, &wind);
     }
     return result;
 }
@@ -132,6 +138,16 @@ int remake(view_session& session, hair_scene& scene, bool with_groom)
     int code = with_groom ? hair_groom_source_load(TOOL, &session.host, &scene, &groom) : HAIR_EXIT_OK;
     if (!code) code = replace_hair(session, scene, groom);
     return code;
+}
+
+// Step the second head, which moves and is held like the first.
+hair_result step_twin(view_session& session, float dt)
+{
+    hair_result result = hair_set_transform(session.twin, session.transform);
+    if (!result)
+        result =
+            hair_set_pins(session.twin, session.pins.data(), (uint32_t)session.pins.size(), sizeof(hair_pin));
+    return result ? result : hair_step(session.twin, dt);
 }
 
 void destroy_renders(view_session& session)
@@ -158,6 +174,7 @@ int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void
 void view_session_close(view_session& session)
 {
     hair_destroy(session.hair);
+    hair_destroy(session.twin);
     hair_world_destroy(session.world);
     destroy_renders(session);
     hair_context_destroy(session.context);
@@ -200,6 +217,7 @@ int view_session_step(view_session& session, const hair_scene& scene, float dt, 
         result =
             hair_set_pins(session.hair, session.pins.data(), (uint32_t)session.pins.size(), sizeof(hair_pin));
     if (!result) result = hair_step(session.hair, step);
+    if (!result && session.twin) result = step_twin(session, step);
     return hair_exit_for(result);
 }
 
@@ -210,6 +228,8 @@ int view_session_reset(view_session& session, const hair_scene& scene)
     hair_motion_at(&scene.motion, 0, session.transform);
     hair_result result = hair_teleport(session.hair, session.transform);
     if (!result) result = hair_reset(session.hair);
+    if (!result && session.twin) result = hair_teleport(session.twin, session.transform);
+    if (!result && session.twin) result = hair_reset(session.twin);
     if (!result) result = set_colliders(session, scene);
     return hair_exit_for(result);
 }

@@ -10,13 +10,14 @@
 #include <vector>
 
 // Renderers of moving pictures and of pictures at rest, whose sizes differ.
-enum view_render { VIEW_RENDER_MOVING, VIEW_RENDER_FULL, VIEW_RENDERS };
+enum view_render { VIEW_RENDER_MOVING, VIEW_RENDER_FULL, VIEW_RENDER_REFERENCE, VIEW_RENDERS };
 
 struct view_session {
     hair_host host = {};
     hair_context* context = nullptr;
     hair_groom* groom = nullptr;
     hair_instance* hair = nullptr;
+    hair_instance* twin = nullptr; // hair of motion_error.h, which moves alike
     hair_world* world = nullptr;
     std::unique_ptr<hair_scene> world_scene; // scene that the world was made of
     hair_render* renders[VIEW_RENDERS] = {};
@@ -50,6 +51,10 @@ int view_session_reset(view_session& session, const hair_scene& scene);
 // status.
 int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
                       const view_quality& quality, view_render which);
+
+// Draw a picture that is shifted by fractions of a pixel, by a renderer of its own.
+int view_session_draw_shifted(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                              const view_quality& quality, const float shift[2]);
 
 // Return whether the hair sleeps, because it is in equilibrium.
 bool view_session_sleeps(const view_session& session);

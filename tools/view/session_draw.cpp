@@ -67,8 +67,8 @@ void reduce(const view_quality& quality, hair_scene& scene)
 
 } // namespace
 
-int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
-                      const view_quality& quality, view_render which)
+static int draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                const view_quality& quality, view_render which, const float shift[2])
 {
     const hair_image* image;
     hair_scene drawn = scene;
@@ -85,7 +85,21 @@ int view_session_draw(view_session& session, const hair_scene& scene, uint32_t w
     int code = make_render(session, scene, desc, which);
     if (!code) code = hair_exit_for(set_look(session, scene, !quality.shadows));
     if (code) return code;
+    hair_render_set_shift(session.render, shift);
     return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
+}
+
+int view_session_draw(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                      const view_quality& quality, view_render which)
+{
+    static const float none[2] = {0, 0};
+    return draw(session, scene, width, height, quality, which, none);
+}
+
+int view_session_draw_shifted(view_session& session, const hair_scene& scene, uint32_t width, uint32_t height,
+                              const view_quality& quality, const float shift[2])
+{
+    return draw(session, scene, width, height, quality, VIEW_RENDER_REFERENCE, shift);
 }
 
 bool view_session_sleeps(const view_session& session)

@@ -42,6 +42,12 @@ int view_state_report(const viewer& viewer, const std::string& path)
         viewer.is_slow, "shows_help", viewer.shows_help, "shows_panels", viewer.shows_panels, "shows_strip",
         viewer.shows_strip, "is_finite", is_finite, "undo", (int)viewer.document.undo.size());
     if (!viewer.session.pins.empty()) json_object_set_new(root, "held", held_of(viewer, guides));
+    if (viewer.image_error.flip >= 0) {
+        json_object_set_new(root, "flip", json_real(viewer.image_error.flip));
+        json_object_set_new(root, "samples", json_integer(viewer.image_error.samples));
+    }
+    if (viewer.motion_error.rms >= 0)
+        json_object_set_new(root, "motion_error", json_real(viewer.motion_error.rms));
     json_t* messages = json_array();
     for (const std::string& message : viewer.messages)
         json_array_append_new(messages, json_string(message.c_str()));

@@ -93,7 +93,22 @@ void show_history(const char* label, const std::vector<float>& values, const cha
 void show_errors(const viewer& viewer)
 {
     const view_measures& now = viewer.measures;
-    ImGui::TextDisabled("Motion");
+    const view_image_error& image = viewer.image_error;
+    const view_motion_error& motion = viewer.motion_error;
+    ImGui::TextDisabled("Errors");
+    if (!image.is_on)
+        ImGui::TextDisabled("image: off");
+    else if (image.flip < 0)
+        ImGui::Text("image: measuring, %u/%u", image.pictures * view_quality_of(0).samples,
+                    view_reference_samples);
+    else
+        ImGui::Text("image: FLIP %.4f of %u", image.flip, image.samples);
+    if (!motion.is_on)
+        ImGui::TextDisabled("motion: off");
+    else if (motion.rms < 0)
+        ImGui::Text("motion: measuring");
+    else
+        ImGui::Text("motion: %.2f %%, worst %.1f %%", 100 * motion.rms, 100 * motion.worst);
     show_history("fastest", now.fastest, "%.2f m/s", 1);
     show_history("stretch", now.stretch, "%.4f %%", 100);
     ImGui::Text("fallbacks %u, resets %u", now.stats.euler_fallbacks + now.stats.follow_fallbacks,

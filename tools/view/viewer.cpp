@@ -3,6 +3,7 @@
 #include "tools/view/arrows.h"
 #include "tools/view/controls.h"
 #include "tools/view/panel.h"
+#include "tools/view/record.h"
 #include "tools/view/state_report.h"
 
 #include <epoxy/gl.h>
@@ -17,6 +18,7 @@ namespace
 
 constexpr float script_dt = 1.0f / 60; // s
 constexpr size_t max_messages = 50;
+constexpr uint32_t motion_error_frames = 10; // frames between two measurements
 constexpr float slow_motion = 0.125f;
 constexpr double rest = 250; // time without motion after which the picture has full quality, ms
 
@@ -56,6 +58,7 @@ int open(viewer& viewer)
 void close(viewer& viewer)
 {
     hair_complain_to(nullptr, nullptr);
+    view_image_error_finish(viewer.image_error);
     view_gui_close(viewer.gui);
     view_session_close(viewer.session);
     view_document_close(viewer.document);
@@ -77,7 +80,7 @@ void follow_document(viewer& viewer)
 {
     hair_scene& scene = *viewer.document.scene;
     if (!memcmp(&scene, viewer.session.applied.get(), sizeof scene)) return;
-    viewer.moved = hair_now();
+    viewer_moved(viewer);
     if (view_session_apply(viewer.session, scene, viewer.document.name)) scene = *viewer.session.applied;
 }
 
@@ -96,10 +99,13 @@ int step(viewer& viewer, float dt)
     if (viewer.is_slow) dt *= slow_motion;
     viewer.steps_once = false;
     if (viewer.plays && viewer.loops && end > 0 && session.time >= end) session.time -= end;
+    viewer.draws = 0;
     int code = view_session_step(session, scene, dt, viewer.plays);
     bool is_moving =
         (viewer.plays && session.time < end) || !session.pins.empty() || !view_session_sleeps(session);
-    if (is_moving) viewer.moved = hair_now();
+    if (is_moving) viewer_moved(viewer);
+    if (!code && viewer.motion_error.is_on && viewer.frame % motion_error_frames == 0)
+        code = view_motion_error_update(viewer.motion_error, session, scene);
     return code;
 }
 
@@ -115,16 +121,21 @@ int draw_picture(viewer& viewer)
     viewer.is_moving = viewer.options.script.empty() && hair_now() - viewer.moved < rest;
     int code = HAIR_EXIT_OK;
     if (!is_equal || viewer.is_moving || !viewer.options.script.empty()) {
-        uint32_t level = viewer.is_moving ? viewer.governor.level : 0;
+        uint32_t level = viewer.is_moving ? viewer.governor.level : viewer.options.quality;
         view_render which = viewer.is_moving ? VIEW_RENDER_MOVING : VIEW_RENDER_FULL;
         code = view_session_draw(session, *viewer.document.scene, (uint32_t)width, (uint32_t)height,
                                  view_quality_of(level), which);
-        viewer.is_full = level == 0;
+        ++viewer.draws;
+        viewer.is_full = level == viewer.options.quality;
         viewer.picture_size[0] = width;
         viewer.picture_size[1] = height;
     }
     if (code) return code;
     unsigned texture = hair_render_texture(session.render);
+    if (viewer.image_error.is_on && viewer.is_full && !viewer.is_moving)
+        code = view_image_error_update(viewer.image_error, session, *viewer.document.scene, texture,
+                                       viewer.motion);
+    if (code) return code;
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {place.left, place.top},
@@ -133,21 +144,18 @@ int draw_picture(viewer& viewer)
     return HAIR_EXIT_OK;
 }
 
-int write_shot(viewer& viewer)
+// Write what the end of a frame asks for: a picture, a frame of a film, or the shot of a script.
+int write_pictures(viewer& viewer, bool is_last)
 {
-    std::vector<unsigned char> pixels;
-    view_stage_read(viewer.stage, pixels);
-    hair_image image = {};
-    image.width = (uint32_t)viewer.stage.width;
-    image.height = (uint32_t)viewer.stage.height;
-    image.encoded = pixels.data();
-    hair_output output;
-    if (!hair_output_open(TOOL, viewer.options.shot.c_str(), &output)) return HAIR_EXIT_RUNTIME;
-    if (hair_image_write_png(&image, output.file))
-        return hair_output_commit(&output) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
-    hair_complain(TOOL, "%s: cannot write the picture", viewer.options.shot.c_str());
-    hair_output_discard(&output);
-    return HAIR_EXIT_RUNTIME;
+    int code = is_last && !viewer.options.shot.empty() ? view_write_picture(viewer, viewer.options.shot)
+                                                       : HAIR_EXIT_OK;
+    if (!code) code = view_record_frame(viewer);
+    if (!code && is_last) code = view_record_end(viewer);
+    if (!viewer.wants_picture) return code;
+    viewer.wants_picture = false;
+    std::string path = view_new_name(".png");
+    if (!view_write_picture(viewer, path)) viewer_say(viewer, "Wrote the picture " + path + ".");
+    return code;
 }
 
 // Return a name of a scene file that does not exist yet.
@@ -191,7 +199,8 @@ int run_frame(viewer& viewer)
 {
     bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
     bool is_scripted = !viewer.options.script.empty();
-    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty());
+    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || viewer.film.is_on ||
+                 viewer.wants_picture || viewer.image_error.is_on;
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
     double before = hair_now();
     float dt = tick(viewer);
@@ -208,7 +217,7 @@ int run_frame(viewer& viewer)
     if (!code && draws) code = draw_picture(viewer);
     if (draws) view_stage_begin(viewer.stage);
     view_gui_end(viewer.gui, draws);
-    if (!code && is_last && !viewer.options.shot.empty()) code = write_shot(viewer);
+    if (!code && draws) code = write_pictures(viewer, is_last);
     if (draws) measure_frame(viewer, before);
     if (draws) view_stage_end(viewer.stage);
     ++viewer.frame;
@@ -217,6 +226,12 @@ int run_frame(viewer& viewer)
 }
 
 } // namespace
+
+void viewer_moved(viewer& viewer)
+{
+    viewer.moved = hair_now();
+    ++viewer.motion;
+}
 
 void viewer_say(viewer& viewer, const std::string& sentence)
 {
@@ -232,7 +247,9 @@ int viewer_run(viewer& viewer)
                   : !viewer.options.file.empty() ? viewer.options.file
                                                  : find_path();
     int code = open(viewer);
+    if (!code && !viewer.options.film.empty()) code = view_record_begin(viewer, viewer.options.film);
     while (!code && !viewer.quits) code = run_frame(viewer);
+    if (viewer.film.is_on && view_record_end(viewer) && !code) code = HAIR_EXIT_RUNTIME;
     close(viewer);
     return code;
 }

@@ -4,6 +4,8 @@
 
 #include "tools/view/document.h"
 #include "tools/view/gui.h"
+#include "tools/view/image_error.h"
+#include "tools/view/motion_error.h"
 #include "tools/view/options.h"
 #include "tools/view/script.h"
 #include "tools/view/session.h"
@@ -30,7 +32,16 @@ struct view_measures {
     hair_report_info info = {};
     std::vector<hair_report_row> rows;
     hair_solver_stats stats = {};
-    std::vector<float> fastest, stretch; // over time
+    std::vector<float> fastest, stretch, motion_error; // over time
+};
+
+// Film of the window that is being written.
+struct view_film {
+    bool is_on = false;
+    std::string path;
+    hair_frame_writer writer = {};
+    uint32_t frames = 0;
+    std::vector<unsigned char> pixels;
 };
 
 struct viewer {
@@ -59,10 +70,16 @@ struct viewer {
     view_governor governor;
     bool is_full = false; // the picture has full quality, and nothing has moved since
     bool is_moving = false; // the picture is that of a moving scene
+    uint32_t draws = 0; // pictures since the last step
     int picture_size[2] = {0, 0}; // pixels
     double frame_ms = 0; // smoothed time of a frame
     bool shows_strip = true; // timings and errors below the picture
     view_measures measures;
+    view_film film;
+    view_image_error image_error;
+    view_motion_error motion_error;
+    uint64_t motion = 0; // number of motions in the picture so far
+    bool wants_picture = false; // writes the window at the end of this frame
     double moved = 0; // time of the last motion in the picture, ms
     double last = 0; // time of the last frame, ms
     std::string path; // file that the scene is saved as
@@ -73,6 +90,9 @@ struct viewer {
     std::vector<std::string> messages; // newest last
     uint32_t said = 0; // frame of the newest message
 };
+
+// Note that something in the picture has moved.
+void viewer_moved(viewer& viewer);
 
 // Add a sentence to the messages of the window.
 void viewer_say(viewer& viewer, const std::string& sentence);
