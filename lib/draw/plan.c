@@ -5,8 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-// Maximum vertices, of 24 bytes each. Beyond it, memory costs more than time.
+// Maximum vertices, of 24 bytes each and 8 for their shading. Beyond it, memory costs more than
+// time. Where compute rasterisation is the fastest, drawing takes a multiple of its time.
 #define MAX_CACHED 4194304u
+#define MAX_COMPUTED 33554432u
+#define VERTEX_BYTES 32u
 #define MAX_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
 
 // Methods of drawing strands.
@@ -107,6 +110,16 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
     return method_of[kind][path][view->lod != NULL];
 }
 
+// Return whether the vertices of all followers may be cached: up to `max` of them, within the memory
+// limit. Those that are already cached may stay.
+static bool can_cache(const struct hair_renderer* renderer, size_t vertices, size_t max)
+{
+    const struct hair_gl_memory* memory = &renderer->gl->memory;
+    if (vertices > max) return false;
+    if (!memory->limit || renderer->geometry->vertex_cache.vertices >= vertices) return true;
+    return memory->bytes <= memory->limit && vertices * VERTEX_BYTES <= memory->limit - memory->bytes;
+}
+
 // Return the render path that HAIR_RENDER_PATH_AUTO selects.
 static hair_render_path find_fastest_for(const struct hair_renderer* renderer, enum kind kind,
                                          const hair_view* view)
@@ -116,7 +129,8 @@ static hair_render_path find_fastest_for(const struct hair_renderer* renderer, e
     HAIR_ASSERT(0 <= column && column < 5 && renderer->driver < sizeof fastest / sizeof *fastest);
     hair_render_path path = fastest[renderer->driver].path[column];
     size_t vertices = hair_geometry_count_vertices(renderer->geometry);
-    if ((path == HAIR_RENDER_PATH_CACHED || path == HAIR_RENDER_PATH_COMPUTE) && vertices > MAX_CACHED)
+    if (path == HAIR_RENDER_PATH_TESSELLATION) return path;
+    if (!can_cache(renderer, vertices, path == HAIR_RENDER_PATH_COMPUTE ? MAX_COMPUTED : MAX_CACHED))
         return HAIR_RENDER_PATH_TESSELLATION;
     if (path != HAIR_RENDER_PATH_COMPUTE) return path;
     if ((kind == PLAIN || kind == OPACITY) && methods[find_method(kind, view, path)].is_computed &&

@@ -232,9 +232,30 @@ static void auto_does_not_cache_more_than_fits(void** state)
     struct hair_renderer many = f.hair->renderer;
     geometry.followers = 4000000;
     many.geometry = &geometry;
-    assert_int_not_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
+    assert_int_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_TESSELLATION);
     view.render_path = HAIR_RENDER_PATH_CACHED;
     assert_int_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
+    hair_test_scene_free(&f);
+}
+
+// Check that a fast path is not selected beyond the memory limit, but kept where it has memory.
+static void auto_stays_within_the_memory_limit(void** state)
+{
+    struct hair_test_scene f = start(state, 0);
+    hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
+    hair_memory memory = hair_memory_default();
+    hair_render_path usual = hair_test_path_of(&f.hair->renderer, &view);
+    assert_int_not_equal(usual, HAIR_RENDER_PATH_TESSELLATION);
+    hair_test_ok(f.test, hair_get_memory(f.test->context, &memory));
+    hair_test_ok(f.test, hair_set_memory_limit(f.test->context, memory.bytes + 1024));
+    assert_int_equal(hair_test_path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_TESSELLATION);
+    hair_test_ok(f.test, hair_set_memory_limit(f.test->context, 0));
+    static struct picture picture;
+    draw(&f, &view, &picture);
+    hair_test_ok(f.test, hair_get_memory(f.test->context, &memory));
+    hair_test_ok(f.test, hair_set_memory_limit(f.test->context, memory.bytes));
+    assert_int_equal(hair_test_path_of(&f.hair->renderer, &view), usual);
+    hair_test_ok(f.test, hair_set_memory_limit(f.test->context, 0));
     hair_test_scene_free(&f);
 }
 
@@ -247,6 +268,7 @@ int main(void)
         HAIR_TEST(groom_colors_are_drawn_by_all_paths),
         HAIR_TEST(auto_uses_the_path_of_the_table_and_reports_it),
         HAIR_TEST(auto_does_not_cache_more_than_fits),
+        HAIR_TEST(auto_stays_within_the_memory_limit),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
