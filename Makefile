@@ -60,7 +60,7 @@ REF   := $(call objects,tests/reference/*.cpp)
 GLSL  := $(sort $(wildcard glsl/*.glsl glsl/*.h glsl/*/*))
 TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
 TOOLS += $(if $(filter 0,$(VIEW)),,$(B)/hair-view)
-TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/unit/*_test.c))
+TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/hosts/*_test.c tests/unit/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
 TESTS += $(if $(filter 0,$(VIEW)),,$(patsubst %.c,$(B)/%,$(wildcard tests/view/*_test.c)))
 EXAMPLES := $(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c))
@@ -243,6 +243,15 @@ SUPPORT := $(call objects,tests/support/*.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
+
+# Hosts have only what users of the library have.
+$(B)/tests/hosts/%.c.o: tests/hosts/%.c
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(C) -Wno-conversion $(patsubst -I%,-isystem %,$(call packages,--cflags,epoxy sdl2)) -c $< -o $@
+$(B)/tests/hosts/%_test: $(B)/tests/hosts/%_test.c.o $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CC) $(opt.$(config)) $^ $(call packages,--libs,cmocka) $(EXAMPLE_LIBS) -o $@
 
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
