@@ -7,7 +7,7 @@ $(VENV)/installed: tools/convert/pyproject.toml
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/convert/packages.txt
 	@python3 -m venv $(VENV)
 	@$(VENV)/bin/pip install -q --disable-pip-version-check -e tools/convert || \
-	  { echo "pip could not install numpy, usd-core and alembic3d, which hair-convert needs (above)."; exit 1; }
+	  { echo "pip could not install numpy, libigl, usd-core and alembic3d, which hair-convert needs (above)."; exit 1; }
 	@touch $@
 
 # The variable HAIR_CONVERT_DATA names a folder of haircuts for further round trips.

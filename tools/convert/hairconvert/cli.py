@@ -66,6 +66,7 @@ def make_parser():
     _add_input_options(convert)
     _add_output_options(convert)
     _add_curve_options(convert)
+    _add_scalp_options(convert)
     motion = commands.add_parser("motion", help="write a dump of hair-capture as USD time samples "
                                  "or as an Alembic cache")
     motion.add_argument("input", metavar="DUMP", help="of hair-capture --dump-guides or "
@@ -77,7 +78,7 @@ def make_parser():
     _add_curve_options(motion)
     motion.set_defaults(scale=None, up=None, frame=None, samples=None, tip_first=False, take="all",
                         vertices=None, mesh=None)
-    scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .obj, .tfxmesh) to "
+    scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .usd, .obj, .tfxmesh) to "
                                 ".obj or .tfxmesh, with texture coordinates or skin weights")
     scalp.add_argument("input", metavar="IN")
     scalp.add_argument("output", metavar="OUT")
@@ -92,6 +93,20 @@ def _add_curve_options(parser):
                         help="of curves in USD, both go through the vertices; linear")
     parser.add_argument("--width", metavar="X", type=_number(1e-7, 1),
                         help="diameter of strands, m, if the input has no widths")
+
+
+def _add_scalp_options(parser):
+    parser.add_argument("--scalp", metavar="MESH", help="fit the haircut to this mesh: seat roots, "
+                        "lead strands out of the head, add root_uv")
+    parser.add_argument("--scalp-scale", metavar="X", type=_number(1e-6, 1e6),
+                        help="metres of one unit of the scalp; without it, what the file says, "
+                        "else 1")
+    parser.add_argument("--scalp-up", choices="xyz", help="the axis of the scalp that points up; "
+                        "without it, what the file says, else y")
+    parser.add_argument("--seat-within", metavar="X", type=_number(0, 10), default=0.02,
+                        help="roots farther from the scalp than this stay, m; 0.02")
+    parser.add_argument("--bones", metavar="FILE.tfxbone", help="write the joints and weights of "
+                        "each strand, from the skin of the scalp")
 
 
 def _add_mesh_option(parser):
@@ -183,7 +198,30 @@ def _write_whole(command, options, temporary, report):
 def _convert(options, temporary, report):
     find_format(options.output, to_write=True)
     groom = read_groom(options.input, options, report)
+    if options.bones and not options.scalp:
+        raise UsageError("--bones needs the skin of a --scalp")
+    if options.scalp:
+        groom = _fit_to_scalp(groom, options, report)
     write_groom(groom, temporary, options.output, options, report)
+
+
+def _fit_to_scalp(groom, options, report):
+    from hairconvert import repair, tfxmesh  # Only here, because igl takes time to load.
+    mesh_options = argparse.Namespace(mesh=options.mesh, scale=options.scalp_scale,
+                                      up=options.scalp_up)
+    try:
+        mesh = read_mesh(options.scalp, mesh_options, report)
+        if options.bones and mesh.weights is None:
+            raise InputError("the mesh has no skin, which --bones needs")
+    except InputError as error:
+        raise InputError(f"the scalp {options.scalp}: {error}") from None
+    groom, surface = repair.fit_to_scalp(groom, mesh, options.seat_within, report)
+    if options.bones:
+        joints, weights = repair.find_bones(groom, mesh, surface)
+        temporary = temporary_name(options.bones)
+        tfxmesh.write_bones(mesh.joint_names, joints, weights, temporary)
+        os.replace(temporary, options.bones)
+    return groom
 
 
 def _convert_motion(options, temporary, report):

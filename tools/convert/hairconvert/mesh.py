@@ -22,6 +22,8 @@ class Mesh:
     weights: np.ndarray = None  # (n, 4) float64, their sum is 1
     joint_names: list = dataclasses.field(default_factory=list)
     format: str = ""
+    unit: float = None  # metres of a unit of the file, None if the file does not tell
+    up: str = None  # axis of the file that points up
 
 
 def check_mesh(mesh, report):

@@ -8,7 +8,15 @@ from hairconvert.groom import rotate_from_y
 from hairconvert.mesh import check_mesh, place_mesh
 from hairconvert.report import InputError, UsageError
 
-READERS = {(".gltf", ".glb"): gltf.read, (".obj",): obj.read_mesh, (".tfxmesh",): tfxmesh.read}
+
+
+def _read_usd(path, name, report):
+    from hairconvert import usd_mesh  # Only here, because the packages of USD may be missing.
+    return usd_mesh.read(path, name, report)
+
+
+READERS = {(".gltf", ".glb"): gltf.read, (".obj",): obj.read_mesh, (".tfxmesh",): tfxmesh.read,
+           (".usda", ".usdc", ".usd", ".usdz"): _read_usd}
 WRITERS = {(".obj",): obj.write_mesh, (".tfxmesh",): tfxmesh.write}
 
 
@@ -31,7 +39,8 @@ def read_mesh(path, options, report):
     if not os.path.isfile(path):
         raise InputError("there is no such file")
     mesh = refuse_errors(reader, path, options.mesh, report)
-    return place_mesh(check_mesh(mesh, report), options.scale or 1, options.up or "y")
+    return place_mesh(check_mesh(mesh, report), options.scale or mesh.unit or 1,
+                      options.up or mesh.up or "y")
 
 
 def write_mesh(mesh, path, name, options, report):

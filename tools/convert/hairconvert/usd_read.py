@@ -39,12 +39,13 @@ def read(path, options, report):
         raise InputError(f"timeCodesPerSecond is {rate:g}, not in [1e-6, 1e6]")
     grooms = [p.to_groom(rest, codes, rate) for p in parts]
     groom = merge(grooms, [p.prim.GetName() for p in parts], report)
-    groom.format, groom.unit = "usd", _unit(stage, report)
+    groom.format, groom.unit = "usd", find_unit(stage, report)
     groom.up = "z" if UsdGeom.GetStageUpAxis(stage) == UsdGeom.Tokens.z else "y"
     return groom
 
 
-def _unit(stage, report):
+def find_unit(stage, report):
+    """Return the metres of a unit of a stage."""
     unit = UsdGeom.GetStageMetersPerUnit(stage)
     if not (1e-9 <= unit <= 1e9):
         raise InputError(f"metersPerUnit is {unit:g}, not in [1e-9, 1e9]")

@@ -225,6 +225,40 @@ class MeshFormatTest(MeshCase):
         self.assertEqual(self.convert("scalp", self.file("c.obj", b"v 0 0 0\nf 1 1 2\n"),
                                       self.path("d.obj"))[0], 4)
 
+    def test_usd_meshes(self):
+        from pxr import Sdf, Usd, UsdGeom, UsdSkel, Vt
+        stage = Usd.Stage.CreateNew(self.path("a.usda"))
+        UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+        UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
+        root = UsdGeom.Xform.Define(stage, "/head")
+        root.AddTranslateOp().Set((0, 0, 100))
+        mesh = UsdGeom.Mesh.Define(stage, "/head/scalp")
+        mesh.CreatePointsAttr([(0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0), (5, 20, 0)])
+        mesh.CreateFaceVertexCountsAttr([4, 3])
+        mesh.CreateFaceVertexIndicesAttr([0, 1, 2, 3, 3, 2, 4])
+        UsdGeom.PrimvarsAPI(mesh).CreatePrimvar(
+            "st", Sdf.ValueTypeNames.TexCoord2fArray, "faceVarying").Set(
+            [(0, 0), (1, 0), (1, 1), (0, 1), (0.5, 0), (0.75, 0), (0, 0.5)])
+        skin = UsdSkel.BindingAPI.Apply(mesh.GetPrim())
+        skin.CreateJointsAttr(Vt.TokenArray(["root", "root/neck"]))
+        skin.CreateJointIndicesPrimvar(False, 2).Set([0, 1] * 5)
+        skin.CreateJointWeightsPrimvar(False, 2).Set([0.25, 0.75] * 5)
+        stage.GetRootLayer().Save()
+        for options in ((), ("--mesh", "scalp"), ("--mesh", "head")):
+            got = self.mesh(self.path("a.usda"), *options)
+            self.assertEqual(len(got.triangles), 3)
+            corners = got.points[got.triangles]
+            np.testing.assert_allclose(corners[0], [[0, 1, 0], [0.1, 1, 0], [0.1, 1, -0.1]],
+                                       atol=1e-7)
+            np.testing.assert_allclose(got.uv[got.triangles][1], [[0.5, 0], [0.75, 0], [0, 0.5]])
+            self.assertEqual(got.joint_names, ["root", "neck"])
+            self.assertEqual(got.weights[0].tolist(), [0.75, 0.25, 0, 0])
+        mesh.GetFaceVertexIndicesAttr().Set([0, 1, 2, 3, 3, 2, 9])
+        stage.GetRootLayer().Save()
+        status, said = self.convert("scalp", self.path("a.usda"), self.path("b.obj"))
+        self.assertEqual(status, 4)
+        self.assertIn("outside of the 5 vertices", said)
+
     def test_bones_of_strands(self):
         joints, weights = np.array([[1, 0, 0, 0]] * 3), np.array([[0.75, 0.25, 0, 0]] * 3)
         tfxmesh.write_bones(["root", "neck"], joints, weights, self.path("a.tfxbone"))
