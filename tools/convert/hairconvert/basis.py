@@ -19,6 +19,7 @@ MATRICES = {
     CATMULL_ROM: np.array([[0, 2, 0, 0], [-1, 0, 1, 0], [2, -5, 4, -1], [-1, 3, -3, 1]]) / 2,
 }
 SAMPLES = (1, 2, 4, 8, 16)
+FINE = 32  # edges per segment of the polyline that stands for the curve
 TOLERANCE = 1e-3  # distance of a polyline from its curve, in lengths of the strand
 TRIED_STRANDS = 1000
 
@@ -121,10 +122,10 @@ def _blend(values, indices, weights):
 
 def choose_samples(basis, wrap, counts, points):
     """Return the least number of edges per segment within TOLERANCE, and the distance from the
-    curve in lengths of the strand."""
+    curve in lengths of the strand. Catmull-Rom curves go through their vertices and keep them."""
     counts = np.asarray(counts, np.int64)[:TRIED_STRANDS]
     points = points[:counts.sum()]
-    fine = Sampler(basis, wrap, counts, SAMPLES[-1])
+    fine = Sampler(basis, wrap, counts, FINE)
     if len(fine.indices) == 0 or not np.isfinite(points).all():
         return 1, 0.0
     curve = fine.sample(points)
@@ -138,13 +139,13 @@ def choose_samples(basis, wrap, counts, points):
     length = np.repeat(np.maximum(length, 1e-30), fine.counts)
     within = np.arange(len(curve)) - np.repeat(starts, fine.counts)
     for samples in SAMPLES:
-        skip = SAMPLES[-1] // samples
+        skip = FINE // samples
         before = np.arange(len(curve)) - within % skip
         after = np.minimum(before + skip, len(curve) - 1)
         t = ((within % skip) / skip)[:, None]
         chord = curve[before] * (1 - t) + curve[after] * t
         error = float((np.linalg.norm(curve - chord, axis=1) / length).max())
-        if error <= TOLERANCE:
+        if error <= TOLERANCE or basis == CATMULL_ROM:
             break
     return samples, error
 

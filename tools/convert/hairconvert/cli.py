@@ -130,7 +130,7 @@ def _add_input_options(parser):
                         "without it, the first")
     parser.add_argument("--samples", metavar="N", type=_whole(1, 64),
                         help="edges of the polyline per segment of a cubic curve; without it, as "
-                        "many as keep within 0.001 of the strand's length")
+                        "many as keep within 0.001 of the strand's length, and 1 for catmullRom")
     parser.add_argument("--tip-first", action="store_true",
                         help="strands of the input run from tip to root")
     parser.add_argument("--take", choices=("all", "guides", "strands"), default="all",

@@ -1,5 +1,7 @@
 """Puts values of a curve primitive, of any interpolation, on strands and vertices."""
 
+import numpy as np
+
 from hairconvert.groom import GROOM, STRAND, VERTEX, Attribute
 
 
@@ -35,6 +37,8 @@ class Values:
             self.report.lose(where, f"{n} values fit no {interpolation} interpolation of "
                              f"{self.curve_count} strands with {self.point_count} points")
             return
+        if name == "width" and table.dtype.kind == "f":
+            table = np.maximum(table, 0)  # Cubic interpolation can go below 0.
         self.attributes[name] = Attribute(scope, table, role)
 
     def _at_vertices(self, table, interpolation):

@@ -116,3 +116,7 @@ class SamplerTest(unittest.TestCase):
         samples, error = choose_samples(BEZIER, NONPERIODIC, [7] * 20, self.points[:140])
         self.assertGreater(samples, 4)
         self.assertLess(error, 1e-2)
+        self.assertGreater(error, 1e-6)
+        samples, error = choose_samples(CATMULL_ROM, PINNED, [7] * 20, self.points[:140])
+        self.assertEqual(samples, 1)
+        self.assertGreater(error, 1e-3)
