@@ -42,8 +42,7 @@ static void example_draws_hair_like_its_golden_picture(void** state)
     char command[512], path[256], golden[64];
     snprintf(path, sizeof path, HAIR_BUILD_DIR "/example_%s.ppm", name);
     snprintf(command, sizeof command, ENVIRONMENT HAIR_BUILD_DIR "/examples/%s %s%s%s", name,
-             strcmp(name, "hello_window") ? "" : "--frames 20 --out ", path,
-             strcmp(name, "hello_window") ? " 256" : "");
+             strcmp(name, "hello_window") ? "" : "20 ", path, strcmp(name, "hello_window") ? " 256" : "");
     int status = system(command);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);
     read_ppm(path, pixels);

@@ -1,9 +1,9 @@
 // hello_window.c - A head of hair that turns to and fro in a window of SDL.
 //
-//     hello_window [--frames N --out FILE.ppm]
+//     hello_window [FRAMES FILE.ppm]
 //
-// The program runs until the window is closed. With --out the window is hidden, and the program
-// simulates N frames of 1/60 s and writes the last one.
+// The program runs until the window is closed. With arguments the window is hidden, and the program
+// simulates FRAMES of 1/60 s and writes the last one.
 #include "bust.h"
 #include "camera.h"
 #include <SDL.h>
@@ -22,12 +22,9 @@ static SDL_Window* open_window(int width, int height, int hidden)
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
     SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 24);
-    SDL_GL_SetAttribute(SDL_GL_MULTISAMPLEBUFFERS, 1);
-    SDL_GL_SetAttribute(SDL_GL_MULTISAMPLESAMPLES, 4);
     SDL_GL_SetAttribute(SDL_GL_FRAMEBUFFER_SRGB_CAPABLE, 1);
     Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | (hidden ? SDL_WINDOW_HIDDEN : 0u);
-    SDL_Window* window =
-        SDL_CreateWindow("hair", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height, flags);
+    SDL_Window* window = SDL_CreateWindow("hair", 0, 0, width, height, flags);
     if (!window || !SDL_GL_CreateContext(window)) fail(SDL_GetError());
     SDL_GL_SetSwapInterval(1);
     return window;
@@ -39,6 +36,7 @@ static hair_instance* make_hair(hair_context* context)
     hair_groom* groom = make_groom(HAIR_STYLE_LONG, 6000);
     hair_look look = hair_look_default();
     look.strand.radius = 3e-4f; // 6000 strands stand for 100000.
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS; // Strands shade strands, without a map.
     hair_desc desc = hair_desc_default();
     desc.look = &look;
     check(hair_create(context, groom, &desc, &hair));
@@ -70,28 +68,26 @@ static void draw(hair_instance* hair, const struct bust* bust, const float trans
     hair_view view = hair_view_default();
     memcpy(view.view, camera.view, sizeof view.view);
     memcpy(view.projection, camera.projection, sizeof view.projection);
+    view.coverage = HAIR_COVERAGE_ALPHA; // Smooth edges without multisampling.
     check(hair_draw(hair, &view));
 }
 
 static int wants_to_quit(void)
 {
     SDL_Event event;
-    int quit = 0;
-    while (SDL_PollEvent(&event)) quit |= event.type == SDL_QUIT;
-    return quit;
+    while (SDL_PollEvent(&event))
+        if (event.type == SDL_QUIT) return 1;
+    return 0;
 }
 
 int main(int argc, char** argv)
 {
-    const char* out = NULL;
-    int frames = 30, width, height;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (strcmp(argv[i], "--frames") == 0) frames = (int)strtol(argv[i + 1], NULL, 10);
-        if (strcmp(argv[i], "--out") == 0) out = argv[i + 1];
-    }
+    const char* out = argc > 2 ? argv[2] : NULL;
+    long frames = out ? strtol(argv[1], NULL, 10) : 0;
+    int width, height;
     SDL_Window* window = open_window(out ? 256 : 800, out ? 192 : 600, out != NULL);
     glEnable(GL_DEPTH_TEST);
-    glEnable(GL_FRAMEBUFFER_SRGB);
+    glEnable(GL_FRAMEBUFFER_SRGB); // Linear colours become those of the window.
     glClearColor(0.16f, 0.19f, 0.24f, 1);
 
     hair_context* context;
@@ -103,14 +99,11 @@ int main(int argc, char** argv)
     hair_instance* hair = make_hair(context);
     struct bust bust = bust_create();
 
-    float time = 0, transform[16];
-    Uint64 last = SDL_GetTicks64();
-    for (int frame = 0; out ? frame < frames : !wants_to_quit(); ++frame) {
-        Uint64 now = SDL_GetTicks64();
-        float dt = out ? 1.0f / 60 : (float)(now - last) / 1000;
-        last = now;
-        time += dt;
-        step(hair, time, dt, transform);
+    float time = out ? 0 : (float)SDL_GetTicks64() / 1000, transform[16];
+    for (long frame = 0; out ? frame < frames : !wants_to_quit(); ++frame) {
+        float now = out ? (float)(frame + 1) / 60 : (float)SDL_GetTicks64() / 1000;
+        step(hair, now, fminf(now - time, 0.1f), transform);
+        time = now;
         if (out && frame < frames - 1) continue;
         SDL_GL_GetDrawableSize(window, &width, &height);
         draw(hair, &bust, transform, width, height);
@@ -120,7 +113,6 @@ int main(int argc, char** argv)
     bust_destroy(&bust);
     hair_destroy(hair);
     hair_context_destroy(context);
-    SDL_DestroyWindow(window);
     SDL_Quit();
     return EXIT_SUCCESS;
 }
