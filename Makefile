@@ -101,6 +101,10 @@ view: setup ## Build and open hair-view, a window with every option in a panel
 	@$(MAKE) -j$(JOBS) $(B)/hair-view
 	$(B)/hair-view
 
+view-film: setup ## build/view.mp4: a tour of hair-view, by a script
+	@$(MAKE) -j$(JOBS) $(B)/hair-view
+	$(B)/hair-view --script tools/view/film.txt --frames 1150 --quality 2 --film build/view.mp4
+
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
 	$(B)/hair-gallery -o build/gallery.png
@@ -338,4 +342,4 @@ include tools/packaging/windows.mk
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all view bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean
+.PHONY: all view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean

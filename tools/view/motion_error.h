@@ -1,5 +1,5 @@
-// motion_error.h - Error of the motion, against a second head of hair under the accurate solver with
-// short substeps.
+// motion_error.h - Error of the motion, against a second head of hair under the accurate solver
+// with short substeps.
 #ifndef HAIR_TOOLS_VIEW_MOTION_ERROR_H
 #define HAIR_TOOLS_VIEW_MOTION_ERROR_H
 

@@ -27,6 +27,12 @@ std::string bytes_of(uint64_t bytes)
     return text;
 }
 
+// Return the number of pictures in the frame of the report, which lasts from step to step.
+float pictures_of(const viewer& viewer)
+{
+    return (float)std::max(viewer.draws, 1u);
+}
+
 void show_frame(const viewer& viewer)
 {
     const view_measures& now = viewer.measures;
@@ -34,8 +40,13 @@ void show_frame(const viewer& viewer)
     hair_get_memory(viewer.session.context, &memory);
     const char* quality = view_quality_of(viewer.is_moving ? viewer.governor.level : 0).about;
     ImGui::TextDisabled("Frame");
-    ImGui::Text("%.1f frames/s", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0);
-    ImGui::Text("%.1f ms, hair %.1f ms", viewer.frame_ms, (double)now.info.ms);
+    // Frames of a script have no time of their own.
+    if (viewer.options.script.empty())
+        ImGui::Text("%.1f frames/s, %.1f ms", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0,
+                    viewer.frame_ms);
+    else
+        ImGui::Text("frame %u of a script", viewer.frame);
+    ImGui::Text("hair %.1f ms", (double)(now.info.ms / pictures_of(viewer)));
     ImGui::Text("%s", bytes_of(memory.bytes).c_str());
     ImGui::TextDisabled("quality: %s", quality);
     ImGui::TextDisabled("%u strands, %u guides", viewer.session.info.follower_count,
@@ -64,7 +75,7 @@ void show_stages(const viewer& viewer)
             ImGui::SetTooltip("%s\n%s", row.pass ? row.pass : "no pass", bytes_of(row.bytes).c_str());
         ImGui::TableNextColumn();
         if (has_run)
-            ImGui::Text("%.2f ms", (double)row.ms);
+            ImGui::Text("%.2f ms", (double)(row.ms / pictures_of(viewer)));
         else
             ImGui::TextDisabled("%s", hair_skip_reason_string(row.skip_reason));
         ImGui::TableNextColumn();

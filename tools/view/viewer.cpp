@@ -132,9 +132,11 @@ int draw_picture(viewer& viewer)
     }
     if (code) return code;
     unsigned texture = hair_render_texture(session.render);
+    uint32_t pictures = viewer.image_error.pictures;
     if (viewer.image_error.is_on && viewer.is_full && !viewer.is_moving)
         code = view_image_error_update(viewer.image_error, session, *viewer.document.scene, texture,
                                        viewer.motion);
+    if (viewer.image_error.pictures > pictures) ++viewer.draws;
     if (code) return code;
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
