@@ -92,6 +92,7 @@ static void mouse_and_keys_change_the_picture(void** state)
         "click Hair\\nmove 9 9",
         "key 1\\nmove 9 9",
         "key P\\nmove 9 9",
+        "key W\\nkey C\\nmove 9 9",
     };
     for (size_t i = 0; i < sizeof scripts / sizeof *scripts; ++i) {
         char command[512];
@@ -103,6 +104,18 @@ static void mouse_and_keys_change_the_picture(void** state)
            "printf 'key I\\nmove 400 120\\nwheel 3\\nkey Ctrl+Z\\nmove 9 9' >$D/s; " RUN
            "b.png; cmp $D/a.png $D/b.png",
            "");
+}
+
+static void shaders_of_a_folder_are_compiled_again(void** state)
+{
+    (void)state;
+    expect(0,
+           "cp -r glsl $D/glsl; printf 'wait 2\\nkey F5\\nreport '$D'/r.json' >$D/s; " RUN
+           "b.png --glsl $D/glsl",
+           "");
+    expect(0, "grep 'Compiled all shaders again' $D/r.json", "");
+    expect(3, "echo 'vec9 broken;' >>$D/glsl/draw/strand.frag; " RUN "b.png --glsl $D/glsl",
+           "shader glsl/draw/strand.frag does not compile");
 }
 
 static int start(void** state)
@@ -118,6 +131,7 @@ int main(void)
         cmocka_unit_test(a_missing_display_exits_with_3_and_names_scripts),
         cmocka_unit_test(wrong_scripts_exit_with_4),
         cmocka_unit_test(equal_scripts_give_equal_pictures),
+        cmocka_unit_test(shaders_of_a_folder_are_compiled_again),
         cmocka_unit_test(mouse_and_keys_change_the_picture),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

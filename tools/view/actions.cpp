@@ -1,8 +1,10 @@
 // actions.cpp - The table of all actions, each with a label and a key.
 #include "tools/view/actions.h"
+#include "tools/view/compare.h"
 #include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 #include "tools/view/record.h"
+#include "tools/view/shader_watch.h"
 
 #include <string.h>
 
@@ -160,6 +162,10 @@ const view_action actions[] = {
      toggle_image_error, has_image_error},
     {"Errors", "Motion error", SDLK_g, 0, "Measure the motion against short steps of the accurate solver.",
      toggle_motion_error, has_motion_error},
+    {"Errors", "Compare", SDLK_w, 0, "Keep these settings on the left of a line, and change the right.",
+     view_toggle_compare, view_compares},
+    {"Errors", "Reload shaders", SDLK_F5, 0, "Compile the shaders of --glsl again.", view_reload_shaders,
+     nullptr},
     {"Window", "Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
      toggle<&viewer::shows_help>, is<&viewer::shows_help>},
     {"Window", "Strip", SDLK_i, 0, "Show or hide timings and errors below the picture.",

@@ -2,6 +2,7 @@
 #include "tools/view/controls.h"
 #include "tools/view/actions.h"
 #include "tools/view/camera.h"
+#include "tools/view/compare.h"
 #include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 
@@ -69,8 +70,10 @@ void press(viewer& viewer, const SDL_MouseButtonEvent& event)
 {
     if (viewer.drag != VIEW_DRAG_NONE) return;
     bool grabs = event.button == SDL_BUTTON_LEFT && (SDL_GetModState() & KMOD_CTRL);
-    viewer.drag =
-        grabs ? view_grab(viewer, (float)event.x, (float)event.y) : drag_of(event.button, SDL_GetModState());
+    bool wipes = event.button == SDL_BUTTON_LEFT && view_is_on_wipe(viewer, (float)event.x, (float)event.y);
+    viewer.drag = wipes   ? VIEW_DRAG_WIPE
+                  : grabs ? view_grab(viewer, (float)event.x, (float)event.y)
+                          : drag_of(event.button, SDL_GetModState());
     viewer.drag_button = event.button;
     viewer.mouse[0] = (float)event.x;
     viewer.mouse[1] = (float)event.y;
@@ -93,6 +96,7 @@ void move(viewer& viewer, const SDL_MouseMotionEvent& event)
     case VIEW_DRAG_MOVE: move_head(scene, x, y); break;
     case VIEW_DRAG_HAIR:
     case VIEW_DRAG_COLLIDER: view_grab_move(viewer, x, y); break;
+    case VIEW_DRAG_WIPE: view_move_wipe(viewer, (float)event.x); break;
     case VIEW_DRAG_NONE: break;
     }
 }

@@ -24,6 +24,7 @@ enum option_name {
     FILM,
     QUALITY,
     SAVE,
+    GLSL,
     DEVICE,
     VERSION
 };
@@ -49,6 +50,7 @@ const row rows[] = {
     {"film", FILM, "OUT.mp4", "write a film of the window"},
     {"quality", QUALITY, "N", "of pictures at rest and of scripts, 0 full to 4 coarse; 0"},
     {"save", SAVE, "FILE.json", "file that Save writes; without it, the opened file or a new one"},
+    {"glsl", GLSL, "FOLDER", "read the shaders of the library from a folder, and follow its changes"},
     {"device", DEVICE, "N", "run a script on the EGL device of that index; without it, the first that works"},
     {"help", 'h', nullptr, "(also -h) this"},
     {"version", VERSION, nullptr, "the version of the library"},
@@ -139,6 +141,7 @@ bool take(const row& row, const char* value, said_options& said, view_options& o
     case FILM: out.film = value; return hair_output_has_ending(TOOL, value, ".mp4");
     case QUALITY: return parse_whole(row.name, value, 0, 4, out.quality);
     case SAVE: out.save = value; return hair_output_has_ending(TOOL, value, ".json");
+    case GLSL: out.glsl = value; break;
     case DEVICE:
         if (!parse_whole(row.name, value, 0, 1000, number)) return false;
         out.device = (int)number;

@@ -10,7 +10,7 @@ struct view_options {
     hair_scene scene; // with all changes of the command line applied
     std::string name; // name of the scene, for messages
     std::string file; // scene file, or ""
-    std::string script, shot, film, save; // "" disables each
+    std::string script, shot, film, save, glsl; // "" disables each
     uint32_t frames = 0; // 0 runs until the window is closed
     uint32_t width = 1280, height = 720; // size of the window, pixels
     float scale = 0; // size of text and panels, 0 selects by the display

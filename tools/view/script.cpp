@@ -155,6 +155,7 @@ int push_key(view_script& script, const view_command& command, uint32_t type)
         script.modifiers = type == SDL_KEYDOWN ? script.modifiers | event.key.keysym.mod
                                                : script.modifiers & ~event.key.keysym.mod;
         SDL_SetModState((SDL_Keymod)script.modifiers);
+        event.key.keysym.mod = 0; // A released modifier is not held any more.
     }
     event.key.keysym.mod |= script.modifiers;
     SDL_PushEvent(&event);

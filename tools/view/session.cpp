@@ -97,7 +97,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     session.world = world;
     session.world_scene = std::move(world_scene);
     session.groom = groom;
-    session.look_is_cheap = false;
+    session.look = scene.settings.look;
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);
     session.pins.clear();
@@ -114,7 +114,7 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
     if (!result && session.twin) result = hair_set_physics(session.twin, &scene.settings.physics);
     if (!result && differs(old.settings.look, scene.settings.look))
         result = hair_set_look(session.hair, &scene.settings.look);
-    session.look_is_cheap = false;
+    session.look = scene.settings.look;
     if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
         hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
         result = hair_set_wind(session.hair, &wind);
@@ -129,6 +129,7 @@ void restore(view_session& session)
     hair_wind wind = hair_scene_wind_of(&session.applied->settings, &session.applied->wind);
     hair_set_physics(session.hair, &session.applied->settings.physics);
     hair_set_look(session.hair, &session.applied->settings.look);
+    session.look = session.applied->settings.look;
     hair_set_wind(session.hair, &wind);
 }
 
@@ -161,13 +162,15 @@ void destroy_renders(view_session& session)
 
 } // namespace
 
-int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), view_session& out)
+int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), const std::string& glsl,
+                      view_session& out)
 {
     hair_context_desc desc = hair_context_desc_default();
     out.host = host;
     desc.host = &out.host;
     desc.get_proc = get_proc;
     desc.timings = true;
+    desc.glsl_dir = glsl.empty() ? nullptr : glsl.c_str();
     return hair_exit_for(hair_context_create(&desc, &out.context));
 }
 

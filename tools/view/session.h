@@ -9,8 +9,14 @@
 #include <string>
 #include <vector>
 
-// Renderers of moving pictures and of pictures at rest, whose sizes differ.
-enum view_render { VIEW_RENDER_MOVING, VIEW_RENDER_FULL, VIEW_RENDER_REFERENCE, VIEW_RENDERS };
+// Renderers, each with the size of its last picture.
+enum view_render {
+    VIEW_RENDER_MOVING,
+    VIEW_RENDER_FULL,
+    VIEW_RENDER_REFERENCE,
+    VIEW_RENDER_COMPARED,
+    VIEW_RENDERS
+};
 
 struct view_session {
     hair_host host = {};
@@ -23,7 +29,7 @@ struct view_session {
     hair_render* renders[VIEW_RENDERS] = {};
     hair_render_desc render_descs[VIEW_RENDERS] = {};
     hair_render* render = nullptr; // renderer of the last picture
-    bool look_is_cheap = false; // the instance has the look of a quality without shadows
+    hair_look look = {}; // look that the instance has now, which depends on the quality
     hair_groom_info info = {};
     std::unique_ptr<hair_scene> applied; // scene that the hair has now
     std::string name; // name of the scene, for messages
@@ -34,8 +40,9 @@ struct view_session {
     double time = 0; // of the motion, s
 };
 
-// Create the context of the library. Return an exit status, after printing any error.
-int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), view_session& out);
+// Create the context of the library, with the shaders of a folder unless `glsl` is "". Return an exit status, after printing any error.
+int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), const std::string& glsl,
+                      view_session& out);
 void view_session_close(view_session& session);
 
 // Make the hair follow a scene. Only what differs is made anew. The camera of a scene without one

@@ -41,14 +41,15 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
 // Give the instance the look of a quality.
 hair_result set_look(view_session& session, const hair_scene& scene, bool is_cheap)
 {
-    if (session.look_is_cheap == is_cheap) return HAIR_OK;
     hair_look look = scene.settings.look;
     if (is_cheap) {
         look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
         look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
     }
-    session.look_is_cheap = is_cheap;
-    return hair_set_look(session.hair, &look);
+    if (!memcmp(&session.look, &look, sizeof look)) return HAIR_OK;
+    hair_result result = hair_set_look(session.hair, &look);
+    if (!result) session.look = look;
+    return result;
 }
 
 void reduce(const view_quality& quality, hair_scene& scene)

@@ -38,7 +38,8 @@ void show_frame(const viewer& viewer)
     const view_measures& now = viewer.measures;
     hair_memory memory = hair_memory_default();
     hair_get_memory(viewer.session.context, &memory);
-    const char* quality = view_quality_of(viewer.is_moving ? viewer.governor.level : 0).about;
+    const char* quality =
+        view_quality_of(viewer.is_moving ? viewer.governor.level : viewer.options.quality).about;
     ImGui::TextDisabled("Frame");
     // Frames of a script have no time of their own.
     if (viewer.options.script.empty())

@@ -1,9 +1,11 @@
 // viewer.cpp - The state of hair-view, and one frame of its loop.
 #include "tools/view/viewer.h"
 #include "tools/view/arrows.h"
+#include "tools/view/compare.h"
 #include "tools/view/controls.h"
 #include "tools/view/panel.h"
 #include "tools/view/record.h"
+#include "tools/view/shader_watch.h"
 #include "tools/view/state_report.h"
 
 #include <epoxy/gl.h>
@@ -19,6 +21,7 @@ namespace
 constexpr float script_dt = 1.0f / 60; // s
 constexpr size_t max_messages = 50;
 constexpr uint32_t motion_error_frames = 10; // frames between two measurements
+constexpr uint32_t reload_frames = 20; // frames between two looks at the shaders
 constexpr float slow_motion = 0.125f;
 constexpr double rest = 250; // time without motion after which the picture has full quality, ms
 
@@ -41,7 +44,9 @@ int open(viewer& viewer)
     int code =
         viewer.options.script.empty() ? HAIR_EXIT_OK : view_script_read(viewer.options.script, viewer.script);
     if (!code) code = view_stage_open(viewer.options, host, viewer.stage);
-    if (!code) code = view_session_open(host, view_stage_get_proc(viewer.stage), viewer.session);
+    if (!code)
+        code =
+            view_session_open(host, view_stage_get_proc(viewer.stage), viewer.options.glsl, viewer.session);
     if (!code && !view_gui_open(viewer.gui)) {
         hair_complain(TOOL, "the panels cannot be drawn with this OpenGL");
         code = HAIR_EXIT_OPENGL;
@@ -117,7 +122,8 @@ int draw_picture(viewer& viewer)
     float density = viewer.stage.density;
     int width = std::max(1, (int)(density * (place.right - place.left)));
     int height = std::max(1, (int)(density * (place.bottom - place.top)));
-    bool is_equal = viewer.is_full && viewer.picture_size[0] == width && viewer.picture_size[1] == height;
+    bool is_equal = viewer.is_full && !viewer.compared && viewer.picture_size[0] == width &&
+                    viewer.picture_size[1] == height;
     viewer.is_moving = viewer.options.script.empty() && hair_now() - viewer.moved < rest;
     int code = HAIR_EXIT_OK;
     if (!is_equal || viewer.is_moving || !viewer.options.script.empty()) {
@@ -142,8 +148,11 @@ int draw_picture(viewer& viewer)
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {place.left, place.top},
                                              {place.right, place.bottom});
+    uint32_t level = viewer.is_moving ? viewer.governor.level : viewer.options.quality;
+    if (viewer.compared)
+        code = view_compare_draw(viewer, (uint32_t)width, (uint32_t)height, view_quality_of(level));
     view_arrows(viewer);
-    return HAIR_EXIT_OK;
+    return code;
 }
 
 // Write what the end of a frame asks for: a picture, a frame of a film, or the shot of a script.
@@ -216,7 +225,10 @@ int run_frame(viewer& viewer)
     if (viewer.drag == VIEW_DRAG_NONE && !ImGui::IsAnyItemActive()) view_document_commit(viewer.document);
     code = step(viewer, dt);
     if (!code) code = save_by_script(viewer);
+    if (viewer.frame % reload_frames == 0) view_watch_shaders(viewer);
     if (!code && draws) code = draw_picture(viewer);
+    // A shader with an error must not end a window. The picture stays away until the error is mended.
+    if (code == HAIR_EXIT_OPENGL && !is_scripted && !viewer.options.glsl.empty()) code = HAIR_EXIT_OK;
     if (draws) view_stage_begin(viewer.stage);
     view_gui_end(viewer.gui, draws);
     if (!code && draws) code = write_pictures(viewer, is_last);

@@ -24,7 +24,8 @@ enum view_drag {
     VIEW_DRAG_TURN, // turns the head
     VIEW_DRAG_MOVE, // moves the head
     VIEW_DRAG_HAIR, // pulls a strand
-    VIEW_DRAG_COLLIDER
+    VIEW_DRAG_COLLIDER,
+    VIEW_DRAG_WIPE // moves the line of a comparison
 };
 
 // Newest values of the strip.
@@ -76,6 +77,9 @@ struct viewer {
     bool shows_strip = true; // timings and errors below the picture
     view_measures measures;
     view_film film;
+    std::unique_ptr<hair_scene> compared; // scene of the left side of a comparison, or null
+    float wipe = 0.5f; // fraction of the picture that the left side has
+    uint64_t shaders = 0; // newest time of the shaders that are watched
     view_image_error image_error;
     view_motion_error motion_error;
     uint64_t motion = 0; // number of motions in the picture so far
