@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 #include <cmocka.h>
 
 #define TOOL HAIR_BUILD_DIR "/hair-view"
@@ -48,6 +49,33 @@ static void motion_error_is_larger_for_solvers_that_do_not_converge(void** state
     assert_true(follow > 3 * direct && follow < 1);
 }
 
+// A click on a point takes its settings.
+static void pareto_panel_measures_settings_and_takes_one(void** state)
+{
+    (void)state;
+    char script[512];
+    snprintf(script, sizeof script,
+             "wait 5\nkey P\nsave %s/0.json\nkey Q\nclick Measure settings\nwait 38\nclick Point 6\nsave "
+             "%s/1.json",
+             hair_test_folder(), hair_test_folder());
+    measure("--frames 70", script, "flip");
+    json_t* root = hair_test_shell_json("r.json");
+    const json_t* points = json_object_get(root, "pareto");
+    assert_true(json_array_size(points) > 9);
+    for (size_t i = 0; i < json_array_size(points); ++i) {
+        const json_t* point = json_array_get(points, i);
+        assert_true(hair_test_json_number(point, "ms") > 0);
+        assert_true(hair_test_json_number(point, "flip") > 0.001 &&
+                    hair_test_json_number(point, "flip") < 0.5);
+    }
+    const char* settings = json_string_value(json_object_get(json_array_get(points, 6), "settings"));
+    assert_non_null(settings);
+    assert_non_null(strstr(settings, "lod.strand_pixels=1"));
+    hair_test_shell_expect(
+        0, "! grep -q strand_pixels $D/0.json && grep 'lod.strand_pixels\": \"1\"' $D/1.json", "");
+    json_decref(root);
+}
+
 static int start(void** state)
 {
     (void)state;
@@ -59,6 +87,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(image_error_is_larger_for_pictures_of_low_quality),
         cmocka_unit_test(motion_error_is_larger_for_solvers_that_do_not_converge),
+        cmocka_unit_test(pareto_panel_measures_settings_and_takes_one),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

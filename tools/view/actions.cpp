@@ -109,6 +109,15 @@ bool has_motion_error(const viewer& viewer)
     return viewer.motion_error.is_on;
 }
 
+void toggle_pareto(viewer& viewer)
+{
+    viewer.pareto.shows = !viewer.pareto.shows;
+}
+bool shows_pareto(const viewer& viewer)
+{
+    return viewer.pareto.shows;
+}
+
 #define CTRL KMOD_CTRL
 
 const view_action actions[] = {
@@ -162,6 +171,8 @@ const view_action actions[] = {
      toggle_image_error, has_image_error},
     {"Errors", "Motion error", SDLK_g, 0, "Measure the motion against short steps of the accurate solver.",
      toggle_motion_error, has_motion_error},
+    {"Errors", "Pareto", SDLK_q, 0, "Try settings, and plot their time against their visible error.",
+     toggle_pareto, shows_pareto},
     {"Errors", "Compare", SDLK_w, 0, "Keep these settings on the left of a line, and change the right.",
      view_toggle_compare, view_compares},
     {"Errors", "Reload shaders", SDLK_F5, 0, "Compile the shaders of --glsl again.", view_reload_shaders,

@@ -49,10 +49,8 @@ void begin_flip(view_image_error& error, const hair_scene& scene, unsigned shown
 {
     view_image_error_finish(error);
     size_t values = error.sum.size();
-    error.reference.resize(values);
     error.shown.resize(values);
-    for (size_t i = 0; i < values; ++i)
-        error.reference[i] = encode(error.sum[i] / (float)error.pictures, scene.exposure);
+    view_image_error_reference(error, scene.exposure, error.reference);
     glGetTextureImage(shown, 0, GL_RGB, GL_FLOAT, (GLsizei)(values * sizeof(float)), error.shown.data());
     error.samples = samples;
     error.is_done = false;
@@ -71,6 +69,12 @@ void restart(view_image_error& error, uint32_t width, uint32_t height, uint64_t 
 }
 
 } // namespace
+
+void view_image_error_reference(const view_image_error& error, float exposure, std::vector<float>& out)
+{
+    out.resize(error.pictures ? error.sum.size() : 0);
+    for (size_t i = 0; i < out.size(); ++i) out[i] = encode(error.sum[i] / (float)error.pictures, exposure);
+}
 
 void view_image_error_finish(view_image_error& error)
 {

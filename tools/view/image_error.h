@@ -29,6 +29,9 @@ constexpr uint32_t view_reference_samples = 1024; // per pixel
 // in the window. `motion` differs whenever anything has moved. Return an exit status.
 int view_image_error_update(view_image_error& error, view_session& session, const hair_scene& scene,
                             unsigned shown, uint64_t motion);
+// Compute the reference as an encoded picture, with an empty result before the first picture.
+void view_image_error_reference(const view_image_error& error, float exposure, std::vector<float>& out);
+
 // Wait for the thread.
 void view_image_error_finish(view_image_error& error);
 

@@ -2,6 +2,7 @@
 #include "tools/view/panel.h"
 #include "tools/view/actions.h"
 #include "tools/view/controls.h"
+#include "tools/view/pareto.h"
 #include "tools/view/scene_panel.h"
 #include "tools/view/settings_panel.h"
 #include "tools/view/strip.h"
@@ -97,6 +98,7 @@ void view_panels(viewer& viewer)
             viewer.picture.bottom = size.y - strip;
         }
     }
+    view_pareto_window(viewer);
     show_help(viewer);
     show_messages(viewer);
 }

@@ -40,7 +40,8 @@ struct view_session {
     double time = 0; // of the motion, s
 };
 
-// Create the context of the library, with the shaders of a folder unless `glsl` is "". Return an exit status, after printing any error.
+// Create the context of the library, with the shaders of a folder unless `glsl` is "". Return an
+// exit status, after printing any error.
 int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void*), const std::string& glsl,
                       view_session& out);
 void view_session_close(view_session& session);

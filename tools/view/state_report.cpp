@@ -48,6 +48,13 @@ int view_state_report(const viewer& viewer, const std::string& path)
     }
     if (viewer.motion_error.rms >= 0)
         json_object_set_new(root, "motion_error", json_real(viewer.motion_error.rms));
+    if (!viewer.pareto.points.empty() && !viewer.pareto.is_running) {
+        json_t* points = json_array();
+        for (const view_pareto_point& point : viewer.pareto.points)
+            json_array_append_new(points, json_pack("{s:s, s:f, s:f}", "settings", point.settings.c_str(),
+                                                    "ms", point.ms, "flip", point.flip));
+        json_object_set_new(root, "pareto", points);
+    }
     json_t* messages = json_array();
     for (const std::string& message : viewer.messages)
         json_array_append_new(messages, json_string(message.c_str()));

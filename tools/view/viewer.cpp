@@ -4,6 +4,7 @@
 #include "tools/view/compare.h"
 #include "tools/view/controls.h"
 #include "tools/view/panel.h"
+#include "tools/view/pareto.h"
 #include "tools/view/record.h"
 #include "tools/view/shader_watch.h"
 #include "tools/view/state_report.h"
@@ -143,6 +144,7 @@ int draw_picture(viewer& viewer)
         code = view_image_error_update(viewer.image_error, session, *viewer.document.scene, texture,
                                        viewer.motion);
     if (viewer.image_error.pictures > pictures) ++viewer.draws;
+    if (!code) code = view_pareto_update(viewer, (uint32_t)width, (uint32_t)height);
     if (code) return code;
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -227,7 +229,7 @@ int run_frame(viewer& viewer)
     if (!code) code = save_by_script(viewer);
     if (viewer.frame % reload_frames == 0) view_watch_shaders(viewer);
     if (!code && draws) code = draw_picture(viewer);
-    // A shader with an error must not end a window. The picture stays away until the error is mended.
+    // A shader with an error must not end a window.
     if (code == HAIR_EXIT_OPENGL && !is_scripted && !viewer.options.glsl.empty()) code = HAIR_EXIT_OK;
     if (draws) view_stage_begin(viewer.stage);
     view_gui_end(viewer.gui, draws);

@@ -36,6 +36,18 @@ struct view_measures {
     std::vector<float> fastest, stretch, motion_error; // over time
 };
 
+// Settings with their time and error, for the plot of time against error.
+struct view_pareto_point {
+    std::string settings; // as "lod=on lod.strand_pixels=1"
+    double ms, flip; // below 0 before the measurement
+};
+struct view_pareto {
+    bool shows = false;
+    bool is_running = false;
+    size_t next = 0; // point to measure
+    std::vector<view_pareto_point> points;
+};
+
 // Film of the window that is being written.
 struct view_film {
     bool is_on = false;
@@ -82,6 +94,7 @@ struct viewer {
     uint64_t shaders = 0; // newest time of the shaders that are watched
     view_image_error image_error;
     view_motion_error motion_error;
+    view_pareto pareto;
     uint64_t motion = 0; // number of motions in the picture so far
     bool wants_picture = false; // writes the window at the end of this frame
     double moved = 0; // time of the last motion in the picture, ms
