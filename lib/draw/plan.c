@@ -110,8 +110,8 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
     return method_of[kind][path][view->lod != NULL];
 }
 
-// Return whether the vertices of all followers may be cached: up to `max` of them, within the memory
-// limit. Those that are already cached may stay.
+// Return whether the vertices of all followers may be cached: up to `max` of them, within the
+// memory limit. Vertices that are already cached may stay.
 static bool can_cache(const struct hair_renderer* renderer, size_t vertices, size_t max)
 {
     const struct hair_gl_memory* memory = &renderer->gl->memory;

@@ -292,6 +292,22 @@ static void opacity_pass_keeps_blending_and_depth(void** state)
     check_blending_and_depth(state, HAIR_RENDER_PATH_COMPUTE);
 }
 
+// Check that strands thicker than a texel block all light, however many there are.
+static void opacity_of_many_thick_strands_is_one(void** state)
+{
+    struct fixture* f = start(state, 20000, 0.01f);
+    int full[2] = {0};
+    make_map(f, 64);
+    for (int made = 0; made < 2; ++made) {
+        f->scene.view.render_path = made ? HAIR_RENDER_PATH_COMPUTE : HAIR_RENDER_PATH_CACHED;
+        draw(f, 1);
+        for (int i = 0; i < 64 * 64; ++i) full[made] += f->pixels[i] > 0.99f;
+    }
+    print_message("    %d texels are full if drawn, %d if computed\n", full[0], full[1]);
+    assert_true(full[0] > 1000 && abs(full[1] - full[0]) < full[0] / 20);
+    finish(f);
+}
+
 // Check that depth which no shader can read is tested by drawing.
 static void opacity_before_a_renderbuffer_is_drawn(void** state)
 {
@@ -348,6 +364,7 @@ int main(void)
         HAIR_TEST(computed_opacity_counts_only_hair_before_opaque_geometry),
         HAIR_TEST(computed_opacity_obeys_the_depth_test),
         HAIR_TEST(opacity_pass_keeps_blending_and_depth),
+        HAIR_TEST(opacity_of_many_thick_strands_is_one),
         HAIR_TEST(opacity_before_a_renderbuffer_is_drawn),
         HAIR_TEST(opacity_is_reported_and_costs_nothing_unused),
     };

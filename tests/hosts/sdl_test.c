@@ -1,7 +1,8 @@
-// sdl_test.c - a host program with SDL2 draws the same pixels after hair as before, in contexts of many
-// kinds, and hair has its place in depth and the right brightness.
+// sdl_test.c - a host program with SDL2 draws the same pixels after hair as before, in contexts of
+// many kinds, and hair has its place in depth and the right brightness.
 //
-// The host sets its state once. It draws a wall behind the hair and a triangle in front of the left half.
+// The host sets its state once. It draws a wall behind the hair and a triangle in front of the left
+// half.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
