@@ -28,7 +28,7 @@ static hair_result check_arrays(const hair_host* host, const hair_groom_desc* de
 // Copy a map set, and name its place in the sentences of the log.
 static hair_result copy_map_set(const hair_host* host, const hair_map_set* set, int i, hair_map_set* own)
 {
-    char name[32];
+    char name[48];
     struct hair_schema schema = hair_schema_of_hair_map_set();
     HAIR_TRY(hair_check_header(host, schema.name, set->header));
     snprintf(name, sizeof name, "hair_groom_desc.map_sets[%d]", i);
