@@ -31,13 +31,13 @@ const char* heading_of(hair_struct kind)
     switch (kind) {
     case HAIR_STRUCT_IMPORT:
     case HAIR_STRUCT_STYLE_DESC:
-    case HAIR_STRUCT_GROOM_DESC: return "Haircut";
+    case HAIR_STRUCT_GROOM_DESC: return "Cut";
     case HAIR_STRUCT_DESC:
     case HAIR_STRUCT_PHYSICS: return "Physics";
-    case HAIR_STRUCT_WIND: return "Wind and air";
+    case HAIR_STRUCT_WIND: return "Flow";
     case HAIR_STRUCT_LOOK: return "Look";
-    case HAIR_STRUCT_LOD: return "Level of detail, in full";
-    default: return "View and light";
+    case HAIR_STRUCT_LOD: return "LOD";
+    default: return "View";
     }
 }
 
@@ -271,18 +271,9 @@ bool is_shown(viewer& viewer, const row& row)
     return is_found && (!viewer.only_changed || is_changed(viewer, row));
 }
 
-void show_heading(viewer& viewer, const char* heading)
+// Show the rows of a heading that the search finds.
+void show_rows(viewer& viewer, const char* heading)
 {
-    bool is_filtered = !viewer.filter.empty() || viewer.only_changed;
-    bool has_rows = false;
-    for (const row& row : rows())
-        has_rows |= !strcmp(heading_of(row.setting.kind), heading) && is_shown(viewer, row);
-    if (!has_rows) return;
-    if (is_filtered) ImGui::SetNextItemOpen(true);
-    bool is_first = !strcmp(heading, "Physics");
-    bool is_open = ImGui::CollapsingHeader(heading, is_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-    view_gui_mark(viewer.gui, heading);
-    if (!is_open) return;
     float width = ImGui::GetContentRegionAvail().x;
     if (!ImGui::BeginTable(heading, 3)) return;
     ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 0.46f * width);
@@ -296,6 +287,29 @@ void show_heading(viewer& viewer, const char* heading)
         show_row(viewer, row);
     }
     ImGui::EndTable();
+}
+
+// Show what a search finds under all headings.
+void show_found(viewer& viewer, const char* heading)
+{
+    bool has_rows = false;
+    for (const row& row : rows())
+        has_rows |= !strcmp(heading_of(row.setting.kind), heading) && is_shown(viewer, row);
+    if (!has_rows) return;
+    ImGui::TextDisabled("%s", heading);
+    ImGui::Separator();
+    show_rows(viewer, heading);
+}
+
+void show_tab(viewer& viewer, const char* heading)
+{
+    bool is_open = ImGui::BeginTabItem(heading);
+    view_gui_mark(viewer.gui, heading);
+    if (!is_open) return;
+    ImGui::BeginChild(heading);
+    show_rows(viewer, heading);
+    ImGui::EndChild();
+    ImGui::EndTabItem();
 }
 
 // Make the scene whose settings are the defaults of the panel.
@@ -317,8 +331,7 @@ void update_usual(viewer& viewer)
 
 void view_settings_panel(viewer& viewer)
 {
-    static const char* const headings[] = {
-        "Physics", "Look", "Wind and air", "View and light", "Level of detail, in full", "Haircut"};
+    static const char* const headings[] = {"Physics", "Look", "Flow", "View", "LOD", "Cut"};
     update_usual(viewer);
     ImGui::SetNextItemWidth(-9 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##search", "search settings", &viewer.filter);
@@ -326,8 +339,13 @@ void view_settings_panel(viewer& viewer)
     ImGui::SameLine();
     ImGui::Checkbox("changed only", &viewer.only_changed);
     view_gui_mark(viewer.gui, "Changed only");
-    ImGui::Separator();
-    ImGui::BeginChild("all");
-    for (const char* heading : headings) show_heading(viewer, heading);
-    ImGui::EndChild();
+    if (!viewer.filter.empty() || viewer.only_changed) {
+        ImGui::Separator();
+        ImGui::BeginChild("found");
+        for (const char* heading : headings) show_found(viewer, heading);
+        ImGui::EndChild();
+    } else if (ImGui::BeginTabBar("headings")) {
+        for (const char* heading : headings) show_tab(viewer, heading);
+        ImGui::EndTabBar();
+    }
 }
