@@ -4,9 +4,9 @@ import numpy as np
 from alembic3d import Abc, AbcGeom, Util
 
 from hairconvert import basis, names
-from hairconvert.groom import Groom, Motion, check_counts
+from hairconvert.groom import Groom, Motion
 from hairconvert.interpolation import Values
-from hairconvert.merge import merge
+from hairconvert.merge import collect, merge
 from hairconvert.report import InputError, find_reason
 
 MAX_OBJECTS = 1 << 20
@@ -30,12 +30,10 @@ def read(path, options, report):
         archive = Abc.IArchive(str(path))
     except Exception as error:
         raise InputError(f"Alembic cannot open the file: {find_reason(error)}") from None
-    parts = [_Curves(parent, name, transforms, options, report)
-             for parent, name, transforms in _find_curves(archive.getTop(), report)]
-    parts = [p for p in parts if p.valid]
+    parts = collect(_Curves(parent, name, transforms, options, report)
+                    for parent, name, transforms in _find_curves(archive.getTop(), report))
     if not parts:
         raise InputError("the file has no curves with vertices")
-    check_counts(sum(len(p.counts) for p in parts), sum(len(p.points) for p in parts))
     times = np.unique(np.concatenate([p.times for p in parts]))
     rest = options.frame if options.frame is not None else times[0]
     grooms = [p.to_groom(rest, times, archive) for p in parts]

@@ -6,7 +6,8 @@ import os
 
 import numpy as np
 
-from hairconvert.groom import Attribute, Motion, check_counts, clean, place, resample, reverse, select, unplace
+from hairconvert.groom import (Attribute, Motion, check_counts, clean, place, resample, reverse,
+                               select, unplace)
 from hairconvert.report import InputError, MissingPackage, UsageError, find_reason
 
 MAX_FILE = 1 << 34  # bytes

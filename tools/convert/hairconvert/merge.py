@@ -2,9 +2,20 @@
 
 import numpy as np
 
-from hairconvert.groom import GROOM, STRAND, VERTEX, Attribute, Groom, Motion, widen
+from hairconvert.groom import GROOM, STRAND, VERTEX, Attribute, Groom, Motion, check_counts, widen
 
 FINENESS = [GROOM, STRAND, VERTEX]
+
+
+def collect(parts):
+    """Return the parts that are valid, or refuse the file as soon as they are too many."""
+    found, strands, vertices = [], 0, 0
+    for p in parts:
+        if p.valid:
+            found.append(p)
+            strands, vertices = strands + len(p.counts), vertices + len(p.points)
+            check_counts(strands, vertices)
+    return found
 
 
 def merge(parts, names, report):
@@ -56,15 +67,18 @@ def _join(name, parts, report):
         if len(having) == len(parts) and (rows == rows[0]).all():
             return having[0]
         scope = STRAND
+    nothing = "-1" if name == "closest_guides" else "0 or empty"
     if len(having) < len(parts):
-        report.say(f"the attribute {name} is 0 or empty in {len(parts) - len(having)} of "
+        report.say(f"the attribute {name} is {nothing} in {len(parts) - len(having)} of "
                    f"{len(parts)} curves, which do not have it")
     dtype = np.result_type(*[a.values.dtype for a in having])
     values = []
     for p in parts:
         a = p.attributes.get(name)
         if a is None:
-            values.append(np.zeros((p.rows_of(scope), *having[0].values.shape[1:]), dtype))
+            empty = np.zeros((p.rows_of(scope), *having[0].values.shape[1:]), dtype)
+            # -1 names no guide, but 0 names the first strand.
+            values.append(empty - 1 if name == "closest_guides" else empty)
         else:
             values.append(widen(a, scope, p).astype(dtype, copy=False))
     return Attribute(scope, np.concatenate(values), having[0].role)

@@ -4,9 +4,9 @@ import numpy as np
 from pxr import Sdf, Usd, UsdGeom
 
 from hairconvert import basis, names
-from hairconvert.groom import Groom, Motion, check_counts
+from hairconvert.groom import Groom, Motion
 from hairconvert.interpolation import Values
-from hairconvert.merge import merge
+from hairconvert.merge import collect, merge
 from hairconvert.report import InputError, find_reason
 
 MAX_PRIMS = 1 << 20
@@ -27,10 +27,9 @@ def read(path, options, report):
     if not stage:
         raise InputError("USD cannot open the file")
     prims = _find_curves(stage, report)
-    parts = [part for part in (_Curves(prim, options, report) for prim in prims) if part.valid]
+    parts = collect(_Curves(prim, options, report) for prim in prims)
     if not parts:
         raise InputError("the file has no BasisCurves with vertices")
-    check_counts(sum(len(p.counts) for p in parts), sum(len(p.points) for p in parts))
     codes = np.unique(np.concatenate([p.codes for p in parts]))
     rest = options.frame if options.frame is not None else \
         codes[0] if len(codes) else Usd.TimeCode.Default()
@@ -164,11 +163,13 @@ class _Curves:
         if schema and ours in self.attributes:  # surface_uv_coordinate and displayColor go first.
             return
         values = primvar.ComputeFlattened(self.first)
-        size = names.COMPONENTS.get(ours, 1) if schema else 1
+        size = primvar.GetElementSize()
+        if size <= 1 and schema:
+            size = names.COMPONENTS.get(ours, 1)
         if not isinstance(values, (bool, int, float, str)) and values is not None and \
                 not hasattr(values, "__len__"):
             values = None
-        self._add(ours, values, primvar.GetInterpolation(), max(primvar.GetElementSize(), size),
+        self._add(ours, values, primvar.GetInterpolation(), size,
                   names.ROLES.get(ours, role), primvar.GetAttr().GetNumTimeSamples())
 
     def _add(self, name, values, interpolation, size, role, samples):

@@ -9,10 +9,11 @@ import unittest
 
 import numpy as np
 
-from hairconvert.cli import main, make_parser, run
+from hairconvert.cli import make_parser, run
 from hairconvert.formats import read_groom
 from hairconvert.groom import STRAND, VERTEX, Attribute, Groom, lengths
 from hairconvert.report import Report
+from tests import server
 
 
 def make_groom(kind="straight", strands=100, vertices=16, seed=1, uneven=False):
@@ -102,20 +103,12 @@ class ConvertTest(unittest.TestCase):
 
     def guarded(self, *arguments):
         """Run hair-convert as a user does, in a child process. Return status and stderr."""
-        with tempfile.TemporaryFile() as file:
-            saved, null = (os.dup(2), os.dup(1)), os.open(os.devnull, os.O_WRONLY)
-            os.dup2(file.fileno(), 2)
-            os.dup2(null, 1)
-            os.close(null)
-            try:
-                status = main([str(a) for a in arguments])
-            finally:
-                os.dup2(saved[0], 2)
-                os.dup2(saved[1], 1)
-                os.close(saved[0])
-                os.close(saved[1])
-            file.seek(0)
-            return status, file.read().decode(errors="replace")
+        errors = self.path(".stderr")
+        status = server.run([str(a) for a in arguments], errors)
+        with open(errors, "rb") as file:
+            said = file.read().decode(errors="replace")
+        os.remove(errors)
+        return status, said
 
     def assert_same_strands(self, a, b, tolerance=1e-5):
         """Compare positions, to a fraction of the length of each strand."""

@@ -54,6 +54,15 @@ class RoundTripTest(ConvertTest):
             limit = 0 if ending == ".data" else 0.15
             self.assertLessEqual(difference.mean(), limit, ending)
 
+    def test_bytes_after_the_last_strand_are_told(self):
+        groom = make_groom()
+        for ending in (".hair", ".data"):
+            path, _ = self.write(groom, "a" + ending)
+            with open(path, "ab") as file:
+                file.write(bytes(range(24)))
+            self.assert_same_strands(groom, self.read(path))
+            self.assertIn("are not read", self.report.sentences[0])
+
     def test_tfx_resamples_uneven_strands(self):
         groom = make_groom(vertices=30, uneven=True)
         path, said = self.write(groom, "a.tfx")

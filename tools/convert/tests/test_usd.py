@@ -245,6 +245,16 @@ class UsdReadTest(ConvertTest):
         self.assertEqual(groom.attributes["tone"].values.tolist(), [0, 5, 7])
         self.assertTrue(any("tone is 0 or empty in 1 of 2" in s for s in self.report.sentences))
 
+    def test_guides_of_later_curves_keep_their_strands(self):
+        stage = self.stage()
+        self.curves(stage, "/beard", (3,))
+        brows = self.curves(stage, "/brows", (4, 4))
+        UsdGeom.PrimvarsAPI(brows.GetPrim()).CreatePrimvar(
+            "groom_closest_guides", Sdf.ValueTypeNames.IntArray, "uniform", 2).Set([0, 1, 1, -1])
+        closest = self.saved(stage).attributes["closest_guides"].values
+        # Strand 0 of the second curves is strand 1 of the file. -1 names no strand.
+        self.assertEqual(closest.tolist(), [[-1, -1], [1, 2], [2, -1]])
+
     def test_instances_are_read(self):
         stage = self.stage()
         UsdGeom.Xform.Define(stage, "/proto")
