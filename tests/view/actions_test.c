@@ -156,6 +156,23 @@ static void grabbed_hair_follows_the_cursor(void** state)
     json_decref(last);
 }
 
+// A haircut is a change of the scene, which undo takes back.
+static void files_open_by_their_name(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    expect(0, HAIR_BUILD_DIR "/hair-groom generate bob $D/bob.tfx --guides 40", "");
+    snprintf(script, sizeof script,
+             "key P\nsave %s/0.json\nclick File\nkey Ctrl+A\ntext %s/bob.tfx\nclick Open\nsave %s/1.json\n"
+             "key Escape\nmove 450 900\nkey Ctrl+Z\nsave %s/2.json\ndrop %s/none.tfx\nreport %s/r.json\n",
+             folder, folder, folder, folder, folder, folder);
+    write_file("s", script);
+    expect(0, RUN "60", "");
+    expect(0, "grep -q '\"groom\": .*bob.tfx' $D/1.json && cmp $D/0.json $D/2.json", "");
+    expect(0, "grep 'none.tfx cannot be read' $D/r.json", "");
+}
+
 // Switches that are no part of a scene.
 static void switches_change_the_window_by_key_and_label(void** state)
 {
@@ -204,6 +221,7 @@ int main(void)
         cmocka_unit_test(mouse_controls_change_the_scene),
         cmocka_unit_test(grabbed_hair_follows_the_cursor),
         cmocka_unit_test(switches_change_the_window_by_key_and_label),
+        cmocka_unit_test(files_open_by_their_name),
         cmocka_unit_test(panels_find_change_and_reset_settings),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

@@ -66,6 +66,11 @@ void redo(viewer& viewer)
     if (!view_document_redo(viewer.document)) viewer_say(viewer, "There is no change to do again.");
 }
 
+void open(viewer& viewer)
+{
+    viewer_open(viewer, viewer.path);
+}
+
 void save(viewer& viewer)
 {
     viewer_save(viewer);
@@ -122,6 +127,8 @@ bool shows_pareto(const viewer& viewer)
 
 const view_action actions[] = {
     {"Scene", "Save", SDLK_s, CTRL, "Save the scene, with all changes, as the file above.", save, nullptr},
+    {"Scene", "Open", SDLK_o, CTRL, "Open the file above, a scene (.json) or a haircut (.hair, .tfx).", open,
+     nullptr},
     {"Scene", "Picture", SDLK_F12, 0, "Write a picture of the window, hair-view-N.png.", picture, nullptr},
     {"Scene", "Record", SDLK_F9, 0, "Write a film of the window, hair-view-N.mp4.", record, is_recording},
     {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},

@@ -35,7 +35,10 @@ void viewer_open(viewer& viewer, const std::string& path)
     }
     // A haircut is a change of the document, which can be taken back.
     hair_scene& present = *viewer.document.scene;
-    if (path.size() >= sizeof present.groom) return;
+    if (access(path.c_str(), R_OK) || path.size() >= sizeof present.groom) {
+        viewer_say(viewer, "The file " + path + " cannot be read.");
+        return;
+    }
     hair_scene_set_groom(path.c_str(), &present);
     present.framed = false;
 }

@@ -42,7 +42,7 @@ const row rows[] = {
     {"motion", MOTION, "NAME", "move the head so, below"},
     {"head", HEAD, nullptr, "draw the built-in head under the haircut of a file"},
     {"set", SET, "KEY=VALUE", "change one of the settings, below; may be repeated"},
-    {"size", SIZE, "WxH", "of the window, pixels; 1280x720"},
+    {"size", SIZE, "WxH", "of the window, pixels; that of the last window, or 1280x720"},
     {"scale", SCALE, "X", "of text and panels, 0.5 to 8; without it, as the display asks"},
     {"script", SCRIPT, "FILE", "run without a display, with the events of a file"},
     {"frames", FRAMES, "N", "end after this number of frames of 1/60 s"},
@@ -106,6 +106,7 @@ bool parse_size(const char* text, view_options& out)
         height >= 64 && height <= 8192) {
         out.width = width;
         out.height = height;
+        out.has_size = true;
         return true;
     }
     hair_complain(TOOL, "--size is %s, not WxH with both in [64, 8192]", text);

@@ -58,7 +58,7 @@ const char* color_name(int i)
 void show_files(viewer& viewer)
 {
     ImGui::SetNextItemWidth(-1);
-    ImGui::InputTextWithHint("##path", "file to save the scene as", &viewer.path);
+    ImGui::InputTextWithHint("##path", "file to open, or to save the scene as", &viewer.path);
     view_gui_mark(viewer.gui, "File");
 }
 

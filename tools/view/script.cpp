@@ -155,8 +155,9 @@ int push_key(view_script& script, const view_command& command, uint32_t type)
         script.modifiers = type == SDL_KEYDOWN ? script.modifiers | event.key.keysym.mod
                                                : script.modifiers & ~event.key.keysym.mod;
         SDL_SetModState((SDL_Keymod)script.modifiers);
-        event.key.keysym.mod = 0; // A released modifier is not held any more.
     }
+    // A released key leaves only the modifiers that are held by keys of their own.
+    if (is_modifier || type == SDL_KEYUP) event.key.keysym.mod = 0;
     event.key.keysym.mod |= script.modifiers;
     SDL_PushEvent(&event);
     return HAIR_EXIT_OK;

@@ -4,9 +4,12 @@
 #include <epoxy/gl.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <algorithm>
+#include <string>
 
 namespace
 {
@@ -33,6 +36,39 @@ bool is_blind()
     return !driver || !strcmp(driver, "offscreen") || !strcmp(driver, "dummy") || !strcmp(driver, "evdev");
 }
 
+// Return the file that keeps the place of the window, or "".
+std::string memory_path()
+{
+    char* folder = SDL_GetPrefPath("hair", "hair-view");
+    std::string path = folder ? std::string(folder) + "window.txt" : "";
+    SDL_free(folder);
+    return path;
+}
+
+// Read the place of the window of the last run. `place` keeps its values without one.
+void remember(int place[4])
+{
+    FILE* file = fopen(memory_path().c_str(), "r");
+    int read[4];
+    if (!file) return;
+    bool ok = fscanf(file, "%d %d %d %d", &read[0], &read[1], &read[2], &read[3]) == 4;
+    fclose(file);
+    ok = ok && read[2] >= 64 && read[2] <= 8192 && read[3] >= 64 && read[3] <= 8192 && abs(read[0]) < 32768 &&
+         abs(read[1]) < 32768;
+    if (ok) std::copy(read, read + 4, place);
+}
+
+void keep(SDL_Window* window)
+{
+    int place[4];
+    SDL_GetWindowPosition(window, &place[0], &place[1]);
+    SDL_GetWindowSize(window, &place[2], &place[3]);
+    FILE* file = fopen(memory_path().c_str(), "w");
+    if (!file) return; // The next window has the usual place.
+    fprintf(file, "%d %d %d %d\n", place[0], place[1], place[2], place[3]);
+    fclose(file);
+}
+
 int open_window(const view_options& options, view_stage& out)
 {
     if (SDL_Init(SDL_INIT_VIDEO)) return complain_of_display(SDL_GetError());
@@ -40,8 +76,9 @@ int open_window(const view_options& options, view_stage& out)
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
-    out.window = SDL_CreateWindow("hair-view", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED,
-                                  (int)options.width, (int)options.height,
+    int place[4] = {SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, (int)options.width, (int)options.height};
+    if (!options.has_size) remember(place);
+    out.window = SDL_CreateWindow("hair-view", place[0], place[1], place[2], place[3],
                                   SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (out.window) out.context = SDL_GL_CreateContext(out.window);
     if (!out.context) return complain_of_display(SDL_GetError());
@@ -94,6 +131,7 @@ void view_stage_close(view_stage& stage)
         glDeleteFramebuffers(1, &stage.framebuffer);
         glDeleteTextures(1, &stage.texture);
     }
+    if (stage.context) keep(stage.window);
     hair_egl_destroy(stage.egl);
     if (stage.context) SDL_GL_DeleteContext(stage.context);
     if (stage.window) SDL_DestroyWindow(stage.window);
