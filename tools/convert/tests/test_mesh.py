@@ -8,6 +8,7 @@ import struct
 import numpy as np
 
 from hairconvert import tfxmesh
+from hairconvert.mesh import Mesh, check_mesh
 from hairconvert.meshes import read_mesh, write_mesh
 from hairconvert.report import Report
 from tests.support import ConvertTest, make_parser
@@ -258,6 +259,21 @@ class MeshFormatTest(MeshCase):
         status, said = self.convert("scalp", self.path("a.usda"), self.path("b.obj"))
         self.assertEqual(status, 4)
         self.assertIn("outside of the 5 vertices", said)
+
+    def test_weights_are_normalized_or_left_out(self):
+        def checked(weights):
+            points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
+            self.report = Report()
+            return check_mesh(Mesh(points, np.array([[0, 1, 2]]), joints=np.zeros((3, 4), int),
+                                   weights=np.array(weights, float), joint_names=["root"]),
+                              self.report)
+        mesh = checked([[2, 2, 0, 0], [0, 0, 0, 0], [1, 0, 0, 0]])
+        self.assertEqual(mesh.weights.tolist(), [[0.5, 0.5, 0, 0], [1, 0, 0, 0], [1, 0, 0, 0]])
+        self.assertIn("1 vertices of the mesh have no weight", self.report.sentences[0])
+        for wrong in (-1, np.nan):
+            mesh = checked([[1, 0, 0, 0], [wrong, 2, 0, 0], [1, 0, 0, 0]])
+            self.assertIsNone(mesh.weights)
+            self.assertIn("the skin of the mesh is not kept", self.report.sentences[0])
 
     def test_bones_of_strands(self):
         joints, weights = np.array([[1, 0, 0, 0]] * 3), np.array([[0.75, 0.25, 0, 0]] * 3)
