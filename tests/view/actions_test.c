@@ -190,8 +190,11 @@ static void switches_change_the_window_by_key_and_label(void** state)
             snprintf(script + used, sizeof script - (size_t)used,
                      "key %s\nreport %s/k%zu.json\nkey %s\nclick %s\nreport %s/l%zu.json\nkey %s\n",
                      switches[i][1], folder, i, switches[i][1], switches[i][0], folder, i, switches[i][1]);
+    used += snprintf(script + used, sizeof script - (size_t)used, "key ?\nkey Escape\nreport %s/e.json\n",
+                     folder);
     write_file("s", script);
-    expect(0, RUN "120", "");
+    expect(0, RUN "140", "");
+    expect(0, "grep 'shows_help\": false' $D/e.json", "");
     json_t* before = hair_test_shell_json("0.json");
     for (size_t i = 0; i < 7; ++i) {
         char key[16], label[16];

@@ -123,7 +123,10 @@ void view_controls_event(viewer& viewer, const SDL_Event& event)
             view_grab_end(viewer);
         }
         break;
-    case SDL_KEYDOWN: view_action_key(viewer, event.key.keysym); break;
+    case SDL_KEYDOWN:
+        if (event.key.keysym.sym == SDLK_ESCAPE) viewer.shows_help = false;
+        view_action_key(viewer, event.key.keysym);
+        break;
     case SDL_DROPFILE: viewer_open(viewer, event.drop.file); break;
     default: break;
     }

@@ -24,7 +24,9 @@ constexpr size_t max_messages = 50;
 constexpr uint32_t motion_error_frames = 10; // frames between two measurements
 constexpr uint32_t reload_frames = 20; // frames between two looks at the shaders
 constexpr float slow_motion = 0.125f;
-constexpr double rest = 250; // time without motion after which the picture has full quality, ms
+// Time without motion after which the picture has full quality, ms. The picture takes seconds by a
+// software rasterizer, for which events wait.
+constexpr double rest = 250, long_rest = 1000;
 
 void log_sentence(hair_log_level level, const char* sentence, void* user)
 {
@@ -55,7 +57,11 @@ int open(viewer& viewer)
     if (!code) code = view_session_apply(viewer.session, *viewer.document.scene, viewer.document.name);
     if (code) return code;
     const char* renderer = (const char*)glGetString(GL_RENDERER);
-    if (renderer && strstr(renderer, "llvmpipe")) viewer.governor.level = view_quality_levels - 2;
+    viewer.is_software = renderer && strstr(renderer, "llvmpipe");
+    if (viewer.is_software)
+        viewer.governor.level = view_quality_levels - 2;
+    else
+        viewer.image_error.is_on = viewer.options.script.empty();
     *viewer.document.committed = *viewer.document.scene;
     hair_complain_to(hear_sentence, &viewer);
     return HAIR_EXIT_OK;
@@ -125,7 +131,8 @@ int draw_picture(viewer& viewer)
     int height = std::max(1, (int)(density * (place.bottom - place.top)));
     bool is_equal = viewer.is_full && !viewer.compared && viewer.picture_size[0] == width &&
                     viewer.picture_size[1] == height;
-    viewer.is_moving = viewer.options.script.empty() && hair_now() - viewer.moved < rest;
+    viewer.is_moving =
+        viewer.options.script.empty() && hair_now() - viewer.moved < (viewer.is_software ? long_rest : rest);
     int code = HAIR_EXIT_OK;
     if (!is_equal || viewer.is_moving || !viewer.options.script.empty()) {
         uint32_t level = viewer.is_moving ? viewer.governor.level : viewer.options.quality;

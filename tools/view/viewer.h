@@ -76,6 +76,7 @@ struct viewer {
     bool is_slow = false;
     bool steps_once = false; // advances one frame although the time is paused
     bool shows_help = false;
+    bool is_software = false; // a software rasterizer draws
     bool shows_panels = true;
     float wind_direction[3] = {1, 0, 0}; // of the last wind
     float wind_speed = 0; // before the wind was switched off, m/s
