@@ -40,8 +40,8 @@ static void set_shadow(GLuint program, GLuint i, const struct hair_frame_shadow*
     glProgramUniformMatrix4fv(program, HAIR_AT_SHADOW + (GLint)i, 1, GL_FALSE, matrix);
     glProgramUniform1f(program, HAIR_AT_TEXEL + (GLint)i, shadow->texel);
     glProgramUniform1i(program, HAIR_AT_MAP + (GLint)shadow->light, (GLint)i);
-    for (GLuint part = 0; part < HAIR_SHADOW_PARTS; ++part)
-        glBindTextureUnit(HAIR_SCENE_SHADOWS * part + i, map->texture[part]);
+    glBindTextureUnit(i, map->texture[HAIR_SHADOW_BODY]);
+    glBindTextureUnit(HAIR_SCENE_SHADOWS + i, map->texture[HAIR_SHADOW_OPACITY]);
     glBindSampler(i, sampler);
 }
 

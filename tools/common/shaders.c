@@ -74,8 +74,7 @@ const char hair_scalp_motion_frag[] = HEAD
     AT(HAIR_AT_SHADOW) "mat4 shadow[4];\n" // from world to texture coordinates and depth, times w
     AT(HAIR_AT_TEXEL) "float texel[4];\n"  // width of a texel, m
     "layout(binding = 0) uniform sampler2DShadow body_map[4];\n"
-    "layout(binding = 4) uniform sampler2D hair_map[4];\n"
-    "layout(binding = 8) uniform sampler2D opacity_map[4];\n"
+    "layout(binding = 4) uniform sampler2D opacity_map[4];\n"
     "layout(location = 0) in vec3 position;\n"
     "layout(location = 1) in vec3 normal;\n"
     "layout(location = 2) in vec3 albedo;\n"
@@ -94,8 +93,7 @@ const char hair_scalp_motion_frag[] = HEAD
     // Rotation by the golden angle.
     "        way          = mat2(-0.737369, 0.675490, -0.675490, -0.737369) * way;\n"
     "        float body   = textureLod(body_map[map], vec3(tap, at.z), 0.0);\n"
-    "        float before = textureLod(hair_map[map], tap, 0.0).r < at.z ? 1.0 : 0.0;\n"
-    "        sum += body * (1.0 - before * textureLod(opacity_map[map], tap, 0.0).r);\n"
+    "        sum += body * (1.0 - textureLod(opacity_map[map], tap, 0.0).r);\n"
     "    }\n"
     "    return clip.w > 0.0 ? sum / float(taps) : 1.0;\n"
     "}\n"
