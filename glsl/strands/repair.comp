@@ -22,14 +22,6 @@ layout(std430, binding = HAIR_BIND_LIST) readonly restrict buffer list_buffer { 
 #define DEEP 0.025
 #define AHEAD 1           // Intervals above a vertex inside from which it is freed.
 
-// Return the length of the strand, whose segments are in `depth`.
-float sum_of_segments(int samples)
-{
-    float total = 0.0;
-    for (int i = 1; i <= samples; ++i) total += depth[AT(i)];
-    return total;
-}
-
 // Compute the vertices of the strand without its displacement.
 void place(hair_follower follower, int samples, float slide)
 {
@@ -53,7 +45,8 @@ float length_of(int samples, float slide)
     for (int i = 1 + lane; i <= samples; i += LANES)
         depth[AT(i)] = distance(pushed_at(i, samples, slide), pushed_at(i - 1, samples, slide));
     WAIT();
-    float total = sum_of_segments(samples);
+    float total = 0.0;
+    for (int i = 1; i <= samples; ++i) total += depth[AT(i)];
     WAIT();
     return total;
 }
@@ -83,12 +76,7 @@ float measure(int samples, out float deepest)
     for (int i = 1 + lane; i <= samples; i += LANES) depth[AT(i)] = max(-field_distance(vertex_at(i)), 0.0);
     WAIT();
     deepest = free_controls(samples);
-    WAIT();
-    for (int i = 1 + lane; i <= samples; i += LANES) depth[AT(i)] = distance(vertex_at(i), vertex_at(i - 1));
-    WAIT();
-    float total = sum_of_segments(samples);
-    WAIT();
-    return total;
+    return length_of(samples, 1.0); // Nothing is displaced yet.
 }
 
 // Write the control points of a follower.

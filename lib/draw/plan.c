@@ -114,10 +114,9 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
 // memory limit. Vertices that are already cached may stay.
 static bool can_cache(const struct hair_renderer* renderer, size_t vertices, size_t max)
 {
-    const struct hair_gl_memory* memory = &renderer->gl->memory;
     if (vertices > max) return false;
-    if (!memory->limit || renderer->geometry->vertex_cache.vertices >= vertices) return true;
-    return memory->bytes <= memory->limit && vertices * VERTEX_BYTES <= memory->limit - memory->bytes;
+    if (renderer->geometry->vertex_cache.vertices >= vertices) return true;
+    return hair_gl_memory_allows(&renderer->gl->memory, vertices * VERTEX_BYTES);
 }
 
 // Return the render path that HAIR_RENDER_PATH_AUTO selects.

@@ -96,7 +96,8 @@ bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out)
     gl->GetIntegerv(GL_DEPTH_FUNC, &function);
     if (!gl->IsEnabled(GL_DEPTH_TEST) || function == GL_ALWAYS) return true;
     gl->GetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer);
-    if (!framebuffer || hair_draw_depth_direction(gl) == 0) return false;
+    const float direction = hair_draw_depth_direction(gl);
+    if (!framebuffer || direction == 0) return false;
     gl->GetFramebufferAttachmentParameteriv(GL_DRAW_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
                                             GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &type);
     if (type == GL_NONE) return true;
@@ -108,7 +109,7 @@ bool hair_draw_find_depth_test(struct hair_gl* gl, struct hair_depth_test* out)
     if (hair_gl_find_texture_target(gl, (GLuint)name) != GL_TEXTURE_2D) return false;
     gl->GetTextureParameteriv((GLuint)name, GL_TEXTURE_BASE_LEVEL, &base);
     out->depth = (GLuint)name;
-    out->tests = hair_draw_depth_direction(gl) > 0 ? HAIR_TEST_NEARER : HAIR_TEST_FARTHER;
+    out->tests = direction > 0 ? HAIR_TEST_NEARER : HAIR_TEST_FARTHER;
     if (function == GL_LEQUAL || function == GL_GEQUAL) out->tests |= HAIR_TEST_EQUAL;
     return level == 0 && base == 0;
 }

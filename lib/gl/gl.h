@@ -292,6 +292,8 @@ GLenum hair_gl_find_texture_target(const struct hair_gl* gl, GLuint texture);
 
 // Set the maximum of bytes that buffers and textures may take from now on. 0 disables it.
 void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes);
+// Return whether `size` more bytes stay within the memory limit.
+bool hair_gl_memory_allows(const struct hair_gl_memory* memory, uint64_t size);
 // Check whether `size` more bytes for `label` stay within the memory limit. Make room to record one
 // more object.
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size);

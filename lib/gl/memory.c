@@ -61,11 +61,15 @@ void hair_gl_memory_set_limit(struct hair_gl* gl, uint64_t bytes)
     gl->memory.limit = bytes;
 }
 
+bool hair_gl_memory_allows(const struct hair_gl_memory* memory, uint64_t size)
+{
+    return !memory->limit || (memory->bytes <= memory->limit && size <= memory->limit - memory->bytes);
+}
+
 hair_result hair_gl_memory_ask(struct hair_gl* gl, const char* label, uint64_t size)
 {
     const struct hair_gl_memory* memory = &gl->memory;
-    if (!memory->limit || (memory->bytes <= memory->limit && size <= memory->limit - memory->bytes))
-        return grow_objects(gl, label);
+    if (hair_gl_memory_allows(memory, size)) return grow_objects(gl, label);
     return hair_fail(&gl->host, HAIR_ERROR_MEMORY,
                      "%s: %llu more bytes than the %llu in use would be beyond the limit of %llu", label,
                      (unsigned long long)size, (unsigned long long)memory->bytes,
