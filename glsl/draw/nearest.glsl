@@ -18,6 +18,16 @@ bool is_visible(ivec2 pixel, float depth)
     return (raster.tests & is) != 0u;
 }
 
+// Return half the widths of the base and the top of a pixel seen along a ribbon. See coverage_of().
+vec2 trapezoid_of(raster_quad q)
+{
+    vec2 n = abs(q.across.xy);
+    return 0.5 * vec2(n.x + n.y, abs(n.x - n.y));
+}
+
+// Return the distance beside a ribbon up to which it covers pixels, from their centres.
+float margin_of(raster_quad q) { return trapezoid_of(q).x; }
+
 // Add the opacity of a ribbon in a pixel. Opacities of independent strands multiply, so their
 // logarithms are added, as integers because their order must not matter. They are rounded up or
 // down at random, because the sum of many strands must not depend on the rounding.
@@ -25,10 +35,9 @@ void add_opacity(uint segment, raster_quad q, uint at, ivec2 pixel, vec2 place)
 {
     float first = at_place(q.sides[0], place), second = at_place(q.sides[1], place);
     float off   = 0.5 * (second - first), half_ = 0.5 * (first + second);
-    vec2  n     = abs(q.across.xy);
     if (!is_between(q, place)) return;
     if (!is_visible(pixel, depth_at(q, fraction_at(q, place), first, second))) return;
-    float covered = coverage_of(vec4(off, half_, 0.5 * (n.x + n.y), 0.5 * abs(n.x - n.y)));
+    float covered = coverage_of(vec4(off, half_, trapezoid_of(q)));
     float left    = max(1.0 - covered * draw.viewport.w, HAIR_OPACITY_MIN_LEFT);
     uint  sum     = uint(-log2(left) * HAIR_OPACITY_SCALE + random(hash(segment) ^ at));
     if (sum > 0u && opacity[at] < HAIR_OPACITY_FULL) atomicAdd(opacity[at], sum);
@@ -41,6 +50,8 @@ layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uin
 #else
 layout(std430, binding = HAIR_BIND_NEAREST) restrict buffer nearest_buffer { uvec2 nearest[]; };
 #endif
+
+float margin_of(raster_quad q) { return 0.0; }
 
 // Take a ribbon as the nearest at a sample, if it is. Values only decrease, so one that was read is
 // never less than the current one. Reading before saves most atomic operations.

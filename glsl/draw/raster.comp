@@ -4,8 +4,8 @@
 // finds the segment that claims it. With HAIR_ALPHA_COVERAGE it adds up the opacity of strands in
 // each pixel, whatever their order.
 //
-// A thread covers the pixels of one segment. The rows of larger segments are distributed among all
-// threads of the work group.
+// raster.split threads share the lines of pixels of a segment. The lines of larger segments are
+// distributed among all threads of the work group.
 #version 450 core
 #ifdef HAIR_LONG_ATOMICS
 #extension GL_ARB_gpu_shader_int64 : require
@@ -21,10 +21,8 @@ layout(std430, binding = HAIR_BIND_COMMAND) readonly restrict buffer command_buf
     hair_draw_command command[];
 };
 
-// Segments of this work group that are too large for one thread.
-shared uint large_count;
-shared uint large[HAIR_GROUP_SIZE];
-shared uint ends[HAIR_GROUP_SIZE]; // Inclusive prefix sum of their pieces.
+shared bool has_large; // Some segments of this work group are too large for their threads.
+shared uint ends[HAIR_GROUP_SIZE]; // Inclusive prefix sum of the pieces of those segments.
 
 // The way over the pixels of a ribbon: lines of pixels across its longer extent. Along a line, few
 // pixels or none have a sample in a thin ribbon, and they are found without a search.
@@ -36,20 +34,10 @@ struct raster_walk {
     float reach;       // Half of the pixels of a line that the ribbon covers.
 };
 
-// Return half of the pixels beyond a ribbon in which it matters.
-float find_margin(raster_quad q)
-{
-#ifdef HAIR_ALPHA_COVERAGE
-    return 0.5 * (abs(q.across.x) + abs(q.across.y));
-#else
-    return 0.0;
-#endif
-}
-
 raster_walk walk_of(raster_quad q)
 {
     raster_walk w;
-    float margin = find_margin(q), beside = margin + (raster.samples > 1u ? 0.5 : 0.0);
+    float margin = margin_of(q), beside = margin + (raster.samples > 1u ? 0.5 : 0.0);
     vec2  lower  = min(min(q.corner[0].xy, q.corner[1].xy), min(q.corner[2].xy, q.corner[3].xy));
     vec2  upper  = max(max(q.corner[0].xy, q.corner[1].xy), max(q.corner[2].xy, q.corner[3].xy));
     vec2  size   = vec2(raster.columns, raster.rows);
@@ -123,15 +111,15 @@ uint fill_small(uint segment, int own)
 void main()
 {
     uint own = gl_LocalInvocationID.x, base = hair_group() * HAIR_GROUP_SIZE, pieces = 0u;
-    if (own == 0u) large_count = 0u;
+    if (own == 0u) has_large = false;
     synchronise();
     uint mine = (base + own) / raster.split;
     int  line = int((base + own) % raster.split);
     if (mine / draw.segments < command[0].strands) pieces = fill_small(mine, line);
     ends[own] = pieces;
-    if (pieces > 0u) atomicAdd(large_count, 1u);
+    if (pieces > 0u) has_large = true;
     synchronise();
-    if (large_count == 0u) return;
+    if (!has_large) return;
     for (uint reach = 1u; reach < HAIR_GROUP_SIZE; reach *= 2u) {
         uint before = own >= reach ? ends[own - reach] : 0u;
         synchronise();

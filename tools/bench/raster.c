@@ -7,7 +7,6 @@
 
 #include <epoxy/gl.h>
 #include <hair/hair_buffers.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define ROUNDS 15
