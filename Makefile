@@ -230,7 +230,7 @@ $(B)/hair-capture: $(B)/tools/capture.c.o $(WORLD) $(COMMON) $(B)/libhair_egl.a 
 $(B)/hair-bench: $(B)/tools/bench.c.o $(call objects,tools/bench/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(TOOL_LIBS) -o $@
-$(B)/hair-view: $(call objects,tools/view/*.cpp) $(WORLD) $(COMMON) $(B)/libhair_egl.a $(B)/libhair.a
+$(B)/hair-view: $(call objects,tools/view/*.cpp tools/view/*.c) $(WORLD) $(COMMON) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(if $(filter 0,$(BULLET)),,$(BULLET_LIBS)) $(VIEW_LIBS) $(TOOL_LIBS) -o $@
 

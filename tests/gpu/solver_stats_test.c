@@ -147,7 +147,7 @@ static void energy_equals_the_reference(void** state)
         }
         set_reference(rod, at, vertices[k], h);
         glGetNamedBufferSubData(living.hair->sim.diagnosis.energy, 0, sizeof energy, &energy);
-        struct hair_reference_rod_energy exact = hair_reference_rod_energy(rod);
+        struct hair_reference_rod_energy exact = hair_reference_rod_energy_of(rod);
         double off = energy_off(&energy, &exact);
         print_message("    %u vertices: kinetic %.4g, gravity %.4g, elastic %.4g J by the reference, %.4g, "
                       "%.4g, %.4g\n",

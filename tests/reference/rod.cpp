@@ -171,6 +171,12 @@ void hair_reference_rod_set_damping(hair_reference_rod* rod, double damping)
     rod->damping = damping;
 }
 
+void hair_reference_rod_set_wind(hair_reference_rod* rod, const double wind[3], double drag)
+{
+    rod->wind = vector_of(wind);
+    rod->drag = drag;
+}
+
 uint32_t hair_reference_rod_vertices(const hair_reference_rod* rod)
 {
     return rod->vertices;
@@ -204,7 +210,7 @@ double hair_reference_rod_stretch(const hair_reference_rod* rod)
     return max_value;
 }
 
-struct hair_reference_rod_energy hair_reference_rod_energy(const hair_reference_rod* rod)
+struct hair_reference_rod_energy hair_reference_rod_energy_of(const hair_reference_rod* rod)
 {
     struct hair_reference_rod_energy e = {};
     e.elastic = rod->energy;

@@ -111,6 +111,8 @@ void hair_reference_rod_set_state(struct hair_reference_rod* rod, const double* 
 /// Set gravity and update the clamp's factors.
 void hair_reference_rod_set_gravity(struct hair_reference_rod* rod, const double gravity[3]);
 void hair_reference_rod_set_damping(struct hair_reference_rod* rod, double damping);
+/// Set the wind and the factor of its drag, as in the description.
+void hair_reference_rod_set_wind(struct hair_reference_rod* rod, const double wind[3], double drag);
 uint32_t hair_reference_rod_vertices(const struct hair_reference_rod* rod);
 /// Return the positions of all vertices.
 void hair_reference_rod_positions(const struct hair_reference_rod* rod, double* positions);
@@ -121,7 +123,7 @@ void hair_reference_rod_masses(const struct hair_reference_rod* rod, double* mas
 /// Return the maximum |length / rest length - 1| of a segment.
 double hair_reference_rod_stretch(const struct hair_reference_rod* rod);
 
-struct hair_reference_rod_energy hair_reference_rod_energy(const struct hair_reference_rod* rod);
+struct hair_reference_rod_energy hair_reference_rod_energy_of(const struct hair_reference_rod* rod);
 /// Compute the forces of bending and twist per vertex, in N. They are minus the gradient of the
 /// elastic energy by the positions.
 void hair_reference_rod_elastic_forces(const struct hair_reference_rod* rod, double* forces);

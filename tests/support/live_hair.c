@@ -1,6 +1,7 @@
 #include "tests/support/live_hair.h"
 #include "lib/api/api.h"
 #include "lib/collide/distance.h"
+#include "tests/reference/guide_rod.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -225,89 +226,17 @@ void hair_test_healthy(struct hair_test_living* living)
     assert_int_equal(solver_stats.reset, 0);
 }
 
-// Arrays that hair_reference_rod_desc points to.
-struct arrays {
-    double positions[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], lengths[HAIR_REFERENCE_ROD_MAX_VERTICES];
-    double scale[HAIR_REFERENCE_ROD_MAX_VERTICES], pull[HAIR_REFERENCE_ROD_MAX_VERTICES];
-    double strain[3 * HAIR_REFERENCE_ROD_MAX_VERTICES], real[HAIR_REFERENCE_ROD_MAX_VERTICES];
-};
-
-static void fill_arrays(const struct hair_rest* rest, uint32_t count, const hair_physics* physics,
-                        struct arrays* out)
-{
-    double total = 0, so_far = 0;
-    for (uint32_t i = 0; i + 1 < count; ++i) total += (double)rest[i].position.w;
-    for (uint32_t i = 0; i < count; ++i) {
-        double root = (double)physics->shape.stiffness_root, pull = (double)physics->shape.frequency_root;
-        out->positions[3 * i] = (double)rest[i].position.x;
-        out->positions[3 * i + 1] = (double)rest[i].position.y;
-        out->positions[3 * i + 2] = (double)rest[i].position.z;
-        out->lengths[i] = (double)rest[i].position.w;
-        out->scale[i] = root + so_far / total * ((double)physics->shape.stiffness_tip - root);
-        out->pull[i] = 6.283185307179586 *
-                       (pull + (double)i / (count - 1) * ((double)physics->shape.frequency_tip - pull));
-        so_far += (double)rest[i].position.w;
-    }
-}
-
-// Fill in the material, with the mass of a metre of hair as the unit of mass, as in lib/rod/rod.h.
-static void fill_material(const hair_physics* physics, double length, struct hair_reference_rod_desc* out)
-{
-    double radius = (double)physics->fiber.radius, flat = (double)physics->fiber.flatness;
-    double bend =
-        (double)physics->fiber.youngs_modulus * radius * radius / (4 * (double)physics->fiber.density);
-    out->line_density = 1;
-    out->tip_mass = (double)physics->tip_mass * length;
-    out->bend[0] = bend * flat;
-    out->bend[1] = bend / flat;
-    out->twist = bend * 2 / ((1 + (double)physics->fiber.poisson_ratio) * (flat + 1 / flat));
-    out->damping = (double)physics->damping;
-    for (int k = 0; k < 3; ++k) { out->gravity[k] = (double)physics->gravity[k]; }
-}
-
-static void fill_wind(const hair_physics* physics, const hair_wind* wind, struct hair_reference_rod_desc* out)
-{
-    double radius = (double)physics->fiber.radius;
-    for (int k = 0; k < 3; ++k) out->wind[k] = (double)wind->velocity[k];
-    if (wind->velocity[0] == 0 && wind->velocity[1] == 0 && wind->velocity[2] == 0 && !wind->still_air)
-        return;
-    out->drag = (double)physics->drag / ((double)physics->fiber.density * 3.14159265358979 * radius * radius);
-    out->diameter = 2 * radius;
-    out->air = (struct hair_reference_air){(double)wind->density, (double)wind->viscosity};
-}
-
 struct hair_reference_rod* hair_test_reference(const struct hair_test_living* living, uint32_t guide,
                                                const struct hair_reference_rod_pose* head)
 {
-    struct hair_reference_rod_desc desc = hair_reference_rod_desc_default();
     const struct hair_guide* of = &living->groom->guides[guide];
-    const hair_physics* physics = &living->physics;
-    const hair_vec4 frame = of->root_frame;
-    struct arrays* arrays = calloc(1, sizeof *arrays);
-    fill_arrays(living->groom->rest + of->first, of->count, physics, arrays);
-    fill_material(physics, (double)of->arc_length, &desc);
-    fill_wind(physics, &living->wind, &desc);
-    desc.vertices = of->count;
-    desc.positions = arrays->positions;
-    desc.lengths = arrays->lengths;
-    desc.scale = arrays->scale;
-    if (physics->shape.frequency_root > 0 || physics->shape.frequency_tip > 0) desc.pull = arrays->pull;
-    desc.root = (enum hair_reference_rod_root)physics->root;
-    desc.root_frame[0] = (double)frame.x, desc.root_frame[1] = (double)frame.y;
-    desc.root_frame[2] = (double)frame.z, desc.root_frame[3] = (double)frame.w;
-    if (head) desc.head = *head;
-    desc.rest_strain = arrays->strain;
-    if (physics->shape.gravity_preload > 0) {
-        assert_true(hair_reference_rod_hold(&desc, arrays->strain, arrays->real));
-        desc.rest_real = arrays->real;
-    } else
-        hair_reference_rod_strain(of->count, arrays->positions, desc.root_frame, arrays->strain);
-    double max = 0;
-    for (uint32_t i = 0; i < 3 * (of->count - 1); ++i) max = fmax(max, fabs(arrays->strain[i]));
-    // The mixed scheme solves straight guides with the energy of curved ones.
-    desc.straight = max < 2e-5 && physics->fiber.flatness == 1 && !hair_sim_is_mixed(&living->hair->sim);
-    struct hair_reference_rod* rod = hair_reference_rod_create(&desc);
-    free(arrays);
+    const struct hair_reference_guide_rod desc = {.guide = of,
+                                                  .rest = living->groom->rest + of->first,
+                                                  .physics = &living->physics,
+                                                  .wind = &living->wind,
+                                                  .is_mixed = hair_sim_is_mixed(&living->hair->sim),
+                                                  .head = head};
+    struct hair_reference_rod* rod = hair_reference_guide_rod_create(&desc);
     assert_non_null(rod);
     return rod;
 }

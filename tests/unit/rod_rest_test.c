@@ -216,7 +216,7 @@ static double energy_of_hinge(double rest, double bend)
     desc.plain_clamp = 1;
     desc.rest_strain = strain;
     struct hair_reference_rod* rod = hair_test_rod(&desc);
-    double energy = hair_reference_rod_energy(rod).elastic;
+    double energy = hair_reference_rod_energy_of(rod).elastic;
     hair_reference_rod_destroy(rod);
     return energy;
 }

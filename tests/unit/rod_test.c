@@ -46,7 +46,7 @@ static void make_curl(struct curl* c)
 static double elastic_at(struct hair_reference_rod* rod, const double* positions)
 {
     hair_reference_rod_set_state(rod, positions, NULL);
-    return hair_reference_rod_energy(rod).elastic;
+    return hair_reference_rod_energy_of(rod).elastic;
 }
 
 // Compute the gradient by central differences of fourth order.
@@ -134,7 +134,7 @@ static void a_round_rod_without_twist_has_the_energy_of_its_angles(void** state)
             double own = i ? (length[i - 1] + length[i]) / 2 : length[0] / 2;
             sum += c.desc.bend[0] * c.scale[i] / own * strain * strain / 2;
         }
-        hair_test_near(straight ? "straight" : "curved", 0, hair_reference_rod_energy(rod).elastic, sum,
+        hair_test_near(straight ? "straight" : "curved", 0, hair_reference_rod_energy_of(rod).elastic, sum,
                        1e-13 * sum);
         hair_reference_rod_destroy(rod);
     }
@@ -163,8 +163,8 @@ static void forces_rotate_with_head_and_hair(void** state)
     double a[3 * CURL], b[3 * CURL], turned[3];
     hair_reference_rod_elastic_forces(here, a);
     hair_reference_rod_elastic_forces(there, b);
-    hair_test_near("energy", 0, hair_reference_rod_energy(here).elastic,
-                   hair_reference_rod_energy(there).elastic, 1e-14);
+    hair_test_near("energy", 0, hair_reference_rod_energy_of(here).elastic,
+                   hair_reference_rod_energy_of(there).elastic, 1e-14);
     for (int i = 0; i < CURL; ++i) {
         rotate(rotation, a + 3 * i, turned);
         for (int k = 0; k < 3; ++k) hair_test_near("force", (size_t)i, b[3 * i + k], turned[k], 1e-10);
@@ -284,11 +284,11 @@ static void energy_stays_within_the_square_of_the_substep(void** state)
         struct curl c;
         make_curl(&c);
         struct hair_reference_rod* rod = hair_test_rod(&c.desc);
-        double start = hair_reference_rod_energy(rod).total;
+        double start = hair_reference_rod_energy_of(rod).total;
         max[run] = 0;
         for (int k = 0; k < 1000; ++k) {
             assert_true(hair_reference_rod_advance(rod, NULL, 1e-3, run ? 8 : 4));
-            max[run] = fmax(max[run], fabs(hair_reference_rod_energy(rod).total - start));
+            max[run] = fmax(max[run], fabs(hair_reference_rod_energy_of(rod).total - start));
         }
         assert_true(hair_reference_rod_stretch(rod) < 1e-13);
         hair_reference_rod_destroy(rod);
@@ -338,9 +338,9 @@ static void half_the_longest_substep_is_stable_and_triple_is_not(void** state)
         make_curl(&c);
         struct hair_reference_rod* rod = hair_test_rod(&c.desc);
         double h = hair_reference_rod_longest_substep(rod) * (run ? 3 : 0.5);
-        double start = hair_reference_rod_energy(rod).total;
+        double start = hair_reference_rod_energy_of(rod).total;
         int ok = hair_reference_rod_advance(rod, NULL, 2000 * h, 2000);
-        int calm = ok && fabs(hair_reference_rod_energy(rod).total - start) < 0.02;
+        int calm = ok && fabs(hair_reference_rod_energy_of(rod).total - start) < 0.02;
         assert_int_equal(calm, run == 0);
         hair_reference_rod_destroy(rod);
     }

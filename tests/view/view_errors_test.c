@@ -39,14 +39,43 @@ static void image_error_is_larger_for_pictures_of_low_quality(void** state)
     assert_true(low > 1.2 * full && low < 0.3);
 }
 
+// The reference moves free hair, and a second head all hair.
 static void motion_error_is_larger_for_solvers_that_do_not_converge(void** state)
 {
     (void)state;
-    static const char script[] = "key G\nwait 42";
-    double direct = measure("", script, "motion_error");
-    double follow = measure("--set solver=follow", script, "motion_error");
-    assert_true(direct > 0 && direct < 0.02);
-    assert_true(follow > 3 * direct && follow < 1);
+    static const char* const solvers[] = {"accurate", "direct", "follow"};
+    double reference[3], contact[3];
+    for (int i = 0; i < 3; ++i) {
+        char option[32];
+        snprintf(option, sizeof option, "--set solver=%s", solvers[i]);
+        contact[i] = measure(option, "key G\nwait 32", "motion_error");
+        json_t* root = hair_test_shell_json("r.json");
+        const json_t* free = json_object_get(root, "reference");
+        assert_non_null(free);
+        assert_true(hair_test_json_number(free, "free") > 3);
+        assert_true(hair_test_json_number(free, "worst") >= hair_test_json_number(free, "rms"));
+        assert_true(hair_test_json_number(free, "energy") > 1e-9 &&
+                    hair_test_json_number(free, "energy") < 1e-4);
+        reference[i] = hair_test_json_number(free, "rms");
+        print_message("    %s: %g of the length, %g with contacts\n", solvers[i], reference[i], contact[i]);
+        json_decref(root);
+    }
+    assert_true(reference[0] > 0 && reference[0] < 3e-4);
+    assert_true(reference[1] > 2 * reference[0] && reference[1] < 3e-3);
+    assert_true(reference[2] > 10 * reference[1] && reference[2] < 1);
+    assert_true(contact[1] > 0 && contact[1] < 0.02);
+    assert_true(contact[2] > 3 * contact[1] && contact[2] < 1);
+}
+
+// A wind that varies from place to place, which the reference does not have.
+static void hair_in_wind_has_no_reference(void** state)
+{
+    (void)state;
+    measure("--set wind.x=4", "key G\nwait 12", "motion_error");
+    json_t* root = hair_test_shell_json("r.json");
+    assert_true(hair_test_json_number(root, "motion_error") > 0);
+    assert_null(json_object_get(root, "reference"));
+    json_decref(root);
 }
 
 // A click on a point takes its settings.
@@ -87,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(image_error_is_larger_for_pictures_of_low_quality),
         cmocka_unit_test(motion_error_is_larger_for_solvers_that_do_not_converge),
+        cmocka_unit_test(hair_in_wind_has_no_reference),
         cmocka_unit_test(pareto_panel_measures_settings_and_takes_one),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

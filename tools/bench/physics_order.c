@@ -98,9 +98,9 @@ static bool average_energy(struct bench_live_scene* live, struct hair_reference_
         if (!bench_step(live, NULL, live->substep) || !bench_read(live, now)) return false;
         for (int i = 0; i < 3 * VERTICES; ++i) velocity[i] = (now[i] - before[i]) / live->substep;
         hair_reference_rod_set_state(rod, before, velocity);
-        sum += hair_reference_rod_energy(rod).total / 2;
+        sum += hair_reference_rod_energy_of(rod).total / 2;
         hair_reference_rod_set_state(rod, now, velocity);
-        sum += hair_reference_rod_energy(rod).total / 2;
+        sum += hair_reference_rod_energy_of(rod).total / 2;
         for (int i = 0; i < 3 * VERTICES; ++i) before[i] = now[i];
         if (bench_was_interrupted()) return false;
     }
@@ -172,9 +172,9 @@ static bool find_whip_energy(struct bench_live_scene* live, struct hair_referenc
         before[i] = at[i] - part * moved;
     }
     hair_reference_rod_set_state(rod, before, velocity);
-    *out = hair_reference_rod_energy(rod).total / 2;
+    *out = hair_reference_rod_energy_of(rod).total / 2;
     hair_reference_rod_set_state(rod, at, velocity);
-    *out += hair_reference_rod_energy(rod).total / 2;
+    *out += hair_reference_rod_energy_of(rod).total / 2;
     return true;
 }
 

@@ -32,7 +32,7 @@ static double find_energy(struct curl* curl, double h)
     for (uint32_t i = 0; i < 3 * vertices; ++i) velocities[i] = (curl->at[2][i] - curl->at[0][i]) / (2 * h);
     hair_reference_rod_set_state(curl->rod, curl->at[1], velocities);
     hair_reference_rod_masses(curl->rod, masses);
-    struct hair_reference_rod_energy energy = hair_reference_rod_energy(curl->rod);
+    struct hair_reference_rod_energy energy = hair_reference_rod_energy_of(curl->rod);
     for (uint32_t i = 0; i < vertices; ++i) mass += masses[i];
     for (uint32_t i = 0; i < 3 * vertices; ++i) momentum[i % 3] += masses[i / 3] * velocities[i];
     double squares = pow(momentum[0], 2) + pow(momentum[1], 2) + pow(momentum[2], 2);

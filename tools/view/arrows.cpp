@@ -29,6 +29,35 @@ void draw(const viewer& viewer, const float from[3], const float to[3], ImU32 co
     list->AddText({a.x + 6 * scale, a.y + 4 * scale}, color, text);
 }
 
+// Draw the vertices of a guide as a line. Return the place of its tip.
+ImVec2 draw_guide(const viewer& viewer, const std::vector<float>& vertices, ImU32 color)
+{
+    ImVec2 last = {0, 0}, next;
+    bool has_last = false;
+    for (size_t i = 0; i + 2 < vertices.size(); i += 3) {
+        bool is_seen = view_project(viewer, &vertices[i], next);
+        if (is_seen && has_last)
+            ImGui::GetBackgroundDrawList()->AddLine(last, next, color, 2.5f * viewer.gui.scale);
+        has_last = is_seen;
+        last = next;
+    }
+    return last;
+}
+
+// Draw the guide with the largest error of motion, and its reference.
+void draw_worst(const viewer& viewer)
+{
+    const view_reference_result& result = viewer.motion_error.free;
+    const ImU32 red = IM_COL32(255, 90, 80, 255), green = IM_COL32(90, 220, 130, 255);
+    if (!viewer.motion_error.is_on || result.rms < 0 || result.worst_shown.empty()) return;
+    float gap = 8 * viewer.gui.scale;
+    ImVec2 right = draw_guide(viewer, result.worst_right, green);
+    ImVec2 tip = draw_guide(viewer, result.worst_shown, red);
+    ImGui::GetBackgroundDrawList()->AddCircle(tip, gap, red, 0, 2 * viewer.gui.scale);
+    ImGui::GetBackgroundDrawList()->AddText({tip.x + 1.5f * gap, tip.y - gap}, red, "worst motion");
+    ImGui::GetBackgroundDrawList()->AddText({right.x + 1.5f * gap, right.y + gap}, green, "reference");
+}
+
 } // namespace
 
 bool view_project(const viewer& viewer, const float point[3], ImVec2& out)
@@ -57,13 +86,7 @@ void view_arrows(const viewer& viewer)
     float centre[3], from[3], to[3], towards[3], speed = view_wind_speed(scene);
     float size = 0.3f * view_camera_height(scene);
     hair_camera_pivot(&scene, viewer.session.transform, centre);
-    ImVec2 tip;
-    const view_motion_error& error = viewer.motion_error;
-    if (error.is_on && error.rms >= 0 && view_project(viewer, error.worst_tip, tip)) {
-        ImDrawList* list = ImGui::GetBackgroundDrawList();
-        list->AddCircle(tip, 9 * viewer.gui.scale, IM_COL32(255, 90, 80, 255), 0, 2 * viewer.gui.scale);
-        list->AddText({tip.x + 11 * viewer.gui.scale, tip.y}, IM_COL32(255, 90, 80, 255), "worst motion");
-    }
+    draw_worst(viewer);
     if (viewer.drag == VIEW_DRAG_LIGHT) {
         hair_light_direction(&scene, towards);
         for (int i = 0; i < 3; ++i) {

@@ -111,16 +111,17 @@ uint32_t find_vertex(const viewer& viewer, const float* guide, uint32_t vertices
 bool pin_guide(viewer& viewer, uint32_t guide, float x, float y)
 {
     view_session& session = viewer.session;
-    uint32_t vertices = session.info.guide_vertex_count / std::max(1u, session.info.guide_count), count = 0;
+    uint32_t count = 0;
     std::vector<float> positions(3 * (size_t)session.info.guide_vertex_count);
-    if (guide >= session.info.guide_count || vertices < 2 ||
+    if (guide >= session.info.guide_count ||
         hair_read_positions(session.hair, HAIR_READ_GUIDES, positions.data(), session.info.guide_vertex_count,
                             &count))
         return false;
-    const float* first = &positions[3 * (size_t)guide * vertices];
+    view_guide place = view_guide_of(session.groom, guide);
+    const float* first = &positions[3 * (size_t)place.first];
     hair_pin pin = hair_pin_default();
     pin.guide = guide;
-    pin.vertex = find_vertex(viewer, first, vertices, x, y);
+    pin.vertex = find_vertex(viewer, first, place.count, x, y);
     pin.to = HAIR_PIN_WORLD;
     memcpy(pin.position, first + 3 * (size_t)pin.vertex, sizeof pin.position);
     session.pins.assign(1, pin);

@@ -101,6 +101,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);
     session.pins.clear();
+    ++session.generation;
     return HAIR_EXIT_OK;
 }
 
@@ -227,6 +228,7 @@ int view_session_step(view_session& session, const hair_scene& scene, float dt, 
 int view_session_reset(view_session& session, const hair_scene& scene)
 {
     session.time = 0;
+    ++session.generation;
     session.pins.clear();
     hair_motion_at(&scene.motion, 0, session.transform);
     hair_result result = hair_teleport(session.hair, session.transform);

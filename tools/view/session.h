@@ -38,6 +38,7 @@ struct view_session {
     float reach = 1; // radius of the head's reach, m
     float transform[16] = {}; // of the head
     double time = 0; // of the motion, s
+    uint32_t generation = 0; // number of times that the hair was put at rest
 };
 
 // Create the context of the library, with the shaders of a folder unless `glsl` is "". Return an

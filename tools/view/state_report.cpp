@@ -22,9 +22,9 @@ bool read_guides(const viewer& viewer, std::vector<float>& out)
 json_t* held_of(const viewer& viewer, const std::vector<float>& guides)
 {
     const hair_pin& pin = viewer.session.pins[0];
-    size_t vertices = viewer.session.info.guide_vertex_count / std::max(1u, viewer.session.info.guide_count);
+    uint32_t first = view_guide_of(viewer.session.groom, pin.guide).first;
     ImVec2 place = {-1, -1};
-    view_project(viewer, &guides[3 * (pin.guide * vertices + pin.vertex)], place);
+    view_project(viewer, &guides[3 * (size_t)(first + pin.vertex)], place);
     return json_pack("{s:i, s:i, s:f, s:f}", "guide", (int)pin.guide, "vertex", (int)pin.vertex, "x",
                      (double)place.x, "y", (double)place.y);
 }
@@ -48,6 +48,12 @@ int view_state_report(const viewer& viewer, const std::string& path)
     }
     if (viewer.motion_error.rms >= 0)
         json_object_set_new(root, "motion_error", json_real(viewer.motion_error.rms));
+    const view_reference_result& free = viewer.motion_error.free;
+    if (free.rms >= 0)
+        json_object_set_new(root, "reference",
+                            json_pack("{s:f, s:f, s:f, s:i, s:i}", "rms", free.rms, "worst", free.worst,
+                                      "energy", free.energy, "free", (int)free.free, "followed",
+                                      (int)free.followed));
     if (!viewer.pareto.points.empty() && !viewer.pareto.is_running) {
         json_t* points = json_array();
         for (const view_pareto_point& point : viewer.pareto.points)

@@ -43,15 +43,14 @@ void show_frame(const viewer& viewer)
     ImGui::TextDisabled("Frame");
     // Frames of a script have no time of their own.
     if (viewer.options.script.empty())
-        ImGui::Text("%.1f frames/s, %.1f ms", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0,
-                    viewer.frame_ms);
+        ImGui::Text("%.1f fps, %.1f ms", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0, viewer.frame_ms);
     else
-        ImGui::Text("frame %u of a script", viewer.frame);
+        ImGui::Text("frame %u", viewer.frame);
     ImGui::Text("hair %.1f ms", (double)(now.info.ms / pictures_of(viewer)));
     ImGui::Text("%s", bytes_of(memory.bytes).c_str());
-    ImGui::TextDisabled("quality: %s", quality);
-    ImGui::TextDisabled("%u strands, %u guides", viewer.session.info.follower_count,
-                        viewer.session.info.guide_count);
+    ImGui::TextDisabled("%s", quality);
+    ImGui::TextDisabled("%u strands", viewer.session.info.follower_count);
+    ImGui::TextDisabled("%u guides", viewer.session.info.guide_count);
 }
 
 // Show the stages that took time as bars, the longest first, and the others with the reason.
@@ -65,8 +64,8 @@ void show_stages(const viewer& viewer)
     float max = rows.empty() ? 1 : std::max(rows[0].ms, 1e-3f);
     ImGui::TextDisabled("Stages of the hair");
     if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_ScrollY)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 7 * ImGui::GetFontSize());
-    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 5 * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 6.3f * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 4.2f * ImGui::GetFontSize());
     ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
     for (const hair_report_row& row : rows) {
         bool has_run = row.skip_reason == HAIR_SKIP_REASON_NONE;
@@ -93,38 +92,61 @@ void show_stages(const viewer& viewer)
 void show_history(const char* label, const std::vector<float>& values, const char* format, float factor)
 {
     char text[64];
-    snprintf(text, sizeof text, format, (double)(values.empty() ? 0 : values.back() * factor));
+    if (values.empty())
+        snprintf(text, sizeof text, "off");
+    else
+        snprintf(text, sizeof text, format, (double)(values.back() * factor));
     ImGui::Text("%s", label);
-    ImGui::SameLine(5.5f * ImGui::GetFontSize());
+    ImGui::SameLine(4.3f * ImGui::GetFontSize());
     ImGui::PushID(label);
     ImGui::PlotLines("##plot", values.data(), (int)values.size(), 0, text, 0, FLT_MAX,
-                     {ImGui::GetContentRegionAvail().x, 1.4f * ImGui::GetFontSize()});
+                     {ImGui::GetContentRegionAvail().x, 1.35f * ImGui::GetFontSize()});
     ImGui::PopID();
+}
+
+void show_histories(const viewer& viewer)
+{
+    const view_measures& now = viewer.measures;
+    ImGui::TextDisabled("Over time");
+    show_history("energy", now.energy, "%.3f \xc2\xb5J", 1e6f);
+    show_history("stretch", now.stretch, "%.4f %%", 100);
+    show_history("fallback", now.fallbacks, "%.0f", 1);
+    show_history("fastest", now.fastest, "%.2f m/s", 1);
+}
+
+// Show the error of free hair against the reference, and that of all hair against the second head.
+void show_motion_error(const view_motion_error& motion)
+{
+    const view_reference_result& free = motion.free;
+    if (motion.obstacle)
+        ImGui::TextDisabled("motion: %s", motion.obstacle);
+    else if (!free.frames)
+        ImGui::TextDisabled("motion: measuring");
+    else if (free.rms < 0)
+        ImGui::TextDisabled("motion: no free guide");
+    else
+        ImGui::Text("motion: %.3f %%\n  worst %.3f %% of %u", 100 * free.rms, 100 * free.worst, free.free);
+    if (motion.rms < 0)
+        ImGui::TextDisabled("contact: measuring");
+    else
+        ImGui::Text("contact: %.3f %%\n  worst %.3f %%", 100 * motion.rms, 100 * motion.worst);
 }
 
 void show_errors(const viewer& viewer)
 {
-    const view_measures& now = viewer.measures;
     const view_image_error& image = viewer.image_error;
-    const view_motion_error& motion = viewer.motion_error;
     ImGui::TextDisabled("Errors");
     if (!image.is_on)
         ImGui::TextDisabled("image: off");
     else if (image.flip < 0)
-        ImGui::Text("image: measuring, %u/%u", image.pictures * view_quality_of(0).samples,
+        ImGui::Text("image: measuring\n  %u of %u", image.pictures * view_quality_of(0).samples,
                     view_reference_samples);
     else
-        ImGui::Text("image: FLIP %.4f of %u", image.flip, image.samples);
-    if (!motion.is_on)
-        ImGui::TextDisabled("motion: off");
-    else if (motion.rms < 0)
-        ImGui::Text("motion: measuring");
+        ImGui::Text("image: FLIP %.4f\n  %u samples", image.flip, image.samples);
+    if (viewer.motion_error.is_on)
+        show_motion_error(viewer.motion_error);
     else
-        ImGui::Text("motion: %.2f %%, worst %.1f %%", 100 * motion.rms, 100 * motion.worst);
-    show_history("fastest", now.fastest, "%.2f m/s", 1);
-    show_history("stretch", now.stretch, "%.4f %%", 100);
-    ImGui::Text("fallbacks %u, resets %u", now.stats.euler_fallbacks + now.stats.follow_fallbacks,
-                now.stats.reset);
+        ImGui::TextDisabled("motion: off");
 }
 
 } // namespace
@@ -140,22 +162,32 @@ void view_strip_update(viewer& viewer)
     if (viewer.frame % stats_frames) return;
     now.stats = hair_solver_stats_default();
     if (hair_get_solver_stats(viewer.session.hair, &now.stats)) return;
+    uint32_t fallbacks = now.stats.euler_fallbacks + now.stats.follow_fallbacks + now.stats.parts;
     add(now.fastest, now.stats.fastest);
     add(now.stretch, now.stats.stretch);
+    add(now.fallbacks, (float)(fallbacks - std::min(fallbacks, now.fallback_count)));
+    now.fallback_count = fallbacks;
+    if (!viewer.motion_error.is_on)
+        now.energy.clear();
+    else if (viewer.motion_error.free.free)
+        add(now.energy, (float)viewer.motion_error.free.energy);
 }
 
 void view_strip(viewer& viewer)
 {
     float font = ImGui::GetFontSize();
-    if (!ImGui::BeginTable("strip", 3)) return;
-    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 11.5f * font);
-    ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.2f);
-    ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthStretch, 1);
+    if (!ImGui::BeginTable("strip", 4)) return;
+    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 7.6f * font);
+    ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.3f);
+    ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthFixed, 10.6f * font);
+    ImGui::TableSetupColumn("histories", ImGuiTableColumnFlags_WidthStretch, 0.9f);
     ImGui::TableNextColumn();
     show_frame(viewer);
     ImGui::TableNextColumn();
     show_stages(viewer);
     ImGui::TableNextColumn();
     show_errors(viewer);
+    ImGui::TableNextColumn();
+    show_histories(viewer);
     ImGui::EndTable();
 }

@@ -21,7 +21,6 @@ namespace
 
 constexpr float script_dt = 1.0f / 60; // s
 constexpr size_t max_messages = 50;
-constexpr uint32_t motion_error_frames = 10; // frames between two measurements
 constexpr uint32_t reload_frames = 20; // frames between two looks at the shaders
 constexpr float slow_motion = 0.125f;
 // Time without motion after which the picture has full quality, ms. The picture takes seconds by a
@@ -71,6 +70,7 @@ void close(viewer& viewer)
 {
     hair_complain_to(nullptr, nullptr);
     view_image_error_finish(viewer.image_error);
+    view_motion_error_end(viewer.motion_error, viewer.session);
     view_gui_close(viewer.gui);
     view_session_close(viewer.session);
     view_document_close(viewer.document);
@@ -111,13 +111,19 @@ int step(viewer& viewer, float dt)
     if (viewer.is_slow) dt *= slow_motion;
     viewer.steps_once = false;
     if (viewer.plays && viewer.loops && end > 0 && session.time >= end) session.time -= end;
+    bool is_measured = viewer.motion_error.is_on;
+    int code = HAIR_EXIT_OK;
+    if (is_measured) code = view_motion_error_prepare(viewer.motion_error, session, scene);
+    if (is_measured) dt = (float)view_motion_error_frames(viewer.motion_error, (double)dt);
+    if (code || dt <= 0) return code;
     viewer.draws = 0;
-    int code = view_session_step(session, scene, dt, viewer.plays);
+    code = view_session_step(session, scene, dt, viewer.plays);
     bool is_moving =
         (viewer.plays && session.time < end) || !session.pins.empty() || !view_session_sleeps(session);
     if (is_moving) viewer_moved(viewer);
-    if (!code && viewer.motion_error.is_on && viewer.frame % motion_error_frames == 0)
-        code = view_motion_error_update(viewer.motion_error, session, scene);
+    if (!code && is_measured)
+        code = view_motion_error_update(viewer.motion_error, session, scene, (double)dt,
+                                        !viewer.options.script.empty());
     return code;
 }
 

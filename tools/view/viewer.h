@@ -33,7 +33,8 @@ struct view_measures {
     hair_report_info info = {};
     std::vector<hair_report_row> rows;
     hair_solver_stats stats = {};
-    std::vector<float> fastest, stretch, motion_error; // over time
+    std::vector<float> energy, stretch, fallbacks, fastest; // over time
+    uint32_t fallback_count = 0; // until the newest value of `fallbacks`
 };
 
 // Settings with their time and error, for the plot of time against error.
