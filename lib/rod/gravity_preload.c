@@ -42,6 +42,10 @@
 struct search {
     struct hair_rod_shape* shape;
     struct hair_rod_pose pose;
+    struct hair_rod_stability stability; // Stability of the groom, prepared.
+    // Strain of the groom, times the stiffness. Entry 0 is not kept.
+    double strain[HAIR_MAX_GUIDE_VERTICES];
+    hair_dvec3 root_stress; // Stress of the groom at the root.
     double bend[HAIR_MAX_GUIDE_VERTICES]; // Stiffness of the material.
     double lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
     hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // Rest shape equal to the groom.
@@ -76,8 +80,9 @@ static hair_dvec3 strain_off(const struct search* a, uint32_t i)
     return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
 }
 
-// Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
-static bool holds(struct search* a, double margin)
+// Set `rest` to the rest shape that balances the pose under gravity. Return whether the strain of
+// the rest shape is allowed.
+static bool balance(struct search* a)
 {
     const struct hair_rod_shape* s = a->shape;
     hair_rod_load(s, 1, &a->pose);
@@ -90,9 +95,47 @@ static bool holds(struct search* a, double margin)
                                      2 * t.z - g.z / ratio.z, 2 * t.w};
         if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MAX_STRAIN)) return false;
     }
-    hair_rod_load(s, margin, &a->pose);
+    return true;
+}
+
+// Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
+static bool holds(struct search* a)
+{
+    if (!balance(a)) return false;
+    hair_rod_load(a->shape, MARGIN, &a->pose);
+    hair_rod_balance(a->shape, &a->pose);
+    return hair_rod_is_stable(a->shape, &a->pose, SLOWEST * SLOWEST);
+}
+
+// Return the length of the strain that a stress causes at vertex i with the stiffness 1.
+static double strain_by(const struct search* a, uint32_t i, hair_dvec3 stress)
+{
+    hair_dvec3 r = hair_rod_ratios_at(a->shape, i);
+    return hair_dlength((hair_dvec3){stress.x / r.x, stress.y / r.y, stress.z / r.z});
+}
+
+// Prepare tests of the groom. The pose is the groom, whose stress does not depend on the stiffness.
+static void prepare_groom(struct search* a)
+{
+    const struct hair_rod_shape* s = a->shape;
+    hair_rod_load(s, 1, &a->pose);
     hair_rod_balance(s, &a->pose);
-    return hair_rod_is_stable(s, &a->pose, SLOWEST * SLOWEST);
+    for (uint32_t i = 0; i + 1 < s->count; ++i) a->strain[i] = strain_by(a, i, a->pose.stress[i]);
+    a->root_stress = a->pose.stress[0];
+    hair_rod_load(s, MARGIN, &a->pose);
+    hair_rod_balance(s, &a->pose);
+    hair_rod_prepare_stability(s, &a->pose, SLOWEST * SLOWEST, &a->stability);
+}
+
+// Return whether the groom can be held with the present stiffness.
+static bool groom_holds(struct search* a)
+{
+    const struct hair_rod_shape* s = a->shape;
+    // The stiffness changes the ratios at the clamp.
+    a->strain[0] = strain_by(a, 0, a->root_stress);
+    for (uint32_t i = 0; i + 1 < s->count; ++i)
+        if (!(a->strain[i] <= HAIR_ROD_MAX_STRAIN * hair_rod_stiffness(s, i))) return false;
+    return hair_rod_test_stability(s, &a->pose, &a->stability);
 }
 
 // Return the smallest c with which the groom holds. The groom holds with c = `does`.
@@ -103,7 +146,7 @@ static double min_stiffening(struct search* a, double does)
     for (does += 1; does > FINENESS * fails;) {
         double middle = sqrt(fails * does);
         stiffen(a, middle - 1);
-        if (holds(a, MARGIN))
+        if (groom_holds(a))
             does = middle;
         else
             fails = middle;
@@ -115,7 +158,7 @@ static double min_stiffening(struct search* a, double does)
 static bool holds_at(struct search* a, double t)
 {
     hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
-    return holds(a, MARGIN);
+    return holds(a);
 }
 
 // Find the smallest t whose pose holds, and set the pose. Return more than 1 if no pose holds.
@@ -167,7 +210,7 @@ static double sag(struct search* a)
 {
     double t = find_pose(a);
     while (t <= 1) {
-        if (holds(a, MARGIN) && is_reached(a)) return max_distance(a, a->shape->place);
+        if (holds(a) && is_reached(a)) return max_distance(a, a->shape->place);
         if (t >= 1) break;
         t = fmin(t + STEP, 1);
         holds_at(a, t);
@@ -220,19 +263,18 @@ struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
         memcpy(s->stress, a.pose.stress, (s->count - 1) * sizeof *s->stress);
         return held;
     }
-    if (!holds(&a, MARGIN)) {
+    prepare_groom(&a);
+    if (!groom_holds(&a)) {
         double max = (HAIR_ROD_MAX_STIFFEN - 1) / a.lever[s->count - 2], c = max;
         stiffen(&a, max);
-        held.sags = !holds(&a, MARGIN);
+        held.sags = !groom_holds(&a);
         if (!held.sags) c = min_stiffening(&a, max);
         stiffen(&a, c);
         held.stiffest = s->bend[0] / a.bend[0];
         HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
-        if (held.sags)
-            held.sag = sag(&a);
-        else
-            holds(&a, MARGIN);
+        if (held.sags) held.sag = sag(&a);
     }
+    if (!held.sags) balance(&a);
     finish_search(&a);
     return held;
 }

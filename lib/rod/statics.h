@@ -40,6 +40,42 @@ void hair_rod_strain(const struct hair_rod_shape* shape, const hair_rod_rest* re
 bool hair_rod_is_stable(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
                         double squared_frequency);
 
+// Second derivatives of a vertex's energy by the turns a before and b after it. See variation.c.
+struct hair_rod_hinge {
+    double before[6], after[6]; // Entries 00, 10, 11, 20, 21 and 22 by a a and by b b.
+    double between[3][3]; // Row r has the derivatives by component r of b.
+};
+
+// Columns of the derivative of a segment by its turn, of which the second is 0. See variation.c.
+struct hair_rod_swing {
+    double x[3], z[3];
+};
+
+// Terms of a segment in the energy of small motions.
+struct hair_rod_segment_terms {
+    hair_dvec3 force; // Force on all beyond the segment, in its frame, times its length.
+    double pull; // Stiffness of the pull at the end of the segment, less that of slow motions.
+    struct hair_rod_swing swing;
+};
+
+// Stability of a pose for any stiffness. Everything that the stiffness does not change is computed
+// once.
+struct hair_rod_stability {
+    struct hair_rod_stability_vertex {
+        struct hair_rod_hinge unit; // Part of the hinge that is multiplied by the stiffness.
+        double self, between[3][3]; // Part of the hinge that the stress causes.
+        struct hair_rod_segment_terms terms;
+    } vertex[HAIR_MAX_GUIDE_VERTICES];
+};
+
+// Prepare tests for small motions of at least the given squared angular frequency.
+void hair_rod_prepare_stability(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
+                                double squared_frequency, struct hair_rod_stability* out);
+
+// Return the result of hair_rod_is_stable() with the present stiffness of the shape.
+bool hair_rod_test_stability(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
+                             const struct hair_rod_stability* stability);
+
 // Find the turns of the segments, in their own frames, that minimise the energy to second order
 // about the pose. `slope` is the derivative of the energy by the turns. `shift` is added to the
 // diagonal of the matrix of second derivatives. Return false if there is no minimum.

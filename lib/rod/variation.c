@@ -33,194 +33,212 @@
 //   sum_k m_k W |dx_k|^2 / 2
 //
 // is positive. Subtracting this term is equivalent to a pull p_k that is weaker by m_k W.
+//
+// A bisection over the stiffness tests one pose many times. All that does not depend on the
+// stiffness is then computed once: see hair_rod_prepare_stability().
 #include "lib/rod/statics.h"
 
 #include <string.h>
 
-struct block3 {
-    double m[3][3];
-};
-
-// Compute out += a b.
-static void add_product(struct block3* out, const struct block3* a, const struct block3* b)
+// Compute the part of a hinge that unit stiffness causes.
+static void write_unit_hinge(hair_dquat t, hair_dvec3 ratios, struct hair_rod_hinge* h)
 {
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            out->m[r][c] += a->m[r][0] * b->m[0][c] + a->m[r][1] * b->m[1][c] + a->m[r][2] * b->m[2][c];
-}
-
-// Compute out += sign a^T b.
-static void add_transposed(struct block3* out, double sign, const struct block3* a, const struct block3* b)
-{
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            out->m[r][c] +=
-                sign * (a->m[0][r] * b->m[0][c] + a->m[1][r] * b->m[1][c] + a->m[2][r] * b->m[2][c]);
-}
-
-// Factor a = L L^T. Read only the lower half of a, and write L there. Return false if a is not
-// positive.
-static bool factor(struct block3* a)
-{
-    for (int c = 0; c < 3; ++c) {
-        double d = a->m[c][c];
-        for (int n = 0; n < c; ++n) d -= a->m[c][n] * a->m[c][n];
-        if (!(d > 0)) return false;
-        a->m[c][c] = sqrt(d);
-        for (int r = c + 1; r < 3; ++r) {
-            double sum = a->m[r][c];
-            for (int n = 0; n < c; ++n) sum -= a->m[r][n] * a->m[c][n];
-            a->m[r][c] = sum / a->m[c][c];
-        }
-    }
-    return true;
-}
-
-// Compute x = L^-1 x.
-static void solve_lower(const struct block3* l, double* x, int stride)
-{
-    for (int r = 0; r < 3; ++r) {
-        HAIR_ASSERT(l->m[r][r] > 0);
-        for (int n = 0; n < r; ++n) x[stride * r] -= l->m[r][n] * x[stride * n];
-        x[stride * r] /= l->m[r][r];
-    }
-}
-
-// Compute x = L^-T x.
-static void solve_upper(const struct block3* l, double* x)
-{
-    for (int r = 3; r-- > 0;) {
-        for (int n = r + 1; n < 3; ++n) x[r] -= l->m[n][r] * x[n];
-        x[r] /= l->m[r][r];
-    }
-}
-
-// Second derivatives of a vertex's energy by the turns a a, b a and b b.
-struct hinge {
-    struct block3 before, between, after;
-};
-
-static struct hinge hinge_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
-{
-    HAIR_ASSERT(i + 1 < s->count);
-    const hair_dquat t = pose->turn[i];
-    const hair_dvec3 q = pose->stress[i];
-    const double v[3] = {t.x, t.y, t.z}, g[3] = {q.x, q.y, q.z}, w = t.w, e = pose->real_stress[i];
+    const double v[3] = {t.x, t.y, t.z}, w = t.w;
+    const double k[3] = {ratios.x, ratios.y, ratios.z};
     // Derivative of du by b. The transpose is the derivative by -a.
-    const double by_b[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
-    const double turned[3][3] = {{0, -g[2], g[1]}, {g[2], 0, -g[0]}, {-g[1], g[0], 0}};
-    const double strained = g[0] * v[0] + g[1] * v[1] + g[2] * v[2], stiffness = hair_rod_stiffness(s, i);
-    const hair_dvec3 ratios = hair_rod_ratios_at(s, i);
-    const double ratio[3] = {ratios.x, ratios.y, ratios.z};
-    // Stiffness times the derivative of du by -a, and by b.
-    double by_a[3][3], with_b[3][3];
-    struct hinge h;
-    for (int n = 0; n < 3; ++n)
-        for (int c = 0; c < 3; ++c) {
-            by_a[n][c] = stiffness * ratio[n] * by_b[c][n];
-            with_b[n][c] = stiffness * ratio[n] * by_b[n][c];
+    const double d[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
+    double kd[3][3];
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) kd[r][c] = k[r] * d[r][c];
+    for (int r = 0, n = 0; r < 3; ++r)
+        for (int c = 0; c <= r; ++c, ++n) {
+            double real = k[2] * v[r] * v[c];
+            h->before[n] =
+                real + k[0] * d[r][0] * d[c][0] + k[1] * d[r][1] * d[c][1] + k[2] * d[r][2] * d[c][2];
+            h->after[n] = real + kd[0][r] * d[0][c] + kd[1][r] * d[1][c] + kd[2][r] * d[2][c];
         }
     for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) {
-            const double* row = by_b[r];
-            double same = r == c ? strained / 2 : 0, self = r == c ? (strained + e * w) / 2 : 0;
-            double real = stiffness * ratio[2] * v[r] * v[c];
-            double aa = row[0] * by_a[0][c] + row[1] * by_a[1][c] + row[2] * by_a[2][c];
-            double ab = row[0] * with_b[0][c] + row[1] * with_b[1][c] + row[2] * with_b[2][c];
-            double bb = by_b[0][r] * with_b[0][c] + by_b[1][r] * with_b[1][c] + by_b[2][r] * with_b[2][c];
-            h.before.m[r][c] = aa + real - self;
-            h.between.m[c][r] =
-                (w * turned[r][c] + v[r] * g[c] + g[r] * v[c] + e * row[c]) / 2 - same - ab - real;
-            h.after.m[r][c] = bb + real - self;
-        }
-    return h;
+        for (int c = 0; c < 3; ++c)
+            h->between[r][c] =
+                -k[2] * v[r] * v[c] - d[c][0] * kd[0][r] - d[c][1] * kd[1][r] - d[c][2] * kd[2][r];
 }
 
-// Return D_i of segment i.
-static struct block3 swing_of(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i)
+// Compute the part of a hinge that the stress `g` and `e` causes. Return what it subtracts from the
+// diagonals of the hinge by a a and by b b.
+static double write_stressed_hinge(hair_dquat t, hair_dvec3 g, double e, double between[3][3])
 {
-    hair_dvec3 x = hair_drotate(pose->frame[i], (hair_dvec3){s->length[i], 0, 0});
-    hair_dvec3 z = hair_drotate(pose->frame[i], (hair_dvec3){0, 0, s->length[i]});
-    return (struct block3){{{z.x, 0, -x.x}, {z.y, 0, -x.y}, {z.z, 0, -x.z}}};
+    double strained = (g.x * t.x + g.y * t.y + g.z * t.z) / 2, real = e * t.w / 2;
+    double x = (t.w * g.x + e * t.x) / 2, y = (t.w * g.y + e * t.y) / 2, z = (t.w * g.z + e * t.z) / 2;
+    double xy = (t.x * g.y + t.y * g.x) / 2, xz = (t.x * g.z + t.z * g.x) / 2;
+    double yz = (t.y * g.z + t.z * g.y) / 2;
+    between[0][0] = t.x * g.x + real - strained;
+    between[1][1] = t.y * g.y + real - strained;
+    between[2][2] = t.z * g.z + real - strained;
+    between[0][1] = xy + z;
+    between[1][0] = xy - z;
+    between[0][2] = xz - y;
+    between[2][0] = xz + y;
+    between[1][2] = yz + x;
+    between[2][1] = yz - x;
+    return strained + real;
+}
+
+// Compute a hinge from its part by unit stiffness and its part by stress.
+static void combine_hinge(const struct hair_rod_hinge* unit, double stiffness, double self,
+                          const double between[3][3], struct hair_rod_hinge* out)
+{
+    for (int n = 0; n < 6; ++n) {
+        double own = n == 0 || n == 2 || n == 5 ? self : 0;
+        out->before[n] = stiffness * unit->before[n] - own;
+        out->after[n] = stiffness * unit->after[n] - own;
+    }
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) out->between[r][c] = stiffness * unit->between[r][c] + between[r][c];
+}
+
+static struct hair_rod_swing swing_of(hair_dquat q, double length)
+{
+    double l2 = 2 * length;
+    return (struct hair_rod_swing){
+        {l2 * (q.x * q.z + q.w * q.y), l2 * (q.y * q.z - q.w * q.x), length - l2 * (q.x * q.x + q.y * q.y)},
+        {l2 * (q.y * q.y + q.z * q.z) - length, -l2 * (q.x * q.y + q.w * q.z), l2 * (q.w * q.y - q.x * q.z)}};
 }
 
 // Quadratic energy of the part beyond a vertex, V_(i+1) before eliminate_blocks() and V_i after it:
 //
 //   V(x, a) = x . xx x / 2 + x . xa a + a . aa a / 2 + along_x . x + along_a . a
+//
+// xx and aa are symmetric. They hold the entries 00, 10, 11, 20, 21 and 22.
 struct beyond {
-    struct block3 xx, xa, aa;
+    double xx[6], xa[3][3], aa[6];
     double along_x[3], along_a[3];
 };
 
 struct variation_stage {
-    // L of b's matrix, and L^-1 times the derivatives of b's slope by x and by a.
-    struct block3 pivot, by_x, by_a;
+    // Row r of L^-1, where the matrix of b is L D L^T, and the diagonal of D^-1.
+    double l10, l20, l21, over_d[3];
+    // L^-1 times the derivatives of b's slope by x and by a.
+    double by_x[3][3], by_a[3][3];
     double slope[3]; // L^-1 times b's slope.
+    struct hair_rod_swing swing;
 };
 
-static struct block3 pivot_of(const struct hair_rod_pose* pose, uint32_t i, double length,
-                              const struct block3* swing, const struct beyond* v, struct variation_stage* out)
+static double dot3(const double* a, const double* b)
 {
-    struct block3 x_b = v->xa, b = v->aa;
-    add_product(&x_b, &v->xx, swing);
-    add_transposed(&b, 1, swing, &x_b);
-    add_transposed(&b, 1, &v->xa, swing);
-    hair_dvec3 f = hair_dscale(pose->force[i], length);
-    b.m[0][0] += f.y;
-    b.m[2][2] += f.y;
-    b.m[1][0] -= f.x / 2; // The upper half is not read.
-    b.m[2][1] -= f.z / 2;
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c) out->by_x.m[r][c] = x_b.m[c][r];
-    return b;
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-struct matrix {
-    double shift; // Shift that is added to the diagonal.
-    double squared_frequency; // Slower oscillations count as unstable.
-};
-
-// Advance from V_(i+1) to V_i. Return false if there is no minimum. `slope` is the derivative of
-// the energy by the turn of segment i. NULL omits the linear terms.
-static bool eliminate_blocks(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
-                             struct matrix matrix, const hair_dvec3* slope, struct beyond* v,
-                             struct variation_stage* out)
+// Compute L^-1 b of a column b.
+static void solve_lower(const struct variation_stage* s, double b[3][3], int column)
 {
-    struct hinge h = hinge_of(s, pose, i);
-    struct block3 swing = swing_of(s, pose, i);
-    double pull = s->mass[i + 1] * (s->pull[i + 1] - matrix.squared_frequency);
-    for (int r = 0; r < 3; ++r) v->xx.m[r][r] += pull;
-    out->pivot = pivot_of(pose, i, s->length[i], &swing, v, out);
-    out->by_a = h.between;
+    b[1][column] -= s->l10 * b[0][column];
+    b[2][column] -= s->l20 * b[0][column] + s->l21 * b[1][column];
+}
+
+// Factor the matrix of b, which is given by its lower half. Return false if it is not positive.
+static bool factor(const double b[6], struct variation_stage* out)
+{
+    if (!(b[0] > 0)) return false;
+    double over0 = 1 / b[0];
+    out->l10 = b[1] * over0;
+    out->l20 = b[3] * over0;
+    double d1 = b[2] - out->l10 * b[1], below = b[4] - out->l20 * b[1];
+    if (!(d1 > 0)) return false;
+    double over1 = 1 / d1;
+    out->l21 = below * over1;
+    double d2 = b[5] - out->l20 * b[3] - out->l21 * below;
+    if (!(d2 > 0)) return false;
+    out->over_d[0] = over0;
+    out->over_d[1] = over1;
+    out->over_d[2] = 1 / d2;
+    return true;
+}
+
+// Advance from V_(i+1) to V_i. Return false if there is no minimum.
+static inline bool eliminate_blocks(const struct hair_rod_hinge* h, const struct hair_rod_segment_terms* t,
+                                    double shift, struct beyond* v, struct variation_stage* out)
+{
+    const double *sx = t->swing.x, *sz = t->swing.z;
+    v->xx[0] += t->pull;
+    v->xx[2] += t->pull;
+    v->xx[5] += t->pull;
+    const double rows[3][3] = {
+        {v->xx[0], v->xx[1], v->xx[3]}, {v->xx[1], v->xx[2], v->xx[4]}, {v->xx[3], v->xx[4], v->xx[5]}};
+    double b[6], x_b[3][3]; // Column c of x_b is row c of xa + xx D.
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) out->pivot.m[r][c] += h.after.m[r][c];
-        out->pivot.m[r][r] += matrix.shift;
+        x_b[0][r] = v->xa[r][0] + dot3(rows[r], sx);
+        x_b[1][r] = v->xa[r][1];
+        x_b[2][r] = v->xa[r][2] + dot3(rows[r], sz);
     }
-    if (!factor(&out->pivot)) return false;
+    const double xa0[3] = {v->xa[0][0], v->xa[1][0], v->xa[2][0]},
+                 xa2[3] = {v->xa[0][2], v->xa[1][2], v->xa[2][2]};
+    b[0] = v->aa[0] + h->after[0] + dot3(sx, x_b[0]) + dot3(sx, xa0) + t->force.y + shift;
+    b[1] = v->aa[1] + h->after[1] + dot3(sx, x_b[1]) - t->force.x / 2;
+    b[2] = v->aa[2] + h->after[2] + shift;
+    b[3] = v->aa[3] + h->after[3] + dot3(sz, x_b[0]) + dot3(sx, xa2);
+    b[4] = v->aa[4] + h->after[4] + dot3(sz, x_b[1]) - t->force.z / 2;
+    b[5] = v->aa[5] + h->after[5] + dot3(sz, x_b[2]) + dot3(sz, xa2) + t->force.y + shift;
+    if (!factor(b, out)) return false;
+    memcpy(out->by_x, x_b, sizeof x_b);
+    memcpy(out->by_a, h->between, sizeof out->by_a);
+    double wx[3][3], wa[3][3];
     for (int c = 0; c < 3; ++c) {
-        solve_lower(&out->pivot, &out->by_x.m[0][c], 3);
-        solve_lower(&out->pivot, &out->by_a.m[0][c], 3);
-    }
-    v->xa = (struct block3){0};
-    v->aa = h.before;
-    add_transposed(&v->xx, -1, &out->by_x, &out->by_x);
-    add_transposed(&v->xa, -1, &out->by_x, &out->by_a);
-    add_transposed(&v->aa, -1, &out->by_a, &out->by_a);
-    if (!slope) return true;
-    double own[3] = {slope->x, slope->y, slope->z};
-    for (int r = 0; r < 3; ++r) {
-        out->slope[r] = own[r] + v->along_a[r];
-        for (int n = 0; n < 3; ++n) out->slope[r] += swing.m[n][r] * v->along_x[n];
-    }
-    solve_lower(&out->pivot, out->slope, 1);
-    for (int r = 0; r < 3; ++r) {
-        v->along_a[r] = 0;
-        for (int n = 0; n < 3; ++n) {
-            v->along_x[r] -= out->by_x.m[n][r] * out->slope[n];
-            v->along_a[r] -= out->by_a.m[n][r] * out->slope[n];
+        solve_lower(out, out->by_x, c);
+        solve_lower(out, out->by_a, c);
+        for (int r = 0; r < 3; ++r) {
+            wx[r][c] = out->by_x[r][c] * out->over_d[r];
+            wa[r][c] = out->by_a[r][c] * out->over_d[r];
         }
     }
+    for (int r = 0, n = 0; r < 3; ++r)
+        for (int c = 0; c <= r; ++c, ++n) {
+            v->xx[n] -= wx[0][r] * out->by_x[0][c] + wx[1][r] * out->by_x[1][c] + wx[2][r] * out->by_x[2][c];
+            v->aa[n] = h->before[n] -
+                       (wa[0][r] * out->by_a[0][c] + wa[1][r] * out->by_a[1][c] + wa[2][r] * out->by_a[2][c]);
+        }
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            v->xa[r][c] =
+                -(wx[0][r] * out->by_a[0][c] + wx[1][r] * out->by_a[1][c] + wx[2][r] * out->by_a[2][c]);
     return true;
+}
+
+// Advance the linear terms of V, after eliminate_blocks(). `slope` is the derivative of the energy
+// by the turn of the segment.
+static void eliminate_slope(const hair_dvec3* slope, const struct hair_rod_swing* swing, struct beyond* v,
+                            struct variation_stage* out)
+{
+    double* s = out->slope;
+    s[0] = slope->x + v->along_a[0] + dot3(swing->x, v->along_x);
+    s[1] = slope->y + v->along_a[1];
+    s[2] = slope->z + v->along_a[2] + dot3(swing->z, v->along_x);
+    s[1] -= out->l10 * s[0];
+    s[2] -= out->l20 * s[0] + out->l21 * s[1];
+    const double w[3] = {s[0] * out->over_d[0], s[1] * out->over_d[1], s[2] * out->over_d[2]};
+    for (int r = 0; r < 3; ++r) {
+        v->along_x[r] -= w[0] * out->by_x[0][r] + w[1] * out->by_x[1][r] + w[2] * out->by_x[2][r];
+        v->along_a[r] = -(w[0] * out->by_a[0][r] + w[1] * out->by_a[1][r] + w[2] * out->by_a[2][r]);
+    }
+}
+
+static struct hair_rod_segment_terms terms_of(const struct hair_rod_shape* s,
+                                              const struct hair_rod_pose* pose, uint32_t i,
+                                              double squared_frequency)
+{
+    return (struct hair_rod_segment_terms){hair_dscale(pose->force[i], s->length[i]),
+                                           s->mass[i + 1] * (s->pull[i + 1] - squared_frequency),
+                                           swing_of(pose->frame[i], s->length[i])};
+}
+
+static void write_hinge(const struct hair_rod_shape* s, const struct hair_rod_pose* pose, uint32_t i,
+                        struct hair_rod_hinge* out)
+{
+    HAIR_ASSERT(i + 1 < s->count);
+    double between[3][3];
+    struct hair_rod_hinge unit;
+    double self = write_stressed_hinge(pose->turn[i], pose->stress[i], pose->real_stress[i], between);
+    write_unit_hinge(pose->turn[i], hair_rod_ratios_at(s, i), &unit);
+    combine_hinge(&unit, hair_rod_stiffness(s, i), self, between, out);
 }
 
 bool hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_pose* pose,
@@ -228,9 +246,40 @@ bool hair_rod_is_stable(const struct hair_rod_shape* s, const struct hair_rod_po
 {
     struct beyond v = {0};
     struct variation_stage stage;
-    for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate_blocks(s, pose, i, (struct matrix){0, squared_frequency}, NULL, &v, &stage))
-            return false;
+    struct hair_rod_hinge hinge;
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        struct hair_rod_segment_terms terms = terms_of(s, pose, i, squared_frequency);
+        write_hinge(s, pose, i, &hinge);
+        if (!eliminate_blocks(&hinge, &terms, 0, &v, &stage)) return false;
+    }
+    return true;
+}
+
+void hair_rod_prepare_stability(const struct hair_rod_shape* s, const struct hair_rod_pose* pose,
+                                double squared_frequency, struct hair_rod_stability* out)
+{
+    for (uint32_t i = 0; i + 1 < s->count; ++i) {
+        struct hair_rod_stability_vertex* at = &out->vertex[i];
+        at->self = write_stressed_hinge(pose->turn[i], pose->stress[i], pose->real_stress[i], at->between);
+        if (i > 0) write_unit_hinge(pose->turn[i], hair_rod_ratios_at(s, i), &at->unit);
+        at->terms = terms_of(s, pose, i, squared_frequency);
+    }
+}
+
+bool hair_rod_test_stability(const struct hair_rod_shape* s, const struct hair_rod_pose* pose,
+                             const struct hair_rod_stability* stability)
+{
+    struct beyond v = {0};
+    struct variation_stage stage;
+    struct hair_rod_hinge hinge;
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        const struct hair_rod_stability_vertex* at = &stability->vertex[i];
+        if (i > 0)
+            combine_hinge(&at->unit, hair_rod_stiffness(s, i), at->self, at->between, &hinge);
+        else
+            write_hinge(s, pose, 0, &hinge); // The stiffness changes the ratios at the clamp.
+        if (!eliminate_blocks(&hinge, &at->terms, 0, &v, &stage)) return false;
+    }
     return true;
 }
 
@@ -238,21 +287,24 @@ bool hair_rod_find_step(const struct hair_rod_shape* s, const struct hair_rod_po
                         const hair_dvec3* slope, hair_dvec3* out)
 {
     struct variation_stage stage[HAIR_MAX_GUIDE_VERTICES];
+    struct hair_rod_hinge hinge;
     struct beyond v = {0};
     double x[3] = {0}, a[3] = {0};
-    for (uint32_t i = s->count - 1; i-- > 0;)
-        if (!eliminate_blocks(s, pose, i, (struct matrix){shift, 0}, slope + i, &v, stage + i)) return false;
+    for (uint32_t i = s->count - 1; i-- > 0;) {
+        struct hair_rod_segment_terms terms = terms_of(s, pose, i, 0);
+        write_hinge(s, pose, i, &hinge);
+        if (!eliminate_blocks(&hinge, &terms, shift, &v, stage + i)) return false;
+        stage[i].swing = terms.swing;
+        eliminate_slope(slope + i, &terms.swing, &v, stage + i);
+    }
     for (uint32_t i = 0; i + 1 < s->count; ++i) {
         const struct variation_stage* at = stage + i;
-        struct block3 swing = swing_of(s, pose, i);
         double b[3];
-        for (int r = 0; r < 3; ++r) {
-            b[r] = -at->slope[r];
-            for (int n = 0; n < 3; ++n) b[r] -= at->by_x.m[r][n] * x[n] + at->by_a.m[r][n] * a[n];
-        }
-        solve_upper(&at->pivot, b);
         for (int r = 0; r < 3; ++r)
-            for (int n = 0; n < 3; ++n) x[r] += swing.m[r][n] * b[n];
+            b[r] = -(at->slope[r] + dot3(at->by_x[r], x) + dot3(at->by_a[r], a)) * at->over_d[r];
+        b[1] -= at->l21 * b[2];
+        b[0] -= at->l10 * b[1] + at->l20 * b[2];
+        for (int r = 0; r < 3; ++r) x[r] += at->swing.x[r] * b[0] + at->swing.z[r] * b[2];
         memcpy(a, b, sizeof a);
         out[i] = (hair_dvec3){b[0], b[1], b[2]};
     }
