@@ -12,13 +12,9 @@
 
 // Tools are not linked into tests.
 #include "tools/common/head.c"
-#include "tools/common/head_cut.c"
-#include "tools/common/head_shape.c"
-
-static point load_point(const float* p)
-{
-    return (point){p[0], p[1], p[2]};
-}
+#include "tools/common/head_eyes.c"
+#include "tools/common/head_parts.c"
+#include "tools/common/head_subdivide.c"
 
 static hair_asset* make_scalp(hair_asset_info* info)
 {
@@ -32,56 +28,111 @@ static hair_asset* make_scalp(hair_asset_info* info)
     return asset;
 }
 
+// Check that each root has skin within a millimetre and a half, which is about half the distance of
+// neighbouring vertices of the mesh.
 static void roots_lie_on_the_skin(void** state)
 {
     (void)state;
     hair_asset_info info;
     hair_asset* asset = make_scalp(&info);
-    for (uint32_t i = 0; i < info.scalp_vertex_count; ++i)
-        assert_true(fabsf(head_distance(load_point(info.scalp_positions + 3 * i))) < 1e-3f);
+    struct head_mesh mesh;
+    assert_int_equal(head_mesh_create(&mesh), 0);
+    for (uint32_t i = 0; i < info.scalp_vertex_count; ++i) {
+        point root = point_of(info.scalp_positions + 3 * i);
+        float nearest = INFINITY, height = INFINITY;
+        for (uint32_t k = 0; k < mesh.vertex_count; ++k) {
+            point d = head_add(root, point_of(mesh.positions + 3 * k), -1);
+            float square = head_dot(d, d);
+            if (square >= nearest || mesh.surface[3 * k] < 1) continue;
+            nearest = square;
+            height = head_dot(d, point_of(mesh.normals + 3 * k));
+        }
+        assert_true(fabsf(height) < 1e-3f);
+    }
+    head_mesh_free(&mesh);
     hair_asset_destroy(asset);
 }
 
-static void the_mesh_lies_on_the_surface_and_faces_outwards(void** state)
+// Return the squared distance of a vertex from the centre of the nearer eye.
+static float square_from_eye(const float* p)
+{
+    point d = head_add((point){fabsf(p[0]), p[1], p[2]}, HEAD_EYE, -1);
+    return head_dot(d, d);
+}
+
+static void the_mesh_is_sound_and_faces_outwards(void** state)
 {
     (void)state;
     struct head_mesh mesh;
     assert_int_equal(head_mesh_create(&mesh), 0);
-    assert_true(mesh.triangle_count > 30000 && mesh.triangle_count < 80000);
+    assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 250000);
+    uint32_t skin = 0, wet = 0, cloth = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
-        point p = load_point(mesh.positions + 3 * i), n = load_point(mesh.normals + 3 * i);
-        if (p.y > HEAD_BOTTOM + 0.01f) assert_true(fabsf(head_distance(p)) < 1.5e-3f);
-        // Normals are not normalized between two vertices.
-        assert_true(fabsf(dot(n, n) - 1) < 0.2f);
-        for (int k = 0; k < 3; ++k) assert_true(mesh.colors[3 * i + k] > 0 && mesh.colors[3 * i + k] < 1);
+        const float *p = mesh.positions + 3 * i, *color = mesh.colors + 3 * i,
+                    *surface = mesh.surface + 3 * i;
+        point n = point_of(mesh.normals + 3 * i);
+        assert_true(fabsf(p[0]) < 0.3f && p[1] > 1.1f && p[1] < 1.74f && fabsf(p[2]) < 0.2f);
+        assert_true(fabsf(head_dot(n, n) - 1) < 1e-3f);
+        for (int k = 0; k < 3; ++k) assert_true(color[k] > 0 && color[k] < 1 && surface[k] >= 0);
+        assert_true(surface[2] <= 1);
+        skin += surface[0] > 0;
+        // Cloth is blue, and skin never is. Eyes are wet.
+        cloth += surface[0] == 0 && color[0] < color[2];
+        wet += surface[1] > 2;
+        if (surface[1] > 2) assert_true(square_from_eye(p) < 0.017f * 0.017f);
+        assert_false(surface[0] > 0 && color[0] < color[2]);
     }
-    // The garment exists, and only below the collar.
-    uint32_t worn = 0;
-    for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
-        // Cloth is blue, and skin never is.
-        int is_cloth = mesh.colors[3 * i] < mesh.colors[3 * i + 2];
-        float below = head_below_collar(load_point(mesh.positions + 3 * i));
-        assert_true(is_cloth ? below > -1e-3f : below < 1e-3f);
-        worn += (uint32_t)is_cloth;
-    }
-    assert_true(worn > 3000);
-    // The volume under a closed, outward-facing surface is positive. It is about the volume of a
-    // bust of 25 kg.
+    assert_true(skin > 50000 && cloth > 5000 && wet > 1000);
+    // The volume under the surface is about that of a bust of 25 kg, and positive only if triangles
+    // face outwards. The surface is open below.
     double volume = 0;
-    uint32_t cloth = 0;
     for (uint32_t i = 0; i < mesh.triangle_count; ++i) {
         const uint32_t* corner = mesh.triangles + 3 * i;
         for (int k = 0; k < 3; ++k) assert_true(corner[k] < mesh.vertex_count);
-        cloth += mesh.colors[3 * corner[0]] < mesh.colors[3 * corner[0] + 2];
         const float *a = mesh.positions + 3 * corner[0], *b = mesh.positions + 3 * corner[1];
         const float* c = mesh.positions + 3 * corner[2];
-        volume += a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) +
-                  a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
-                  a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
+        // Height from the bottom, so that the missing lid has no share.
+        double y[3] = {a[1] - 1.15, b[1] - 1.15, c[1] - 1.15};
+        volume += a[0] * (y[1] * c[2] - b[2] * y[2]) + y[0] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
+                  a[2] * (b[0] * y[2] - y[1] * c[0]);
     }
-    assert_true(cloth > 6000);
-    assert_true(volume / 6 > 0.01 && volume / 6 < 0.03);
+    assert_true(volume / 6 > 0.01 && volume / 6 < 0.04);
     head_mesh_free(&mesh);
+}
+
+// Check the rules of Catmull and Clark on a cube of side 2, and on an open square.
+static void a_cube_is_subdivided_by_the_rules(void** state)
+{
+    (void)state;
+    static const uint32_t sides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                         {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    struct head_surface cube = {.vertex_count = 8, .face_count = 6};
+    cube.vertices = calloc(8, sizeof *cube.vertices);
+    cube.faces = malloc(sizeof sides);
+    memcpy(cube.faces, sides, sizeof sides);
+    for (uint32_t i = 0; i < 8; ++i)
+        for (uint32_t k = 0; k < 3; ++k) cube.vertices[i][k] = i >> k & 1 ? 1.0f : -1.0f;
+    assert_int_equal(head_subdivide(&cube), 0);
+    assert_int_equal(cube.vertex_count, 26);
+    assert_int_equal(cube.face_count, 24);
+    for (uint32_t i = 0; i < 8; ++i)
+        for (uint32_t k = 0; k < 3; ++k) assert_float_equal(fabsf(cube.vertices[i][k]), 5.0f / 9, 1e-6f);
+    for (uint32_t i = 14; i < 26; ++i) {
+        const float* p = cube.vertices[i];
+        assert_float_equal(fabsf(p[0]) + fabsf(p[1]) + fabsf(p[2]), 1.5f, 1e-6f);
+    }
+    head_surface_free(&cube);
+
+    struct head_surface square = {.vertex_count = 4, .face_count = 1};
+    square.vertices = calloc(4, sizeof *square.vertices);
+    square.faces = malloc(sizeof *square.faces);
+    memcpy(square.faces, (const uint32_t[4]){0, 1, 2, 3}, sizeof *square.faces);
+    square.vertices[1][0] = square.vertices[2][0] = square.vertices[2][1] = square.vertices[3][1] = 8;
+    assert_int_equal(head_subdivide(&square), 0);
+    assert_float_equal(square.vertices[0][0], 1, 1e-6f);
+    assert_float_equal(square.vertices[0][1], 1, 1e-6f);
+    assert_float_equal(square.vertices[4][0], 4, 1e-6f);
+    head_surface_free(&square);
 }
 
 static float collider_distance(const hair_collider* collider, point p)
@@ -90,9 +141,10 @@ static float collider_distance(const hair_collider* collider, point p)
     const float* q = collider->rotation;
     point axis = {2 * (q[0] * q[1] - q[3] * q[2]), 1 - 2 * (q[0] * q[0] + q[2] * q[2]),
                   2 * (q[1] * q[2] + q[3] * q[0])};
-    point d = sub(p, load_point(collider->position));
-    float t = clamp(dot(d, axis), -collider->size[1], collider->size[1]);
-    return length(sub(d, (point){axis.x * t, axis.y * t, axis.z * t})) - collider->size[0];
+    point d = head_add(p, point_of(collider->position), -1);
+    float t = fminf(fmaxf(head_dot(d, axis), -collider->size[1]), collider->size[1]);
+    d = head_add(d, axis, -t);
+    return sqrtf(head_dot(d, d)) - collider->size[0];
 }
 
 // Check that roots are outside the colliders, and that the skull is at the place where it is drawn.
@@ -108,7 +160,7 @@ static void colliders_fill_the_scalp_from_inside(void** state)
         float nearest = INFINITY;
         for (uint32_t k = 0; k < count; ++k)
             nearest =
-                fminf(nearest, collider_distance(&colliders[k], load_point(info.scalp_positions + 3 * i)));
+                fminf(nearest, collider_distance(&colliders[k], point_of(info.scalp_positions + 3 * i)));
         assert_true(nearest > -0.0005f && nearest < 0.0035f);
     }
     hair_asset_destroy(asset);
@@ -128,7 +180,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roots_lie_on_the_skin),
-        cmocka_unit_test(the_mesh_lies_on_the_surface_and_faces_outwards),
+        cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
+        cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),
         cmocka_unit_test(colliders_beyond_the_capacity_are_only_counted),
     };

@@ -3,12 +3,12 @@
 
 #include <stddef.h>
 
-// Three-quarter front view. The vertical field of view of 27 degrees is that of a 50 mm lens on 35
+// Three-quarter front view. The vertical field of view of 24 degrees is that of a 56 mm lens on 35
 // mm film.
-#define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
+#define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.525, 0.0], 'fov': 24}"
 
 // A warm key light from the side puts highlights along the hair. A cool light from behind rims the
-// hair.
+// hair, and a weak one beside the camera fills the shadows of the face.
 #define STUDIO                                                                                               \
     "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
     "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                            \

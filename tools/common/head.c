@@ -1,287 +1,116 @@
-// head.c - Mesh of the bust by surface nets, and its colliders.
-// Based on Gibson 1998, "Constrained elastic surface nets". Each cell that the surface crosses gets
-// one vertex, which is projected onto the surface here instead of being relaxed.
+// head.c - Mesh of the bust, and its colliders.
 #include "tools/common/head.h"
-#include "tools/common/head_shape.h"
+#include "tools/common/head_parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define COLLAR_REACH 0.0026f // Half the grid spacing at the collar, m.
-#define BLOCK 4 // Grid points per side of a block that is skipped when far from the surface.
+#include "tools/common/bust.inl"
 
 typedef struct head_point point;
 
-struct axis {
-    float at[256];
-    uint32_t count;
-};
+enum part { SKIN, CLOTH, BAND, PARTS };
 
-struct net {
-    struct axis axis[3];
-    float* distance; // at each grid point
-    uint32_t* vertex; // index + 1 of each cell's vertex, 0 if the cell has none
-    struct head_mesh* mesh;
-    uint32_t vertex_capacity, triangle_capacity;
-};
+// First vertex and first face of each part in bust.inl, and the numbers of them.
+static const struct range {
+    uint32_t vertex, vertices, face, faces;
+} ranges[PARTS] = BUST_PARTS;
 
-// A range of an axis whose grid planes are `spacing` apart. Outside the range the spacing grows by
-// an eighth of the distance.
-struct stretch {
-    float from, to, spacing; // m
-};
+// Skin, garment -----------------------------------------------------------------------------------
 
-#define COARSEST 0.010f
-
-static float spacing_at(const struct stretch* stretch, uint32_t count, float at)
+static int load_part(const struct range* range, struct head_surface* out)
 {
-    float spacing = COARSEST;
-    for (uint32_t i = 0; i < count; ++i) {
-        float out = fmaxf(fmaxf(stretch[i].from - at, at - stretch[i].to), 0);
-        spacing = fminf(spacing, stretch[i].spacing + 0.125f * out);
+    out->vertices = malloc(range->vertices * sizeof *out->vertices);
+    out->faces = malloc(range->faces * sizeof *out->faces);
+    if (!out->vertices || !out->faces) return -1;
+    out->vertex_count = range->vertices, out->face_count = range->faces;
+    for (uint32_t i = 0; i < range->vertices; ++i) {
+        const int16_t* p = bust_positions[range->vertex + i];
+        const uint8_t* paint = bust_paint[range->vertex + i];
+        const float values[HEAD_VALUES] = {1e-5f * (float)p[0], 1.45f + 1e-5f * (float)p[1],
+                                           1e-5f * (float)p[2], (float)paint[0] / 255, (float)paint[1] / 255};
+        memcpy(out->vertices[i], values, sizeof values);
     }
-    return spacing;
-}
-
-static void make_axis(struct axis* axis, float from, float to, const struct stretch* stretch, uint32_t count)
-{
-    axis->count = 0;
-    for (float at = from; at < to && axis->count < 255; at += spacing_at(stretch, count, at))
-        axis->at[axis->count++] = at;
-    axis->at[axis->count++] = to;
-}
-
-static size_t index_of(const struct net* net, uint32_t i, uint32_t j, uint32_t k)
-{
-    return ((size_t)k * net->axis[1].count + j) * net->axis[0].count + i;
-}
-
-static point grid_point(const struct net* net, uint32_t i, uint32_t j, uint32_t k)
-{
-    return (point){net->axis[0].at[i], net->axis[1].at[j], net->axis[2].at[k]};
-}
-
-static uint32_t min(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
-static void measure_block(struct net* net, uint32_t i0, uint32_t j0, uint32_t k0)
-{
-    uint32_t i1 = min(i0 + BLOCK, net->axis[0].count), j1 = min(j0 + BLOCK, net->axis[1].count);
-    uint32_t k1 = min(k0 + BLOCK, net->axis[2].count);
-    point a = grid_point(net, i0, j0, k0), b = grid_point(net, i1 - 1, j1 - 1, k1 - 1);
-    point middle = {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-    float reach = sqrtf((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y) + (b.z - a.z) * (b.z - a.z));
-    float far = head_distance(middle);
-    // The threshold is twice the radius, because the distance is only a bound, plus the step from
-    // block to block.
-    int skip = fabsf(far) > reach + 0.012f;
-    for (uint32_t k = k0; k < k1; ++k)
-        for (uint32_t j = j0; j < j1; ++j)
-            for (uint32_t i = i0; i < i1; ++i)
-                net->distance[index_of(net, i, j, k)] = skip ? far : head_distance(grid_point(net, i, j, k));
-}
-
-// Compute the gradient from four points of a tetrahedron around p (Quilez).
-static point gradient(point p)
-{
-    const float h = 3e-4f;
-    float a = head_distance((point){p.x + h, p.y - h, p.z - h});
-    float b = head_distance((point){p.x - h, p.y - h, p.z + h});
-    float c = head_distance((point){p.x - h, p.y + h, p.z - h});
-    float d = head_distance((point){p.x + h, p.y + h, p.z + h});
-    return (point){(a - b - c + d) / (4 * h), (c + d - a - b) / (4 * h), (b + d - a - c) / (4 * h)};
-}
-
-static int grow(void** memory, uint32_t* capacity, uint32_t count, size_t size)
-{
-    if (count < *capacity) return 0;
-    void* more = realloc(*memory, (size_t)*capacity * 2 * size);
-    if (!more) return -1;
-    *memory = more;
-    return 1;
-}
-
-// Compute the mean of the surface's intersections with the cell's edges. Return 0 if there are
-// none.
-static int cross_cell(const struct net* net, uint32_t i, uint32_t j, uint32_t k, point* out)
-{
-    float d[8];
-    uint32_t inside = 0;
-    for (uint32_t c = 0; c < 8; ++c) {
-        d[c] = net->distance[index_of(net, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2))];
-        inside += d[c] < 0;
-    }
-    if (inside == 0 || inside == 8) return 0;
-    point sum = {0, 0, 0};
-    float count = 0;
-    for (uint32_t c = 0; c < 8; ++c)
-        for (uint32_t bit = 1; bit < 8; bit <<= 1) {
-            uint32_t e = c | bit;
-            if (e == c || (d[c] < 0) == (d[e] < 0)) continue;
-            float t = d[c] / (d[c] - d[e]);
-            point p = grid_point(net, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2));
-            point q = grid_point(net, i + (e & 1), j + (e >> 1 & 1), k + (e >> 2));
-            sum = (point){sum.x + p.x + (q.x - p.x) * t, sum.y + p.y + (q.y - p.y) * t,
-                          sum.z + p.z + (q.z - p.z) * t};
-            ++count;
+    for (uint32_t i = 0; i < range->faces; ++i)
+        for (uint32_t k = 0; k < 4; ++k) {
+            uint16_t corner = bust_faces[range->face + i][k];
+            out->faces[i][k] = corner == UINT16_MAX ? HEAD_NO_CORNER : corner - range->vertex;
         }
-    *out = (point){sum.x / count, sum.y / count, sum.z / count};
-    return 1;
-}
-
-// Take one step of Newton's method, limited to the cell's neighbourhood.
-static point onto_surface(point p)
-{
-    point g = gradient(p);
-    float square = fmaxf(g.x * g.x + g.y * g.y + g.z * g.z, 0.25f);
-    float step = fminf(fmaxf(head_distance(p) / square, -0.002f), 0.002f);
-    return (point){p.x - g.x * step, p.y - g.y * step, p.z - g.z * step};
-}
-
-// Slide a vertex near the collar onto the collar, so that the garment's edge is a smooth line.
-static point onto_collar(point p)
-{
-    float below = head_below_collar(p);
-    if (fabsf(below) > COLLAR_REACH) return p;
-    const float h = 1e-3f;
-    point n = gradient(p);
-    point c = {(head_below_collar((point){p.x + h, p.y, p.z}) - below) / h,
-               (head_below_collar((point){p.x, p.y + h, p.z}) - below) / h,
-               (head_below_collar((point){p.x, p.y, p.z + h}) - below) / h};
-    float along = (c.x * n.x + c.y * n.y + c.z * n.z) / fmaxf(n.x * n.x + n.y * n.y + n.z * n.z, 0.25f);
-    c = (point){c.x - n.x * along, c.y - n.y * along, c.z - n.z * along};
-    float step = below / fmaxf(c.x * c.x + c.y * c.y + c.z * c.z, 0.3f);
-    return onto_surface((point){p.x - c.x * step, p.y - c.y * step, p.z - c.z * step});
-}
-
-static void put_vertex(struct head_mesh* mesh, uint32_t vertex, point p)
-{
-    p = onto_collar(onto_surface(p));
-    point g = gradient(p);
-    float size = fmaxf(sqrtf(g.x * g.x + g.y * g.y + g.z * g.z), 1e-6f);
-    memcpy(mesh->positions + 3 * vertex, &p, sizeof p);
-    g = (point){g.x / size, g.y / size, g.z / size};
-    memcpy(mesh->normals + 3 * vertex, &g, sizeof g);
-}
-
-static int grow_vertices(struct net* net)
-{
-    struct head_mesh* mesh = net->mesh;
-    uint32_t count = mesh->vertex_count;
-    int grew = grow((void**)&mesh->positions, &net->vertex_capacity, count, 3 * sizeof(float));
-    if (grew <= 0) return grew;
-    if (grow((void**)&mesh->normals, &net->vertex_capacity, count, 3 * sizeof(float)) < 0) return -1;
-    if (grow((void**)&mesh->colors, &net->vertex_capacity, count, 3 * sizeof(float)) < 0) return -1;
-    net->vertex_capacity *= 2;
     return 0;
 }
 
-static int place_vertices(struct net* net)
+static point point_of(const float* p)
 {
-    for (uint32_t k = 0; k + 1 < net->axis[2].count; ++k)
-        for (uint32_t j = 0; j + 1 < net->axis[1].count; ++j)
-            for (uint32_t i = 0; i + 1 < net->axis[0].count; ++i) {
-                point p;
-                if (!cross_cell(net, i, j, k, &p)) continue;
-                if (grow_vertices(net)) return -1;
-                put_vertex(net->mesh, net->mesh->vertex_count, p);
-                net->vertex[index_of(net, i, j, k)] = ++net->mesh->vertex_count;
-            }
-    return 0;
+    return (point){p[0], p[1], p[2]};
 }
 
-// Add two triangles that connect the four cells around a grid edge that the surface crosses.
-static int add_square(struct net* net, const uint32_t corner[4], int flip)
+static struct head_paint paint_of(enum part part, const float* values)
 {
-    struct head_mesh* mesh = net->mesh;
-    int grew = grow((void**)&mesh->triangles, &net->triangle_capacity, mesh->triangle_count + 1,
-                    3 * sizeof(uint32_t));
-    if (grew < 0) return -1;
-    if (grew) net->triangle_capacity *= 2;
-    const uint32_t order[2][6] = {{0, 1, 2, 0, 2, 3}, {0, 2, 1, 0, 3, 2}};
-    for (int i = 0; i < 6; ++i)
-        mesh->triangles[3 * mesh->triangle_count + (uint32_t)i] = corner[order[flip][i]] - 1;
-    mesh->triangle_count += 2;
-    return 0;
+    static const struct head_paint cloth = {{0.030f, 0.036f, 0.048f}, 0, 0, 1};
+    if (part == SKIN) return head_paint_skin(point_of(values), values[3], values[4]);
+    struct head_paint paint = cloth;
+    paint.open = values[4];
+    return paint;
 }
 
-static int join_edge(struct net* net, const uint32_t at[3], uint32_t a)
+// Set normals to the mean of the triangles around each vertex from `first_vertex` on, by area.
+static void find_normals(struct head_mesh* mesh, uint32_t first_vertex, uint32_t first_triangle)
 {
-    uint32_t b = (a + 1) % 3, c = (a + 2) % 3;
-    if (at[b] == 0 || at[c] == 0 || at[a] + 1 >= net->axis[a].count) return 0;
-    if (at[b] + 1 >= net->axis[b].count || at[c] + 1 >= net->axis[c].count) return 0;
-    uint32_t end[3] = {at[0], at[1], at[2]};
-    ++end[a];
-    int inside = net->distance[index_of(net, at[0], at[1], at[2])] < 0;
-    if (inside == (net->distance[index_of(net, end[0], end[1], end[2])] < 0)) return 0;
-    uint32_t corner[4];
-    for (uint32_t i = 0; i < 4; ++i) { // around the edge, counter-clockwise seen from its end
-        uint32_t cell[3] = {at[0], at[1], at[2]};
-        cell[b] -= i == 0 || i == 3;
-        cell[c] -= i == 0 || i == 1;
-        corner[i] = net->vertex[index_of(net, cell[0], cell[1], cell[2])];
+    for (uint32_t i = first_triangle; i < mesh->triangle_count; ++i) {
+        const uint32_t* corner = mesh->triangles + 3 * (size_t)i;
+        point a = point_of(mesh->positions + 3 * corner[0]), b = point_of(mesh->positions + 3 * corner[1]);
+        point n = head_cross(head_add(b, a, -1), head_add(point_of(mesh->positions + 3 * corner[2]), a, -1));
+        for (int k = 0; k < 3; ++k) {
+            float* to = mesh->normals + 3 * corner[k];
+            to[0] += n.x, to[1] += n.y, to[2] += n.z;
+        }
     }
-    return add_square(net, corner, !inside);
+    for (uint32_t i = first_vertex; i < mesh->vertex_count; ++i) {
+        point n = head_unit(point_of(mesh->normals + 3 * i));
+        memcpy(mesh->normals + 3 * i, &n, sizeof n);
+    }
 }
 
-static int join_vertices(struct net* net)
+static void put_part(struct head_builder* builder, enum part part)
 {
-    for (uint32_t k = 0; k < net->axis[2].count; ++k)
-        for (uint32_t j = 0; j < net->axis[1].count; ++j)
-            for (uint32_t i = 0; i < net->axis[0].count; ++i)
-                for (uint32_t a = 0; a < 3; ++a)
-                    if (join_edge(net, (const uint32_t[3]){i, j, k}, a)) return -1;
-    return 0;
-}
-
-static int build(struct net* net)
-{
-    for (uint32_t k = 0; k < net->axis[2].count; k += BLOCK)
-        for (uint32_t j = 0; j < net->axis[1].count; j += BLOCK)
-            for (uint32_t i = 0; i < net->axis[0].count; i += BLOCK) measure_block(net, i, j, k);
-    return place_vertices(net) || join_vertices(net) ? -1 : 0;
+    struct head_surface surface = {0};
+    // Skin is finer, for the sake of lids, lips and the paint of the hairline.
+    builder->failed |= load_part(&ranges[part], &surface) || head_subdivide(&surface) ||
+                       (part == SKIN && head_subdivide(&surface));
+    uint32_t first = builder->mesh.vertex_count, triangles = builder->mesh.triangle_count;
+    for (uint32_t i = 0; i < surface.vertex_count && !builder->failed; ++i) {
+        point p = point_of(surface.vertices[i]);
+        struct head_paint paint = paint_of(part, surface.vertices[i]);
+        head_put_vertex(builder, part == SKIN ? head_on_skull(p) : p, (point){0, 0, 0}, &paint);
+    }
+    for (uint32_t i = 0; i < surface.face_count; ++i) {
+        const uint32_t* face = surface.faces[i];
+        head_put_triangle(builder, first + face[0], first + face[1], first + face[2]);
+        head_put_triangle(builder, first + face[0], first + face[2], first + face[3]);
+    }
+    if (!builder->failed) find_normals(&builder->mesh, first, triangles);
+    head_surface_free(&surface);
 }
 
 int head_mesh_create(struct head_mesh* out)
 {
-    struct head_mesh mesh = {0};
-    struct net net = {.mesh = &mesh, .vertex_capacity = 1 << 14, .triangle_capacity = 1 << 15};
-    // Fine ranges cover the face (eyes, nose and mouth) and the ears.
-    const struct stretch x[] = {{-0.048f, 0.048f, 0.0023f}, {-0.090f, 0.090f, 0.0036f}};
-    const struct stretch y[] = {{1.604f, 1.616f, 0.0014f},
-                                {1.546f, 1.560f, 0.0018f},
-                                {1.510f, 1.645f, 0.0030f},
-                                {1.400f, 1.450f, 0.0042f}};
-    const struct stretch z[] = {{0.075f, 0.110f, 0.0026f}, {-0.030f, 0.100f, 0.0042f}};
-    make_axis(&net.axis[0], -0.235f, 0.235f, x, 2);
-    make_axis(&net.axis[1], HEAD_BOTTOM - 0.004f, 1.740f, y, 4);
-    make_axis(&net.axis[2], -0.150f, 0.135f, z, 2);
-
-    size_t points = (size_t)net.axis[0].count * net.axis[1].count * net.axis[2].count;
-    net.distance = malloc(points * sizeof(float));
-    net.vertex = calloc(points, sizeof(uint32_t));
-    mesh.positions = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
-    mesh.normals = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
-    mesh.colors = malloc((size_t)net.vertex_capacity * 3 * sizeof(float));
-    mesh.triangles = malloc((size_t)net.triangle_capacity * 3 * sizeof(uint32_t));
-    int failed =
-        !net.distance || !net.vertex || !mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles;
-    failed = failed || build(&net) || head_cut_collar(&mesh);
-    free(net.vertex);
-    free(net.distance);
-    if (failed)
-        head_mesh_free(&mesh);
+    struct head_builder builder = {0};
+    for (enum part part = SKIN; part < PARTS && !builder.failed; ++part) put_part(&builder, part);
+    head_put_brows(&builder);
+    head_put_lashes(&builder);
+    head_put_eyes(&builder);
+    if (builder.failed)
+        head_mesh_free(&builder.mesh);
     else
-        *out = mesh;
-    return failed ? -1 : 0;
+        *out = builder.mesh;
+    return builder.failed ? -1 : 0;
 }
 
 void head_mesh_free(struct head_mesh* mesh)
 {
     free(mesh->triangles);
+    free(mesh->surface);
     free(mesh->colors);
     free(mesh->normals);
     free(mesh->positions);
@@ -306,15 +135,15 @@ static const struct pill pills[] = {
     {{0, 1.6552f, 0.0161f}, {0, 1.6540f, -0.0175f}, 0.0670f},
     {{0, 1.6373f, -0.0014f}, {0, 1.6291f, 0.0068f}, 0.0768f},
     {{-0.035f, 1.634f, 0.048f}, {0.035f, 1.634f, 0.048f}, 0.031f}, // temples
-    {{-0.018f, 1.574f, 0.043f}, {0.018f, 1.574f, 0.043f}, 0.042f}, // cheeks
+    {{-0.018f, 1.574f, 0.043f}, {0.018f, 1.574f, 0.043f}, 0.038f}, // cheeks
     {{-0.010f, 1.535f, 0.060f}, {0.010f, 1.535f, 0.060f}, 0.028f}, // chin
     {{-0.073f, 1.602f, -0.010f}, {0.073f, 1.602f, -0.010f}, 0.016f}, // ears
-    {{0, 1.380f, -0.030f}, {0, 1.550f, -0.004f}, 0.047f}, // neck
-    {{-0.045f, 1.424f, -0.036f}, {-0.150f, 1.365f, -0.018f}, 0.054f}, // shoulders
-    {{0.045f, 1.424f, -0.036f}, {0.150f, 1.365f, -0.018f}, 0.054f},
-    {{-0.100f, 1.372f, 0.014f}, {0.100f, 1.372f, 0.014f}, 0.055f}, // collar bones
-    {{-0.085f, 1.360f, -0.040f}, {0.085f, 1.360f, -0.040f}, 0.066f}, // back
-    {{-0.075f, 1.316f, 0.014f}, {0.075f, 1.316f, 0.014f}, 0.080f}, // chest
+    {{0, 1.390f, -0.035f}, {0, 1.550f, -0.018f}, 0.042f}, // neck
+    {{-0.040f, 1.420f, -0.045f}, {-0.165f, 1.375f, -0.035f}, 0.050f}, // shoulders
+    {{0.040f, 1.420f, -0.045f}, {0.165f, 1.375f, -0.035f}, 0.050f},
+    {{-0.085f, 1.385f, -0.010f}, {0.085f, 1.385f, -0.010f}, 0.047f}, // collar bones
+    {{-0.085f, 1.360f, -0.040f}, {0.085f, 1.360f, -0.040f}, 0.064f}, // back
+    {{-0.060f, 1.312f, 0.018f}, {0.060f, 1.312f, 0.018f}, 0.068f}, // chest
 };
 
 _Static_assert(sizeof pills / sizeof *pills <= HEAD_COLLIDERS, "head.h promises how many colliders suffice");

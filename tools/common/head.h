@@ -7,7 +7,9 @@
 struct head_mesh {
     float* positions; // xyz per vertex, m, in the space of the built-in haircuts
     float* normals; // xyz per vertex, unit, outwards
-    float* colors; // linear rgb per vertex: skin, lips, garment
+    float* colors; // linear reflectance rgb per vertex
+    // Per vertex: 1 for skin, the strength of the highlight, the visible fraction of surroundings.
+    float* surface;
     uint32_t* triangles; // three indices each, counter-clockwise from outside
     uint32_t vertex_count;
     uint32_t triangle_count;

@@ -11,7 +11,7 @@
 
 static void place(float radius, struct head_mesh* mesh)
 {
-    static const float dark[3] = {0.05f, 0.035f, 0.03f};
+    static const float dark[3] = {0.05f, 0.035f, 0.03f}, matte[3] = {1, 0.4f, 1};
     for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
         float polar = GLM_PIf * (float)(i / (COLUMNS + 1)) / (float)ROWS;
         float turn = 2 * GLM_PIf * (float)(i % (COLUMNS + 1)) / (float)COLUMNS;
@@ -20,6 +20,7 @@ static void place(float radius, struct head_mesh* mesh)
             mesh->normals[3 * i + k] = at[k];
             mesh->positions[3 * i + k] = radius * at[k];
             mesh->colors[3 * i + k] = dark[k];
+            mesh->surface[3 * i + k] = matte[k];
         }
     }
 }
@@ -43,8 +44,9 @@ int hair_head_rig_ball(float radius, struct head_mesh* out)
     mesh.positions = malloc(size);
     mesh.normals = malloc(size);
     mesh.colors = malloc(size);
+    mesh.surface = malloc(size);
     mesh.triangles = malloc(mesh.triangle_count * 3 * sizeof *mesh.triangles);
-    if (!mesh.positions || !mesh.normals || !mesh.colors || !mesh.triangles) {
+    if (!mesh.positions || !mesh.normals || !mesh.colors || !mesh.surface || !mesh.triangles) {
         head_mesh_free(&mesh);
         return -1;
     }

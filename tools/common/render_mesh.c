@@ -39,10 +39,11 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
     out->buffer[HAIR_MESH_POSITIONS] = make_buffer(mesh->positions, bytes);
     out->buffer[HAIR_MESH_NORMALS] = make_buffer(mesh->normals, bytes);
     out->buffer[HAIR_MESH_COLORS] = make_buffer(mesh->colors, bytes);
+    out->buffer[HAIR_MESH_SURFACE] = make_buffer(mesh->surface, bytes);
     out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, out->indices * sizeof(uint32_t));
     out->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
     out->bend[1] = HAIR_HEAD_RIG_RESTS;
-    for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_COLORS; ++i) attach(out, i);
+    for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_SURFACE; ++i) attach(out, i);
     glVertexArrayElementBuffer(out->vertex_array, out->buffer[HAIR_MESH_TRIANGLES]);
 }
 

@@ -5,11 +5,12 @@
 #include "tools/common/camera.h"
 #include "tools/common/head_rig.h"
 
-// The first three buffers are vertex attributes too.
+// The first four buffers are vertex attributes too.
 enum hair_mesh_buffer {
     HAIR_MESH_POSITIONS,
     HAIR_MESH_NORMALS,
     HAIR_MESH_COLORS,
+    HAIR_MESH_SURFACE,
     HAIR_MESH_TRIANGLES,
     HAIR_MESH_BUFFERS
 };
