@@ -3,6 +3,7 @@
 
 plot.py accuracy OUT.svg TITLE=FILE:CASE:VERTICES[:stretch]...   every solver at every setting, beside other libraries
 plot.py render CASE OUT.svg TITLE=FILE...                        every way to draw, with the best of them labelled
+plot.py followers OUT.svg TITLE=FILE:MOTION...                   interpolated strands of every haircut
 
 Each TITLE makes one panel, and a row has two panels. All axes are logarithmic. `stretch` plots the greatest stretch instead of the error.
 """
@@ -15,6 +16,7 @@ PANELS_PER_ROW = 2
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 500, 380, 74, 24, 34, 48
 FONT, SMALL = 11, 9
 SOLVERS = {"redblack": "#c0392b", "direct": "#2471a3", "accurate": "#1e8449", "follow": "#9a7d0a"}
+HAIRCUTS = {"straight": "#2471a3", "wavy": "#1e8449", "curly": "#9a7d0a", "coily": "#c0392b"}
 SAMPLES = {"1": "#c0392b", "4": "#9a7d0a", "8": "#7d3c98", "16": "#2471a3", "32": "#1e8449", "64": "#1e8449"}
 PEER = "#555555"
 TIME_OF_A_STRAND = "time of a frame, microseconds per strand"
@@ -119,6 +121,21 @@ def render_panel(argument, case):
         if points:
             series.append(Series(f"{samples} sample" + ("" if samples == "1" else "s"), color, points, is_joined=False))
     return Panel(title, "time of a picture, ms", "FLIP error, 0 for equal pictures", series, lambda m: f"{m:g}", (1, 2, 5), sorted(front))
+
+
+def followers_panel(argument):
+    title, _, place = argument.partition("=")
+    path, motion = place.split(":")
+    series = []
+    for name, color in HAIRCUTS.items():
+        data = [row for row in rows(path) if row["case"] == f"{motion} {name}"]
+        points = [(number(row["ms"]), number(row["rms_error"]), row["guides"], True, False) for row in data]
+        points.sort(key=lambda p: float(p[2]))
+        if points:
+            series.append(Series(name, color, points))
+    if not series:
+        sys.exit(f"plot.py: {path} has no rows of {motion}")
+    return Panel(title, "time of a frame, ms", "RMS error, % of the length", series, lambda m: f"{100 * m:.12g}", (1, 2, 5))
 
 
 def overlap(a, b):
@@ -286,6 +303,9 @@ def main():
         panels = [render_panel(argument, arguments[1]) for argument in arguments[3:]]
         write(arguments[2], panels,
               ["Labels: drawn fraction of the strands, segments per strand. The line joins the settings that no other beats in both time and error."])
+    elif len(arguments) > 2 and arguments[0] == "followers":
+        write(arguments[1], [followers_panel(argument) for argument in arguments[2:]],
+              ["Numbers at points: guides. The last point of a line has every strand as a guide."])
     else:
         sys.exit(__doc__)
 

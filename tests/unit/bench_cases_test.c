@@ -4,6 +4,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -89,10 +90,39 @@ static void physics_cases_are_within_their_limits(void** state)
     expect(0, "rm $D/p.json", "");
 }
 
+// Check that more guides leave a smaller error, and that every strand simulated leaves that of the
+// solver, which is that of hair at rest at the start.
+static void followers_are_nearer_to_the_truth_with_more_guides(void** state)
+{
+    (void)state;
+    expect(0, "$T followers --quick --strands 100 --case 'shake straight' --json $D/f.json --csv /dev/null",
+           "");
+    json_t* root = hair_test_shell_json("f.json");
+    json_t* rows = json_object_get(root, "rows");
+    json_t* row;
+    size_t i;
+    double last = 1, motion = 0;
+    json_array_foreach(rows, i, row)
+    {
+        bool is_every = !strcmp(json_string_value(json_object_get(row, "method")), "direct");
+        double rms = number(row, "rms_error"), rest = number(row, "rest_error");
+        motion = number(row, "motion");
+        assert_true(motion > 0.01 && motion < 0.2);
+        assert_true(number(row, "length") > 0.1 && number(row, "length") < 0.3);
+        assert_true(number(row, "max_error") > rms && rms <= last);
+        assert_true(is_every ? rest == 0 && rms < 0.1 * motion : rms > 0.1 * motion);
+        last = rms;
+    }
+    assert_int_equal(i, 5);
+    json_decref(root);
+    expect(0, "rm $D/f.json", "");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(accuracy_compares_curved_hair_with_the_reference),
+        cmocka_unit_test(followers_are_nearer_to_the_truth_with_more_guides),
         cmocka_unit_test(physics_cases_are_within_their_limits),
         cmocka_unit_test(rest_cases_distinguish_resting_from_moving_hair),
     };

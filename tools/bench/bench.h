@@ -56,7 +56,7 @@ struct bench_suite {
 // clang-format off
 #define BENCH_SUITES(SUITE) \
     SUITE(accuracy) SUITE(bounds) SUITE(collision) SUITE(dispatch) SUITE(field) \
-    SUITE(lod) SUITE(paths) SUITE(physics) SUITE(raster) SUITE(render) SUITE(scale) \
+    SUITE(followers) SUITE(lod) SUITE(paths) SUITE(physics) SUITE(raster) SUITE(render) SUITE(scale) \
     SUITE(shadow) SUITE(skip) SUITE(stability) SUITE(table) SUITE(wind)
 // clang-format on
 #define BENCH_DECLARE(name) extern const struct bench_suite bench_##name;

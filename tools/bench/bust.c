@@ -1,5 +1,6 @@
 // bust.c - Long hair on a moving head and shoulders.
 #include "tools/bench/bust.h"
+#include "tools/bench/capsules.h"
 #include "tools/common/stats.h"
 #include "tools/common/groom_source.h"
 
@@ -114,27 +115,9 @@ bool bench_bust_read_guides(struct bench_bust* bust, float* guides)
     return ok;
 }
 
-// Return the distance to the nearest collider. All colliders of the bust are capsules.
 double bench_bust_distance(const struct bench_bust* bust, const float at[3])
 {
-    double min = INFINITY;
-    for (uint32_t i = 0; i < bust->collider_count; ++i) {
-        const hair_collider* collider = &bust->colliders[i];
-        const float* q = collider->rotation;
-        double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
-        double axis[3] = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)}, arm[3],
-               along = 0;
-        double half = (double)collider->size[1];
-        for (int k = 0; k < 3; ++k) {
-            arm[k] = (double)at[k] - (double)collider->position[k];
-            along += arm[k] * axis[k];
-        }
-        along = fmin(fmax(along, -half), half);
-        double square = 0;
-        for (int k = 0; k < 3; ++k) square += (arm[k] - along * axis[k]) * (arm[k] - along * axis[k]);
-        min = fmin(min, sqrt(square) - (double)collider->size[0]);
-    }
-    return min;
+    return bench_capsule_distance(bust->colliders, bust->collider_count, at);
 }
 
 // Timing ------------------------------------------------------------------------------------------

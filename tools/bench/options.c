@@ -40,15 +40,16 @@ static const struct row {
     {"case", CASE, "NAME", "only this case of the suite; a name that ends with * is any that begins so"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
-     "                   none, single_guide, push_out, compute or prepass; of render, only this path:\n"
+     "                   none, single_guide, push_out, compute or prepass; of followers also followers;\n"
+     "                   of render, only this path:\n"
      "                   tessellation, procedural, cached or compute; of shadow, only depth, strands,\n"
      "                   grid, mean or layers; of wind, only this projection:\n"
      "                   multigrid, relaxation or jacobi"},
     {"thread-mapping", MAPPING, "NAME",
      "of guides to GPU threads: auto, workgroup_per_guide or thread_per_guide"},
     {"strands", STRANDS, "N",
-     "copies of the strand that are timed; 1000; of render and table, strands\n"
-     "                   of the haircut"},
+     "copies of the strand that are timed; 1000; of followers, render and table,\n"
+     "                   strands of the haircut"},
     {"scene", SCENE, "N", "of the case fuzz, only this random scene, or those of N-M"},
     {"size", SIZE, "N", "pixels to each side of pictures; 256 or, on a GPU, what the suite has"},
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
@@ -61,10 +62,11 @@ static const struct row {
 #define ROW_COUNT ((int)(sizeof rows / sizeof *rows))
 #define SUITE_COUNT (sizeof suites / sizeof suites[0])
 
-static const char* const methods[] = {
-    "direct",  "accurate", "follow",       "redblack",   "none",   "single_guide", "push_out",
-    "compute", "prepass",  "tessellation", "procedural", "cached", "multigrid",    "relaxation",
-    "jacobi",  "depth",    "strands",      "grid",       "mean",   "layers",       NULL};
+static const char* const methods[] = {"direct",       "accurate", "follow",    "redblack",   "none",
+                                      "single_guide", "push_out", "compute",   "prepass",    "tessellation",
+                                      "procedural",   "cached",   "multigrid", "relaxation", "jacobi",
+                                      "depth",        "strands",  "grid",      "mean",       "layers",
+                                      "followers",    NULL};
 // In the order of hair_thread_mapping.
 static const char* const mappings[] = {"auto", "workgroup_per_guide", "thread_per_guide", NULL};
 

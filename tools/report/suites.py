@@ -59,6 +59,14 @@ def against_limit(rows):
     return by_case(grouped(rows, lambda row: row["method"], point))
 
 
+def followers(motion):
+    def point(row):
+        is_ours = row["case"].startswith(motion) and row["ms"] and row["rms_error"]
+        return (row["ms"], row["rms_error"], f'{row["guides"]}') if is_ours else None
+
+    return lambda rows: grouped(rows, lambda row: row["case"].partition(" ")[2], point)
+
+
 def stretch(rows):
     return by_case(grouped(rows, lambda row: row["method"],
                            lambda row: (max(row["max_stretch"], 1e-7), row["case"].replace("_", " ")) if row["max_stretch"] is not None else None))
@@ -172,6 +180,12 @@ SUITES = [
         "columns": ["case", "method", "pass", "ms", "floor_ms", "of_floor", "bound", "ms_more", "ms_small", "bytes", "runs"],
     },
     {"name": "lod", "title": "Level of detail", "text": "Fewer, wider strands against all of them: coverage, calm of a walk away, the picture far off."},
+    {
+        "name": "followers", "title": "Interpolated strands",
+        "text": "Strands that are interpolated between guides, against every strand simulated. The numbers are guides.",
+        "plots": [{"series": followers(motion), "joined": True, "across": "milliseconds a frame", "down": "rms error, lengths of a strand",
+                   "caption": f"The motion {motion}."} for motion in ("shake", "contact", "wind")],
+    },
     {"name": "collision", "title": "Colliders", "text": "Followers inside a body though no guide is; finding them; worlds of many objects.",
      "shown": missed, "shown_title": "limits that are missed"},
     {"name": "field", "title": "The field", "text": "Colliders as a texture of signed distance, against their exact distances; errors in voxels.",
