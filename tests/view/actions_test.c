@@ -173,19 +173,43 @@ static void files_open_by_their_name(void** state)
     expect(0, "grep 'none.tfx cannot be read' $D/r.json", "");
 }
 
+// A mesh in centimetres that is dropped moves with the head, as a collider in metres.
+static void dropped_mesh_becomes_a_collider(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    expect(0,
+           "printf 'v 0 0 0\nv 900 0 0\nv 0 900 0\nv 0 0 900\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' "
+           ">$D/cube.obj; echo f 1 2 3 >$D/broken.obj",
+           "");
+    snprintf(script, sizeof script,
+             "key P\nsave %s/0.json\ndrop %s/cube.obj\nwait 3\nsave %s/1.json\nreport %s/r.json\nkey "
+             "Ctrl+Z\nsave %s/2.json\ndrop %s/broken.obj\nsave %s/3.json\n",
+             folder, folder, folder, folder, folder, folder, folder);
+    write_file("s", script);
+    expect(0, RUN "40", "");
+    expect(0, "grep 'which is 9 m large in units of 0.01 m' $D/r.json", "");
+    expect(0, "grep -q '/cube.obj' $D/1.json && grep -q colliders $D/1.json", "");
+    expect(0, "cmp $D/0.json $D/2.json && cmp $D/0.json $D/3.json", "");
+    expect(0, HAIR_BUILD_DIR "/hair-capture $D/1.json --frames 0:1 --size 64x36 --samples 1 --hash", "");
+}
+
 // Switches that are no part of a scene.
 static void switches_change_the_window_by_key_and_label(void** state)
 {
     (void)state;
     static const char* const switches[][3] = {
-        {"Play", "Space", "plays"},      {"Loop", "L", "loops"},        {"Pause", "P", "pauses"},
-        {"Slow motion", "O", "is_slow"}, {"Strip", "I", "shows_strip"}, {"Panels", "Tab", "shows_panels"},
-        {"Help", "?", "shows_help"},
+        {"Play", "Space", "plays"},    {"Loop", "L", "loops"},
+        {"Pause", "P", "pauses"},      {"Slow motion", "O", "is_slow"},
+        {"Strip", "I", "shows_strip"}, {"Panels", "Tab", "shows_panels"},
+        {"Help", "?", "shows_help"},   {"OpenGL", "Y", "shows_gl_messages"},
     };
+    enum { SWITCHES = sizeof switches / sizeof *switches };
     char script[2048];
     const char* folder = hair_test_folder();
     int used = snprintf(script, sizeof script, "report %s/0.json\n", folder);
-    for (size_t i = 0; i < 7; ++i)
+    for (size_t i = 0; i < SWITCHES; ++i)
         used +=
             snprintf(script + used, sizeof script - (size_t)used,
                      "key %s\nreport %s/k%zu.json\nkey %s\nclick %s\nreport %s/l%zu.json\nkey %s\n",
@@ -193,10 +217,10 @@ static void switches_change_the_window_by_key_and_label(void** state)
     used += snprintf(script + used, sizeof script - (size_t)used, "key ?\nkey Escape\nreport %s/e.json\n",
                      folder);
     write_file("s", script);
-    expect(0, RUN "140", "");
+    expect(0, RUN "160", "");
     expect(0, "grep 'shows_help\": false' $D/e.json", "");
     json_t* before = hair_test_shell_json("0.json");
-    for (size_t i = 0; i < 7; ++i) {
+    for (size_t i = 0; i < SWITCHES; ++i) {
         char key[16], label[16];
         snprintf(key, sizeof key, "k%zu.json", i);
         snprintf(label, sizeof label, "l%zu.json", i);
@@ -225,6 +249,9 @@ int main(void)
         cmocka_unit_test(grabbed_hair_follows_the_cursor),
         cmocka_unit_test(switches_change_the_window_by_key_and_label),
         cmocka_unit_test(files_open_by_their_name),
+#if HAIR_BULLET
+        cmocka_unit_test(dropped_mesh_becomes_a_collider),
+#endif
         cmocka_unit_test(panels_find_change_and_reset_settings),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);

@@ -24,13 +24,13 @@ static uint32_t below(uint32_t count)
 static void write_event(FILE* file)
 {
     // Keys that write files, or that run long measurements, are left out.
-    static const char* const keys[] = {"1", "2",   "3",     "4",      "5",      "A",      "B",     "C", "D",
-                                       "F", "H",   "I",     "K",      "L",      "M",      "N",     "O", "P",
-                                       "R", "S",   "T",     "U",      "V",      "X",      "[",     "]", ".",
-                                       "?", "Tab", "Space", "Ctrl+Z", "Ctrl+Y", "Return", "Escape"};
+    static const char* const keys[] = {"1", "2", "3", "4",   "5",     "A",      "B",      "C",      "D",
+                                       "F", "H", "I", "J",   "K",     "L",      "M",      "N",      "O",
+                                       "P", "R", "S", "T",   "U",     "V",      "X",      "Y",      "[",
+                                       "]", ".", "?", "Tab", "Space", "Ctrl+Z", "Ctrl+Y", "Return", "Escape"};
     static const char* const buttons[] = {"left", "left", "left", "middle", "right"};
     static const char* const modifiers[] = {"Left Shift", "Left Ctrl", "Left Alt"};
-    static const char* const drops[] = {"small.json", "broken.json", "broken.tfx", "none.hair"};
+    static const char* const drops[] = {"small.json", "broken.json", "broken.tfx", "none.hair", "cube.obj"};
     switch (below(12)) {
     case 0: fprintf(file, "key %s\n", keys[below(COUNT(keys))]); break;
     case 1: fprintf(file, "down %s\n", buttons[below(COUNT(buttons))]); break;
@@ -61,7 +61,10 @@ static void random_events_leave_finite_hair(void** state)
     }
     fprintf(file, "report %s/r.json\n", hair_test_folder());
     fclose(file);
-    hair_test_shell_expect(0, "echo '{' >$D/broken.json; echo x >$D/broken.tfx", "");
+    hair_test_shell_expect(0,
+                           "echo '{' >$D/broken.json; echo x >$D/broken.tfx; printf 'v 0 0 0\nv 0.1 0 "
+                           "0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >$D/cube.obj",
+                           "");
     snprintf(command, sizeof command, "$T $D/small.json --size 900x700 --script $D/s --frames %u --quality 4",
              2 * events + 100);
     hair_test_shell_expect(0, command, "");

@@ -1,6 +1,7 @@
 // actions.cpp - The table of all actions, each with a label and a key.
 #include "tools/view/actions.h"
 #include "tools/view/compare.h"
+#include "tools/view/debug_draw.h"
 #include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 #include "tools/view/record.h"
@@ -123,12 +124,21 @@ bool shows_pareto(const viewer& viewer)
     return viewer.pareto.shows;
 }
 
+void toggle_gl_messages(viewer& viewer)
+{
+    viewer.gl_messages.shows = !viewer.gl_messages.shows;
+}
+bool shows_gl_messages(const viewer& viewer)
+{
+    return viewer.gl_messages.shows;
+}
+
 #define CTRL KMOD_CTRL
 
 const view_action actions[] = {
     {"Scene", "Save", SDLK_s, CTRL, "Save the scene, with all changes, as the file above.", save, nullptr},
-    {"Scene", "Open", SDLK_o, CTRL, "Open the file above, a scene (.json) or a haircut (.hair, .tfx).", open,
-     nullptr},
+    {"Scene", "Open", SDLK_o, CTRL,
+     "Open the file above: a scene (.json), a haircut (.hair, .tfx) or a mesh (.obj).", open, nullptr},
     {"Scene", "Picture", SDLK_F12, 0, "Write a picture of the window, hair-view-N.png.", picture, nullptr},
     {"Scene", "Record", SDLK_F9, 0, "Write a film of the window, hair-view-N.mp4.", record, is_recording},
     {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},
@@ -150,6 +160,8 @@ const view_action actions[] = {
      shows<HAIR_SHOW_COLLIDERS>},
     {"Show", "Air", SDLK_5, 0, "Draw the wind as arrows.", toggle_show<HAIR_SHOW_WIND>,
      shows<HAIR_SHOW_WIND>},
+    {"Show", "Next debug", SDLK_j, 0, "Show numbers of guides and strands as colours, by the list below.",
+     view_debug_next, nullptr},
     {"Show", "Frame", SDLK_f, 0, "Move the camera until the hair fills the window.", frame_hair, nullptr},
     {"Show", "Head at rest", SDLK_h, 0, "Put the head back where its motion wants it.", reset_head, nullptr},
     {"Hair", "Next colour", SDLK_c, 0, "Take the next of the natural colours.", view_next_color, nullptr},
@@ -185,6 +197,8 @@ const view_action actions[] = {
      view_toggle_compare, view_compares},
     {"Errors", "Reload shaders", SDLK_F5, 0, "Compile the shaders of --glsl again.", view_reload_shaders,
      nullptr},
+    {"Errors", "OpenGL", SDLK_y, 0, "Show or hide the messages of OpenGL.", toggle_gl_messages,
+     shows_gl_messages},
     {"Window", "Help", SDLK_QUESTION, 0, "Show or hide the list of keys and mouse controls.",
      toggle<&viewer::shows_help>, is<&viewer::shows_help>},
     {"Window", "Strip", SDLK_i, 0, "Show or hide timings and errors below the picture.",

@@ -28,7 +28,7 @@ const view_mouse_help mouse_controls[] = {
     {"Right drag", "turn the head"},
     {"Middle drag", "move the head"},
     {"Ctrl + left drag", "pull the hair under the cursor, or move a collider that is shown"},
-    {"Drop a file", "open a scene (.json) or a haircut (.hair, .tfx)"},
+    {"Drop a file", "open a scene (.json) or a haircut (.hair, .tfx), or add a mesh (.obj) to collide with"},
     {nullptr, nullptr},
 };
 

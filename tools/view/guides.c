@@ -5,9 +5,16 @@
 #include "lib/collide/distance.h"
 #include "tests/reference/guide_rod.h"
 
+#include <math.h>
+
 struct view_guide view_guide_of(const hair_groom* groom, uint32_t guide)
 {
     return (struct view_guide){groom->guides[guide].first, groom->guides[guide].count};
+}
+
+const float* view_guide_rest(const hair_groom* groom, uint32_t vertex)
+{
+    return &groom->rest[vertex].position.x;
 }
 
 struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_groom* groom, uint32_t guide,
@@ -33,11 +40,26 @@ struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_
     return hair_reference_guide_rod_create(&desc);
 }
 
+double view_guide_distance(const double point[3], const hair_collider* colliders, uint32_t count)
+{
+    double nearest = INFINITY;
+    for (uint32_t k = 0; k < count; ++k)
+        nearest = fmin(nearest, hair_distance_to_collider(colliders + k, point, NULL));
+    return nearest;
+}
+
 bool view_guide_touches(const double* positions, uint32_t vertices, const hair_collider* colliders,
                         uint32_t count, double margin)
 {
     for (uint32_t i = 2; i < vertices; ++i)
-        for (uint32_t k = 0; k < count; ++k)
-            if (hair_distance_to_collider(colliders + k, positions + 3 * i, NULL) < margin) return true;
+        if (view_guide_distance(positions + 3 * i, colliders, count) < margin) return true;
     return false;
+}
+
+void view_find_patches(const hair_groom* groom, uint32_t* out)
+{
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
+        const struct hair_patch* patch = &groom->patches[i];
+        for (uint32_t k = patch->first; k < patch->first + patch->count; ++k) out[k] = i;
+    }
 }

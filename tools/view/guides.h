@@ -14,6 +14,9 @@ struct view_guide {
 };
 struct view_guide view_guide_of(const hair_groom* groom, uint32_t guide);
 
+// Return a guide vertex at rest in the head's frame: xyz, and the distance to the next vertex, m.
+const float* view_guide_rest(const hair_groom* groom, uint32_t vertex);
+
 // Create a guide at rest as a rod of the reference, with the stiffness by which the library lets it
 // hold its groom. Return NULL if the guide cannot hold its groom, or if it is no rod.
 struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_groom* groom, uint32_t guide,
@@ -23,5 +26,10 @@ struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_
 // Return whether a vertex of a guide touches a collider. The scalp holds the first two vertices.
 bool view_guide_touches(const double* positions, uint32_t vertices, const hair_collider* colliders,
                         uint32_t count, double margin);
+// Return the distance of a point from the nearest collider, m.
+double view_guide_distance(const double point[3], const hair_collider* colliders, uint32_t count);
+
+// Write the index of the patch of each follower.
+void view_find_patches(const hair_groom* groom, uint32_t* out);
 
 #endif

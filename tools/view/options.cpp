@@ -26,6 +26,7 @@ enum option_name {
     SAVE,
     GLSL,
     DEVICE,
+    DEBUG,
     VERSION
 };
 
@@ -52,6 +53,7 @@ const row rows[] = {
     {"save", SAVE, "FILE.json", "file that Save writes; without it, the opened file or a new one"},
     {"glsl", GLSL, "FOLDER", "read the shaders of the library from a folder, and follow its changes"},
     {"device", DEVICE, "N", "run a script on the EGL device of that index; without it, the first that works"},
+    {"debug", DEBUG, nullptr, "let OpenGL check all calls of a window, and tell in its messages"},
     {"help", 'h', nullptr, "(also -h) this"},
     {"version", VERSION, nullptr, "the version of the library"},
 };
@@ -132,6 +134,7 @@ bool take(const row& row, const char* value, said_options& said, view_options& o
     case SCENE: said.scene = value; break;
     case STYLE: said.style = value; break;
     case MOTION: said.motion = value; break;
+    case DEBUG: out.debug = true; break;
     case HEAD: said.head = true; break;
     case SET: said.changes.push_back(value); break;
     case SIZE: return parse_size(value, out);

@@ -99,6 +99,7 @@ void view_panels(viewer& viewer)
         }
     }
     view_pareto_window(viewer);
+    view_gl_messages_window(viewer.gl_messages);
     show_help(viewer);
     show_messages(viewer);
 }

@@ -1,6 +1,7 @@
 // scene_panel.cpp - The panel of files, presets and actions.
 #include "tools/view/scene_panel.h"
 #include "tools/view/actions.h"
+#include "tools/view/debug_draw.h"
 #include "tools/view/hair_actions.h"
 
 #include <imgui_stdlib.h>
@@ -19,7 +20,7 @@ const char* show_names(viewer& viewer, const char* label, const char* present, c
 {
     const char* chosen = nullptr;
     ImGui::SetNextItemWidth(-0.38f * ImGui::GetWindowWidth());
-    bool is_open = ImGui::BeginCombo(label, present);
+    bool is_open = ImGui::BeginCombo(label, present, ImGuiComboFlags_HeightLarge);
     view_gui_mark(viewer.gui, label);
     if (!is_open) return nullptr;
     for (int i = 0; name(i); ++i) {
@@ -105,9 +106,21 @@ void show_level(viewer& viewer, const char* label, float* value, float min, floa
     view_gui_mark(viewer.gui, label);
 }
 
+// Show the list of debug views, and the position of a slice.
+void show_debug(viewer& viewer)
+{
+    int& mode = viewer.debug.mode;
+    const char* chosen = show_names(viewer, "Debug", view_debug_name(mode), view_debug_name);
+    for (int i = 0; chosen && view_debug_name(i); ++i)
+        if (chosen == view_debug_name(i)) view_debug_select(viewer, i);
+    if (mode < VIEW_DEBUG_FIELD_X) return;
+    show_level(viewer, "Slice at", &viewer.document.scene->settings.view.slice_at, 0, 1);
+}
+
 void show_sliders(viewer& viewer, const char* group)
 {
     hair_settings& settings = viewer.document.scene->settings;
+    if (!strcmp(group, "Show")) show_debug(viewer);
     if (!strcmp(group, "Detail") && settings.has_lod && settings.lod.per_patch) {
         show_level(viewer, "Strand px", &settings.lod.strand_pixels, 0.05f, 4);
         show_level(viewer, "Segment px", &settings.lod.segment_pixels, 1, 40);

@@ -76,6 +76,7 @@ int open_window(const view_options& options, view_stage& out)
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
+    if (options.debug) SDL_GL_SetAttribute(SDL_GL_CONTEXT_FLAGS, SDL_GL_CONTEXT_DEBUG_FLAG);
     int place[4] = {SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, (int)options.width, (int)options.height};
     if (!options.has_size) remember(place);
     out.window = SDL_CreateWindow("hair-view", place[0], place[1], place[2], place[3],

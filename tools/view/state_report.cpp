@@ -1,6 +1,7 @@
 // state_report.cpp - The state of the window as JSON, for tests and for reports of defects.
 #include "tools/view/state_report.h"
 #include "tools/view/arrows.h"
+#include "tools/view/debug_draw.h"
 
 #include <jansson.h>
 
@@ -61,6 +62,17 @@ int view_state_report(const viewer& viewer, const std::string& path)
                                                     "ms", point.ms, "flip", point.flip));
         json_object_set_new(root, "pareto", points);
     }
+    const view_debug& debug = viewer.debug;
+    json_object_set_new(root, "debug",
+                        json_pack("{s:s, s:f, s:f, s:i, s:i, s:f}", "mode", view_debug_name(debug.mode),
+                                  "low", (double)debug.low, "high", (double)debug.high, "strands",
+                                  (int)debug.strands, "drawn", (int)debug.drawn, "fragments",
+                                  (double)debug.fragments));
+    json_object_set_new(root, "shows_gl_messages", json_boolean(viewer.gl_messages.shows));
+    json_t* gl_messages = json_array();
+    for (const view_gl_message& message : viewer.gl_messages.list)
+        json_array_append_new(gl_messages, json_string(message.text.c_str()));
+    json_object_set_new(root, "gl_messages", gl_messages);
     json_t* messages = json_array();
     for (const std::string& message : viewer.messages)
         json_array_append_new(messages, json_string(message.c_str()));

@@ -175,19 +175,19 @@ void view_strip_update(viewer& viewer)
 
 void view_strip(viewer& viewer)
 {
-    float font = ImGui::GetFontSize();
-    if (!ImGui::BeginTable("strip", 4)) return;
+    // A narrow window has no room for the last columns.
+    float font = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x / font;
+    int columns = width > 34 ? 4 : width > 26 ? 3 : 2;
+    if (!ImGui::BeginTable("strip", columns)) return;
     ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 7.6f * font);
     ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.3f);
-    ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthFixed, 10.6f * font);
-    ImGui::TableSetupColumn("histories", ImGuiTableColumnFlags_WidthStretch, 0.9f);
+    if (columns > 2) ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthFixed, 10.6f * font);
+    if (columns > 3) ImGui::TableSetupColumn("histories", ImGuiTableColumnFlags_WidthStretch, 0.9f);
     ImGui::TableNextColumn();
     show_frame(viewer);
     ImGui::TableNextColumn();
     show_stages(viewer);
-    ImGui::TableNextColumn();
-    show_errors(viewer);
-    ImGui::TableNextColumn();
-    show_histories(viewer);
+    if (columns > 2 && ImGui::TableNextColumn()) show_errors(viewer);
+    if (columns > 3 && ImGui::TableNextColumn()) show_histories(viewer);
     ImGui::EndTable();
 }

@@ -3,6 +3,8 @@
 #include "tools/view/arrows.h"
 #include "tools/view/compare.h"
 #include "tools/view/controls.h"
+#include "tools/view/debug_draw.h"
+#include "tools/view/debug_guides.h"
 #include "tools/view/panel.h"
 #include "tools/view/pareto.h"
 #include "tools/view/record.h"
@@ -49,6 +51,7 @@ int open(viewer& viewer)
     if (!code)
         code =
             view_session_open(host, view_stage_get_proc(viewer.stage), viewer.options.glsl, viewer.session);
+    if (!code) view_gl_messages_listen(viewer.gl_messages);
     if (!code && !view_gui_open(viewer.gui)) {
         hair_complain(TOOL, "the panels cannot be drawn with this OpenGL");
         code = HAIR_EXIT_OPENGL;
@@ -72,8 +75,10 @@ void close(viewer& viewer)
     view_image_error_finish(viewer.image_error);
     view_motion_error_end(viewer.motion_error, viewer.session);
     view_gui_close(viewer.gui);
+    view_debug_close(viewer.debug);
     view_session_close(viewer.session);
     view_document_close(viewer.document);
+    if (viewer.stage.egl || viewer.stage.context) view_gl_messages_ignore();
     view_stage_close(viewer.stage);
 }
 
@@ -124,6 +129,7 @@ int step(viewer& viewer, float dt)
     if (!code && is_measured)
         code = view_motion_error_update(viewer.motion_error, session, scene, (double)dt,
                                         !viewer.options.script.empty());
+    if (!code) code = view_debug_update(viewer, (double)dt);
     return code;
 }
 
@@ -164,6 +170,9 @@ int draw_picture(viewer& viewer)
     ImGui::GetBackgroundDrawList()->AddImage((ImTextureID)(intptr_t)texture, {place.left, place.top},
                                              {place.right, place.bottom});
     uint32_t level = viewer.is_moving ? viewer.governor.level : viewer.options.quality;
+    if (!is_equal || viewer.is_moving) code = view_debug_draw(viewer, (uint32_t)width, (uint32_t)height);
+    if (code) return code;
+    view_debug_show(viewer);
     if (viewer.compared)
         code = view_compare_draw(viewer, (uint32_t)width, (uint32_t)height, view_quality_of(level));
     view_arrows(viewer);
@@ -228,6 +237,8 @@ int run_frame(viewer& viewer)
     bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || viewer.film.is_on ||
                  viewer.wants_picture || viewer.image_error.is_on;
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
+    // The debug view counts while it draws.
+    draws = draws || (viewer.debug.mode != VIEW_DEBUG_OFF && !viewer.script.report.empty());
     double before = hair_now();
     float dt = tick(viewer);
     if (code) return code;
@@ -239,9 +250,9 @@ int run_frame(viewer& viewer)
     follow_document(viewer);
     if (viewer.drag == VIEW_DRAG_NONE && !ImGui::IsAnyItemActive()) view_document_commit(viewer.document);
     code = step(viewer, dt);
-    if (!code) code = save_by_script(viewer);
     if (viewer.frame % reload_frames == 0) view_watch_shaders(viewer);
     if (!code && draws) code = draw_picture(viewer);
+    if (!code) code = save_by_script(viewer);
     // A shader with an error must not end a window.
     if (code == HAIR_EXIT_OPENGL && !is_scripted && !viewer.options.glsl.empty()) code = HAIR_EXIT_OK;
     if (draws) view_stage_begin(viewer.stage);

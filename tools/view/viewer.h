@@ -2,7 +2,9 @@
 #ifndef HAIR_TOOLS_VIEW_VIEWER_H
 #define HAIR_TOOLS_VIEW_VIEWER_H
 
+#include "tools/view/debug_state.h"
 #include "tools/view/document.h"
+#include "tools/view/gl_messages.h"
 #include "tools/view/gui.h"
 #include "tools/view/image_error.h"
 #include "tools/view/motion_error.h"
@@ -97,6 +99,8 @@ struct viewer {
     view_image_error image_error;
     view_motion_error motion_error;
     view_pareto pareto;
+    view_debug debug;
+    view_gl_messages gl_messages;
     uint64_t motion = 0; // number of motions in the picture so far
     bool wants_picture = false; // writes the window at the end of this frame
     double moved = 0; // time of the last motion in the picture, ms
