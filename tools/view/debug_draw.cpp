@@ -310,8 +310,8 @@ void view_debug_show(const viewer& viewer)
 void view_debug_close(view_debug& debug)
 {
     for (hair_shader*& shader : debug.shaders) hair_shader_destroy(shader);
+    if (!debug.vertex_array) return; // OpenGL may be missing.
     for (unsigned program : debug.programs) glDeleteProgram(program);
-    if (!debug.vertex_array) return;
     glDeleteFramebuffers(1, &debug.framebuffer);
     glDeleteTextures(1, &debug.texture);
     glDeleteRenderbuffers(1, &debug.depth);
