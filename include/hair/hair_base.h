@@ -102,6 +102,18 @@ typedef struct hair_host {
     void* user;
 } hair_host;
 
+/// One of many tasks that do not depend on each other.
+typedef void (*hair_task)(uint32_t index, void* data);
+
+/// Threads of the application, on which the library may divide long work of the CPU.
+typedef struct hair_tasks {
+    /// Function that calls task(index, data) once for every index below `count`, on any threads and
+    /// in any order, and returns when all calls have returned. Tasks use no callbacks.
+    void (*run)(hair_task task, void* data, uint32_t count, void* user);
+    /// Pointer passed to `run`.
+    void* user;
+} hair_tasks;
+
 // Descs -------------------------------------------------------------------------------------------
 
 /// Value of a field that lets the library choose. The comment of the field says how it chooses.

@@ -4,7 +4,7 @@
 #ifndef HAIR_HAIR_GROOM_H
 #define HAIR_HAIR_GROOM_H
 
-#include <hair/hair_base.h>
+#include <hair/hair_physics.h>
 
 // Import ------------------------------------------------------------------------------------------
 
@@ -133,6 +133,15 @@ typedef struct hair_groom_desc {
     /// Number of colours per strand, at even places from root to tip. 0 means one colour per
     /// vertex.
     uint32_t color_count; ///< [0, 256]. Default 0.
+    /// Physics that instances will be created with. The call then prepares the guides for these
+    /// physics and `solver`, on its thread. A hair_create() with both only uploads the guides, and
+    /// instances share the preparation. NULL leaves the preparation to hair_create().
+    const hair_physics* physics; ///< Default NULL.
+    /// Solver for which `physics` prepares the guides.
+    hair_solver solver; ///< Default HAIR_SOLVER_DIRECT.
+    /// Threads on which the guides are prepared. This call, hair_create(), and a hair_step() after
+    /// physics have changed use them. The struct is copied. NULL uses the calling thread.
+    const hair_tasks* tasks; ///< Default NULL.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 

@@ -53,18 +53,44 @@ static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_
     return HAIR_OK;
 }
 
+// Prepare the guides for the physics of instances. The solver redblack has no rods.
+static hair_result prepare(hair_groom* groom, const hair_physics* physics, hair_solver solver)
+{
+    const struct hair_rod_source source = {.host = &groom->host,
+                                           .tasks = &groom->tasks,
+                                           .guides = groom->guides,
+                                           .rest = groom->rest,
+                                           .count = groom->info.guide_count,
+                                           .vertices = groom->info.guide_vertex_count,
+                                           .max_vertices = groom->max_vertices};
+    if (solver == HAIR_SOLVER_REDBLACK) return HAIR_OK;
+    groom->free_prepared = hair_prepared_rods_free;
+    return hair_prepared_rods_create(&source, physics, solver, &groom->prepared);
+}
+
 hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
 {
     hair_host host = HAIR_HOST_OF(desc);
     hair_groom_desc own;
     hair_import import;
+    hair_physics physics;
     hair_map_set maps[HAIR_MAP_SETS];
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     HAIR_TRY(check_arrays(&host, &own));
     HAIR_TRY(copy_maps(&host, &own, maps));
+    if (own.physics) HAIR_TRY(HAIR_COPY_IN(&host, hair_physics, own.physics, &physics));
+    if (own.tasks && !own.tasks->run)
+        return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.tasks has no function run");
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
-    return hair_groom_build(&host, &own, &import, out);
+    hair_groom* groom = NULL;
+    HAIR_TRY(hair_groom_build(&host, &own, &import, &groom));
+    hair_result result = own.physics ? prepare(groom, &physics, own.solver) : HAIR_OK;
+    if (result)
+        hair_groom_release(groom);
+    else
+        *out = groom;
+    return result;
 }
 
 void hair_groom_destroy(hair_groom* groom)

@@ -76,6 +76,15 @@ static void log_sentence(const hair_host* host, hair_log_level level, const char
     host->log(level, sentence, host->user);
 }
 
+void hair_run_tasks(const hair_tasks* tasks, hair_task task, void* data, uint32_t count)
+{
+    if (tasks->run && count > 1) {
+        tasks->run(task, data, count, tasks->user);
+        return;
+    }
+    for (uint32_t i = 0; i < count; ++i) task(i, data);
+}
+
 void hair_log(const hair_host* host, hair_log_level level, const char* format, ...)
 {
     va_list arguments;

@@ -30,6 +30,10 @@ hair_host hair_host_or_default(const hair_host* host);
 void* hair_alloc(const hair_host* host, size_t count, size_t size);
 void hair_free(const hair_host* host, void* memory);
 
+// Call task(index, data) for every index below `count`, on the application's threads if it has lent
+// any.
+void hair_run_tasks(const hair_tasks* tasks, hair_task task, void* data, uint32_t count);
+
 // Send one sentence of at most 511 bytes to the application's log.
 void hair_log(const hair_host* host, hair_log_level level, const char* format, ...) HAIR_PRINTF(3, 4);
 

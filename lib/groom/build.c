@@ -108,6 +108,7 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     if (!groom) return hair_fail_memory(host, "a groom");
     groom->host = *host;
     atomic_init(&groom->holders, 1);
+    if (desc->tasks) groom->tasks = *desc->tasks;
     struct hair_groom_builder builder = {
         .host = &groom->host, .desc = desc, .import = import, .groom = groom};
     hair_result result = build_groom(&builder);
@@ -137,5 +138,6 @@ void hair_groom_release(hair_groom* groom)
     hair_free(&host, groom->patches);
     hair_free(&host, groom->colors);
     hair_root_bindings_release(groom->root_bindings);
+    if (groom->prepared) groom->free_prepared(&host, groom->prepared);
     hair_free(&host, groom);
 }

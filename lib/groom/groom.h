@@ -8,7 +8,7 @@
 
 struct hair_groom {
     hair_host host;
-    atomic_uint holders; // the application, and instances that can be restored
+    atomic_uint holders; // the application, and instances
     hair_groom_info info;
     struct hair_guide* guides; // info.guide_count
     struct hair_rest* rest; // info.guide_vertex_count
@@ -24,6 +24,11 @@ struct hair_groom {
     uint32_t map_sets;
     // NULL without a scalp that has a triangle with three different corners.
     struct hair_root_bindings* root_bindings;
+    hair_tasks tasks; // threads of the application. A NULL `run` means the calling thread.
+    // The guides as rods, prepared for physics, and the function that frees them. NULL if they are
+    // not prepared.
+    struct hair_prepared_rods* prepared;
+    void (*free_prepared)(const hair_host* host, struct hair_prepared_rods* prepared);
 };
 
 // Build a groom. `desc` is complete and checked, except the contents of its arrays. On failure *out

@@ -106,8 +106,8 @@ static double fraction_of(struct block a, struct block own, struct block far)
     return max;
 }
 
-// Reduce the system of a guide. Write to `last` the final solve after each possible number of
-// rounds. Return the number of rounds after which the influence is at most `min`.
+// Reduce the system of a guide. Write to `last` the final solve. Return the number of rounds before
+// it, after which the influence is at most `min`.
 static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_rod* rod, uint32_t vertices,
                              double min, hair_vec4* out, hair_vec4* last)
 {
@@ -115,7 +115,9 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
     uint32_t count = (guide->count + 1) / 2, round = 0, heard = 0;
     HAIR_ASSERT(0 < count && count <= MAX_BLOCKS);
     struct block_row row[2][MAX_BLOCKS];
+    struct block solve[MAX_BLOCKS]; // Final solve after the rounds that are needed so far.
     for (uint32_t b = 0; b < count; ++b) row[0][b] = row_of_block(rod, guide->count, b);
+    for (uint32_t b = 0; b < count; ++b) solve[b] = inverse(row[0][b].own);
     for (uint32_t reach = 1; reach < count; reach *= 2, ++round) {
         const struct block_row* from = row[round % 2];
         struct block_row* to = row[(round + 1) % 2];
@@ -129,23 +131,17 @@ static uint32_t reduce_guide(const struct hair_guide* guide, const struct hair_r
             to[b].own = plus(from[b].own,
                              plus(up ? times(a, up->after) : none, down ? times(c, down->before) : none));
             write_round(guide, b, a, c, out + (size_t)round * vertices);
-            write_round(guide, b, inverse(from[b].own), none, last + (size_t)round * vertices);
             double fraction = fmax(up ? fraction_of(a, from[b].own, up->own) : 0,
                                    down ? fraction_of(c, from[b].own, down->own) : 0);
             if (!(fraction <= min)) heard = round + 1;
         }
+        for (uint32_t b = 0; b < count && heard == round + 1; ++b) solve[b] = inverse(to[b].own);
     }
-    for (uint32_t b = 0; b < count; ++b)
-        write_round(guide, b, inverse(row[round % 2][b].own), none, last + (size_t)round * vertices);
     HAIR_ASSERT(heard <= round);
-    // Other guides may need more rounds. Fill the rounds that this guide does not need with zeros,
-    // and repeat its last.
-    for (uint32_t n = heard; n < round; ++n) {
-        size_t from = (size_t)n * vertices + guide->first;
-        memset(out + from, 0, guide->count * sizeof *out);
-        memcpy(last + from + vertices, last + (size_t)heard * vertices + guide->first,
-               guide->count * sizeof *last);
-    }
+    for (uint32_t b = 0; b < count; ++b) write_round(guide, b, solve[b], none, last);
+    // Other guides may need more rounds. Fill the rounds that this guide does not need with zeros.
+    for (uint32_t n = heard; n < round; ++n)
+        memset(out + (size_t)n * vertices + guide->first, 0, guide->count * sizeof *out);
     return heard;
 }
 
@@ -169,10 +165,15 @@ uint32_t hair_rods_write_reduction(const struct hair_guide* guides, uint32_t cou
         HAIR_ASSERT(own < hair_rods_rounds(guides[i].count));
         rounds = own > rounds ? own : rounds;
     }
-    for (uint32_t i = 0; i < count; ++i) { // Guides may have fewer rounds of their own.
-        uint32_t own = hair_rods_rounds(guides[i].count) - 1;
-        size_t from = (size_t)(own < rounds ? own : rounds) * vertices + guides[i].first;
-        memcpy(out + from, last + from, guides[i].count * sizeof *out);
-    }
     return rounds;
+}
+
+void hair_rods_add_final_solve(const struct hair_guide* guides, uint32_t count, uint32_t vertices,
+                               uint32_t rounds, const hair_vec4* last, hair_vec4* out)
+{
+    for (uint32_t i = 0; i < count; ++i) { // Guides may have fewer rounds of their own.
+        uint32_t own = hair_rods_rounds(guides[i].count) - 1, first = guides[i].first;
+        hair_vec4* to = out + (size_t)(own < rounds ? own : rounds) * vertices + first;
+        memcpy(to, last + first, guides[i].count * sizeof *out);
+    }
 }

@@ -110,12 +110,16 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
 uint32_t hair_rods_rounds(uint32_t max_vertices);
 
 // Reduce the systems of the solver's own method for work groups. Write one vec4 per vertex and
-// round to `out`, round after round. A guide without such a system leaves zeros. `out` and the
-// scratch memory `last` hold hair_rods_rounds() rounds of zeros on entry. Return the number of
-// rounds before the last.
+// round to `out`, round after round, and the final solve to `last`, one vec4 per vertex. A guide
+// without such a system leaves zeros. `out` holds hair_rods_rounds() - 1 rounds of zeros on entry,
+// and `last` holds zeros. Return the number of rounds before the final solve.
 uint32_t hair_rods_write_reduction(const struct hair_guide* guides, uint32_t count,
                                    const struct hair_rod* rod, uint32_t vertices, double substep,
                                    hair_vec4* out, hair_vec4* last);
+
+// Add the final solve to the rounds in `out`, after `rounds` rounds.
+void hair_rods_add_final_solve(const struct hair_guide* guides, uint32_t count, uint32_t vertices,
+                               uint32_t rounds, const hair_vec4* last, hair_vec4* out);
 
 // Return whether physics `a` and `b` need different rods.
 bool hair_rods_differ(const hair_physics* a, const hair_physics* b);

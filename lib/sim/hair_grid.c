@@ -275,7 +275,7 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
 
 hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim)
 {
-    return sim->rods ? hair_grid_create(sim, sim->rods->guides, sim->rods->rest) : HAIR_OK;
+    return sim->rods ? hair_grid_create(sim, sim->rods->groom->guides, sim->rods->groom->rest) : HAIR_OK;
 }
 
 void hair_grid_free(struct hair_sim* sim)

@@ -21,38 +21,44 @@ static bool is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 {
     if (sim->solver != HAIR_SOLVER_ACCURATE) return false;
     for (uint32_t i = 0; i < sim->guides; ++i)
-        if (rod[sim->rods->guides[i].first].segment.w != 0) return true;
+        if (rod[sim->rods->groom->guides[i].first].segment.w != 0) return true;
     return false;
+}
+
+static struct hair_rod_source source_of(const struct hair_sim* sim)
+{
+    const struct hair_groom* groom = sim->rods->groom;
+    return (struct hair_rod_source){.host = &sim->gl->host,
+                                    .tasks = &groom->tasks,
+                                    .guides = groom->guides,
+                                    .rest = groom->rest,
+                                    .count = sim->guides,
+                                    .vertices = sim->guide_vertices,
+                                    .max_vertices = sim->max_vertices};
 }
 
 // Create the reduction buffer. The buffer is empty unless work groups run a method with implicit
 // systems. A buffer with systems ends with a row of zeros, which shaders read for vertices beyond
 // the end of a guide.
-static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, double substep,
-                                  GLuint* buffer, uint32_t* rounds)
+static hair_result upload_reduction(struct hair_sim* sim, const hair_vec4* reduction, uint32_t rounds,
+                                    struct hair_rod_set* out)
 {
-    const hair_host* host = &sim->gl->host;
-    int there = 0;
-    int no_system = sim->solver == HAIR_SOLVER_FOLLOW;
-    for (uint32_t i = 0; i < sim->guides && !there && !no_system; ++i)
-        there = rod[sim->rods->guides[i].first].factor.x > 0;
-    if (sim->by_thread || !there)
-        return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair reduction", 0, NULL, buffer);
-    uint32_t max = hair_rods_rounds(sim->max_vertices), vertices = sim->guide_vertices;
-    size_t count = (size_t)max * vertices;
-    hair_vec4 *out = hair_alloc(host, count + 1, sizeof *out), *last = hair_alloc(host, count, sizeof *last);
-    hair_result result = out && last ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
-    if (!result) {
-        *rounds =
-            hair_rods_write_reduction(sim->rods->guides, sim->guides, rod, vertices, substep, out, last);
-        HAIR_ASSERT(*rounds < max);
-        count = (size_t)(*rounds + 1) * vertices;
-        memset(out + count, 0, sizeof *out);
-        result = hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair reduction", (count + 1) * sizeof *out,
-                                 out, buffer);
-    }
-    hair_free(host, out);
-    hair_free(host, last);
+    size_t rows = reduction ? (size_t)(rounds + 1) * sim->guide_vertices + 1 : 0;
+    out->rounds = reduction ? rounds : out->rounds;
+    return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair reduction", rows * sizeof *reduction,
+                           reduction, &out->reduction);
+}
+
+static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
+{
+    struct hair_rod_source source = source_of(sim);
+    hair_vec4* reduction = NULL;
+    uint32_t rounds = 0;
+    if (!sim->by_thread && sim->solver != HAIR_SOLVER_FOLLOW)
+        HAIR_TRY(hair_rods_reduce_all(&source, rod, out->substep, &rounds, &reduction));
+    if (reduction) reduction[(size_t)(rounds + 1) * sim->guide_vertices] = (hair_vec4){0, 0, 0, 0};
+    hair_result result = upload_reduction(sim, reduction, rounds, out);
+    hair_free(source.host, reduction);
     return result;
 }
 
@@ -71,13 +77,22 @@ static uint32_t find_substep_scale(const struct hair_sim* sim)
     return substep_scale;
 }
 
+// Return the rods of the groom if they are for the physics, the solver and the substep of the
+// simulation. Otherwise return NULL.
+static const struct hair_prepared_rods* find_prepared(const struct hair_sim* sim, int had_contact)
+{
+    const struct hair_prepared_rods* p = sim->rods->groom->prepared;
+    bool is_own = p && p->solver == sim->solver && sim->asked_substep == 0 && !sim->pins.count &&
+                  !had_contact && find_substep_scale(sim) == 1;
+    return is_own && !hair_rods_differ(&p->physics, &sim->physics) ? p : NULL;
+}
+
 // Return whether the mixed scheme solves the guides.
 static bool are_mixed(const struct hair_sim* sim, bool had_contact)
 {
-    const struct hair_rods* rods = sim->rods;
-    if (sim->solver != HAIR_SOLVER_DIRECT && sim->solver != HAIR_SOLVER_ACCURATE) return false;
-    return hair_rods_are_mixed(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics, sim->solver,
-                               had_contact || sim->pins.count > 0, sim->asked_substep);
+    struct hair_rod_source source = source_of(sim);
+    return hair_rods_are_any_mixed(&source, sim->rods->borne, &sim->physics, sim->solver,
+                                   had_contact || sim->pins.count > 0, sim->asked_substep);
 }
 
 // Return the size of forces and turns, in bytes. Include the rows if they do not fit into the
@@ -88,14 +103,26 @@ static size_t bend_size(const struct hair_sim* sim)
     return each * sim->guide_vertices * sizeof(hair_vec4);
 }
 
-static void hold(struct hair_sim* sim)
+// Find the gravity preload for the physics, or compute it.
+static hair_result hold(struct hair_sim* sim)
 {
     struct hair_rods* rods = sim->rods;
-    if (rods->held && !hair_rods_differ(&rods->borne_for, &sim->physics)) return;
-    hair_rods_preload_gravity(rods->guides, rods->rest, sim->guides, &sim->physics, rods->borne,
-                              &rods->report);
+    const struct hair_prepared_rods* p = rods->groom->prepared;
+    const hair_host* host = &sim->gl->host;
+    if (rods->borne && !hair_rods_differ(&rods->borne_for, &sim->physics)) return HAIR_OK;
+    if (p && !hair_rods_differ(&p->physics, &sim->physics)) {
+        rods->borne = p->borne;
+        rods->report = p->report;
+    } else {
+        struct hair_rod_source source = source_of(sim);
+        if (!rods->own_borne)
+            rods->own_borne = hair_alloc(host, sim->guide_vertices, sizeof *rods->own_borne);
+        if (!rods->own_borne) return hair_fail_memory(host, "the guides as rods");
+        hair_rods_preload_all(&source, &sim->physics, rods->own_borne, &rods->report);
+        rods->borne = rods->own_borne;
+    }
     rods->borne_for = sim->physics;
-    rods->held = 1;
+    return HAIR_OK;
 }
 
 // Return the length of a substep, s. `substep_scale` is its multiple of the solver's own length.
@@ -104,8 +131,8 @@ static double find_substep(const struct hair_sim* sim, int mixed, int had_contac
     const struct hair_rods* rods = sim->rods;
     double substep = sim->asked_substep;
     if (substep == 0) {
-        substep = hair_rods_substep(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
-                                    sim->solver, mixed);
+        substep = hair_rods_substep(rods->groom->guides, rods->groom->rest, rods->borne, sim->guides,
+                                    &sim->physics, sim->solver, mixed);
         // Impacts can destabilise explicit bending that is near its limit.
         if (had_contact && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
@@ -118,7 +145,11 @@ static double find_substep(const struct hair_sim* sim, int mixed, int had_contac
 // where there is one.
 static hair_result upload_rods(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
 {
-    HAIR_TRY(make_reduction(sim, rod, out->substep, &out->reduction, &out->rounds));
+    const struct hair_prepared_rods* p = sim->rods->groom->prepared;
+    if (p && rod == p->rod && !sim->by_thread)
+        HAIR_TRY(upload_reduction(sim, p->reduction, p->rounds, out));
+    else
+        HAIR_TRY(make_reduction(sim, rod, out));
     HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", sim->guide_vertices * sizeof *rod,
                              rod, &out->rod));
     if (out->mixed) out->bend = sim->bend;
@@ -167,27 +198,47 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
     sim->substep_scale = now.last_scale;
 }
 
+// Write rods that the groom has not prepared.
+static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair_rod* rod,
+                              struct hair_rod_set* out)
+{
+    const struct hair_rods* rods = sim->rods;
+    const struct hair_rod_source source = source_of(sim);
+    out->mixed = are_mixed(sim, had_contact);
+    out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
+    out->softened =
+        hair_rods_write_all(&source, rods->borne, &sim->physics, sim->solver, out->mixed, out->substep, rod);
+    hair_rods_pin(source.guides, source.rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
+                  &sim->physics, sim->solver, out->mixed, out->substep, rod);
+    out->stiff = is_stiff(sim, rod);
+    return upload_rods(sim, rod, out);
+}
+
+// Upload the rods of the groom.
+static hair_result take_rods(struct hair_sim* sim, const struct hair_prepared_rods* prepared,
+                             struct hair_rod_set* out)
+{
+    out->mixed = prepared->mixed;
+    out->substep = prepared->substep;
+    out->softened = prepared->report.softened;
+    out->stiff = is_stiff(sim, prepared->rod);
+    return upload_rods(sim, prepared->rod, out);
+}
+
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
 static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod_set* out)
 {
     const hair_host* host = &sim->gl->host;
-    struct hair_rods* rods = sim->rods;
-    struct hair_rod* rod = hair_alloc(host, sim->guide_vertices, sizeof *rod);
-    if (!rod) return hair_fail_memory(host, "the guides as rods");
-    hold(sim);
-    *out = (struct hair_rod_set){.mixed = are_mixed(sim, had_contact),
-                                 .had_contact = had_contact,
+    HAIR_TRY(hold(sim));
+    const struct hair_prepared_rods* prepared = find_prepared(sim, had_contact);
+    struct hair_rod* rod = prepared ? NULL : hair_alloc(host, sim->guide_vertices, sizeof *rod);
+    if (!prepared && !rod) return hair_fail_memory(host, "the guides as rods");
+    *out = (struct hair_rod_set){.had_contact = had_contact,
                                  .made_for = sim->physics,
                                  .pinned = sim->pins.vertex_hash,
                                  .substep_scale = find_substep_scale(sim)};
     out->last_scale = out->substep_scale;
-    out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
-    out->softened = hair_rods_write(rods->guides, rods->rest, rods->borne, sim->guides, &sim->physics,
-                                    sim->solver, out->mixed, out->substep, rod);
-    hair_rods_pin(rods->guides, rods->rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
-                  &sim->physics, sim->solver, out->mixed, out->substep, rod);
-    out->stiff = is_stiff(sim, rod);
-    hair_result result = upload_rods(sim, rod, out);
+    hair_result result = prepared ? take_rods(sim, prepared, out) : write_rods(sim, had_contact, rod, out);
     if (result) {
         hair_sim_free_rod_set(sim, out);
         *out = (struct hair_rod_set){0};
@@ -212,12 +263,7 @@ hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* 
     sim->rods = hair_alloc(host, 1, sizeof *sim->rods);
     if (!sim->rods) return hair_fail_memory(host, "the guides as rods");
     struct hair_rods* rods = sim->rods;
-    rods->guides = hair_alloc(host, sim->guides, sizeof *rods->guides);
-    rods->rest = hair_alloc(host, sim->guide_vertices, sizeof *rods->rest);
-    rods->borne = hair_alloc(host, sim->guide_vertices, sizeof *rods->borne);
-    if (!rods->guides || !rods->rest || !rods->borne) return hair_fail_memory(host, "the guides as rods");
-    memcpy(rods->guides, groom->guides, sim->guides * sizeof *rods->guides);
-    memcpy(rods->rest, groom->rest, sim->guide_vertices * sizeof *rods->rest);
+    rods->groom = hair_groom_retain((hair_groom*)groom);
     HAIR_TRY(make_rod_buffers(sim));
     struct hair_rod_set first;
     HAIR_TRY(create(sim, 0, &first));
@@ -232,7 +278,7 @@ static bool is_first_contact(const struct hair_sim* sim, int had_contact)
     const struct hair_rods* rods = sim->rods;
     if (had_contact == rods->had_contact) return false;
     if (sim->solver == HAIR_SOLVER_ACCURATE) return sim->asked_substep == 0;
-    return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->guides, sim->guides);
+    return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->groom->guides, sim->guides);
 }
 
 static bool had_contact_now(const struct hair_sim* sim)
@@ -274,9 +320,8 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->reduction);
     hair_gl_free_buffer(sim->gl, &sim->bend);
     hair_grid_free(sim);
-    hair_free(host, sim->rods->guides);
-    hair_free(host, sim->rods->rest);
-    hair_free(host, sim->rods->borne);
+    hair_free(host, sim->rods->own_borne);
+    hair_groom_release(sim->rods->groom);
     hair_free(host, sim->rods);
 }
 

@@ -13,7 +13,7 @@
 #include "lib/sim/feedback.h"
 #include "lib/sim/snapshot.h"
 #include "lib/sim/solver_stats.h"
-#include "lib/rod/rod.h"
+#include "lib/rod/prepared.h"
 #include "lib/sim/scalp_motion.h"
 #include "lib/sim/sleep.h"
 #include "lib/sim/pins.h"
@@ -38,13 +38,13 @@ struct hair_contacts {
 
 // Rods of the guides, made by rods.c.
 struct hair_rods {
-    // Copies, because the groom may be destroyed before the physics change.
-    struct hair_guide* guides;
-    struct hair_rest* rest;
-    struct hair_rod_borne* borne;
+    // Guides at rest. A reference, because the application may destroy the groom before the physics
+    // change.
+    struct hair_groom* groom;
+    const struct hair_rod_borne* borne; // Gravity preload for `borne_for`, own or of the groom.
+    struct hair_rod_borne* own_borne; // NULL unless the groom has no preload for the physics.
     hair_physics made_for, borne_for;
     struct hair_rods_report report;
-    int held; // 1 if `borne` is up to date for `borne_for`.
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
     int had_contact; // Value of sim->had_contact that the rods were made for.

@@ -31,8 +31,8 @@ uint32_t hair_sim_contacts(const struct hair_sim* sim)
 
 const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
 {
-    if (rest) *rest = sim->rods ? sim->rods->rest : NULL;
-    return sim->rods ? sim->rods->guides : NULL;
+    if (rest) *rest = sim->rods ? sim->rods->groom->rest : NULL;
+    return sim->rods ? sim->rods->groom->guides : NULL;
 }
 
 bool hair_sim_is_mixed(const struct hair_sim* sim)

@@ -63,4 +63,8 @@ POINTER(hair_groom_desc, strand_radii, "Radius of each strand, in the unit of `p
 POINTER(hair_groom_desc, colors, "Linear rgb colours of the strands, color_count per strand.")
 UINT(hair_groom_desc, color_count, 0, 0, 256, 0, 32, LINEAR, "",
       "Number of colours per strand, at even places from root to tip.")
+POINTER(hair_groom_desc, physics, "Physics that instances will be created with.")
+ENUM(hair_groom_desc, solver, HAIR_SOLVER_DIRECT, "Solver for which `physics` prepares the guides.",
+      "direct", "accurate", "follow", "redblack")
+POINTER(hair_groom_desc, tasks, "Threads on which the guides are prepared.")
 END

@@ -1,0 +1,228 @@
+// prepared.c - rods of all guides, divided into tasks for the application's threads. Each guide is
+// computed alone, so the results do not depend on the division.
+#include "lib/rod/prepared.h"
+
+#define MAX_TASKS 256
+#define MIN_GUIDES 16 // Minimum number of guides of a task.
+
+// Work on all guides. Each kind of task uses a part of the members.
+struct work {
+    const struct hair_rod_source* source;
+    const struct hair_rod_borne* borne;
+    const hair_physics* physics;
+    hair_solver solver;
+    int mixed;
+    bool is_held;
+    double substep;
+    struct hair_rod_borne* new_borne;
+    struct hair_rod* new_rod;
+    const struct hair_rod* rod;
+    hair_vec4 *reduction, *last;
+    uint32_t all_rounds; // Rounds of all guides.
+    uint32_t each; // Guides of a task.
+    struct hair_rods_report report[MAX_TASKS];
+    bool is_mixed[MAX_TASKS];
+    uint32_t rounds[MAX_TASKS];
+};
+
+// Run tasks over all guides. Return their number.
+static uint32_t divide(struct work* work, hair_task task)
+{
+    uint32_t count = work->source->count;
+    HAIR_ASSERT(count > 0);
+    work->each = (count + MAX_TASKS - 1) / MAX_TASKS;
+    if (work->each < MIN_GUIDES) work->each = MIN_GUIDES;
+    uint32_t tasks = (count + work->each - 1) / work->each;
+    hair_run_tasks(work->source->tasks, task, work, tasks);
+    return tasks;
+}
+
+// Return the guides of a task, and their number.
+static const struct hair_guide* guides_of(const struct work* work, uint32_t index, uint32_t* count)
+{
+    uint32_t first = index * work->each, left = work->source->count - first;
+    *count = left < work->each ? left : work->each;
+    return work->source->guides + first;
+}
+
+static void preload(uint32_t index, void* data)
+{
+    struct work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    hair_rods_preload_gravity(guides, work->source->rest, count, work->physics, work->new_borne,
+                              &work->report[index]);
+}
+
+void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
+                           struct hair_rod_borne* out, struct hair_rods_report* report)
+{
+    struct work work = {.source = source, .physics = physics, .new_borne = out};
+    uint32_t tasks = divide(&work, preload);
+    *report = hair_rods_report_none();
+    for (uint32_t i = 0; i < tasks; ++i) {
+        const struct hair_rods_report* own = &work.report[i];
+        report->stiffened += own->stiffened;
+        report->sagging += own->sagging;
+        report->stiffest = own->stiffest > report->stiffest ? own->stiffest : report->stiffest;
+        if (own->farthest_sag > report->farthest_sag) report->farthest_sag = own->farthest_sag;
+    }
+}
+
+static void find_mixed(uint32_t index, void* data)
+{
+    struct work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    work->is_mixed[index] = hair_rods_are_mixed(guides, work->source->rest, work->borne, count, work->physics,
+                                                work->solver, work->is_held, work->substep);
+}
+
+bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                             const hair_physics* physics, hair_solver solver, bool is_held, double substep)
+{
+    struct work work = {.source = source,
+                        .borne = borne,
+                        .physics = physics,
+                        .solver = solver,
+                        .is_held = is_held,
+                        .substep = substep};
+    if (solver != HAIR_SOLVER_DIRECT && solver != HAIR_SOLVER_ACCURATE) return false;
+    uint32_t tasks = divide(&work, find_mixed);
+    for (uint32_t i = 0; i < tasks; ++i)
+        if (work.is_mixed[i]) return true;
+    return false;
+}
+
+static void write(uint32_t index, void* data)
+{
+    struct work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    work->report[index].softened =
+        hair_rods_write(guides, work->source->rest, work->borne, count, work->physics, work->solver,
+                        work->mixed, work->substep, work->new_rod);
+}
+
+struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,
+                                              const struct hair_rod_borne* borne, const hair_physics* physics,
+                                              hair_solver solver, int mixed, double substep,
+                                              struct hair_rod* out)
+{
+    struct work work = {.source = source,
+                        .borne = borne,
+                        .physics = physics,
+                        .solver = solver,
+                        .mixed = mixed,
+                        .substep = substep,
+                        .new_rod = out};
+    uint32_t tasks = divide(&work, write);
+    struct hair_rods_softened all = {.factor = 1};
+    for (uint32_t i = 0; i < tasks; ++i) {
+        const struct hair_rods_softened* own = &work.report[i].softened;
+        all.guides += own->guides;
+        if (own->factor >= all.factor) continue;
+        all.worst = i * work.each + own->worst;
+        all.factor = own->factor;
+    }
+    return all;
+}
+
+static void reduce(uint32_t index, void* data)
+{
+    struct work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    work->rounds[index] = hair_rods_write_reduction(guides, count, work->rod, work->source->vertices,
+                                                    work->substep, work->reduction, work->last);
+}
+
+static void add_final_solve(uint32_t index, void* data)
+{
+    struct work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    hair_rods_add_final_solve(guides, count, work->source->vertices, work->all_rounds, work->last,
+                              work->reduction);
+}
+
+// Compute the reduction into zeros. Return the number of rounds before the final solve.
+static uint32_t reduce_into(const struct hair_rod_source* source, const struct hair_rod* rod, double substep,
+                            hair_vec4* reduction, hair_vec4* last)
+{
+    struct work work = {
+        .source = source, .rod = rod, .substep = substep, .reduction = reduction, .last = last};
+    uint32_t tasks = divide(&work, reduce);
+    for (uint32_t i = 0; i < tasks; ++i)
+        if (work.rounds[i] > work.all_rounds) work.all_rounds = work.rounds[i];
+    divide(&work, add_final_solve);
+    return work.all_rounds;
+}
+
+static bool has_system(const struct hair_rod_source* source, const struct hair_rod* rod)
+{
+    for (uint32_t i = 0; i < source->count; ++i)
+        if (rod[source->guides[i].first].factor.x > 0) return true;
+    return false;
+}
+
+hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const struct hair_rod* rod,
+                                 double substep, uint32_t* rounds, hair_vec4** out)
+{
+    const hair_host* host = source->host;
+    *out = NULL;
+    if (!has_system(source, rod)) return HAIR_OK;
+    size_t count = (size_t)hair_rods_rounds(source->max_vertices) * source->vertices;
+    hair_vec4* reduction = hair_alloc(host, count + 1, sizeof *reduction);
+    hair_vec4* last = hair_alloc(host, source->vertices, sizeof *last);
+    bool is_there = reduction && last;
+    if (is_there) {
+        *rounds = reduce_into(source, rod, substep, reduction, last);
+        HAIR_ASSERT(*rounds < hair_rods_rounds(source->max_vertices));
+        *out = reduction;
+    } else {
+        hair_free(host, reduction);
+    }
+    hair_free(host, last);
+    return is_there ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
+}
+
+static hair_result fill(const struct hair_rod_source* source, struct hair_prepared_rods* p)
+{
+    const hair_host* host = source->host;
+    p->borne = hair_alloc(host, source->vertices, sizeof *p->borne);
+    p->rod = hair_alloc(host, source->vertices, sizeof *p->rod);
+    if (!p->borne || !p->rod) return hair_fail_memory(host, "the guides as rods");
+    hair_rods_preload_all(source, &p->physics, p->borne, &p->report);
+    p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
+    p->substep = hair_rods_substep(source->guides, source->rest, p->borne, source->count, &p->physics,
+                                   p->solver, p->mixed);
+    p->report.softened =
+        hair_rods_write_all(source, p->borne, &p->physics, p->solver, p->mixed, p->substep, p->rod);
+    if (p->solver == HAIR_SOLVER_FOLLOW) return HAIR_OK;
+    return hair_rods_reduce_all(source, p->rod, p->substep, &p->rounds, &p->reduction);
+}
+
+hair_result hair_prepared_rods_create(const struct hair_rod_source* source, const hair_physics* physics,
+                                      hair_solver solver, struct hair_prepared_rods** out)
+{
+    struct hair_prepared_rods* prepared = hair_alloc(source->host, 1, sizeof *prepared);
+    if (!prepared) return hair_fail_memory(source->host, "the guides as rods");
+    prepared->physics = *physics;
+    prepared->solver = solver;
+    hair_result result = fill(source, prepared);
+    if (result)
+        hair_prepared_rods_free(source->host, prepared);
+    else
+        *out = prepared;
+    return result;
+}
+
+void hair_prepared_rods_free(const hair_host* host, struct hair_prepared_rods* prepared)
+{
+    if (!prepared) return;
+    hair_free(host, prepared->borne);
+    hair_free(host, prepared->rod);
+    hair_free(host, prepared->reduction);
+    hair_free(host, prepared);
+}

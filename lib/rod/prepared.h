@@ -1,0 +1,54 @@
+// prepared.h - the rods of all guides of a groom, computed on the application's threads.
+#ifndef HAIR_ROD_PREPARED_H
+#define HAIR_ROD_PREPARED_H
+
+#include "lib/base/host.h"
+#include "lib/rod/rod.h"
+
+// Guides, and the threads on which rods are computed from them.
+struct hair_rod_source {
+    const hair_host* host;
+    const hair_tasks* tasks;
+    const struct hair_guide* guides;
+    const struct hair_rest* rest;
+    uint32_t count, vertices, max_vertices; // Guides, their vertices, and the maximum of a guide.
+};
+
+// Compute the gravity preload of all guides. See hair_rods_preload_gravity().
+void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
+                           struct hair_rod_borne* out, struct hair_rods_report* report);
+
+// Apply hair_rods_are_mixed() to all guides.
+bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                             const hair_physics* physics, hair_solver solver, bool is_held, double substep);
+
+// Apply hair_rods_write() to all guides.
+struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,
+                                              const struct hair_rod_borne* borne, const hair_physics* physics,
+                                              hair_solver solver, int mixed, double substep,
+                                              struct hair_rod* out);
+
+// Allocate and compute the reduction of all guides, with a row of zeros after the rounds. Set *out
+// to NULL if no guide has an implicit system.
+hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const struct hair_rod* rod,
+                                 double substep, uint32_t* rounds, hair_vec4** out);
+
+// Rods for the physics that instances are created with, and for the solver's own substep.
+struct hair_prepared_rods {
+    hair_physics physics;
+    hair_solver solver;
+    struct hair_rod_borne* borne;
+    struct hair_rods_report report;
+    int mixed;
+    double substep;
+    struct hair_rod* rod;
+    hair_vec4* reduction; // NULL if there are no implicit systems.
+    uint32_t rounds;
+};
+
+hair_result hair_prepared_rods_create(const struct hair_rod_source* source, const hair_physics* physics,
+                                      hair_solver solver, struct hair_prepared_rods** out);
+// Free what hair_prepared_rods_create() has made. NULL does nothing.
+void hair_prepared_rods_free(const hair_host* host, struct hair_prepared_rods* prepared);
+
+#endif
