@@ -31,6 +31,7 @@ struct stub {
     struct hair_gl gl;
     struct hair_sim sim;
     struct hair_guide guides[GUIDES];
+    struct hair_groom groom;
     struct hair_rods rods;
     struct hair_root_bindings bindings;
     hair_collision_mesh mesh;
@@ -44,7 +45,8 @@ static void make_stub(struct stub* stub, const struct hair_fuzz_host* host, unsi
     stub->gl.host = host->host;
     stub->gl.GetNamedBufferSubData = get_buffer;
     stub->guides[0].count = 4, stub->guides[1].count = VERTICES - 4;
-    stub->rods.guides = stub->guides;
+    stub->groom.guides = stub->guides;
+    stub->rods.groom = &stub->groom;
     stub->bindings.vertex_count = 3;
     stub->mesh.content_hash = 0x0123456789abcdef;
     stub->mesh.holders = 1000000;
