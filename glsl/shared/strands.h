@@ -49,7 +49,9 @@ struct hair_strand_look {
     float     max_stray; // Fraction of the length.
     float     max_offset; // m.
     float     max_width; // Factor of the offsets, at least 1.
-    hair_uint unused;
+    float     curl_guide_spread, curl_variation;
+    float     frizz_fraction;
+    hair_uint unused0, unused1;
 };
 HAIR_SIZE(hair_strand_look)
 

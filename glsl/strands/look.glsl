@@ -6,6 +6,8 @@
 
 // Intervals of a stray over the length.
 #define STRAY_WAVES 6.0
+// Intervals over which a curl changes along the strand.
+#define CURL_WAVES 8.0
 
 // Return value and derivative by t of a curve at t in [0, 1].
 vec2 curve_at(int curve, float t)
@@ -56,25 +58,34 @@ aside stray(uint seed, float t, float length_)
 // strays, which have few control points.
 aside kink(uint seed, float t, float length_)
 {
+    if (random_pair(seed + 4u).x >= draw.strand.frizz_fraction) return aside(vec2(0.0), vec2(0.0));
     return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks), curve_at(HAIR_CURVE_FRIZZ, t));
 }
 
 // Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
+// Strands of a guide share its phase and its variation, and drift apart by their own length of
+// turns.
 aside curl(uint guide, uint seed, float t, float length_)
 {
     vec2  lock = random_pair(guide), own = random_pair(seed + 2u);
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
-    float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / (1.0 + spread);
+    float shared_spread = draw.strand.curl_guide_spread * (2.0 * random_pair(guide + 0x2aaaaaaau).x - 1.0);
+    float size   = (1.0 + spread) * (1.0 + shared_spread);
+    float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / size;
     float places = float(HAIR_TURN_PLACES);
-    float at = places * fract(t * turns + draw.strand.curl_guide_phase * lock.x +
+    aside wind   = scaled(wander(64u * guide + 0x71c71c71u, t, CURL_WAVES),
+                          vec2(draw.strand.curl_variation, 0.0));
+    float slower = turns / CURL_WAVES;
+    float at = places * fract(t * turns + slower * wind.at.x + draw.strand.curl_guide_phase * lock.x +
                               draw.strand.curl_strand_phase * own.x);
     int   k  = min(int(at), HAIR_TURN_PLACES - 1);
     float x  = at - float(k);
     mat2x4 c = mat2x4(draw.strand.loop[k], draw.strand.loop[HAIR_TURN_PLACES + k]);
     if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
     aside a = aside(vec4(1.0, x, x * x, x * x * x) * c,
-                    turns * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
-    return scaled(a, draw.strand.curl_radius * (1.0 + spread) * curve_at(HAIR_CURVE_CURL, t));
+                    (turns + slower * wind.slope.x) * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
+    a = scaled(a, draw.strand.curl_radius * size * curve_at(HAIR_CURVE_CURL, t));
+    return scaled(a, vec2(1.0 + wind.at.y, wind.slope.y));
 }
 
 // Cut a follower to the fraction of its length that is drawn. The offsets' curve is cut by de

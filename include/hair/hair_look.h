@@ -166,7 +166,9 @@ typedef struct hair_look {
         float tip_fraction; ///< [0, 1]. Default 0.3.
         /// Displacement of these strands along the strand, as a fraction of their length.
         hair_curve tip_distance; ///< [0, 1]. Default (0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025).
-        /// Amplitude of the frizz of every strand, along the strand.
+        /// Fraction of the strands that have frizz.
+        float frizz_fraction; ///< [0, 1]. Default 1.
+        /// Amplitude of the frizz of these strands, along the strand.
         hair_curve frizz; ///< m. [0, 0.1]. Default 0.
         /// Length of one wave of the frizz.
         float frizz_wavelength; ///< m. [0.001, 1]. Default 0.015.
@@ -192,8 +194,14 @@ typedef struct hair_look {
         float guide_phase; ///< Turns. [0, 1]. Default 1.
         /// Random phase difference of curls between the strands of one guide.
         float strand_phase; ///< Turns. [0, 1]. Default 0.1.
-        /// Relative variation of the radius and the length of turns.
+        /// Relative variation of the radius and the length of turns between strands.
         float spread; ///< [0, 0.9]. Default 0.1.
+        /// Relative variation of the radius and the length of turns between guides. Strands of one
+        /// guide share the variation.
+        float guide_spread; ///< [0, 0.9]. Default 0.
+        /// Relative variation of the radius and the length of turns along the strand. Strands of
+        /// one guide share the variation.
+        float variation; ///< [0, 0.9]. Default 0.
         hair_curl_shape shape; ///< Default HAIR_CURL_SHAPE_HELIX.
         /// First component of the displacement at i/16 of a turn of HAIR_CURL_SHAPE_EXAMPLE, across
         /// the strand, as a multiple of curl.radius.
@@ -249,13 +257,25 @@ typedef enum hair_look_preset {
     HAIR_LOOK_COILY, ///< Curling strands, 9 mm wide, with a turn every 18 mm.
     HAIR_LOOK_FRIZZY, ///< Frizz of every strand.
     HAIR_LOOK_SHORT, ///< A third of the length, uneven.
+    // Types of Walker's scale, by the diameter of a curl and the length of a turn along it. The
+    // diameters of types 3 and 4 are those of the objects that hairdressers compare curls with.
+    // Lengths of turns have no published source.
+    HAIR_LOOK_2A, ///< Loose waves near the tips, 18 mm wide, 120 mm long.
+    HAIR_LOOK_2B, ///< Waves from half the length, 20 mm wide, 90 mm long.
+    HAIR_LOOK_2C, ///< Deep waves, 22 mm wide, 65 mm long.
+    HAIR_LOOK_3A, ///< Loose curls, 25 mm wide as sidewalk chalk, 55 mm long.
+    HAIR_LOOK_3B, ///< Ringlets, 14 mm wide as a marker, 34 mm long.
+    HAIR_LOOK_3C, ///< Corkscrews, 8 mm wide as a pencil, 21 mm long.
+    HAIR_LOOK_4A, ///< Coils, 5 mm wide as a crochet hook, 13 mm long.
+    HAIR_LOOK_4B, ///< Zigzag coils, 4 mm wide as the spring of a pen, 9 mm long.
+    HAIR_LOOK_4C, ///< Tight coils, 3 mm wide as a coffee stirrer, 7 mm long.
     HAIR_LOOK_COUNT
 } hair_look_preset;
 
 /// Apply a preset of shape to a look. The call sets strand.taper, strand.length and
 /// strand.length_variation, and all members of `clump`, `strays` and `curl`. It raises
 /// strand.segments to the number that the turns of 0.4 m of hair need. Other members keep their
-/// values.
+/// values. Diameters and lengths of turns hold where curl.profile is 1.
 ///
 /// @param look Look to change, from hair_look_default().
 /// @param preset Preset below HAIR_LOOK_COUNT.

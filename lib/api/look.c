@@ -6,9 +6,14 @@
 #define MAX_VERTICES 65536u // Maximum number of an example.
 
 static const char* const kinds[] = {
-    [HAIR_LOOK_NATURAL] = "natural", [HAIR_LOOK_STRAIGHT] = "straight", [HAIR_LOOK_WAVY] = "wavy",
-    [HAIR_LOOK_CURLY] = "curly",     [HAIR_LOOK_COILY] = "coily",       [HAIR_LOOK_FRIZZY] = "frizzy",
-    [HAIR_LOOK_SHORT] = "short",
+    [HAIR_LOOK_NATURAL] = "natural", [HAIR_LOOK_STRAIGHT] = "straight",
+    [HAIR_LOOK_WAVY] = "wavy",       [HAIR_LOOK_CURLY] = "curly",
+    [HAIR_LOOK_COILY] = "coily",     [HAIR_LOOK_FRIZZY] = "frizzy",
+    [HAIR_LOOK_SHORT] = "short",     [HAIR_LOOK_2A] = "2a",
+    [HAIR_LOOK_2B] = "2b",           [HAIR_LOOK_2C] = "2c",
+    [HAIR_LOOK_3A] = "3a",           [HAIR_LOOK_3B] = "3b",
+    [HAIR_LOOK_3C] = "3c",           [HAIR_LOOK_4A] = "4a",
+    [HAIR_LOOK_4B] = "4b",           [HAIR_LOOK_4C] = "4c",
 };
 
 const char* hair_look_name(hair_look_preset kind)
@@ -65,14 +70,90 @@ static void frizz(hair_look* look)
     look->strays.frizz_wavelength = 0.012f;
 }
 
+// A type of Walker's scale. Wide curls form locks. Narrow ones wind strand by strand.
+static const struct curl_type {
+    float diameter, turn; // m
+    float flatness;
+    hair_curve profile, weight;
+    float strand_phase, spread; // between strands of a guide
+    float frizz_fraction, frizz; // frizz in m, at the tip
+} types[] = {
+#define WAVE_WEIGHT                                                                                          \
+    {                                                                                                        \
+        {                                                                                                    \
+            0, 0.1f, 0.25f, 0.4f, 0.52f, 0.62f, 0.7f, 0.76f                                                  \
+        }                                                                                                    \
+    }
+#define LOCK_WEIGHT                                                                                          \
+    {                                                                                                        \
+        {                                                                                                    \
+            0, 0.4f, 0.75f, 0.92f, 0.97f, 1, 1, 1                                                            \
+        }                                                                                                    \
+    }
+#define COIL_WEIGHT                                                                                          \
+    {                                                                                                        \
+        {                                                                                                    \
+            0, 0.35f, 0.6f, 0.75f, 0.82f, 0.86f, 0.9f, 0.92f                                                 \
+        }                                                                                                    \
+    }
+    {0.018f,
+     0.120f,
+     0.6f,
+     {{0, 0, 0.08f, 0.25f, 0.55f, 0.85f, 1, 1}},
+     WAVE_WEIGHT,
+     0.05f,
+     0.04f,
+     0.08f,
+     0.001f},
+    {0.020f,
+     0.090f,
+     0.5f,
+     {{0, 0.05f, 0.25f, 0.6f, 0.9f, 1, 1, 1}},
+     WAVE_WEIGHT,
+     0.05f,
+     0.03f,
+     0.12f,
+     0.0015f},
+    {0.022f, 0.065f, 0.35f, {{0, 0.15f, 0.5f, 0.85f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.05f, 0.025f, 0.15f, 0.002f},
+    {0.025f, 0.055f, 0, {{0, 0.2f, 0.6f, 0.9f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.045f, 0.015f, 0.12f, 0.002f},
+    {0.014f, 0.034f, 0, {{0, 0.4f, 0.85f, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.05f, 0.012f, 0.15f, 0.002f},
+    {0.008f, 0.021f, 0, {{0, 0.6f, 1, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.07f, 0.012f, 0.2f, 0.002f},
+    {0.005f, 0.013f, 0, {{0, 0.9f, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.12f, 0.03f, 0.25f, 0.0015f},
+    {0.004f, 0.009f, 0.6f, {{0, 1, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.2f, 0.06f, 0.35f, 0.0015f},
+    {0.003f, 0.007f, 0.2f, {{0, 1, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.3f, 0.08f, 0.4f, 0.0015f},
+#undef WAVE_WEIGHT
+#undef LOCK_WEIGHT
+#undef COIL_WEIGHT
+};
+
+static void apply_type(hair_look* look, const struct curl_type* type)
+{
+    look->clump.weight = type->weight;
+    look->clump.width = (hair_curve){{1, 0.9f, 0.75f, 0.62f, 0.55f, 0.52f, 0.55f, 0.65f}};
+    look->curl.radius = 0.5f * type->diameter;
+    look->curl.profile = type->profile;
+    look->curl.wavelength = type->turn;
+    look->curl.flatness = type->flatness;
+    look->curl.strand_phase = type->strand_phase;
+    look->curl.spread = type->spread;
+    look->curl.guide_spread = 0.12f;
+    look->curl.variation = 0.12f;
+    look->curl.left_fraction = 0.5f;
+    look->strays.fraction = 0.06f;
+    look->strays.tip_fraction = 0.4f;
+    look->strays.frizz_fraction = type->frizz_fraction;
+    look->strays.frizz = hair_curve_line(0, type->frizz);
+    look->strays.frizz_wavelength = 0.02f;
+}
+
 hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
 {
-    // Segments of 0.4 m of hair, at eight per turn.
-    static const uint32_t segments[] = {[HAIR_LOOK_WAVY] = 64,
-                                        [HAIR_LOOK_CURLY] = 96,
-                                        [HAIR_LOOK_COILY] = 192,
-                                        [HAIR_LOOK_FRIZZY] = 96,
-                                        [HAIR_LOOK_SHORT] = 0};
+    // Segments of 0.4 m of hair, at eight per turn, as far as 256 suffice.
+    static const uint32_t segments[] = {
+        [HAIR_LOOK_WAVY] = 64, [HAIR_LOOK_CURLY] = 96, [HAIR_LOOK_COILY] = 192, [HAIR_LOOK_FRIZZY] = 96,
+        [HAIR_LOOK_2A] = 32,   [HAIR_LOOK_2B] = 40,    [HAIR_LOOK_2C] = 52,     [HAIR_LOOK_3A] = 60,
+        [HAIR_LOOK_3B] = 96,   [HAIR_LOOK_3C] = 152,   [HAIR_LOOK_4A] = 248,    [HAIR_LOOK_4B] = 256,
+        [HAIR_LOOK_4C] = 256};
     if (!look || (unsigned)kind >= HAIR_LOOK_COUNT) return HAIR_ERROR_ARGUMENT;
     const hair_host silent = {0};
     hair_look own, fresh = hair_look_default();
@@ -92,6 +173,7 @@ hair_result hair_look_apply_preset(hair_look* look, hair_look_preset kind)
     if (kind == HAIR_LOOK_CURLY) curl(&own);
     if (kind == HAIR_LOOK_COILY) coil(&own);
     if (kind == HAIR_LOOK_FRIZZY) frizz(&own);
+    if (kind >= HAIR_LOOK_2A) apply_type(&own, &types[kind - HAIR_LOOK_2A]);
     if (kind == HAIR_LOOK_SHORT) {
         own.strand.length = 0.32f;
         own.strand.length_variation = 0.3f;

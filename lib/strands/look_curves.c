@@ -94,7 +94,8 @@ float hair_look_max_stray(const hair_look* look)
 
 float hair_look_max_offset(const hair_look* look)
 {
-    float curl = look->curl.radius * (1 + look->curl.spread) * hair_curve_max(&look->curl.profile);
+    float curl = look->curl.radius * (1 + look->curl.spread) * (1 + look->curl.guide_spread) *
+                 (1 + look->curl.variation) * hair_curve_max(&look->curl.profile);
     return DIAGONAL * (curl + hair_curve_max(&look->strays.frizz));
 }
 
@@ -121,6 +122,9 @@ void hair_look_write_curves(const hair_look* look, struct hair_strand_look* out)
     out->curl_strand_phase = look->curl.strand_phase;
     out->curl_spread = look->curl.spread;
     out->curl_left_fraction = look->curl.left_fraction;
+    out->curl_guide_spread = look->curl.guide_spread;
+    out->curl_variation = look->curl.variation;
+    out->frizz_fraction = look->strays.frizz_fraction;
     out->max_stray = hair_look_max_stray(look);
     out->max_offset = hair_look_max_offset(look);
     out->max_width = fmaxf(hair_curve_max(&look->clump.width), 1);

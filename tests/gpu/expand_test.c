@@ -116,6 +116,9 @@ static hair_look any_look(uint32_t* random)
     look.curl.guide_phase = between(random, 0, 1);
     look.curl.strand_phase = between(random, 0, 1);
     look.curl.spread = between(random, 0, 0.9f);
+    look.curl.guide_spread = between(random, 0, 0.5f);
+    look.curl.variation = between(random, 0, 0.5f);
+    look.strays.frizz_fraction = between(random, 0, 1);
     look.curl.shape = (hair_curl_shape)between(random, 0, 2);
     for (int i = 0; i < 16; ++i) {
         look.curl.profile_x[i] = between(random, -1, 1);

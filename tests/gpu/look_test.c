@@ -104,6 +104,83 @@ static void curls_are_their_radius_away_from_the_strand(void** state)
     hair_test_scene_free(&f);
 }
 
+// Diameter and length of turns, in m.
+struct curl_size {
+    double diameter, turn;
+};
+
+// Measure curls that have their full radius all along. The angle around the axis tells turns. The
+// mean square of the distance from the axis tells the radius of a helix or of a flat one.
+static struct curl_size measure_curls(const float* plain, const float* curled, uint32_t segments,
+                                      double flatness)
+{
+    double square = 0, angle = 0, along = 0;
+    size_t count = 0, each = segments + 1;
+    for (size_t n = 0; n < FOLLOWERS; ++n)
+        for (size_t k = n * each; k < n * each + segments; ++k) {
+            double d[2][3], axis[3], dot = 0, cross = 0;
+            for (size_t i = 0; i < 3; ++i) {
+                d[0][i] = (double)curled[3 * k + i] - (double)plain[3 * k + i];
+                d[1][i] = (double)curled[3 * k + 3 + i] - (double)plain[3 * k + 3 + i];
+                axis[i] = (double)plain[3 * k + 3 + i] - (double)plain[3 * k + i];
+            }
+            double step = distance_at(plain, plain + 3, k);
+            for (size_t i = 0; i < 3; ++i) {
+                size_t a = (i + 1) % 3, b = (i + 2) % 3;
+                dot += d[0][i] * d[1][i];
+                square += d[0][i] * d[0][i];
+                cross += (d[0][a] * d[1][b] - d[0][b] * d[1][a]) * axis[i] / step;
+            }
+            angle += fabs(atan2(cross, dot));
+            along += step;
+            ++count;
+        }
+    double flat = 1 - flatness;
+    return (struct curl_size){2 * sqrt(2 * square / (double)count / (1 + flat * flat)),
+                              2 * 3.14159265358979 * along / angle};
+}
+
+static float* read_segments(struct hair_test_scene* f, const hair_look* look)
+{
+    uint32_t count = FOLLOWERS * (look->strand.segments + 1), there;
+    float* positions = malloc(3 * sizeof *positions * count);
+    hair_test_ok(f->test, hair_set_look(f->hair, look));
+    hair_test_ok(f->test, hair_read_positions(f->hair, HAIR_READ_FOLLOWERS, positions, count, &there));
+    assert_int_equal(there, count);
+    return positions;
+}
+
+// Check the sizes that hair_look.h gives for types 2a to 4c.
+static void types_have_their_diameter_and_length_of_turns(void** state)
+{
+    static const struct curl_size types[] = {{0.018, 0.120}, {0.020, 0.090}, {0.022, 0.065},
+                                             {0.025, 0.055}, {0.014, 0.034}, {0.008, 0.021},
+                                             {0.005, 0.013}, {0.004, 0.009}, {0.003, 0.007}};
+    struct hair_test_scene f = start(state);
+    for (size_t i = 0; i < sizeof types / sizeof *types; ++i) {
+        hair_look_preset preset = (hair_look_preset)(HAIR_LOOK_2A + i);
+        hair_look look = hair_look_default();
+        assert_int_equal(hair_look_apply_preset(&look, preset), HAIR_OK);
+        look.strand.segments = 256, look.curl.profile = hair_curve_line(1, 1);
+        // Strands are straight but for their curls.
+        look.strays = plain_look().strays, look.clump = plain_look().clump;
+        look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
+        // A strand may be shorter than a turn. All phases together have the mean of a turn.
+        look.curl.strand_phase = 1;
+        float* curled = read_segments(&f, &look);
+        float flatness = look.curl.flatness;
+        look.curl.radius = 0;
+        float* plain = read_segments(&f, &look);
+        struct curl_size size = measure_curls(plain, curled, look.strand.segments, (double)flatness);
+        print_message("    %s: %.1f mm wide, %.1f mm long\n", hair_look_name(preset), 1000 * size.diameter,
+                      1000 * size.turn);
+        hair_test_near("diameter", i, size.diameter, types[i].diameter, 0.1 * types[i].diameter);
+        hair_test_near("turn", i, size.turn, types[i].turn, 0.1 * types[i].turn);
+        free(plain), free(curled);
+    }
+    hair_test_scene_free(&f);
+}
+
 static void strands_have_the_length_of_the_look(void** state)
 {
     struct hair_test_scene f = start(state);
@@ -236,6 +313,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(stray_fraction_is_the_fraction_of_strays),
         HAIR_TEST(curls_are_their_radius_away_from_the_strand),
+        HAIR_TEST(types_have_their_diameter_and_length_of_turns),
         HAIR_TEST(strands_have_the_length_of_the_look),
         HAIR_TEST(follower_without_offset_is_its_guide),
         HAIR_TEST(interpolation_modes_are_the_ends_of_the_blend),

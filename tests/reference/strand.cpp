@@ -98,10 +98,13 @@ along turn(const float* values, double turns)
 astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
 {
     const double spread = look.curl.spread * (2 * high(seed + 2) - 1);
-    const double turns = (length / look.curl.wavelength + look.curl.turns) / (1 + spread);
+    const double size = (1 + spread) * (1 + look.curl.guide_spread * (2 * low(guide + 0x2aaaaaaau) - 1));
+    const double turns = (length / look.curl.wavelength + look.curl.turns) / size;
+    const astray wind = wander(64 * guide + 0x71c71c71u, t, 8);
+    const double shift = look.curl.variation * turns / 8;
     const double phase = look.curl.guide_phase * low(guide) + look.curl.strand_phase * low(seed + 2);
     const double hand = high(guide) < double(look.curl.left_fraction) ? -1 : 1;
-    const double flat = 1 - double(look.curl.flatness), at = t * turns + phase;
+    const double flat = 1 - double(look.curl.flatness), at = t * turns + shift * wind.at[0] + phase;
     along x, z;
     if (look.curl.shape == HAIR_CURL_SHAPE_EXAMPLE) {
         x = turn(look.curl.profile_x, at);
@@ -112,8 +115,10 @@ astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, doub
         z = {std::sin(angle), 6.283185307179586 * std::cos(angle)};
     }
     const astray around = {Vector3d(x.value, 0, hand * flat * z.value),
-                           turns * Vector3d(x.slope, 0, hand * flat * z.slope)};
-    return times(around, look.curl.radius * (1 + spread), hair_reference_curve(look.curl.profile, t));
+                           (turns + shift * wind.slope[0]) * Vector3d(x.slope, 0, hand * flat * z.slope)};
+    const along wider = {1 + look.curl.variation * wind.at[2], look.curl.variation * wind.slope[2]};
+    return times(times(around, look.curl.radius * size, hair_reference_curve(look.curl.profile, t)), 1,
+                 wider);
 }
 
 } // namespace
@@ -152,7 +157,8 @@ astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t see
                whole = high(seed + 1) < double(look.strays.fraction);
     const along stray = {tip * by_tip.value + whole * by.value, tip * by_tip.slope + whole * by.slope};
     astray all = times(wander(seed + 16, t, 6), length, stray);
-    all = sum(all, times(wander(seed + 0x55555555u, t, length / look.strays.frizz_wavelength), 1,
-                         hair_reference_curve(look.strays.frizz, t)));
+    if (low(seed + 4) < double(look.strays.frizz_fraction))
+        all = sum(all, times(wander(seed + 0x55555555u, t, length / look.strays.frizz_wavelength), 1,
+                             hair_reference_curve(look.strays.frizz, t)));
     return sum(all, curl(look, guide, seed, t, length));
 }

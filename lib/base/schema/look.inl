@@ -76,8 +76,9 @@ FLOAT(hair_look, strays.tip_fraction, 0.3, 0, 1, 0, 1, LINEAR, "",
       "Fraction of the strands that stray near their tips.")
 CURVE(hair_look, strays.tip_distance, 0, 0, 0, 0, 0.001, 0.004, 0.012, 0.025, 0, 1, 0, 0.1, "",
       "Displacement of these strands along the strand, as a fraction of their length.")
+FLOAT(hair_look, strays.frizz_fraction, 1, 0, 1, 0, 1, LINEAR, "", "Fraction of the strands that have frizz.")
 CURVE(hair_look, strays.frizz, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.1, 0, 0.01, "m",
-      "Amplitude of the frizz of every strand, along the strand.")
+      "Amplitude of the frizz of these strands, along the strand.")
 FLOAT(hair_look, strays.frizz_wavelength, 0.015, 0.001, 1, 0.003, 0.1, LOG, "m",
       "Length of one wave of the frizz.")
 #undef GROUP
@@ -98,7 +99,11 @@ FLOAT(hair_look, curl.guide_phase, 1, 0, 1, 0, 1, LINEAR, "turns",
 FLOAT(hair_look, curl.strand_phase, 0.1, 0, 1, 0, 1, LINEAR, "turns",
       "Random phase difference of curls between the strands of one guide.")
 FLOAT(hair_look, curl.spread, 0.1, 0, 0.9, 0, 0.5, LINEAR, "",
-      "Relative variation of the radius and the length of turns.")
+      "Relative variation of the radius and the length of turns between strands.")
+FLOAT(hair_look, curl.guide_spread, 0, 0, 0.9, 0, 0.5, LINEAR, "",
+      "Relative variation of the radius and the length of turns between guides.")
+FLOAT(hair_look, curl.variation, 0, 0, 0.9, 0, 0.5, LINEAR, "",
+      "Relative variation of the radius and the length of turns along the strand.")
 ENUM(hair_look, curl.shape, HAIR_CURL_SHAPE_HELIX,
       "Cross section of curls, perpendicular to their axis.", "helix", "example")
 ARRAY(hair_look, curl.profile_x, 16, -1, 1,
