@@ -89,7 +89,7 @@ static void mouse_and_keys_change_the_picture(void** state)
         "move 400 120\\nwheel 3\\nmove 9 9",
         "key ?\\nmove 9 9",
         "key Tab\\nmove 9 9",
-        "click Hair\\nmove 9 9",
+        "click Curly\\nmove 9 9",
         "key 1\\nmove 9 9",
         "key P\\nmove 9 9",
         "key W\\nkey C\\nmove 9 9",

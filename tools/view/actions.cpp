@@ -82,6 +82,11 @@ void picture(viewer& viewer)
     viewer.wants_picture = true;
 }
 
+void bug_report(viewer& viewer)
+{
+    viewer.wants_bug_report = true;
+}
+
 void record(viewer& viewer)
 {
     if (viewer.film.is_on)
@@ -143,6 +148,21 @@ const view_action actions[] = {
     {"Scene", "Record", SDLK_F9, 0, "Write a film of the window, hair-view-N.mp4.", record, is_recording},
     {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},
     {"Scene", "Redo", SDLK_y, CTRL, "Do the change again.", redo, nullptr},
+    {"Scene", "Bug report", SDLK_F8, 0,
+     "Write the scene, a picture and the state of the window, to attach to a report of a defect.", bug_report,
+     nullptr},
+    {"Hair", "Next colour", SDLK_c, 0, "Take the next of the natural colours.", view_next_color, nullptr},
+    {"Hair", "Short", SDLK_s, 0, "Cut the strands to less than half.", view_toggle_short, view_is_short},
+    {"Hair", "Curly", SDLK_u, 0, "Curl the strands.", view_toggle_curly, view_is_curly},
+    {"Hair", "Multi-strand", SDLK_m, 0, "Interpolate each strand between several guides.", view_toggle_multi,
+     view_is_multi},
+    {"Hair", "Single-strand", SDLK_n, 0, "Let each strand follow one guide.", view_toggle_single,
+     view_is_single},
+    {"Hair", "Add a ball", SDLK_b, 0, "Add a ball that hair collides with. Ctrl + left drag moves it.",
+     view_add_ball, nullptr},
+    {"Wind", "Wind", SDLK_k, 0, "Let the wind blow.", view_toggle_wind, view_has_wind},
+    {"Wind", "Weaker", SDLK_LEFTBRACKET, 0, "Slow the wind by 1 m/s.", view_weaker_wind, nullptr},
+    {"Wind", "Stronger", SDLK_RIGHTBRACKET, 0, "Speed up the wind by 1 m/s.", view_stronger_wind, nullptr},
     {"Time", "Play", SDLK_SPACE, 0, "Move the head by its motion.", toggle<&viewer::plays>,
      is<&viewer::plays>},
     {"Time", "Loop", SDLK_l, 0, "Repeat the motion of the head.", toggle<&viewer::loops>, is<&viewer::loops>},
@@ -164,18 +184,6 @@ const view_action actions[] = {
      view_debug_next, nullptr},
     {"Show", "Frame", SDLK_f, 0, "Move the camera until the hair fills the window.", frame_hair, nullptr},
     {"Show", "Head at rest", SDLK_h, 0, "Put the head back where its motion wants it.", reset_head, nullptr},
-    {"Hair", "Next colour", SDLK_c, 0, "Take the next of the natural colours.", view_next_color, nullptr},
-    {"Hair", "Short", SDLK_s, 0, "Cut the strands to less than half.", view_toggle_short, view_is_short},
-    {"Hair", "Curly", SDLK_u, 0, "Curl the strands.", view_toggle_curly, view_is_curly},
-    {"Hair", "Multi-strand", SDLK_m, 0, "Interpolate each strand between several guides.", view_toggle_multi,
-     view_is_multi},
-    {"Hair", "Single-strand", SDLK_n, 0, "Let each strand follow one guide.", view_toggle_single,
-     view_is_single},
-    {"Hair", "Add a ball", SDLK_b, 0, "Add a ball that hair collides with. Ctrl + left drag moves it.",
-     view_add_ball, nullptr},
-    {"Wind", "Wind", SDLK_k, 0, "Let the wind blow.", view_toggle_wind, view_has_wind},
-    {"Wind", "Weaker", SDLK_LEFTBRACKET, 0, "Slow the wind by 1 m/s.", view_weaker_wind, nullptr},
-    {"Wind", "Stronger", SDLK_RIGHTBRACKET, 0, "Speed up the wind by 1 m/s.", view_stronger_wind, nullptr},
     {"Detail", "Level of detail", SDLK_d, 0, "Draw fewer, wider strands where they are small.",
      view_toggle_lod, view_has_lod},
     {"Detail", "Dynamic", SDLK_a, 0, "Choose the level by the size on the screen, not by the sliders.",
@@ -212,6 +220,12 @@ const view_action actions[] = {
 const view_action* view_actions()
 {
     return actions;
+}
+
+void view_run_action(viewer& viewer, const char* label)
+{
+    for (const view_action* action = actions; action->label; ++action)
+        if (!strcmp(action->label, label)) action->run(viewer);
 }
 
 bool view_action_key(viewer& viewer, const SDL_Keysym& key)

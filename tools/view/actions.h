@@ -17,6 +17,9 @@ struct view_action {
 // Return the table, which a row without a label ends.
 const view_action* view_actions();
 
+// Run the action of a label.
+void view_run_action(viewer& viewer, const char* label);
+
 // Run the action of a key. Return false if there is none.
 bool view_action_key(viewer& viewer, const SDL_Keysym& key);
 

@@ -74,6 +74,16 @@ void show_messages(const viewer& viewer)
     ImGui::End();
 }
 
+// Show what a newcomer does not find in the panels.
+void show_hint(const viewer& viewer)
+{
+    const view_place& picture = viewer.picture;
+    float size = ImGui::GetFontSize();
+    ImGui::GetForegroundDrawList()->AddText({picture.left + 0.6f * size, picture.bottom - 1.5f * size},
+                                            IM_COL32(255, 255, 255, 110),
+                                            "Drag to orbit, Ctrl + drag to pull hair, ? for all keys");
+}
+
 } // namespace
 
 void view_panels(viewer& viewer)
@@ -98,6 +108,7 @@ void view_panels(viewer& viewer)
             viewer.picture.bottom = size.y - strip;
         }
     }
+    if (viewer.shows_panels) show_hint(viewer);
     view_pareto_window(viewer);
     view_gl_messages_window(viewer.gl_messages);
     show_help(viewer);

@@ -93,16 +93,6 @@ bool is_on_front(const view_pareto& pareto, const view_pareto_point& point)
     return true;
 }
 
-void begin(viewer& viewer)
-{
-    viewer.pareto.points.clear();
-    for (const char* choice : choices) viewer.pareto.points.push_back({choice, -1, -1});
-    viewer.pareto.next = 0;
-    viewer.pareto.is_running = true;
-    viewer.pauses = true; // Pictures of one moment are compared.
-    viewer.image_error.is_on = true;
-}
-
 // Show a point, and take its settings if it is clicked.
 void show_point(viewer& viewer, const view_pareto_point& point, size_t index, ImVec2 place)
 {
@@ -149,7 +139,58 @@ void show_plot(viewer& viewer)
     ImGui::TextDisabled("Time from %.2f to %.2f ms to the right, FLIP up to %.4f upwards.", low, high, worst);
 }
 
+// Show the settings on the front, the fastest first. A click takes them.
+void show_front(viewer& viewer)
+{
+    std::vector<const view_pareto_point*> front;
+    for (const view_pareto_point& point : viewer.pareto.points)
+        if (is_on_front(viewer.pareto, point)) front.push_back(&point);
+    std::sort(front.begin(), front.end(),
+              [](const view_pareto_point* a, const view_pareto_point* b) { return a->ms < b->ms; });
+    double present = viewer.pareto.points.empty() ? 0 : viewer.pareto.points[0].ms;
+    for (size_t i = 0; i < front.size(); ++i) {
+        const view_pareto_point& point = *front[i];
+        char text[160];
+        snprintf(text, sizeof text, "%.1f ms (%.0f %%), FLIP %.4f: %s", point.ms, 100 * point.ms / present,
+                 point.flip, point.settings.empty() ? "the present settings" : point.settings.c_str());
+        if (ImGui::Selectable(text)) set_all(point.settings, viewer.document.scene->settings);
+        view_gui_mark(viewer.gui, ("Front " + std::to_string(i)).c_str());
+    }
+}
+
+// Take the settings of the smallest error with half the time of the present ones.
+void take_half(viewer& viewer)
+{
+    const std::vector<view_pareto_point>& points = viewer.pareto.points;
+    const view_pareto_point* best = nullptr;
+    for (const view_pareto_point& point : points)
+        if (point.flip >= 0 && point.ms <= 0.5 * points[0].ms && (!best || point.flip < best->flip))
+            best = &point;
+    if (!best) {
+        viewer_say(viewer, "None of the settings takes half the time.");
+        return;
+    }
+    set_all(best->settings, viewer.document.scene->settings);
+    char text[256];
+    snprintf(text, sizeof text, "Took %s: %.1f ms, FLIP %.4f.", best->settings.c_str(), best->ms, best->flip);
+    viewer_say(viewer, text);
+}
+
 } // namespace
+
+void view_pareto_begin(viewer& viewer)
+{
+    view_pareto& pareto = viewer.pareto;
+    pareto.shows = true;
+    if (pareto.is_running) return;
+    pareto.points.clear();
+    for (const char* choice : choices) pareto.points.push_back({choice, -1, -1});
+    pareto.next = 0;
+    pareto.is_running = true;
+    pareto.was_paused = viewer.pauses;
+    viewer.pauses = true; // Pictures of one moment are compared.
+    viewer.image_error.is_on = true;
+}
 
 int view_pareto_update(viewer& viewer, uint32_t width, uint32_t height)
 {
@@ -160,6 +201,7 @@ int view_pareto_update(viewer& viewer, uint32_t width, uint32_t height)
     if (pareto.next < pareto.points.size())
         return measure(viewer, pareto.points[pareto.next++], width, height);
     pareto.is_running = false;
+    viewer.pauses = pareto.was_paused;
     return HAIR_EXIT_OK;
 }
 
@@ -172,7 +214,7 @@ void view_pareto_window(viewer& viewer)
     ImGui::SetNextWindowPos({picture.left + margin, picture.top + margin}, ImGuiCond_Appearing);
     ImGui::Begin("Time against error", &pareto.shows,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
-    if (!pareto.is_running && ImGui::Button("Measure settings")) begin(viewer);
+    if (!pareto.is_running && ImGui::Button("Measure settings")) view_pareto_begin(viewer);
     if (!pareto.is_running) view_gui_mark(viewer.gui, "Measure settings");
     if (pareto.is_running && !pareto.next)
         ImGui::Text("Reference: %u of %u samples", viewer.image_error.pictures * view_quality_of(0).samples,
@@ -180,5 +222,9 @@ void view_pareto_window(viewer& viewer)
     else if (pareto.is_running)
         ImGui::Text("Setting %zu of %zu", pareto.next, pareto.points.size());
     show_plot(viewer);
+    bool is_done = !pareto.is_running && !pareto.points.empty();
+    if (is_done && ImGui::Button("Halve the time")) take_half(viewer);
+    if (is_done) view_gui_mark(viewer.gui, "Halve the time");
+    if (is_done) show_front(viewer);
     ImGui::End();
 }

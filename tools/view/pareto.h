@@ -4,6 +4,9 @@
 
 #include "tools/view/viewer.h"
 
+// Show the window, and measure all settings. The time pauses meanwhile.
+void view_pareto_begin(viewer& viewer);
+
 // Measure the next setting, if a measurement is under way. Return an exit status.
 int view_pareto_update(viewer& viewer, uint32_t width, uint32_t height);
 

@@ -1,6 +1,7 @@
 // scene_panel.cpp - The panel of files, presets and actions.
 #include "tools/view/scene_panel.h"
 #include "tools/view/actions.h"
+#include "tools/view/browse.h"
 #include "tools/view/debug_draw.h"
 #include "tools/view/hair_actions.h"
 
@@ -58,9 +59,11 @@ const char* color_name(int i)
 
 void show_files(viewer& viewer)
 {
-    ImGui::SetNextItemWidth(-1);
+    ImGui::SetNextItemWidth(-2.4f * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##path", "file to open, or to save the scene as", &viewer.path);
     view_gui_mark(viewer.gui, "File");
+    ImGui::SameLine(0, 0.3f * ImGui::GetFontSize());
+    view_browse(viewer);
 }
 
 void show_presets(viewer& viewer)

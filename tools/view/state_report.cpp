@@ -3,6 +3,7 @@
 #include "tools/view/arrows.h"
 #include "tools/view/debug_draw.h"
 
+#include <epoxy/gl.h>
 #include <jansson.h>
 
 #include <math.h>
@@ -28,6 +29,34 @@ json_t* held_of(const viewer& viewer, const std::vector<float>& guides)
     view_project(viewer, &guides[3 * (size_t)(first + pin.vertex)], place);
     return json_pack("{s:i, s:i, s:f, s:f}", "guide", (int)pin.guide, "vertex", (int)pin.vertex, "x",
                      (double)place.x, "y", (double)place.y);
+}
+
+// Return a string of the driver, or "unknown".
+json_t* driver_string(GLenum name)
+{
+    const char* text = (const char*)glGetString(name);
+    json_t* string = json_string(text ? text : "unknown");
+    return string ? string : json_string("unknown");
+}
+
+void add_program(json_t* root)
+{
+    char version[32];
+    uint32_t number = hair_version();
+    snprintf(version, sizeof version, "%u.%u.%u", number / 10000, number / 100 % 100, number % 100);
+    json_object_set_new(root, "version", json_string(version));
+    json_object_set_new(root, "vendor", driver_string(GL_VENDOR));
+    json_object_set_new(root, "renderer", driver_string(GL_RENDERER));
+    json_object_set_new(root, "opengl", driver_string(GL_VERSION));
+}
+
+// Return the stages in the order of the strip, with their times.
+json_t* stages_of(const viewer& viewer)
+{
+    json_t* stages = json_array();
+    for (const hair_report_row& row : viewer.measures.rows)
+        json_array_append_new(stages, json_pack("{s:s, s:f}", "stage", row.stage, "ms", (double)row.ms));
+    return stages;
 }
 
 } // namespace
@@ -62,6 +91,9 @@ int view_state_report(const viewer& viewer, const std::string& path)
                                                     "ms", point.ms, "flip", point.flip));
         json_object_set_new(root, "pareto", points);
     }
+    add_program(root);
+    json_object_set_new(root, "stages", stages_of(viewer));
+    json_object_set_new(root, "film", json_boolean(viewer.film.is_on));
     const view_debug& debug = viewer.debug;
     json_object_set_new(root, "debug",
                         json_pack("{s:s, s:f, s:f, s:i, s:i, s:f}", "mode", view_debug_name(debug.mode),

@@ -1,6 +1,8 @@
 // strip.cpp - The strip below the picture: time and memory of each stage, and the errors of picture
 // and motion.
 #include "tools/view/strip.h"
+#include "tools/view/actions.h"
+#include "tools/view/pareto.h"
 
 #include <math.h>
 #include <string.h>
@@ -53,16 +55,17 @@ void show_frame(const viewer& viewer)
     ImGui::TextDisabled("%u guides", viewer.session.info.guide_count);
 }
 
-// Show the stages that took time as bars, the longest first, and the others with the reason.
-void show_stages(const viewer& viewer)
+// Show the stages that took time as bars, and the others with the reason.
+void show_stages(viewer& viewer)
 {
-    std::vector<hair_report_row> rows = viewer.measures.rows;
-    std::stable_sort(rows.begin(), rows.end(), [](const hair_report_row& a, const hair_report_row& b) {
-        bool a_ran = a.skip_reason == HAIR_SKIP_REASON_NONE, b_ran = b.skip_reason == HAIR_SKIP_REASON_NONE;
-        return a_ran != b_ran ? a_ran : a.ms > b.ms;
-    });
+    const std::vector<hair_report_row>& rows = viewer.measures.rows;
     float max = rows.empty() ? 1 : std::max(rows[0].ms, 1e-3f);
-    ImGui::TextDisabled("Stages of the hair");
+    ImGui::TextDisabled("Stages");
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Faster ...")) view_pareto_begin(viewer);
+    view_gui_mark(viewer.gui, "Faster");
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("Try settings, and plot their time against their visible error.");
     if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_ScrollY)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 6.3f * ImGui::GetFontSize());
     ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 4.2f * ImGui::GetFontSize());
@@ -132,10 +135,21 @@ void show_motion_error(const view_motion_error& motion)
         ImGui::Text("contact: %.3f %%\n  worst %.3f %%", 100 * motion.rms, 100 * motion.worst);
 }
 
-void show_errors(const viewer& viewer)
+// Show a switch of an action in the height of a line.
+void show_switch(viewer& viewer, const char* label, const char* action, bool is_on)
+{
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0, 0});
+    if (ImGui::Checkbox(label, &is_on)) view_run_action(viewer, action);
+    ImGui::PopStyleVar();
+    view_gui_mark(viewer.gui, label);
+}
+
+void show_errors(viewer& viewer)
 {
     const view_image_error& image = viewer.image_error;
-    ImGui::TextDisabled("Errors");
+    show_switch(viewer, "image", "Image error", image.is_on);
+    ImGui::SameLine();
+    show_switch(viewer, "motion", "Motion error", viewer.motion_error.is_on);
     if (!image.is_on)
         ImGui::TextDisabled("image: off");
     else if (image.flip < 0)
@@ -159,6 +173,12 @@ void view_strip_update(viewer& viewer)
     now.info = hair_report_info_default();
     if (!hair_report(viewer.session.hair, false, &now.info, rows, sizeof *rows, max_rows, &count))
         now.rows.assign(rows, rows + std::min(count, max_rows));
+    std::stable_sort(now.rows.begin(), now.rows.end(),
+                     [](const hair_report_row& a, const hair_report_row& b) {
+                         bool a_ran = a.skip_reason == HAIR_SKIP_REASON_NONE;
+                         bool b_ran = b.skip_reason == HAIR_SKIP_REASON_NONE;
+                         return a_ran != b_ran ? a_ran : a.ms > b.ms;
+                     });
     if (viewer.frame % stats_frames) return;
     now.stats = hair_solver_stats_default();
     if (hair_get_solver_stats(viewer.session.hair, &now.stats)) return;

@@ -179,6 +179,17 @@ int draw_picture(viewer& viewer)
     return code;
 }
 
+void write_bug_report(viewer& viewer)
+{
+    viewer.wants_bug_report = false;
+    std::string scene = view_new_name("-bug.json"), base = scene.substr(0, scene.size() - 5);
+    bool ok = hair_scene_write(TOOL, scene.c_str(), viewer.document.scene.get()) &&
+              !view_write_picture(viewer, base + ".png") && !view_state_report(viewer, base + "-state.json");
+    if (ok)
+        viewer_say(viewer, "Wrote " + scene + ", " + base + ".png and " + base +
+                               "-state.json. Attach them to your report.");
+}
+
 // Write what the end of a frame asks for: a picture, a frame of a film, or the shot of a script.
 int write_pictures(viewer& viewer, bool is_last)
 {
@@ -186,6 +197,7 @@ int write_pictures(viewer& viewer, bool is_last)
                                                        : HAIR_EXIT_OK;
     if (!code) code = view_record_frame(viewer);
     if (!code && is_last) code = view_record_end(viewer);
+    if (viewer.wants_bug_report) write_bug_report(viewer);
     if (!viewer.wants_picture) return code;
     viewer.wants_picture = false;
     std::string path = view_new_name(".png");
@@ -235,7 +247,7 @@ int run_frame(viewer& viewer)
     bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
     bool is_scripted = !viewer.options.script.empty();
     bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || viewer.film.is_on ||
-                 viewer.wants_picture || viewer.image_error.is_on;
+                 viewer.wants_picture || viewer.wants_bug_report || viewer.image_error.is_on;
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
     // The debug view counts while it draws.
     draws = draws || (viewer.debug.mode != VIEW_DEBUG_OFF && !viewer.script.report.empty());

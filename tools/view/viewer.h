@@ -47,8 +47,15 @@ struct view_pareto_point {
 struct view_pareto {
     bool shows = false;
     bool is_running = false;
+    bool was_paused = false; // before the measurement
     size_t next = 0; // point to measure
     std::vector<view_pareto_point> points;
+};
+
+// List of the files of a folder.
+struct view_files {
+    std::string folder;
+    std::vector<std::string> names; // names of folders end in a slash
 };
 
 // Film of the window that is being written.
@@ -103,9 +110,11 @@ struct viewer {
     view_gl_messages gl_messages;
     uint64_t motion = 0; // number of motions in the picture so far
     bool wants_picture = false; // writes the window at the end of this frame
+    bool wants_bug_report = false; // writes scene, window and state then
     double moved = 0; // time of the last motion in the picture, ms
     double last = 0; // time of the last frame, ms
     std::string path; // file that the scene is saved as
+    view_files files;
     std::string filter; // words in the names of the settings that the panel shows
     hair_scene usual = {}; // scene with the default settings of the style
     bool has_usual = false;
