@@ -65,7 +65,8 @@ endif
 # among all programs.
 FULL := barrier bench bench_cases bench_fuzz capture_bullet dispatch gallery hair_grid host_capture lengths memory \
   occlusion precompile rod_any rod_heap rod_limits rod_shape rod_stress rod_two rod_whip save_hostile soak \
-  step_failure torture_draw torture_step saved sdl tasks view_debug view_errors
+  step_failure torture_draw torture_step saved sdl tasks \
+  view_debug view_errors view_minute view_settings
 SECOND = $(filter $(foreach n,$(FULL),$(B)/tests/gpu/$(n)_test $(B)/tests/hosts/$(n)_test $(B)/tests/unit/$(n)_test $(B)/tests/view/$(n)_test),$(TESTS))
 STAGE = $(if $(HAIR_TEST_FULL)$(filter),$(TESTS),$(filter-out $(SECOND),$(TESTS)))
 test-second: ## The programs that only test-full runs, with short cases; until=SECONDS starts none later than that time of `date +%s`

@@ -186,6 +186,11 @@ void show_value(viewer& viewer, const row& row)
     else
         show_whole(viewer, row, text);
     view_gui_mark(viewer.gui, row.key.c_str());
+    // Scripts drag the first element.
+    auto place = viewer.gui.next_places.find(row.key);
+    if (row.elements > 1 && place != viewer.gui.next_places.end())
+        place->second.right =
+            place->second.left + (place->second.right - place->second.left) / (float)row.elements;
 }
 
 // Show the sentence, the unit and the range of a setting.

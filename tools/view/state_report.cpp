@@ -7,6 +7,7 @@
 #include <jansson.h>
 
 #include <math.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -48,6 +49,24 @@ void add_program(json_t* root)
     json_object_set_new(root, "vendor", driver_string(GL_VENDOR));
     json_object_set_new(root, "renderer", driver_string(GL_RENDERER));
     json_object_set_new(root, "opengl", driver_string(GL_VERSION));
+}
+
+// Return the memory of the process that is in use, bytes. It is 0 if the system does not tell.
+json_int_t resident_bytes()
+{
+    long long pages[2] = {0, 0};
+    FILE* file = fopen("/proc/self/statm", "r");
+    if (file && fscanf(file, "%lld %lld", &pages[0], &pages[1]) != 2) pages[1] = 0;
+    if (file) fclose(file);
+    return (json_int_t)pages[1] * sysconf(_SC_PAGESIZE);
+}
+
+void add_memory(const viewer& viewer, json_t* root)
+{
+    hair_memory memory = hair_memory_default();
+    hair_get_memory(viewer.session.context, &memory);
+    json_object_set_new(root, "resident_bytes", json_integer(resident_bytes()));
+    json_object_set_new(root, "hair_bytes", json_integer((json_int_t)memory.bytes));
 }
 
 // Return the stages in the order of the strip, with their times.
@@ -92,6 +111,7 @@ int view_state_report(const viewer& viewer, const std::string& path)
         json_object_set_new(root, "pareto", points);
     }
     add_program(root);
+    add_memory(viewer, root);
     json_object_set_new(root, "stages", stages_of(viewer));
     json_object_set_new(root, "film", json_boolean(viewer.film.is_on));
     const view_debug& debug = viewer.debug;
