@@ -13,11 +13,11 @@
 #include <unistd.h>
 
 #define TOOL "hair-gallery"
-#define COLUMNS 5u // pictures per row
-#define MARGIN 8u // pixels around each picture
-#define TITLE 3u // pixels per dot of a title's letters
-#define CAPTION 2u
-#define CAPTION_LINES 3u
+#define COLUMNS 4u // pictures per row
+#define MARGIN 16u // pixels around each picture
+#define TITLE 30u // height of a title's letters, pixels
+#define CAPTION 18u
+#define CAPTION_LINES 2u
 #define PICTURE_PATH 4128
 #define SAMPLES "--supersample 4 " // default, a row of gallery.inl can override it
 
@@ -53,7 +53,7 @@ static int print_help(void)
     printf(TOOL " - pictures with captions on one sheet, each made by hair-capture\n\n  " TOOL
                 " [OPTION]... -o OUT.png\n\n"
                 "  --only WORD   rows with this word in their title\n"
-                "  --size WxH    of each picture, pixels; 400x300\n"
+                "  --size WxH    of each picture, pixels; 400x400\n"
                 "  --jobs N      pictures made at once; one a processor\n"
                 "  --list        print captions and the arguments of hair-capture\n"
                 "  --output OUT  (also -o) the sheet\n"
@@ -86,10 +86,10 @@ static void arrange(struct gallery* gallery)
         gallery->place[i].x = MARGIN + column * (gallery->width + MARGIN);
         gallery->place[i].y = y;
         if (entry->title)
-            y += HAIR_LETTER_HEIGHT * TITLE + MARGIN;
+            y += hair_letters_line(TITLE) + MARGIN / 2;
         else {
             ++column;
-            below = gallery->height + MARGIN + CAPTION_LINES * HAIR_LETTER_HEIGHT * CAPTION + MARGIN;
+            below = gallery->height + MARGIN / 2 + CAPTION_LINES * hair_letters_line(CAPTION) + 2 * MARGIN;
         }
     }
     gallery->sheet.width = MARGIN + COLUMNS * (gallery->width + MARGIN);
@@ -110,21 +110,23 @@ static bool make_ground(struct gallery* gallery)
     return true;
 }
 
-static void write_captions(struct gallery* gallery)
+static bool write_captions(struct gallery* gallery)
 {
-    static const unsigned char bright[3] = {235, 232, 225}, dim[3] = {170, 168, 163};
+    static const unsigned char bright[3] = {235, 232, 225}, dim[3] = {178, 176, 170};
+    struct hair_letters* letters = hair_letters_create(TOOL);
+    if (!letters) return false;
     for (uint32_t i = 0; i < ENTRIES; ++i) {
         uint32_t x = gallery->place[i].x, y = gallery->place[i].y;
         if (!gallery->place[i].is_shown) continue;
         if (entries[i].title)
-            hair_letters_write(&gallery->sheet, x, y, TITLE,
-                               (gallery->sheet.width - 2 * MARGIN) / (HAIR_LETTER_WIDTH * TITLE), 1, bright,
-                               entries[i].title);
+            hair_letters_write(letters, &gallery->sheet, x, y, TITLE, gallery->sheet.width - 2 * MARGIN, 1,
+                               bright, entries[i].title);
         else
-            hair_letters_write(&gallery->sheet, x, y + gallery->height + MARGIN / 2, CAPTION,
-                               gallery->width / (HAIR_LETTER_WIDTH * CAPTION), CAPTION_LINES, dim,
-                               entries[i].caption);
+            hair_letters_write(letters, &gallery->sheet, x, y + gallery->height + MARGIN / 2, CAPTION,
+                               gallery->width, CAPTION_LINES, dim, entries[i].caption);
     }
+    hair_letters_destroy(letters);
+    return true;
 }
 
 // Pictures ----------------------------------------------------------------------------------------
@@ -204,8 +206,8 @@ static bool make_pictures(struct gallery* gallery)
 
 static bool make_sheet(struct gallery* gallery, FILE* file)
 {
-    if (!make_ground(gallery) || !make_pictures(gallery)) return false;
-    write_captions(gallery);
+    // The captions come first, because a missing font shall not cost the time of the pictures.
+    if (!make_ground(gallery) || !write_captions(gallery) || !make_pictures(gallery)) return false;
     if (hair_image_write_png(&gallery->sheet, file)) return true;
     hair_complain(TOOL, "cannot write %s", gallery->out);
     return false;
@@ -284,7 +286,7 @@ int main(int count, char** arguments)
     static const struct option table[] = {
         {"only", 1, NULL, 'r'}, {"size", 1, NULL, 's'}, {"jobs", 1, NULL, 'j'},    {"output", 1, NULL, 'o'},
         {"list", 0, NULL, 'l'}, {"help", 0, NULL, 'h'}, {"version", 0, NULL, 'v'}, {NULL, 0, NULL, 0}};
-    struct gallery gallery = {.width = 400, .height = 300};
+    struct gallery gallery = {.width = 400, .height = 400};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     const char* slash = strrchr(arguments[0], '/');
     bool lists = false;

@@ -65,7 +65,7 @@ static void the_mesh_is_sound_and_faces_outwards(void** state)
     (void)state;
     struct head_mesh mesh;
     assert_int_equal(head_mesh_create(&mesh), 0);
-    assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 250000);
+    assert_true(mesh.triangle_count > 100000 && mesh.triangle_count < 300000);
     uint32_t skin = 0, wet = 0, cloth = 0;
     for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
         const float *p = mesh.positions + 3 * i, *color = mesh.colors + 3 * i,

@@ -24,10 +24,11 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
              ", " STUDIO "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
-    {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
-                 " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}}"},
+    {"ponytail",
+     "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
+     " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}, " STUDIO "}"},
     {"afro", "{'style': 'afro', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
-             " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.56, 0.0], 'fov': 27}}"},
+             " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.58, 0.0], 'fov': 24}, " STUDIO "}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
             " 'settings': {'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'strand.radius': 1e-4, "
@@ -44,9 +45,14 @@ const struct hair_builtin hair_builtin_scenes[] = {
 };
 
 // Settings that keep each haircut in shape against gravity. Every style sets every key, because one
-// style can replace another. A curl needs about eight vertices a turn, more than a wave.
-#define SMOOTH "'guide_vertices': 32, 'strand.segments': 24"
-#define CURLED "'guide_vertices': 64, 'strand.segments': 64"
+// style can replace another. A curl needs about eight vertices a turn, more than a wave. Followers
+// of wide curls follow one guide, because the mean of curls of different phases is no curl.
+#define SMOOTH "'guide_vertices': 32, 'strand.segments': 24, " EVEN
+#define CURLED "'guide_vertices': 64, 'strand.segments': 64, " LOCKS
+#define COILED "'guide_vertices': 64, 'strand.segments': 64, " EVEN
+#define EVEN "'clump.weight': '0,0,0.07,0.18,0.32,0.46,0.56,0.6', 'clump.width': 1"
+#define LOCKS                                                                                                \
+    "'clump.weight': '0,0.4,0.75,0.92,0.97,1,1,1', 'clump.width': '1,0.9,0.75,0.62,0.55,0.52,0.55,0.65'"
 
 const struct hair_builtin hair_builtin_styles[] = {
     {"long", "{'shape.frequency_root': 6, 'shape.frequency_tip': 1, 'redblack.angular_hz': 8, " SMOOTH "}"},
@@ -55,7 +61,7 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"ponytail",
      "{'shape.frequency_root': 12, 'shape.frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
     {"curly", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
-    {"afro", "{'shape.frequency_root': 12, 'shape.frequency_tip': 8, 'redblack.angular_hz': 8, " CURLED "}"},
+    {"afro", "{'shape.frequency_root': 12, 'shape.frequency_tip': 8, 'redblack.angular_hz': 8, " COILED "}"},
     {NULL, NULL},
 };
 

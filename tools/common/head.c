@@ -99,6 +99,7 @@ int head_mesh_create(struct head_mesh* out)
     for (enum part part = SKIN; part < PARTS && !builder.failed; ++part) put_part(&builder, part);
     head_put_brows(&builder);
     head_put_lashes(&builder);
+    head_put_fringe(&builder);
     head_put_eyes(&builder);
     if (builder.failed)
         head_mesh_free(&builder.mesh);

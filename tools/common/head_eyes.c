@@ -1,4 +1,4 @@
-// head_eyes.c - Eyeballs, brows and lashes of the bust.
+// head_eyes.c - Eyeballs, brows, lashes and fine hairs of the bust.
 #include "tools/common/head_parts.h"
 
 #include <math.h>
@@ -219,4 +219,49 @@ void head_put_lashes(struct head_builder* builder)
 {
     put_lid(builder, head_lids[0], 110, 1, 0.0085f);
     put_lid(builder, head_lids[1], 55, -0.6f, 0.0045f);
+}
+
+// Hairline ----------------------------------------------------------------------------------------
+
+// Return the number of fine hairs per square metre. It falls off over a centimetre before the
+// hairline. There are none on the ears and few at the nape.
+static float fringe_density(point p)
+{
+    float above = head_above_hairline(p), azimuth = fabsf(atan2f(p.x, p.z));
+    float side = head_smooth(1.25f, 1.05f, azimuth) + 0.5f * head_smooth(2.0f, 2.3f, azimuth);
+    return 6e5f * side * head_smooth(-0.013f, 0.001f, above) * head_smooth(0.005f, 0.003f, above);
+}
+
+static void put_fine_hair(struct head_builder* builder, point p, point n, uint32_t* seed)
+{
+    float side = p.x + 0.006f * (head_random(seed) - 0.5f) < 0 ? -1.0f : 1.0f, size = head_random(seed);
+    point way = {side * (0.45f + 0.5f * head_random(seed)), p.z > 0 ? 0.15f : -0.8f,
+                 -0.7f * head_random(seed)};
+    way = head_unit(head_add(way, n, -head_dot(way, n)));
+    float near = head_smooth(-0.014f, 0.001f, head_above_hairline(p));
+    point lifted = head_unit(head_add(way, n, 0.5f)), lying = head_unit(head_add(way, n, -0.1f));
+    put_hair(builder, head_add(p, n, -0.0003f), lifted, lying,
+             (0.004f + 0.012f * size * size) * near + 0.002f, 3.0e-5f);
+}
+
+void head_put_fringe(struct head_builder* builder)
+{
+    uint32_t seed = 11, triangles = builder->mesh.triangle_count;
+    for (uint32_t i = 0; i < triangles && !builder->failed; ++i) {
+        const uint32_t* corner = builder->mesh.triangles + 3 * (size_t)i;
+        const float *a = builder->mesh.positions + 3 * corner[0],
+                    *b = builder->mesh.positions + 3 * corner[1],
+                    *c = builder->mesh.positions + 3 * corner[2], *n = builder->mesh.normals + 3 * corner[0];
+        point p = {a[0], a[1], a[2]}, normal = {n[0], n[1], n[2]};
+        if (p.y < 1.54f || builder->mesh.surface[3 * (size_t)corner[0]] < 1) continue;
+        float density = fringe_density(p);
+        if (density <= 0) continue;
+        point u = head_add((point){b[0], b[1], b[2]}, p, -1), v = head_add((point){c[0], c[1], c[2]}, p, -1);
+        point across = head_cross(u, v);
+        float wanted = 0.5f * density * sqrtf(head_dot(across, across));
+        for (; head_random(&seed) < wanted; wanted -= 1) {
+            float s = sqrtf(head_random(&seed)), t = head_random(&seed);
+            put_fine_hair(builder, head_add(head_add(p, u, s * (1 - t)), v, s * t), normal, &seed);
+        }
+    }
 }

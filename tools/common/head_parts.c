@@ -100,8 +100,7 @@ void head_put_triangle(struct head_builder* builder, uint32_t a, uint32_t b, uin
 
 // Paint -------------------------------------------------------------------------------------------
 
-// Return the height of p above the hairline of the built-in haircuts, in m.
-static float above_hairline(point p)
+float head_above_hairline(point p)
 {
     // Azimuth from the face, in degrees, and height, in m.
     static const float hairline[][2] = {{0, 1.692f},   {22, 1.693f},  {40, 1.694f},  {52, 1.679f},
@@ -128,8 +127,8 @@ point head_on_skull(point p)
 {
     const float under = 0.0003f, margin = 0.004f; // m
     float out = above_skull(p) + under;
-    float weight =
-        head_smooth(-0.012f, -0.001f, above_hairline(p)) * head_smooth(margin, 0.5f * margin, fabsf(out));
+    float weight = head_smooth(-0.012f, -0.001f, head_above_hairline(p)) *
+                   head_smooth(margin, 0.5f * margin, fabsf(out));
     point n = {p.x / (0.077f * 0.077f), (p.y - 1.63f) / (0.098f * 0.098f), p.z / (0.096f * 0.096f)};
     return head_add(p, head_unit(n), -weight * out);
 }
@@ -151,8 +150,8 @@ struct head_paint head_paint_skin(point p, float lip, float open)
                 0.35f * spot(p, (point){0.077f, 1.600f, -0.005f}, 0.035f) +
                 0.25f * spot(p, (point){0, 1.515f, 0.095f}, 0.025f) + 0.30f * spot(p, HEAD_EYE, 0.026f);
     // Hair darkens the skin that it grows from, as on a shaved head.
-    float dark =
-        0.80f * head_smooth(-0.001f, 0.015f, above_hairline(p)) * head_smooth(0.004f, 0.001f, above_skull(p));
+    float dark = 0.80f * head_smooth(-0.001f, 0.015f, head_above_hairline(p)) *
+                 head_smooth(0.004f, 0.001f, above_skull(p));
     struct head_paint paint = {.skin = 1, .open = open};
     dark = fmaxf(dark, 0.45f * head_brow(p));
     lip = head_smooth(0.25f, 0.85f, lip);

@@ -57,10 +57,15 @@ extern const float head_lids[2][HEAD_LID_POINTS][3];
 // Return the density of the brows at a point of the face, in [0, 1].
 float head_brow(struct head_point p);
 
+// Return the height of p above the hairline of the built-in haircuts, in m.
+float head_above_hairline(struct head_point p);
+
 // Add both eyeballs.
 void head_put_eyes(struct head_builder* builder);
 // Add brows and lashes. Brows grow on the triangles that the mesh has.
 void head_put_brows(struct head_builder* builder);
 void head_put_lashes(struct head_builder* builder);
+// Add short, fine hairs along the hairline, on the triangles that the mesh has.
+void head_put_fringe(struct head_builder* builder);
 
 #endif

@@ -1,78 +1,119 @@
-// letters.c - Text in a picture, in letters of 5 by 7 dots.
+// letters.c - Text in a picture, in the font DejaVu Sans, whose outlines stb_truetype draws.
 #include "tools/common/letters.h"
+#include "tools/common/file.h"
 
+#define STB_TRUETYPE_IMPLEMENTATION
+#define STBTT_STATIC
+#include <stb/stb_truetype.h>
+
+#include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-// Columns of each letter from ' ' to '~', left to right. The lowest bit is the top dot.
-static const unsigned char columns[95][5] = {
-    {0x00, 0x00, 0x00, 0x00, 0x00}, {0x00, 0x00, 0x5f, 0x00, 0x00}, {0x00, 0x07, 0x00, 0x07, 0x00},
-    {0x14, 0x7f, 0x14, 0x7f, 0x14}, {0x24, 0x2a, 0x7f, 0x2a, 0x12}, {0x23, 0x13, 0x08, 0x64, 0x62},
-    {0x36, 0x49, 0x56, 0x20, 0x50}, {0x00, 0x00, 0x07, 0x00, 0x00}, {0x00, 0x1c, 0x22, 0x41, 0x00},
-    {0x00, 0x41, 0x22, 0x1c, 0x00}, {0x14, 0x08, 0x3e, 0x08, 0x14}, {0x08, 0x08, 0x3e, 0x08, 0x08},
-    {0x00, 0x50, 0x30, 0x00, 0x00}, {0x08, 0x08, 0x08, 0x08, 0x08}, {0x00, 0x60, 0x60, 0x00, 0x00},
-    {0x20, 0x10, 0x08, 0x04, 0x02}, {0x3e, 0x51, 0x49, 0x45, 0x3e}, {0x00, 0x42, 0x7f, 0x40, 0x00},
-    {0x42, 0x61, 0x51, 0x49, 0x46}, {0x21, 0x41, 0x45, 0x4b, 0x31}, {0x18, 0x14, 0x12, 0x7f, 0x10},
-    {0x27, 0x45, 0x45, 0x45, 0x39}, {0x3c, 0x4a, 0x49, 0x49, 0x30}, {0x01, 0x71, 0x09, 0x05, 0x03},
-    {0x36, 0x49, 0x49, 0x49, 0x36}, {0x06, 0x49, 0x49, 0x29, 0x1e}, {0x00, 0x36, 0x36, 0x00, 0x00},
-    {0x00, 0x56, 0x36, 0x00, 0x00}, {0x08, 0x14, 0x22, 0x41, 0x00}, {0x14, 0x14, 0x14, 0x14, 0x14},
-    {0x00, 0x41, 0x22, 0x14, 0x08}, {0x02, 0x01, 0x51, 0x09, 0x06}, {0x32, 0x49, 0x79, 0x41, 0x3e},
-    {0x7e, 0x11, 0x11, 0x11, 0x7e}, {0x7f, 0x49, 0x49, 0x49, 0x36}, {0x3e, 0x41, 0x41, 0x41, 0x22},
-    {0x7f, 0x41, 0x41, 0x22, 0x1c}, {0x7f, 0x49, 0x49, 0x49, 0x41}, {0x7f, 0x09, 0x09, 0x09, 0x01},
-    {0x3e, 0x41, 0x49, 0x49, 0x7a}, {0x7f, 0x08, 0x08, 0x08, 0x7f}, {0x00, 0x41, 0x7f, 0x41, 0x00},
-    {0x20, 0x40, 0x41, 0x3f, 0x01}, {0x7f, 0x08, 0x14, 0x22, 0x41}, {0x7f, 0x40, 0x40, 0x40, 0x40},
-    {0x7f, 0x02, 0x0c, 0x02, 0x7f}, {0x7f, 0x04, 0x08, 0x10, 0x7f}, {0x3e, 0x41, 0x41, 0x41, 0x3e},
-    {0x7f, 0x09, 0x09, 0x09, 0x06}, {0x3e, 0x41, 0x51, 0x21, 0x5e}, {0x7f, 0x09, 0x19, 0x29, 0x46},
-    {0x46, 0x49, 0x49, 0x49, 0x31}, {0x01, 0x01, 0x7f, 0x01, 0x01}, {0x3f, 0x40, 0x40, 0x40, 0x3f},
-    {0x1f, 0x20, 0x40, 0x20, 0x1f}, {0x3f, 0x40, 0x38, 0x40, 0x3f}, {0x63, 0x14, 0x08, 0x14, 0x63},
-    {0x07, 0x08, 0x70, 0x08, 0x07}, {0x61, 0x51, 0x49, 0x45, 0x43}, {0x00, 0x7f, 0x41, 0x41, 0x00},
-    {0x02, 0x04, 0x08, 0x10, 0x20}, {0x00, 0x41, 0x41, 0x7f, 0x00}, {0x04, 0x02, 0x01, 0x02, 0x04},
-    {0x40, 0x40, 0x40, 0x40, 0x40}, {0x00, 0x01, 0x02, 0x04, 0x00}, {0x20, 0x54, 0x54, 0x54, 0x78},
-    {0x7f, 0x48, 0x44, 0x44, 0x38}, {0x38, 0x44, 0x44, 0x44, 0x28}, {0x38, 0x44, 0x44, 0x48, 0x7f},
-    {0x38, 0x54, 0x54, 0x54, 0x18}, {0x08, 0x7e, 0x09, 0x01, 0x02}, {0x18, 0xa4, 0xa4, 0xa4, 0x7c},
-    {0x7f, 0x08, 0x04, 0x04, 0x78}, {0x00, 0x44, 0x7d, 0x40, 0x00}, {0x40, 0x80, 0x84, 0x7d, 0x00},
-    {0x7f, 0x10, 0x28, 0x44, 0x00}, {0x00, 0x41, 0x7f, 0x40, 0x00}, {0x7c, 0x04, 0x18, 0x04, 0x78},
-    {0x7c, 0x08, 0x04, 0x04, 0x78}, {0x38, 0x44, 0x44, 0x44, 0x38}, {0xfc, 0x24, 0x24, 0x24, 0x18},
-    {0x18, 0x24, 0x24, 0x24, 0xfc}, {0x7c, 0x08, 0x04, 0x04, 0x08}, {0x48, 0x54, 0x54, 0x54, 0x24},
-    {0x04, 0x3f, 0x44, 0x40, 0x20}, {0x3c, 0x40, 0x40, 0x20, 0x7c}, {0x1c, 0x20, 0x40, 0x20, 0x1c},
-    {0x3c, 0x40, 0x30, 0x40, 0x3c}, {0x44, 0x28, 0x10, 0x28, 0x44}, {0x1c, 0xa0, 0xa0, 0xa0, 0x7c},
-    {0x44, 0x64, 0x54, 0x4c, 0x44}, {0x00, 0x08, 0x36, 0x41, 0x00}, {0x00, 0x00, 0x7f, 0x00, 0x00},
-    {0x00, 0x41, 0x36, 0x08, 0x00}, {0x08, 0x04, 0x08, 0x10, 0x08}};
+#define MAX_BYTES ((size_t)16 << 20)
 
-static void put_dot(struct hair_image* image, uint32_t x, uint32_t y, uint32_t scale,
-                    const unsigned char color[3])
+struct hair_letters {
+    stbtt_fontinfo font;
+    struct hair_bytes file;
+};
+
+static const char* const fonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+                                    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
+                                    "/usr/share/fonts/TTF/DejaVuSans.ttf"};
+
+struct hair_letters* hair_letters_create(const char* tool)
 {
-    for (uint32_t row = y; row < y + scale && row < image->height; ++row)
-        for (uint32_t column = x; column < x + scale && column < image->width; ++column)
-            memcpy(image->encoded + 3 * ((size_t)row * image->width + column), color, 3);
+    const char* path = fonts[0];
+    for (size_t i = 0; i < sizeof fonts / sizeof *fonts; ++i)
+        if (access(path, R_OK)) path = fonts[i];
+    struct hair_letters* letters = calloc(1, sizeof *letters);
+    if (!letters) {
+        hair_complain(tool, "out of memory");
+        return NULL;
+    }
+    if (!hair_file_read(tool, path, MAX_BYTES, &letters->file)) {
+        free(letters);
+        return NULL;
+    }
+    if (stbtt_InitFont(&letters->font, letters->file.data, 0)) return letters;
+    hair_complain(tool, "%s: this is no font", path);
+    hair_letters_destroy(letters);
+    return NULL;
 }
 
-static void put_letter(struct hair_image* image, uint32_t x, uint32_t y, uint32_t scale,
-                       const unsigned char color[3], char letter)
+void hair_letters_destroy(struct hair_letters* letters)
 {
-    const unsigned char* dots = columns[(letter < ' ' || letter > '~' ? '?' : letter) - ' '];
-    for (uint32_t i = 0; i < 5; ++i)
-        for (uint32_t k = 0; k < 8; ++k)
-            if (dots[i] >> k & 1) put_dot(image, x + i * scale, y + k * scale, scale, color);
+    if (!letters) return;
+    free(letters->file.data);
+    free(letters);
 }
 
-// Return the length of text that fits into a line. A word longer than a line is cut.
-static size_t line_of(const char* text, size_t letters)
+uint32_t hair_letters_line(uint32_t size)
 {
-    size_t length = strlen(text), at = letters;
-    if (length <= letters) return length;
-    while (at > 0 && text[at] != ' ') --at;
-    return at ? at : letters;
+    return size + size / 3;
 }
 
-void hair_letters_write(struct hair_image* image, uint32_t x, uint32_t y, uint32_t scale, uint32_t letters,
-                        uint32_t lines, const unsigned char color[3], const char* text)
+static int letter_of(char byte)
 {
-    for (uint32_t line = 0; line < lines && *text && letters; ++line) {
-        size_t length = line_of(text, letters);
-        for (uint32_t i = 0; i < length; ++i)
-            put_letter(image, x + i * HAIR_LETTER_WIDTH * scale, y, scale, color, text[i]);
+    return byte < ' ' || byte > '~' ? '?' : byte;
+}
+
+// Return the distance from a letter to the next, in units of the font.
+static int advance_of(const struct hair_letters* letters, const char* text)
+{
+    int advance, bearing, first = letter_of(text[0]);
+    stbtt_GetCodepointHMetrics(&letters->font, first, &advance, &bearing);
+    return advance + (text[1] ? stbtt_GetCodepointKernAdvance(&letters->font, first, letter_of(text[1])) : 0);
+}
+
+// Return the length of text that fits into a line. A word wider than a line is cut.
+static size_t fit_line(const struct hair_letters* letters, const char* text, float units)
+{
+    size_t fits = 0, blank = 0;
+    for (float at = 0; text[fits]; ++fits) {
+        at += (float)advance_of(letters, text + fits);
+        if (at > units) break;
+        if (text[fits] == ' ') blank = fits;
+    }
+    if (!text[fits] || text[fits] == ' ') return fits;
+    return blank ? blank : fits + !fits;
+}
+
+// Blend a letter's coverage into the picture.
+static void blend(struct hair_image* image, int x, int y, int width, int height,
+                  const unsigned char* coverage, const unsigned char color[3])
+{
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            int px = x + column, py = y + row, share = coverage[row * width + column];
+            if (px < 0 || py < 0 || px >= (int)image->width || py >= (int)image->height) continue;
+            unsigned char* pixel = image->encoded + 3 * ((size_t)py * image->width + (size_t)px);
+            for (int k = 0; k < 3; ++k)
+                pixel[k] = (unsigned char)((pixel[k] * (255 - share) + color[k] * share + 127) / 255);
+        }
+}
+
+void hair_letters_write(const struct hair_letters* letters, struct hair_image* image, uint32_t x, uint32_t y,
+                        uint32_t size, uint32_t width, uint32_t lines, const unsigned char color[3],
+                        const char* text)
+{
+    const stbtt_fontinfo* font = &letters->font;
+    float scale = stbtt_ScaleForPixelHeight(font, (float)size);
+    int ascent, descent, gap;
+    stbtt_GetFontVMetrics(font, &ascent, &descent, &gap);
+    for (uint32_t line = 0; line < lines && *text; ++line) {
+        size_t length = fit_line(letters, text, (float)width / scale);
+        float at = (float)x,
+              base = (float)y + (float)(line * hair_letters_line(size)) + scale * (float)ascent;
+        for (size_t i = 0; i < length; ++i) {
+            int w, h, left, top, whole = (int)at;
+            unsigned char* coverage = stbtt_GetCodepointBitmapSubpixel(
+                font, scale, scale, at - (float)whole, 0, letter_of(text[i]), &w, &h, &left, &top);
+            if (coverage) blend(image, whole + left, (int)base + top, w, h, coverage, color);
+            stbtt_FreeBitmap(coverage, NULL);
+            at += scale * (float)advance_of(letters, text + i);
+        }
         text += length;
         text += strspn(text, " ");
-        y += HAIR_LETTER_HEIGHT * scale;
     }
 }
