@@ -110,7 +110,7 @@ gallery: setup ## build/gallery.png: pictures with captions of what the library 
 	$(B)/hair-gallery -o build/gallery.png
 
 # The report shows measurements of this machine and stored measurements of others on one page.
-SUITES  := accuracy physics stability dispatch render shadow table paths scale bounds lod followers collision field wind skip
+SUITES  := accuracy physics stability startup dispatch render shadow table paths scale bounds lod followers collision field wind skip
 MACHINE := build/bench/$(if $(device),device-$(device),here)
 bench: setup ## Every suite of hair-bench, into build/bench/
 	@$(MAKE) -j$(JOBS) $(B)/hair-bench

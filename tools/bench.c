@@ -103,6 +103,10 @@ static bool is_software(const char* renderer)
 static int make_opengl(struct bench* bench)
 {
     bench->host = (hair_host){NULL, NULL, hair_print_log, (void*)(uintptr_t)BENCH_TOOL};
+    if (!strcmp(bench->options.suite->name, "startup")) { // Drivers keep no programs on the disk.
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+        setenv("__GL_SHADER_DISK_CACHE", "0", 1);
+    }
     hair_result result = hair_egl_create(&bench->host, bench->options.device, &bench->egl);
     if (result) return hair_exit_for(result);
     bench->renderer = (const char*)glGetString(GL_RENDERER);

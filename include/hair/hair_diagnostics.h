@@ -199,6 +199,9 @@ typedef struct hair_report_info {
     uint32_t age; ///< Number of frames that have begun since.
     float ms; ///< GPU time of all rows, ms.
     uint64_t bytes; ///< OpenGL memory of all rows, bytes, without memory shared by instances.
+    /// Number of programs that the driver has compiled for the context. Programs that came from
+    /// hair_context_desc.cache do not count.
+    uint32_t compiled_programs;
 } hair_report_info;
 HAIR_DESC(hair_report_info)
 

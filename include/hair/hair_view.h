@@ -344,10 +344,14 @@ HAIR_API hair_result hair_draw(hair_instance* hair, const hair_view* view);
 /// settings, so that no frame waits for the compiler.
 ///
 /// Call it while something else is shown, until `ready` is true. Also call it before colliders,
-/// wind or another look are set on visible hair for the first time. Drivers with
-/// KHR_parallel_shader_compile compile all programs in the background, and no call waits. On other
-/// drivers each call compiles one program and waits for it. This also holds for programs of a
-/// hair_shader on every driver.
+/// wind or another look are set on visible hair for the first time. The log says how many programs
+/// are to come. hair_report_info.compiled_programs counts them.
+///
+/// Drivers with KHR_parallel_shader_compile compile in the background. A call begins or finishes at
+/// most four programs, and begins nothing after 2 ms. The call sets the driver's number of compiler
+/// threads to the maximum. On other drivers each call compiles one program and waits for it. This
+/// also holds for programs of a hair_shader on every driver. Software rasterizers compile machine
+/// code when a program first runs. There a call compiles one program, or runs one on nothing.
 ///
 /// @param view View to prepare. NULL prepares hair_step() only.
 /// @param ready Receives true if all programs are compiled, and false otherwise. Unchanged on

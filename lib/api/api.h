@@ -56,6 +56,7 @@ struct hair_instance {
     hair_groom* groom; // NULL unless the context is restorable
     int has_slowed; // 1 if dt has exceeded max_dt and the log has said so
     struct hair_rods_softened told; // state of softened guides that was logged last
+    uint32_t told_pending; // number of programs that hair_precompile() has last waited for
     int has_left_out; // 1 if guides pass through some colliders and the log has said so
     hair_vec3 bounds[2]; // bounds of the hair in the head's frame, without pins
     hair_look look; // look of the application, before its wetness is applied

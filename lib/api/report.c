@@ -169,7 +169,8 @@ hair_result hair_report(hair_instance* hair, bool waits, hair_report_info* info,
     const struct hair_gl_frame* frame = find_frame(hair, waits != 0, ms);
     HAIR_TRY(hair_check_lost(hair->context, HAIR_OK));
     *count = 0;
-    if (!frame) return HAIR_OK;
+    own.compiled_programs = hair->context->gl.compiled;
+    if (!frame) return HAIR_COPY_OUT(host, hair_report_info, &own, info);
     own.frame = frame->number;
     own.age = hair->profiler.number - frame->number;
     for (int work = 0; work < HAIR_GL_CATEGORIES; ++work) {

@@ -252,6 +252,7 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (shows) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_COLLIDERS));
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;
+    hair_draw_bind_plan(&hair->renderer, plan); // Machine code depends on the formats of textures.
     return hair_draw_precompile(&hair->renderer, plan, colliders);
 }
 
@@ -272,8 +273,13 @@ hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* re
     if (!result && view) result = ensure_programs(hair, &plan);
     uint32_t pending = hair_gl_end_async(gl);
     result = hair_leave(hair->context, result);
-    if (!result) *ready = pending == 0;
-    return result;
+    if (result) return result;
+    if (pending > hair->told_pending)
+        hair_log(&hair->context->host, HAIR_LOG_INFO, "%s: %u programs are to come before hair is ready",
+                 hair->label, pending);
+    hair->told_pending = pending;
+    *ready = pending == 0;
+    return HAIR_OK;
 }
 
 // Copy positions to world space. `from` has xyz from the head's origin in the first three floats of

@@ -30,7 +30,7 @@ void hair_renderer_set_attachment(struct hair_renderer* renderer, bool has_fixed
     renderer->has_attached_roots = has_attached_strands;
 }
 
-static void bind_plan(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+void hair_draw_bind_plan(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
 {
     struct hair_gl* gl = renderer->gl;
     hair_geometry_bind(renderer->geometry);
@@ -141,7 +141,7 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     if (plan->vertices == HAIR_VERTICES_TESSELLATED) hair_draw_cull_patches(renderer, view, &params);
     params.textured = plan->is_textured;
     hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
-    bind_plan(renderer, plan);
+    hair_draw_bind_plan(renderer, plan);
     draw_followers(renderer, plan, &params);
     return HAIR_OK;
 }

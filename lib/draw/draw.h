@@ -144,6 +144,8 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
 bool hair_draw_is_out_of_view(const struct hair_renderer* renderer, const struct hair_pose* head,
                               const hair_view* view);
 
+// Bind the textures that the passes of a plan have in common.
+void hair_draw_bind_plan(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 // Draw the view of a plan, which must be validated, with the head's origin at `head`.
 hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose* head,
                           struct hair_draw_plan* plan);

@@ -150,6 +150,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
     gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
+    gl->compiles_late = gl->software != 0;
     gl->subgroup = find_subgroup(gl);
     if (gl->subgroup && has_extension(gl, "GL_NV_shader_thread_group"))
         gl->GetIntegerv(GL_SM_COUNT_NV, &gl->units);
@@ -157,6 +158,8 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
         has_extension(gl, "GL_ARB_gpu_shader_int64") && has_extension(gl, "GL_NV_shader_atomic_int64");
     gl->parallel = has_extension(gl, "GL_KHR_parallel_shader_compile") ||
                    has_extension(gl, "GL_ARB_parallel_shader_compile");
+    if (!find_function(desc, "glMaxShaderCompilerThreadsKHR", &gl->max_compiler_threads))
+        find_function(desc, "glMaxShaderCompilerThreadsARB", &gl->max_compiler_threads);
     return HAIR_OK;
 }
 

@@ -83,6 +83,8 @@ struct hair_gl_program {
     GLuint program; // 0 if there is no built-in program yet.
     GLuint begun; // Program that the driver compiles asynchronously. 0 if there is none.
     struct hair_gl_key key; // Cache key of `begun`.
+    bool is_warm; // True once the program has run. See warm_up.c.
+    uint32_t asked; // Number of the last asynchronous round that needed the program.
     struct hair_gl_timer timer;
     uint32_t max_groups; // Work groups in a dispatch of a GPU. 0 until the pass runs.
     double ms_per_group; // Time of a group of a software rasteriser in the last run, ms.
@@ -128,13 +130,20 @@ struct hair_gl {
     struct hair_gl_memory memory;
     int timings;
     int software; // Nonzero if the driver is a software rasteriser.
+    bool compiles_late; // True if the driver compiles machine code when a program first runs.
     int subgroup; // Nonzero if a work group of 32 threads is one subgroup.
     GLint units; // Number of multiprocessors of the GPU. 0 if unknown.
     int long_atomics; // Nonzero if storage buffers support 64-bit atomics.
     uint32_t program_generation; // Number of times that all programs have been compiled.
     int async; // Nonzero if needed programs are compiled asynchronously.
+    uint32_t round; // Number of rounds from hair_gl_begin_async() to hair_gl_end_async() so far.
     uint32_t pending; // Number of asynchronous programs that are not ready.
+    uint32_t work; // Number of programs that this round has begun, finished, loaded or run.
+    double round_start; // Time of the start of this round, ms.
     int parallel; // Nonzero if the driver compiles in its own threads.
+    // Function that sets the number of these threads, or NULL.
+    void(APIENTRY* max_compiler_threads)(GLuint count);
+    uint32_t compiled; // Number of programs that the driver has compiled.
     struct hair_gl_program** program; // Programs of all passes needed so far.
     uint32_t programs, room;
     struct hair_gl_profiler* profiler; // Profiler of the active instance. NULL disables it.
@@ -185,11 +194,20 @@ hair_result hair_gl_ensure_program(struct hair_gl* gl, hair_gl_pass pass);
 hair_result hair_gl_ensure_programs(struct hair_gl* gl, hair_gl_pass first, hair_gl_pass last,
                                     hair_gl_pass wanted);
 
-// Make hair_gl_ensure_program() compile asynchronously until hair_gl_end_async(). All missing
-// programs start at once if the driver compiles in parallel, otherwise one does.
+// Maximum work on programs in a round of asynchronous compilation. A program is begun, finished,
+// loaded or run. The first number is for GPUs whose driver compiles in parallel.
+#define HAIR_GL_PARALLEL_WORK 4
+#define HAIR_GL_SERIAL_WORK 1
+
+// Make hair_gl_ensure_program() compile asynchronously until hair_gl_end_async(). A round does a
+// limited amount of work, and leaves the rest to the next.
 void hair_gl_begin_async(struct hair_gl* gl);
 // Stop asynchronous compilation. Return the number of programs that are not ready.
 uint32_t hair_gl_end_async(struct hair_gl* gl);
+
+// Run a compute program once on nothing, because software rasterisers compile machine code when a
+// program first runs. Other programs and drivers need no such run. Defined in warm_up.c.
+void hair_gl_warm_up(struct hair_gl* gl, struct hair_gl_program* own);
 
 // Compile all needed programs again. Programs that fail keep their old version. Return the first
 // failure.
@@ -393,6 +411,8 @@ void hair_gl_run_with(struct hair_gl* gl, hair_gl_pass pass, GLuint program, uin
 // Run a compute pass with the group counts from three numbers at the byte offset `at` of a buffer.
 // A software rasteriser waits for the numbers, so that the pass can be divided.
 void hair_gl_run_indirect(struct hair_gl* gl, hair_gl_pass pass, GLuint program, GLuint buffer, size_t at);
+// Return the wall time, ms.
+double hair_gl_now(void);
 // Return the duration of the last finished run of a pass, in ms.
 float hair_gl_pass_ms(struct hair_gl* gl, struct hair_gl_program* of);
 

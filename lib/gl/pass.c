@@ -72,6 +72,7 @@ void hair_gl_begin(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_find(gl, pass);
     HAIR_ASSERT(own);
+    own->is_warm = true;
     struct hair_gl_timer* timer = &own->timer;
     gl->PushDebugGroup(GL_DEBUG_SOURCE_THIRD_PARTY, (GLuint)pass, -1, own->label);
     // Use timestamps, because the application may have an elapsed-time query active.
@@ -105,7 +106,7 @@ static void wait_for_writes(struct hair_gl* gl)
 
 // Return the wall time in ms. The C library of Windows has no timespec_get(), and its clock() tells
 // wall time.
-static double now(void)
+double hair_gl_now(void)
 {
 #ifdef _WIN32
     return 1e3 * (double)clock() / CLOCKS_PER_SEC;
@@ -152,12 +153,12 @@ static uint32_t expect_groups(double ms, double ms_per_group, double max)
 static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own, GLuint program,
                                  struct groups groups)
 {
-    double start = now(), begun = start, max = own->ms_per_group > 0 ? HAIR_MAX_GROUPS : FIRST_GROUPS;
+    double start = hair_gl_now(), begun = start, max = own->ms_per_group > 0 ? HAIR_MAX_GROUPS : FIRST_GROUPS;
     uint32_t count = 0, part = expect_groups(PROBE, own->ms_per_group, max);
     for (uint32_t first = groups.first; first < groups.end; first += count) {
         count = groups.end - first < part ? groups.end - first : part;
         dispatch_part(gl, program, first, count, groups.all);
-        double end = now();
+        double end = hair_gl_now();
         part = expect_groups(PART, (end - begun) / count, MAX_GROWTH * count);
         begun = end;
     }

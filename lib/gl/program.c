@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#define MAX_ROUND 2.0 // Time after which a round of asynchronous compilation begins nothing, ms.
+
 static const char* const stage_features[] = {
 #define FEATURE(name, define) define,
 #include "lib/gl/passes.inl"
@@ -161,6 +163,7 @@ static hair_result start_program(struct recipe* recipe, GLuint program)
         gl->TransformFeedbackVaryings(program, 1, &recipe->captured, GL_INTERLEAVED_ATTRIBS);
     if (gl->cache.put) gl->ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
     gl->LinkProgram(program);
+    ++gl->compiled;
     return HAIR_OK;
 }
 
@@ -273,6 +276,7 @@ static hair_result compile_again(struct hair_gl* gl, struct hair_gl_program* own
     HAIR_TRY(hair_gl_link_pass(gl, NULL, own->pass, &program));
     if (own->program) gl->DeleteProgram(own->program);
     own->program = program;
+    own->is_warm = false;
     return HAIR_OK;
 }
 
@@ -290,13 +294,32 @@ static void finish_program(struct hair_gl* gl, struct hair_gl_program* own)
     own->begun = 0;
 }
 
+static bool needs_warm_up(const struct hair_gl* gl, const struct hair_gl_program* own)
+{
+    return gl->compiles_late && !own->is_warm && strstr(hair_gl_row_stages(own->pass), ".comp");
+}
+
+// Return whether this round may do more work, and count the work. Otherwise the program stays
+// pending.
+static bool may_work(struct hair_gl* gl)
+{
+    uint32_t max = gl->parallel && !gl->software ? HAIR_GL_PARALLEL_WORK : HAIR_GL_SERIAL_WORK;
+    bool is_late = gl->work > 0 && hair_gl_now() - gl->round_start > MAX_ROUND;
+    if (gl->work >= max || is_late) {
+        ++gl->pending;
+        return false;
+    }
+    ++gl->work;
+    return true;
+}
+
 static hair_result begin_async(struct hair_gl* gl, struct hair_gl_program* own)
 {
     GLuint program = 0;
     int kept = 0;
     HAIR_ASSERT(gl->async && !own->begun && !own->program);
-    // The first missing program is compiled now.
-    if (!gl->parallel && gl->pending++) return HAIR_OK;
+    if (!may_work(gl)) return HAIR_OK;
+    ++gl->pending; // The next round finishes or runs the program.
     struct recipe* recipe = open_recipe(gl, NULL, own->pass, own->label, hair_gl_row_stages(own->pass));
     if (!recipe) return HAIR_ERROR_MEMORY;
     hair_result result = recipe->result ? recipe->result : begin_program(recipe, &own->key, &kept, &program);
@@ -304,7 +327,6 @@ static hair_result begin_async(struct hair_gl* gl, struct hair_gl_program* own)
     HAIR_TRY(result);
     *(kept ? &own->program : &own->begun) = program;
     if (!kept && !gl->parallel) finish_program(gl, own);
-    if (!kept && gl->parallel) ++gl->pending;
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
 }
 
@@ -314,16 +336,30 @@ static hair_result look_after(struct hair_gl* gl, struct hair_gl_program* own)
     GLint there = 0;
     gl->GetProgramiv(own->begun, GL_COMPLETION_STATUS_KHR, &there);
     gl->pending += !there;
-    if (there) finish_program(gl, own);
+    if (there && may_work(gl)) {
+        finish_program(gl, own);
+        gl->pending += own->program && needs_warm_up(gl, own);
+    }
     return own->program || own->begun ? HAIR_OK : compile_again(gl, own);
+}
+
+// Advance a program that this round has not looked at.
+static hair_result advance_async(struct hair_gl* gl, struct hair_gl_program* own)
+{
+    if (own->asked == gl->round) return HAIR_OK;
+    own->asked = gl->round;
+    if (own->begun) return look_after(gl, own);
+    if (!own->program) return begin_async(gl, own);
+    if (needs_warm_up(gl, own) && may_work(gl)) hair_gl_warm_up(gl, own);
+    return HAIR_OK;
 }
 
 hair_result hair_gl_ensure_program(struct hair_gl* gl, hair_gl_pass pass)
 {
     struct hair_gl_program* own = hair_gl_get_or_add(gl, pass);
     if (!own) return HAIR_ERROR_MEMORY;
+    if (gl->async) return advance_async(gl, own);
     if (own->program) return HAIR_OK;
-    if (gl->async) return own->begun ? look_after(gl, own) : begin_async(gl, own);
     if (own->begun) finish_program(gl, own);
     return own->program ? HAIR_OK : compile_again(gl, own);
 }
@@ -341,7 +377,11 @@ void hair_gl_begin_async(struct hair_gl* gl)
 {
     HAIR_ASSERT(!gl->async);
     gl->async = 1;
-    gl->pending = 0;
+    ++gl->round;
+    gl->pending = gl->work = 0;
+    gl->round_start = hair_gl_now();
+    // Some drivers use fewer threads than the default promises.
+    if (gl->round == 1 && gl->parallel && gl->max_compiler_threads) gl->max_compiler_threads(UINT32_MAX);
 }
 
 uint32_t hair_gl_end_async(struct hair_gl* gl)

@@ -193,6 +193,7 @@ static void every_other_suite_runs(void** state)
            "drawn,\"tessellation, compute\",redblack,tessellation,200,166,64,4,");
     expect(0, "$T skip --quick --case 'idle head' --strands 100 --csv - | grep -cE ',0,[0-9]+,[0-9]+,3'",
            "1");
+    expect(0, "$T startup --quick --case memory --csv - | grep -c 'solve\\|smooth\\|,all,'", "6");
     // Two frames have 4,000 followers. No follower that was inside remains inside.
     expect(0, "$T collision --quick --case shoulders --method push_out --csv -", ",0,1,");
 }
