@@ -22,10 +22,6 @@ HAIR_SIZE(hair_guide)
 // A guide vertex at rest, in groom space.
 struct hair_rest {
     hair_vec4 position; // xyz: m. w: distance to the next vertex, m. 0 for the tip.
-    // xyz: unit direction to the next vertex, in the frame that is parallel-transported here from
-    // the previous segment. At the root it is in the root frame. w: distance to the vertex after
-    // the next, m.
-    hair_vec4 direction;
     // Frame of the segment to the next vertex, parallel-transported from the root's frame. Unit
     // quaternion, y along the segment.
     hair_vec4 frame;

@@ -33,7 +33,9 @@ void relax_distance(uint i, uint count, uint phase, uint first)
 void relax_bend(uint i, uint count, uint phase, uint first, float stiffness)
 {
     uint a = 4u * (i / 2u) + (i & 1u) + 2u * phase;
-    if (a + 2u < count) relax_link(a, a + 2u, rest[first + a].direction.w, stiffness);
+    if (a + 2u >= count) return;
+    vec3 from = rest[first + a].position.xyz, to = rest[first + a + 2u].position.xyz;
+    relax_link(a, a + 2u, distance(from, to), stiffness);
 }
 
 #include "sim/capsules.glsl"

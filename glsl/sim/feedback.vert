@@ -26,8 +26,7 @@ uint first, count; // first vertex of the guide, and number of its vertices
 
 vec3 vertex(uint i) { return texelFetch(state_texture, 2 * int(first + i)).xyz; }
 vec3 beside(uint i) { return texelFetch(state_texture, 2 * int(first + i) + 1).xyz; }
-vec4 rest_position(uint i) { return texelFetch(rest_texture, 3 * int(first + i)); }
-vec4 rest_direction(uint i) { return texelFetch(rest_texture, 3 * int(first + i) + 1); }
+vec4 rest_position(uint i) { return texelFetch(rest_texture, 2 * int(first + i)); }
 
 vec3 pull(vec3 position, vec3 target, float frequency_squared, float dt)
 {
@@ -57,7 +56,9 @@ vec3 relax_bend(uint i, uint phase)
 {
     if (i < 2u * phase) return vertex(i);
     uint a = i - ((i - 2u * phase) % 4u & 2u);
-    return relaxed(i, a, a + 2u, rest_direction(a).w, params.bend);
+    // relaxed() takes no vertex beyond the tip.
+    vec3 from = rest_position(a).xyz, to = rest_position(min(a + 2u, count - 1u)).xyz;
+    return relaxed(i, a, a + 2u, distance(from, to), params.bend);
 }
 
 angular_moves angular_of(uint i, vec4 head)

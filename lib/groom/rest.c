@@ -106,19 +106,14 @@ static void write_rest(const float* p, uint32_t count, struct hair_guide* guide,
     hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
     double total = 0;
     for (uint32_t i = 0; i < count; ++i) {
-        hair_vec3 at = vertex(p, i), direction = Y_AXIS;
-        float length = 0, over_two = 0;
-        if (i + 1 < count) length = hair_distance(at, vertex(p, i + 1));
-        if (i + 2 < count) over_two = hair_distance(at, vertex(p, i + 2));
+        hair_vec3 at = vertex(p, i);
+        float length = i + 1 < count ? hair_distance(at, vertex(p, i + 1)) : 0;
         if (i > 0 && i + 1 < count) {
-            hair_vec3 to = segment_vector(p, i);
-            direction = hair_normalize(hair_rotate(hair_quat_conjugate(frame), to), Y_AXIS);
-            hair_quat turn = hair_quat_between(segment_vector(p, i - 1), to);
+            hair_quat turn = hair_quat_between(segment_vector(p, i - 1), segment_vector(p, i));
             frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
         }
         rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
-        rest[i].direction = (hair_vec4){direction.x, direction.y, direction.z, over_two};
-        HAIR_ASSERT(hair_is_unit(direction) && hair_quat_is_unit(frame));
+        HAIR_ASSERT(hair_quat_is_unit(frame));
         rest[i].frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         total += (double)length;
     }

@@ -2,6 +2,8 @@
 // when they are no longer needed. Their size stays within the limit of the application.
 #include "tests/support/scene.h"
 
+#include <stdio.h>
+
 enum { SIZE = 48, VALUES = 4 * SIZE * SIZE };
 
 static hair_result create(struct hair_test_scene* f, hair_instance** out)
@@ -185,10 +187,45 @@ static void cached_vertices_stay_for_depth_when_colors_are_freed(void** state)
     hair_test_scene_free(&f);
 }
 
+// Return the memory of guides after a step and a draw, in bytes per guide vertex.
+static double bytes_per_vertex(struct hair_test* test, float turn)
+{
+    static float pixels[VALUES];
+    struct hair_test_scene f = hair_test_scene_make(test, hair_egl_get_proc);
+    struct hair_test_handmade wanted = hair_test_handmade_default();
+    hair_desc desc = hair_desc_default();
+    hair_physics physics = hair_physics_default();
+    hair_view view = hair_test_view_by(HAIR_RENDER_PATH_TESSELLATION);
+    if (turn == 0) physics.shape.gravity_preload = 0; // The preload bends guides at rest.
+    desc.physics = &physics;
+    wanted.guides = 64;
+    wanted.fewest = wanted.max = 32;
+    wanted.turn = turn;
+    desc.thread_mapping = HAIR_THREAD_MAPPING_WORKGROUP_PER_GUIDE;
+    hair_test_scene_add(&f, &wanted, &desc);
+    hair_test_frame_make(&f.frame, SIZE, SIZE, GL_RGBA32F, 0);
+    hair_test_ok(test, hair_step(f.hair, 0.02f));
+    draw(&f, &view, pixels);
+    assert_int_equal(turn > 0, f.hair->sim.rods->mixed != 0);
+    uint64_t bytes = hair_test_report_row(test, f.hair, "solve").bytes;
+    bytes += hair_test_report_row(test, f.hair, "smooth").bytes;
+    hair_test_scene_free(&f);
+    return (double)bytes / (wanted.guides * wanted.max);
+}
+
+static void guide_vertex_takes_a_limited_number_of_bytes(void** state)
+{
+    double straight = bytes_per_vertex(*state, 0), curled = bytes_per_vertex(*state, 0.1f);
+    printf("a guide vertex takes %.1f bytes if straight, %.1f if curled\n", straight, curled);
+    assert_true(straight > 0 && straight <= 345);
+    assert_true(curled > 0 && curled <= 328);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
+        HAIR_TEST(guide_vertex_takes_a_limited_number_of_bytes),
         HAIR_TEST(memory_is_the_sum_of_instances_and_is_all_freed),
         HAIR_TEST(memory_over_the_limit_is_refused_and_changes_nothing),
         HAIR_TEST(unused_view_memory_is_freed_and_made_again_on_use),

@@ -164,12 +164,19 @@ void hair_reference_distance(hair_reference_guide g, uint32_t phase, double* pos
     for (uint32_t a = phase; a + 1 < g.guide->count; a += 2) relax(s, a, a + 1, g.rest[a].position.w, 1);
 }
 
+static double rest_distance(const hair_rest& a, const hair_rest& b)
+{
+    double x = double(b.position.x) - double(a.position.x), y = double(b.position.y) - double(a.position.y);
+    double z = double(b.position.z) - double(a.position.z);
+    return std::sqrt(x * x + y * y + z * z);
+}
+
 void hair_reference_bend(hair_reference_guide g, uint32_t phase, double* positions)
 {
     strand s{positions};
     for (uint32_t block = 2 * phase; block < g.guide->count; block += 4)
         for (uint32_t a = block; a < block + 2 && a + 2 < g.guide->count; ++a)
-            relax(s, a, a + 2, g.rest[a].direction.w, g.params->bend);
+            relax(s, a, a + 2, rest_distance(g.rest[a], g.rest[a + 2]), g.params->bend);
 }
 
 void hair_reference_collide(hair_reference_guide g, uint32_t substep, double* positions)

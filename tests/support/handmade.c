@@ -61,22 +61,15 @@ static void place_guide(struct hair_guide* guide, struct hair_rest* rest, hair_v
     for (uint32_t i = 0; i < guide->count; ++i) {
         int tip = i + 1 == guide->count;
         float length = tip ? 0 : wanted->segment * between(random, 0.7f, 1.3f);
-        hair_vec3 own = Y_AXIS;
         if (i > 0 && !tip) {
             hair_vec3 to = hair_normalize(turn_a_little(direction, wanted->turn, random), direction);
-            own = hair_rotate(hair_quat_conjugate(frame), to);
             frame = hair_quat_normalize(hair_quat_multiply(hair_quat_between(direction, to), frame));
             direction = to;
         }
         rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
-        rest[i].direction = (hair_vec4){own.x, own.y, own.z, 0};
         rest[i].frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
         at = hair_add(at, hair_scale(direction, length));
         guide->arc_length += length;
-    }
-    for (uint32_t i = 0; i + 2 < guide->count; ++i) {
-        hair_vec4 a = rest[i].position, b = rest[i + 2].position;
-        rest[i].direction.w = hair_distance(hair_v3(a.x, a.y, a.z), hair_v3(b.x, b.y, b.z));
     }
 }
 

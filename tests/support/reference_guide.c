@@ -14,7 +14,6 @@ struct hair_test_guide hair_test_guide_straight_down(uint32_t count, float link)
                                 .guide = {.root_frame = {1, 0, 0, 0}, .count = count}};
     for (uint32_t i = 0; i < count; ++i) {
         f.rest[i].position = (hair_vec4){0, -link * (float)i, 0, i + 1 < count ? link : 0};
-        f.rest[i].direction = (hair_vec4){0, 1, 0, i + 2 < count ? 2 * link : 0};
         f.state[i].position[1] = (double)(-link * (float)i);
     }
     f.params.keep = 1;
