@@ -16,7 +16,8 @@ ROW("Curls: the strands of a lock turn together and drift apart towards their ti
 PICTURE("Type 2b: waves of 20 mm", TYPE("2b"))
 PICTURE("Type 3a: curls of 25 mm", TYPE("3a"))
 PICTURE("Type 3b: ringlets of 14 mm", TYPE("3b"))
-PICTURE("Type 4a: coils of 5 mm", CLOSE "--style bob --guides 400 --set strand.radius=8e-5 --set look=4a")
+PICTURE("An afro of coils",
+        "--scene afro --motion still --frames 0:1 --followers 30000 --set strand.radius=9e-5")
 
 ROW("Colours")
 PICTURE("Blond", CLOSE FINE "--set color=blond")

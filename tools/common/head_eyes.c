@@ -79,17 +79,17 @@ void head_put_eyes(struct head_builder* builder)
 
 // Hairs -------------------------------------------------------------------------------------------
 
-#define JOINTS 5u // Cross sections of a hair.
 static const struct head_paint dark_hair = {{0.022f, 0.014f, 0.010f}, 0, 0.35f, 0.8f};
 
-// Add a thin cone from a root, which bends from one direction to another.
+// Add a thin cone from a root, which bends from one direction to another. It has `joints` cross
+// sections.
 static void put_hair(struct head_builder* builder, point root, point from, point to, float length,
-                     float radius)
+                     float radius, uint32_t joints)
 {
     uint32_t first = builder->mesh.vertex_count;
     point p = root;
-    for (uint32_t i = 0; i < JOINTS; ++i) {
-        float t = (float)i / (JOINTS - 1);
+    for (uint32_t i = 0; i < joints; ++i) {
+        float t = (float)i / (float)(joints - 1);
         point way = head_unit(head_add(head_add((point){0, 0, 0}, from, 1 - t), to, t));
         point across = head_unit(head_cross(way, (point){0.3f, 0.2f, 0.93f}));
         point over = head_cross(across, way);
@@ -98,9 +98,9 @@ static void put_hair(struct head_builder* builder, point root, point from, point
             point n = head_add(head_add((point){0, 0, 0}, across, cosf(turn)), over, sinf(turn));
             head_put_vertex(builder, head_add(p, n, radius * (1 - 0.85f * t)), n, &dark_hair);
         }
-        p = head_add(p, way, length / (JOINTS - 1));
+        p = head_add(p, way, length / (float)(joints - 1));
     }
-    for (uint32_t i = 0; i + 1 < JOINTS; ++i)
+    for (uint32_t i = 0; i + 1 < joints; ++i)
         for (uint32_t k = 0; k < 3; ++k) {
             uint32_t a = first + 3 * i + k, b = first + 3 * i + (k + 1) % 3;
             head_put_triangle(builder, a, b, b + 3);
@@ -181,7 +181,7 @@ static void put_brows(struct head_builder* builder, const uint32_t* list, uint32
         way = head_unit(head_add(way, n, -head_dot(way, n)));
         point lifted = head_unit(head_add(way, n, 0.35f)), lying = head_unit(head_add(way, n, -0.04f));
         float length = (0.0050f + 0.0035f * size) * head_mix(0.75f, 1, head_smooth(0.010f, 0.020f, x));
-        put_hair(builder, head_add(p, n, -0.0002f), lifted, lying, length, 4.5e-5f);
+        put_hair(builder, head_add(p, n, -0.0002f), lifted, lying, length, 4.5e-5f, 5);
     }
 }
 
@@ -211,7 +211,7 @@ static void put_lid(struct head_builder* builder, const float lid[HEAD_LID_POINT
         point to = {1.1f * (t - 0.30f) + 0.5f * jitter, 1.3f * lift, 0.5f};
         p.x *= side, from.x *= side, to.x *= side;
         put_hair(builder, p, head_unit(from), head_unit(to), length * size * head_mix(0.65f, 1.1f, t),
-                 5.5e-5f);
+                 5.5e-5f, 5);
     }
 }
 
@@ -241,7 +241,7 @@ static void put_fine_hair(struct head_builder* builder, point p, point n, uint32
     float near = head_smooth(-0.014f, 0.001f, head_above_hairline(p));
     point lifted = head_unit(head_add(way, n, 0.5f)), lying = head_unit(head_add(way, n, -0.1f));
     put_hair(builder, head_add(p, n, -0.0003f), lifted, lying,
-             (0.004f + 0.012f * size * size) * near + 0.002f, 3.0e-5f);
+             (0.004f + 0.012f * size * size) * near + 0.002f, 3.0e-5f, 3);
 }
 
 void head_put_fringe(struct head_builder* builder)
