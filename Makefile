@@ -103,7 +103,7 @@ view: setup ## Build and open hair-view, a window with every option in a panel
 
 view-film: setup ## build/view.mp4: a tour of hair-view, by a script
 	@$(MAKE) -j$(JOBS) $(B)/hair-view
-	$(B)/hair-view --script tools/view/film.txt --frames 1150 --quality 3 --film build/view.mp4
+	$(B)/hair-view --script tools/view/film.txt --frames 1000 --quality 2 --film build/view.mp4
 
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery

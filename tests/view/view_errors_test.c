@@ -67,6 +67,21 @@ static void motion_error_is_larger_for_solvers_that_do_not_converge(void** state
     assert_true(contact[2] > 3 * contact[1] && contact[2] < 1);
 }
 
+// Hair that was in motion is put at rest. Colliders must not move through it from their last pose.
+static void motion_error_does_not_depend_on_earlier_motion(void** state)
+{
+    (void)state;
+    double error[2];
+    for (int i = 0; i < 2; ++i) {
+        measure("", i ? "wait 20\nkey G\nwait 22" : "key G\nwait 22", "motion_error");
+        json_t* root = hair_test_shell_json("r.json");
+        error[i] = hair_test_json_number(json_object_get(root, "reference"), "rms");
+        json_decref(root);
+    }
+    print_message("    %g from the start, %g later\n", error[0], error[1]);
+    assert_true(error[0] > 0 && error[1] > 0.99 * error[0] && error[1] < 1.01 * error[0]);
+}
+
 // A wind that varies from place to place, which the reference does not have.
 static void hair_in_wind_has_no_reference(void** state)
 {
@@ -116,6 +131,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(image_error_is_larger_for_pictures_of_low_quality),
         cmocka_unit_test(motion_error_is_larger_for_solvers_that_do_not_converge),
+        cmocka_unit_test(motion_error_does_not_depend_on_earlier_motion),
         cmocka_unit_test(hair_in_wind_has_no_reference),
         cmocka_unit_test(pareto_panel_measures_settings_and_takes_one),
     };

@@ -55,10 +55,15 @@ int view_record_begin(viewer& viewer, const std::string& path)
     return code;
 }
 
+bool view_record_is_due(const viewer& viewer)
+{
+    return viewer.film.is_on && viewer.frame % film_step == 0;
+}
+
 int view_record_frame(viewer& viewer)
 {
     view_film& film = viewer.film;
-    if (!film.is_on || viewer.frame % film_step) return HAIR_EXIT_OK;
+    if (!view_record_is_due(viewer)) return HAIR_EXIT_OK;
     bool is_resized = film.writer.width != (uint32_t)viewer.stage.width ||
                       film.writer.height != (uint32_t)viewer.stage.height;
     if (is_resized) return view_record_end(viewer);

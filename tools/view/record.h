@@ -9,6 +9,8 @@ int view_write_picture(const viewer& viewer, const std::string& path);
 
 // Begin a film of the window, .mp4. Return an exit status.
 int view_record_begin(viewer& viewer, const std::string& path);
+// Return whether the film takes this frame.
+bool view_record_is_due(const viewer& viewer);
 // Add the window to the film, if there is one. A resized window ends the film.
 int view_record_frame(viewer& viewer);
 // End the film and keep the file. Return an exit status.

@@ -14,6 +14,8 @@ namespace
 {
 
 constexpr double longest_substep = 1.0 / 3840; // s
+// Distance from a collider's margin at which a guide may have touched it within the frame, m.
+constexpr double nearness = 0.005;
 constexpr size_t longest_queue = 60; // frames
 
 // Return the pose of a rigid transform, column-major.
@@ -183,7 +185,7 @@ void view_reference_begin(view_reference& reference, const view_session& session
     view_reference_end(reference);
     uint32_t count = session.info.guide_count, wanted = std::min(count, max_guides);
     double radius = (double)scene.settings.physics.fiber.radius;
-    reference.margin = 1.05 * (double)scene.settings.physics.collision.margin + 1e-5;
+    reference.margin = (double)scene.settings.physics.collision.margin + nearness;
     reference.line_density =
         3.14159265358979 * radius * radius * (double)scene.settings.physics.fiber.density;
     reference.generation = session.generation;

@@ -56,6 +56,12 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
     uint32_t count = hair_head_rig_colliders(&scene, time, session.transform, session.colliders.data());
     std::copy(others, others + other_count, session.colliders.begin() + count);
     count += other_count;
+    session.colliders.resize(count);
+    // Keys of a new generation, because colliders must not sweep through hair that was put at rest.
+    for (uint32_t i = 0; i < count; ++i) {
+        uint64_t& key = session.colliders[i].key;
+        key = (key ? key : i + 1) ^ ((uint64_t)session.generation << 40);
+    }
     result = hair_set_colliders(session.hair, session.colliders.data(), count, sizeof(hair_collider));
     if (result || !session.twin) return result;
     return hair_set_colliders(session.twin, session.colliders.data(), count, sizeof(hair_collider));

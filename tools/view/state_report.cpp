@@ -78,6 +78,22 @@ json_t* stages_of(const viewer& viewer)
     return stages;
 }
 
+// Add the debug view, and the messages of OpenGL.
+void add_debug(const viewer& viewer, json_t* root)
+{
+    const view_debug& debug = viewer.debug;
+    json_object_set_new(root, "debug",
+                        json_pack("{s:s, s:f, s:f, s:i, s:i, s:f}", "mode", view_debug_name(debug.mode),
+                                  "low", (double)debug.low, "high", (double)debug.high, "strands",
+                                  (int)debug.strands, "drawn", (int)debug.drawn, "fragments",
+                                  (double)debug.fragments));
+    json_object_set_new(root, "shows_gl_messages", json_boolean(viewer.gl_messages.shows));
+    json_t* gl_messages = json_array();
+    for (const view_gl_message& message : viewer.gl_messages.list)
+        json_array_append_new(gl_messages, json_string(message.text.c_str()));
+    json_object_set_new(root, "gl_messages", gl_messages);
+}
+
 } // namespace
 
 int view_state_report(const viewer& viewer, const std::string& path)
@@ -113,18 +129,13 @@ int view_state_report(const viewer& viewer, const std::string& path)
     add_program(root);
     add_memory(viewer, root);
     json_object_set_new(root, "stages", stages_of(viewer));
+    json_object_set_new(root, "frame_ms", json_real(viewer.frame_ms));
+    json_object_set_new(
+        root, "quality",
+        json_string(
+            view_quality_of(viewer.is_moving ? viewer.governor.level : viewer.options.quality).about));
     json_object_set_new(root, "film", json_boolean(viewer.film.is_on));
-    const view_debug& debug = viewer.debug;
-    json_object_set_new(root, "debug",
-                        json_pack("{s:s, s:f, s:f, s:i, s:i, s:f}", "mode", view_debug_name(debug.mode),
-                                  "low", (double)debug.low, "high", (double)debug.high, "strands",
-                                  (int)debug.strands, "drawn", (int)debug.drawn, "fragments",
-                                  (double)debug.fragments));
-    json_object_set_new(root, "shows_gl_messages", json_boolean(viewer.gl_messages.shows));
-    json_t* gl_messages = json_array();
-    for (const view_gl_message& message : viewer.gl_messages.list)
-        json_array_append_new(gl_messages, json_string(message.text.c_str()));
-    json_object_set_new(root, "gl_messages", gl_messages);
+    add_debug(viewer, root);
     json_t* messages = json_array();
     for (const std::string& message : viewer.messages)
         json_array_append_new(messages, json_string(message.c_str()));

@@ -246,7 +246,7 @@ int run_frame(viewer& viewer)
 {
     bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
     bool is_scripted = !viewer.options.script.empty();
-    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || viewer.film.is_on ||
+    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || view_record_is_due(viewer) ||
                  viewer.wants_picture || viewer.wants_bug_report || viewer.image_error.is_on;
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
     // The debug view counts while it draws.
