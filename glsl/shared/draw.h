@@ -128,6 +128,9 @@ struct hair_draw_params {
     hair_uint chunks;     // Work groups per patch in passes over follower vertices.
     float     push_out_weight;        // Fraction of the push out of colliders that the view shows.
     hair_uint reversed_maps; // Bit per shadow map. 1 if its depth falls away from the light.
+    hair_uint guides;         // Number of guides.
+    hair_uint shape_vertices; // Vertices of a follower's shape. 0 if followers have none.
+    hair_uint unused0, unused1;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

@@ -28,12 +28,21 @@ struct hair_rest {
 };
 HAIR_SIZE(hair_rest)
 
+// Texels of two vertices each that the shape of a follower takes, with a vertex beyond each end.
+#define HAIR_SHAPE_TEXELS(vertices) (((vertices) + 3) / 2)
+
 // A strand that is interpolated while drawing. t goes from 0 at its root to 1 at its tip, and u = t
 // length_ratio. g_k(u) and F_k(u) are the position and frame of guide k. o(t) is the cubic Bezier
 // curve of `offset`.
 //   single(t) = g_0(u) + F_0(u) o(t)
 //   multi(t)  = (1 - weight1 - weight2) g_0(u) + weight1 g_1(u) + weight2 g_2(u)
 //               + F_0(u) (offset[1..3].w)
+// With multi = -1 the follower has a shape of its own, c(t), from its root in the root frame of
+// guide 0, in units of offset[2].w. D_k(t) is the displacement of guide k, see
+// strands/displace.comp. offset[3].w is the follower's number. Its shape is a Catmull-Rom spline,
+// whose vertices are snorms of 16 bits, and follows all followers in their buffer.
+//   own(t) = g_0(0) + F_0(0) (offset[0].xyz + c(t))
+//            + offset[1].w D_0(t) + weight1 D_1(t) + weight2 D_2(t)
 struct hair_follower {
     hair_uint guide0, guide1, guide2;
     hair_uint seed;
@@ -41,7 +50,7 @@ struct hair_follower {
     // Its length as a fraction of guide 0's. Beyond 1 it goes on straight.
     float     length_ratio;
     // 0 for a single-strand follower. 1 for multi-strand at the root, tending to single-strand as
-    // it clumps.
+    // it clumps. -1 for a follower with a shape of its own.
     float     multi;
     // xyz: control points in guide 0's frame, m. [0].w: radius, as a fraction of the look's.
     hair_vec4 offset[4];

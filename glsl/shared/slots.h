@@ -15,6 +15,10 @@
 #define HAIR_BIND_TANGENT 4
 // hair_vec4[] per smoothed vertex. Unit quaternion, y along the strand.
 #define HAIR_BIND_FRAME 5
+// hair_vec4[] per smoothed vertex. Guides at rest, from the root and in the root frame, m. Of
+// strands/displace.comp, in place of HAIR_BIND_SOLVER_STATS. It writes the displacements of guides
+// behind the positions of smoothed guides.
+#define HAIR_BIND_GUIDE_SHAPE 6
 // Buffers of the rod solvers, in place of those of smoothed vertices, which they neither read nor
 // write.
 #define HAIR_BIND_ROD 3     // hair_rod[] per guide vertex. Read-only.

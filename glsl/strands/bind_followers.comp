@@ -31,6 +31,7 @@ void main()
     // Values that are not finite come from the application. Guides did not follow them either.
     if (!is_sound(vec4(single, 0.0)) || !is_sound(vec4(own, 0.0))) return;
     follower[i].offset[0].xyz = single;
+    if (follower[i].multi < 0.0) return; // It moves with displacements.
     follower[i].offset[1].w   = own.x;
     follower[i].offset[2].w   = own.y;
     follower[i].offset[3].w   = own.z;

@@ -4,6 +4,9 @@
 #include "shared.h"
 #include "strands/position_texture.glsl"
 
+// It has the shapes of followers too, see hair_follower.
+layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
+
 #ifdef HAIR_STORED
 layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer position_buffer
 {
@@ -28,7 +31,6 @@ hair_follower fetch_whole(uint number) { return stored_follower[number]; }
 #else
 layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
 layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
-layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
 
 vec4 fetch_position(int at) { return texelFetch(position_texture, at); }
 vec4 fetch_tangent(int at) { return texelFetch(tangent_texture, at); }

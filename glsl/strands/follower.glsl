@@ -79,10 +79,13 @@ struct repair {
 };
 const repair UNTOUCHED = repair(vec3(0.0), vec3(0.0), 0.0, 0.0);
 
+#include "strands/shape.glsl"
+
 // Return a point of a follower. Beyond t = 1 it goes on straight. `beyond` allows the follower to
 // be longer than its guides.
 hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
 {
+    if (follower.multi < 0.0) return interpolate_own(follower, t, r);
     float       u       = t * follower.length_ratio;
     float       v       = min(t, 1.0);
     float       s       = 1.0 - v;

@@ -101,6 +101,7 @@ void cut(inout hair_follower follower)
     follower.offset[2].xyz = abc;
     follower.offset[3].xyz = mix(abc, bcd, fraction);
     follower.length_ratio *= fraction;
+    if (follower.multi < 0.0) follower.multi *= fraction;
 }
 #endif
 

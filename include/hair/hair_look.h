@@ -18,8 +18,8 @@ HAIR_API hair_curve hair_curve_line(float root, float tip);
 
 // Choices -----------------------------------------------------------------------------------------
 
-/// Interpolation of followers between guides. Followers of HAIR_STRAND_SET_FULL always follow one
-/// guide each.
+/// Interpolation of followers between guides. Followers of HAIR_STRAND_SET_FULL keep the shape of
+/// their strand in every case, and move with three guides.
 typedef enum hair_interpolation {
     /// Blend of the two methods below by hair_look.clump.weight along the strand.
     HAIR_INTERPOLATION_MIXED = 0,

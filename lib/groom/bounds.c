@@ -25,7 +25,8 @@ static float reach_along(const struct hair_groom* groom, const struct hair_follo
 }
 
 // Return a bound of the distance of a follower from `from`. The follower is at most as far from its
-// guides as its control points.
+// guides as its control points. A follower with a shape of its own is at most its length from its
+// root.
 static float follower_reach(const struct hair_groom* groom, const struct hair_follower* follower,
                             hair_vec3 from)
 {

@@ -27,7 +27,8 @@ static hair_result make_followers(struct hair_groom_builder* builder)
     struct hair_groom* groom = builder->groom;
     HAIR_ASSERT(builder->candidate_count > 0 && builder->place);
     groom->info.follower_count = builder->candidate_count;
-    groom->followers = hair_alloc(builder->host, builder->candidate_count, sizeof *groom->followers);
+    if (find_source(builder->desc) == FROM_STRANDS) groom->shape_vertices = groom->max_vertices;
+    groom->followers = hair_alloc(builder->host, hair_groom_follower_bytes(groom) / 16, 16);
     if (!groom->followers) return hair_fail_memory(builder->host, "followers");
     switch (find_source(builder->desc)) {
     case FROM_STRANDS: return hair_strand_followers(builder);
@@ -85,11 +86,12 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_strands_free(builder->host, &builder->strands);
     hair_free(builder->host, builder->first);
     hair_free(builder->host, builder->length);
-    hair_free(builder->host, builder->shape_samples);
+    hair_free(builder->host, builder->features);
     hair_free(builder->host, builder->scalp);
     hair_free(builder->host, builder->density);
     hair_free(builder->host, builder->chosen);
     hair_free(builder->host, builder->owner);
+    hair_free(builder->host, builder->near);
     hair_free(builder->host, builder->bin_candidates);
     hair_free(builder->host, builder->bin_first);
     hair_free(builder->host, builder->bin_centres);
@@ -120,6 +122,13 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     return result;
 }
 
+// Followers, and pairs of vertices of their shapes.
+size_t hair_groom_follower_bytes(const struct hair_groom* groom)
+{
+    return groom->info.follower_count *
+           (sizeof *groom->followers + (size_t)16 * HAIR_SHAPE_TEXELS(groom->shape_vertices));
+}
+
 hair_groom* hair_groom_retain(hair_groom* groom)
 {
     HAIR_ASSERT(atomic_load(&groom->holders) > 0);
@@ -135,6 +144,7 @@ void hair_groom_release(hair_groom* groom)
     hair_free(&host, groom->guides);
     hair_free(&host, groom->rest);
     hair_free(&host, groom->followers);
+    hair_free(&host, groom->guide_shapes);
     hair_free(&host, groom->patches);
     hair_free(&host, groom->colors);
     hair_root_bindings_release(groom->root_bindings);

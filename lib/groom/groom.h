@@ -12,7 +12,13 @@ struct hair_groom {
     hair_groom_info info;
     struct hair_guide* guides; // info.guide_count
     struct hair_rest* rest; // info.guide_vertex_count
-    struct hair_follower* followers; // info.follower_count
+    // info.follower_count, and after them the shapes of followers, HAIR_SHAPE_TEXELS() of 16 bytes
+    // each.
+    struct hair_follower* followers;
+    // Number of vertices of a follower's shape, 0 if followers have none.
+    uint32_t shape_vertices;
+    // Smoothed guides at rest, from the root and in the root frame, m. NULL without shapes.
+    hair_vec4* guide_shapes;
     struct hair_patch* patches; // info.patch_count
     // rgb and an unused value at HAIR_STRAND_COLORS points of each follower. 65535 stands for 1.
     // NULL disables.
@@ -35,6 +41,8 @@ struct hair_groom {
 // is untouched.
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              hair_groom** out);
+// Return the size of followers and of their shapes.
+size_t hair_groom_follower_bytes(const struct hair_groom* groom);
 // Add a reference. Any thread. Return `groom`.
 hair_groom* hair_groom_retain(hair_groom* groom);
 // Remove a reference, and free the groom with the last one. Any thread. NULL is ignored.

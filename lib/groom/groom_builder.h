@@ -6,9 +6,13 @@
 #include "lib/asset/strands.h"
 #include "lib/groom/kd_tree.h"
 #include "lib/groom/groom.h"
+#include "lib/groom/guide_spline.h"
 
-// Number of points that represent the shape of a strand, at 0, 1/3, 2/3 and 1 of its length.
-#define HAIR_SHAPE_SAMPLES 4
+// Number of features of a strand: its root, the points at 1/3, 2/3 and 1 of its length from the
+// root, relative to its length, and the logarithm of its length. See lib/groom/import.c.
+#define HAIR_FEATURES 13
+// Number of guides between which a follower of full strands moves.
+#define HAIR_FOLLOWED 3
 
 // The closest point on the scalp to a root.
 struct hair_scalp_point {
@@ -25,13 +29,15 @@ struct hair_groom_builder {
     struct hair_strands strands; // after cleaning
     uint32_t* first; // first vertex of each strand
     float* length; // length of each strand, m
-    float* shape_samples; // xyz, HAIR_SHAPE_SAMPLES per strand
+    float* features; // HAIR_FEATURES per strand
 
     float* scalp; // xyz per vertex, in the space of the strands. NULL without a scalp.
     float* density; // mean over each triangle
 
     uint32_t* chosen; // strand of each guide
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
+    // The HAIR_FOLLOWED guides nearest to each strand, only with HAIR_STRAND_SET_FULL.
+    struct hair_kd_neighbor* near;
 
     // A candidate is a follower before its place in the draw order is known. It grows on a root
     // bin, which is a scalp triangle or a guide. The candidates of a root bin are neighbours.
@@ -74,6 +80,11 @@ hair_result hair_build_maps(struct hair_groom_builder* builder);
 void hair_apply_thickness(struct hair_groom_builder* builder);
 hair_result hair_build_patches(struct hair_groom_builder* builder);
 hair_result hair_strand_followers(struct hair_groom_builder* builder);
+// Give a follower the shape of its strand, and weights of the guides with which it moves.
+void hair_shape_follower(const struct hair_groom_builder* builder, uint32_t strand, uint32_t place,
+                         const struct hair_guide_spline* spline, struct hair_follower* follower);
+// Write a guide at rest in its root frame.
+void hair_shape_guide(struct hair_groom* groom, uint32_t guide, const struct hair_guide_spline* spline);
 hair_result hair_guide_followers(struct hair_groom_builder* builder);
 hair_result hair_scalp_followers(struct hair_groom_builder* builder);
 // Give followers the radii and colours of strands.

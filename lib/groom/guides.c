@@ -1,8 +1,8 @@
 // guides.c - selection of the strands that are simulated.
 //
-// From full strands the guides are chosen so that they represent the haircut. The shape samples of
-// a strand form a point in 12 dimensions. The distance between two points measures how far two
-// strands are apart along their length. The set is split at the mean of the axis of largest
+// From full strands the guides are chosen so that they represent the haircut. The features of a
+// strand form a point. The distance between two points measures how differently two strands move.
+// The set is split at the mean of the axis of largest
 // variance. The halves are split again, down to one guide per cell. The guide is the strand nearest
 // to the mean of its cell (Heckbert 1982, "Color image quantization for frame buffer display").
 #include "lib/groom/groom_builder.h"
@@ -10,14 +10,15 @@
 #include <float.h>
 #include <string.h>
 
-#define AXES (3 * HAIR_SHAPE_SAMPLES)
 // Number of cuts at the mean, after which sets are halved. It bounds the recursion on any input.
 #define DEEPEST 48
+// Rounds of the refinement of cells. More rounds hardly change the error of followers.
+#define ROUNDS 2
 
-_Static_assert(AXES <= HAIR_KD_MAX_DIMENSIONS, "a strand's marks are one point");
+_Static_assert(HAIR_FEATURES <= HAIR_KD_MAX_DIMENSIONS, "a strand's marks are one point");
 
 struct choice {
-    const float* shape_samples;
+    const float* features;
     uint32_t* chosen;
     uint32_t* owner;
     uint32_t found;
@@ -27,20 +28,20 @@ struct choice {
 struct cell {
     uint32_t* order;
     uint32_t count;
-    double mean[AXES], squared[AXES];
+    double mean[HAIR_FEATURES], squared[HAIR_FEATURES];
 };
 
 static struct cell measure_cell(const struct choice* choice, uint32_t* order, uint32_t count)
 {
     struct cell cell = {.order = order, .count = count};
     for (uint32_t i = 0; i < count; ++i)
-        for (int a = 0; a < AXES; ++a)
-            cell.mean[a] += (double)choice->shape_samples[AXES * (size_t)order[i] + (size_t)a];
+        for (int a = 0; a < HAIR_FEATURES; ++a)
+            cell.mean[a] += (double)choice->features[HAIR_FEATURES * (size_t)order[i] + (size_t)a];
     HAIR_ASSERT(count > 0);
-    for (int a = 0; a < AXES; ++a) cell.mean[a] /= count;
+    for (int a = 0; a < HAIR_FEATURES; ++a) cell.mean[a] /= count;
     for (uint32_t i = 0; i < count; ++i)
-        for (int a = 0; a < AXES; ++a) {
-            double d = (double)choice->shape_samples[AXES * (size_t)order[i] + (size_t)a] - cell.mean[a];
+        for (int a = 0; a < HAIR_FEATURES; ++a) {
+            double d = (double)choice->features[HAIR_FEATURES * (size_t)order[i] + (size_t)a] - cell.mean[a];
             cell.squared[a] += d * d;
         }
     return cell;
@@ -58,7 +59,7 @@ static struct cell measure_cell(const struct choice* choice, uint32_t* order, ui
 static double cell_weight(const struct cell* cell)
 {
     double sum = 0;
-    for (int a = 0; a < AXES; ++a) sum += cell->squared[a];
+    for (int a = 0; a < HAIR_FEATURES; ++a) sum += cell->squared[a];
     return cbrt(sum * sum);
 }
 
@@ -68,9 +69,9 @@ static void make_guide(struct choice* choice, const struct cell* cell)
     uint32_t nearest = cell->order[0];
     for (uint32_t i = 0; i < cell->count; ++i) {
         double squared = 0;
-        for (int a = 0; a < AXES; ++a) {
+        for (int a = 0; a < HAIR_FEATURES; ++a) {
             double d =
-                (double)choice->shape_samples[AXES * (size_t)cell->order[i] + (size_t)a] - cell->mean[a];
+                (double)choice->features[HAIR_FEATURES * (size_t)cell->order[i] + (size_t)a] - cell->mean[a];
             squared += d * d;
         }
         if (squared < min) {
@@ -85,7 +86,7 @@ static void make_guide(struct choice* choice, const struct cell* cell)
 static uint32_t widest(const struct cell* cell)
 {
     uint32_t axis = 0;
-    for (uint32_t a = 1; a < AXES; ++a)
+    for (uint32_t a = 1; a < HAIR_FEATURES; ++a)
         if (cell->squared[a] > cell->squared[axis]) axis = a;
     return axis;
 }
@@ -96,7 +97,7 @@ static uint32_t split_cell(const struct choice* choice, const struct cell* cell)
     uint32_t axis = widest(cell), front = 0;
     for (uint32_t i = 0; i < cell->count; ++i) {
         uint32_t strand = cell->order[i];
-        if ((double)choice->shape_samples[AXES * (size_t)strand + axis] >= cell->mean[axis]) continue;
+        if ((double)choice->features[HAIR_FEATURES * (size_t)strand + axis] >= cell->mean[axis]) continue;
         cell->order[i] = cell->order[front];
         cell->order[front++] = strand;
     }
@@ -134,6 +135,104 @@ static void choose_guides(struct choice* choice, const struct cell* cell, uint32
     choose_guides(choice, &back, guides - front_guides, depth + 1);
 }
 
+// Sum up the features of the strands of each cell. Return false if a cell is empty.
+static bool sum_cells(const struct choice* choice, const uint32_t* owner, uint32_t count, double* mean,
+                      uint32_t* members)
+{
+    memset(mean, 0, (size_t)choice->found * HAIR_FEATURES * sizeof *mean);
+    memset(members, 0, choice->found * sizeof *members);
+    for (uint32_t i = 0; i < count; ++i) {
+        ++members[owner[i]];
+        for (size_t a = 0; a < HAIR_FEATURES; ++a)
+            mean[HAIR_FEATURES * (size_t)owner[i] + a] +=
+                (double)choice->features[HAIR_FEATURES * (size_t)i + a];
+    }
+    for (uint32_t g = 0; g < choice->found; ++g) {
+        if (members[g] == 0) return false;
+        for (size_t a = 0; a < HAIR_FEATURES; ++a) mean[HAIR_FEATURES * (size_t)g + a] /= members[g];
+    }
+    return true;
+}
+
+static float squared_from(const struct choice* choice, uint32_t strand, const float* mean)
+{
+    const float* own = choice->features + HAIR_FEATURES * (size_t)strand;
+    float sum = 0;
+    for (int a = 0; a < HAIR_FEATURES; ++a) sum += (own[a] - mean[a]) * (own[a] - mean[a]);
+    return sum;
+}
+
+// Assign each strand to the nearest mean. The search begins with the strand's own.
+static hair_result assign_strands(const struct choice* choice, const hair_host* host, uint32_t count,
+                                  const float* mean, uint32_t* owner)
+{
+    struct hair_kd_tree tree;
+    HAIR_TRY(hair_kd_tree_build(host, (struct hair_point_set){mean, HAIR_FEATURES}, choice->found, &tree));
+    for (uint32_t i = 0; i < count; ++i) {
+        struct hair_kd_neighbor near = {
+            choice->owner[i], squared_from(choice, i, mean + HAIR_FEATURES * (size_t)choice->owner[i])};
+        hair_kd_tree_nearest(&tree, choice->features + HAIR_FEATURES * (size_t)i, &near, 1, 1);
+        owner[i] = near.index;
+    }
+    hair_kd_tree_free(host, &tree);
+    return HAIR_OK;
+}
+
+// Make the strand nearest to the mean of each cell its guide.
+static void choose_nearest(struct choice* choice, uint32_t count, const float* mean, float* squared)
+{
+    for (uint32_t g = 0; g < choice->found; ++g) squared[g] = INFINITY;
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t g = choice->owner[i];
+        float own = squared_from(choice, i, mean + HAIR_FEATURES * (size_t)g);
+        if (!(own < squared[g])) continue;
+        squared[g] = own;
+        choice->chosen[g] = i;
+    }
+}
+
+struct refinement {
+    double* sum;
+    float *mean, *squared; // of each cell, and the squared distance of its guide
+    uint32_t *members, *owner;
+};
+
+// Move the means to the strands that are nearest to them, and the strands to the nearest means
+// (Lloyd 1982, "Least squares quantization in PCM"). Stop at cells that would be empty.
+static hair_result refine_cells(struct choice* choice, const hair_host* host, uint32_t count,
+                                const struct refinement* r)
+{
+    size_t features = (size_t)choice->found * HAIR_FEATURES;
+    for (int round = 0; round <= ROUNDS; ++round) {
+        if (!sum_cells(choice, round ? r->owner : choice->owner, count, r->sum, r->members)) return HAIR_OK;
+        if (round) memcpy(choice->owner, r->owner, count * sizeof *r->owner);
+        for (size_t k = 0; k < features; ++k) r->mean[k] = (float)r->sum[k];
+        choose_nearest(choice, count, r->mean, r->squared);
+        if (round < ROUNDS) HAIR_TRY(assign_strands(choice, host, count, r->mean, r->owner));
+    }
+    return HAIR_OK;
+}
+
+static hair_result refine(struct choice* choice, const hair_host* host, uint32_t count)
+{
+    size_t guides = choice->found;
+    struct refinement r = {
+        hair_alloc(host, guides, HAIR_FEATURES * sizeof *r.sum),
+        hair_alloc(host, guides, HAIR_FEATURES * sizeof *r.mean), hair_alloc(host, guides, sizeof *r.squared),
+        hair_alloc(host, guides, sizeof *r.members), hair_alloc(host, count, sizeof *r.owner)};
+    hair_result result;
+    if (r.sum && r.mean && r.squared && r.members && r.owner)
+        result = refine_cells(choice, host, count, &r);
+    else
+        result = hair_fail_memory(host, "the choice of guides");
+    hair_free(host, r.sum);
+    hair_free(host, r.mean);
+    hair_free(host, r.squared);
+    hair_free(host, r.members);
+    hair_free(host, r.owner);
+    return result;
+}
+
 static uint32_t count_guides(const struct hair_groom_builder* builder)
 {
     uint32_t strands = builder->strands.strand_count;
@@ -155,12 +254,12 @@ static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guide
     }
     for (uint32_t i = 0; i < count; ++i) order[i] = i;
     struct choice choice = {
-        .shape_samples = builder->shape_samples, .chosen = builder->chosen, .owner = builder->owner};
+        .features = builder->features, .chosen = builder->chosen, .owner = builder->owner};
     struct cell all = measure_cell(&choice, order, count);
     choose_guides(&choice, &all, guides, 0);
     HAIR_ASSERT(choice.found == guides);
     hair_free(builder->host, order);
-    return HAIR_OK;
+    return guides < count ? refine(&choice, builder->host, count) : HAIR_OK;
 }
 
 hair_result hair_build_guides(struct hair_groom_builder* builder)

@@ -4,7 +4,7 @@
 
 #include "lib/base/host.h"
 
-#define HAIR_KD_MAX_DIMENSIONS 12 // Maximum number of dimensions.
+#define HAIR_KD_MAX_DIMENSIONS 13 // Maximum number of dimensions.
 
 struct hair_point_set {
     const float* points; // finite

@@ -43,6 +43,8 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
     out->segments = look->strand.segments;
     out->smooth_vertices = geometry->smooth_vertices;
     out->followers = geometry->followers;
+    out->guides = geometry->guides;
+    out->shape_vertices = geometry->shape_vertices;
     out->follower_collision = look->followers.collision;
     out->push_out_weight = 1;
     out->map_weights = weigh_sets(look->followers.map_set, geometry->map_sets);

@@ -13,6 +13,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     geometry->guides = sim->guides;
     geometry->smooth_vertices = sim->smooth_vertices;
     geometry->followers = groom->info.follower_count;
+    geometry->shape_vertices = groom->shape_vertices;
     geometry->patches = groom->info.patch_count;
     geometry->map_sets = groom->map_sets;
     geometry->root_bindings = hair_root_bindings_retain(groom->root_bindings);
@@ -21,10 +22,9 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
             geometry->max_isolines = groom->patches[i].count;
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT(0 < geometry->max_isolines);
-    HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, sim));
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers",
-                            geometry->followers * sizeof *groom->followers, groom->followers,
-                            &geometry->follower));
+    HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", hair_groom_follower_bytes(groom),
+                            groom->followers, &geometry->follower));
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),

@@ -18,7 +18,7 @@ struct hair_geometry {
     // Buffer textures of `follower` and `patch`, for stages without storage buffers.
     GLuint follower_texture, patch_texture;
     GLuint params; // Uniform buffer of hair_draw_params, which each user writes before its passes.
-    uint32_t followers, patches, smooth_vertices, guides;
+    uint32_t followers, patches, smooth_vertices, guides, shape_vertices;
     uint32_t max_isolines; // Maximum number of isolines in a patch.
     uint32_t map_sets;
     float push_out_weight; // Displayed fraction of the displacement by follower collision.

@@ -1,7 +1,17 @@
 // smooth.c - smoothed guides as a structure of arrays, with a buffer and a texture for each.
 #include "lib/strands/smooth.h"
 
-hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_sim* sim)
+static hair_result create_displacements(struct hair_smooth* smooth, const struct hair_groom* groom)
+{
+    if (!groom->guide_shapes) return HAIR_OK;
+    HAIR_TRY(hair_gl_ensure_program(smooth->gl, HAIR_GL_DISPLACE));
+    return hair_gl_buffer(smooth->gl, HAIR_GL_CATEGORY_SMOOTH, "hair guide shapes",
+                          smooth->vertices * sizeof *groom->guide_shapes, groom->guide_shapes,
+                          &smooth->guide_shape);
+}
+
+hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, const struct hair_groom* groom,
+                               const struct hair_sim* sim)
 {
     static const char names[3][16] = {"hair position", "hair tangent", "hair frame"};
     smooth->gl = gl;
@@ -9,17 +19,20 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     HAIR_ASSERT(smooth->vertices > 0 && sim->smooth_vertices <= HAIR_MAX_SMOOTH_VERTICES);
     smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
     HAIR_TRY(hair_gl_ensure_program(gl, smooth->pass));
-    for (int i = 0; i < 3; ++i)
-        HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SMOOTH, names[i],
-                                      smooth->vertices * sizeof(hair_vec4), &smooth->buffer[i], GL_RGBA32F,
-                                      &smooth->texture[i]));
-    return HAIR_OK;
+    for (int i = 0; i < 3; ++i) {
+        size_t size = smooth->vertices * sizeof(hair_vec4);
+        if (i == 0 && groom->guide_shapes) size *= 2; // Displacements follow the positions.
+        HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SMOOTH, names[i], size, &smooth->buffer[i],
+                                      GL_RGBA32F, &smooth->texture[i]));
+    }
+    return create_displacements(smooth, groom);
 }
 
 void hair_smooth_destroy(struct hair_smooth* smooth)
 {
     if (!smooth->gl) return;
     for (int i = 0; i < 3; ++i) hair_gl_free_array(smooth->gl, &smooth->buffer[i], &smooth->texture[i]);
+    hair_gl_free_buffer(smooth->gl, &smooth->guide_shape);
 }
 
 void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
@@ -31,6 +44,10 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     hair_gl_pass pass = smooth->pass;
     if (hair_scalp_motion_is_on(sim)) pass |= HAIR_GL_WITH(SKINNED);
     hair_gl_run(smooth->gl, pass, sim->guides);
+    if (smooth->guide_shape) {
+        smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE_SHAPE, 1, &smooth->guide_shape);
+        hair_gl_run(smooth->gl, HAIR_GL_DISPLACE, sim->guides);
+    }
     ++smooth->runs;
     smooth->done = 1;
 }

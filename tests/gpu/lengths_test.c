@@ -102,9 +102,9 @@ static void sample_count_is_that_of_the_longest_guide(void** state)
     }
 }
 
-// Compare followers at rest with the fitted strands. Offsets are fitted to guides smoothed on the
-// CPU, and drawn from guides smoothed on the GPU. Both round positions of up to 0.3 m to 2e-8 m.
-// Both round frames to 2e-8 m over the shortest segment, 1 mm. Offsets are up to 2 cm.
+// Compare followers at rest with their strands. Guides at rest are smoothed on the CPU, and drawn
+// from guides smoothed on the GPU. Both round positions of up to 0.3 m to 2e-8 m. Both round frames
+// to 2e-8 m over the shortest segment, 1 mm. These frames turn shapes of 0.3 m.
 static void followers_at_rest_equal_their_strands(void** state)
 {
     for (size_t i = 0; i < LENGTHS; ++i) {

@@ -112,6 +112,27 @@ void hair_reference_follower(const struct hair_follower* follower, const hair_lo
                              const struct hair_reference_sample* samples, double t,
                              const struct hair_reference_repair* repair, struct hair_reference_point* out);
 
+// displace.cpp ------------------------------------------------------------------------------------
+
+/// Compute the displacements of a guide from its shape at rest, `count` times xyz, m.
+void hair_reference_displacements(const struct hair_reference_sample* samples, const hair_vec4* shape,
+                                  uint32_t count, double* out);
+
+/// Input of hair_reference_shaped().
+struct hair_reference_shapes {
+    uint32_t count; ///< Samples of each guide.
+    const struct hair_reference_sample* samples;
+    const double* displacements; ///< xyz per sample, m.
+    uint32_t shape_vertices;
+    const double* vertices; ///< xyz of the follower's shape, with a vertex beyond each end, m.
+};
+
+/// Evaluate a follower with a shape of its own at t from 0 to 1. `freed` blends to guide 0 alone.
+/// The tangent is that of a look without strays, frizz and curls.
+void hair_reference_shaped(const struct hair_follower* follower, const hair_look* look,
+                           const struct hair_reference_shapes* shapes, double t, double freed,
+                           struct hair_reference_point* out);
+
 #ifdef __cplusplus
 }
 #endif

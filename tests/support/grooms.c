@@ -109,8 +109,39 @@ hair_groom* hair_test_groom_of(const hair_groom_desc* desc)
     return groom;
 }
 
+static float unpack(uint32_t bits)
+{
+    return (float)(int16_t)(bits & 0xffffu) / 32767;
+}
+
+static hair_vec3 shape_vertex(const struct hair_groom* groom, const struct hair_follower* follower,
+                              uint32_t k)
+{
+    const uint32_t* shapes = (const uint32_t*)(groom->followers + groom->info.follower_count);
+    const uint32_t* own =
+        shapes + (size_t)4 * HAIR_SHAPE_TEXELS(groom->shape_vertices) * (size_t)follower->offset[3].w + 2 * k;
+    return hair_scale(hair_v3(unpack(own[0]), unpack(own[0] >> 16), unpack(own[1])), follower->offset[2].w);
+}
+
+hair_vec3 hair_test_own(const struct hair_groom* groom, const struct hair_follower* follower, float t)
+{
+    struct hair_guide_spline_point root = guide_at(groom, follower->guide0, 0);
+    float along = t * (float)(groom->shape_vertices - 1);
+    uint32_t k = (uint32_t)along < groom->shape_vertices - 2 ? (uint32_t)along : groom->shape_vertices - 2;
+    hair_vec3 p[4];
+    for (uint32_t i = 0; i < 4; ++i) p[i] = shape_vertex(groom, follower, k + i);
+    // The algorithm of Barry and Goldman 1988 for Catmull-Rom splines.
+    float x = along - (float)k;
+    hair_vec3 a = hair_lerp(p[0], p[1], x + 1), b = hair_lerp(p[1], p[2], x),
+              c = hair_lerp(p[2], p[3], x - 1);
+    hair_vec3 d = hair_lerp(a, b, (x + 1) / 2), e = hair_lerp(b, c, x / 2);
+    hair_vec3 at = hair_add(hair_test_xyz(follower->offset[0]), hair_lerp(d, e, x));
+    return hair_add(root.position, hair_rotate(root.frame, at));
+}
+
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t)
 {
+    if (follower->multi < 0) return hair_test_own(groom, follower, t);
     struct hair_guide_spline_point guide = guide_at(groom, follower->guide0, t * follower->length_ratio);
     hair_vec3 p[4];
     for (int i = 0; i < 4; ++i) p[i] = hair_test_xyz(follower->offset[i]);

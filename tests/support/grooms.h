@@ -47,8 +47,10 @@ static inline hair_vec3 hair_test_xyz(hair_vec4 v)
     return hair_v3(v.x, v.y, v.z);
 }
 
-// Return a point of a follower by its guide 0 alone, like glsl/strands/follower.glsl with a look
-// that adds nothing.
+// Return a point at rest of a follower with a shape of its own, like glsl/strands/shape.glsl.
+hair_vec3 hair_test_own(const struct hair_groom* groom, const struct hair_follower* follower, float t);
+// Return a point at rest of a follower by its guide 0 alone, like glsl/strands/follower.glsl with a
+// look that adds nothing. A follower with a shape of its own has that shape.
 hair_vec3 hair_test_single(const struct hair_groom* groom, const struct hair_follower* follower, float t);
 // Return a point of a follower between its three guides, like glsl/strands/follower.glsl with a
 // look that adds nothing.

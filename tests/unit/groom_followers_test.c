@@ -71,6 +71,7 @@ static struct fit measure_fit(const hair_groom* groom, const struct hair_test_st
         fit.root = fmax(fit.root, find_strand(strands, root, &strand, &vertices));
         struct hair_follower copy = *follower;
         for (int k = 1; k < 4; ++k) copy.offset[k] = copy.offset[0];
+        copy.multi = 0;
 
         double length = 0, along = 0, squared = 0, own = 0;
         for (uint32_t j = 1; j < vertices; ++j)
@@ -112,7 +113,7 @@ static void straight_strands_are_followed_exactly(void** state)
     struct hair_test_strands strands = hair_test_strands_make(2000, 24);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 24, straight, NULL);
     struct fit fit = fit_strands("straight", &strands, 100);
-    assert_true(fit.rms < 2e-6);
+    assert_true(fit.rms < 2e-5);
     assert_true(fit.root < 1e-6);
     hair_test_strands_free(&strands);
 }
@@ -123,10 +124,10 @@ static void wavy_strands_are_followed_closely(void** state)
     struct hair_test_strands strands = hair_test_strands_make(2000, 32);
     for (int i = 0; i < 2000; ++i) hair_test_strands_add(&strands, 32, wavy, NULL);
     struct fit fit = fit_strands("wavy", &strands, 200);
-    // Strands are about 4 mm, 2.5 % of their length, from their guide. The guide's frame oscillates
-    // by 0.6 rad with its waves. Offsets cannot follow this fraction of the distance.
-    assert_true(fit.rms < 0.6 * 0.025);
-    assert_true(fit.rms < 0.4 * fit.own);
+    // Strands are about 4 mm, 2.5 % of their length, from their guide. The vertices of the shape
+    // lie on chords of a seventh of a wave, which miss its arc by up to a tenth of the amplitude.
+    assert_true(fit.rms < 0.1 * 0.025);
+    assert_true(fit.own > 0.02);
     assert_true(fit.root < 1e-6);
     hair_test_strands_free(&strands);
 }
@@ -153,7 +154,7 @@ static void strands_of_a_real_haircut_are_followed_closely(void** state)
     memcpy(strands.vertices, info.strand_vertices, info.strand_count * sizeof(uint32_t));
     strands.count = info.strand_count;
     struct fit fit = fit_strands("mohawk", &strands, 0);
-    assert_true(fit.rms < 0.02);
+    assert_true(fit.rms < 0.001);
     hair_test_strands_free(&strands);
     hair_asset_destroy(asset);
 }
@@ -167,9 +168,12 @@ static void guides_follow_themselves_without_an_offset(void** state)
     uint32_t own = 0;
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
         const struct hair_follower* follower = &groom->followers[i];
-        assert_true(follower->multi == 0 && follower->weight1 == 0 && follower->weight2 == 0);
-        if (hair_length(hair_test_xyz(follower->offset[0])) > 0) continue;
+        if (hair_length(hair_test_xyz(follower->offset[0])) > 0) {
+            assert_true(follower->multi == -1);
+            continue;
+        }
         ++own;
+        assert_true(follower->multi == 0 && follower->weight1 == 0 && follower->weight2 == 0);
         for (int k = 0; k < 4; ++k) assert_true(hair_length(hair_test_xyz(follower->offset[k])) == 0);
         assert_true(follower->length_ratio == 1);
     }
@@ -183,7 +187,7 @@ static void strands_of_different_vertex_counts_are_followed_in_one_groom(void** 
     (void)state;
     struct hair_test_strands strands = hair_test_strands_make(1000, 101);
     for (uint32_t i = 0; i < 1000; ++i) hair_test_strands_add(&strands, 2 + i % 100, straight, NULL);
-    assert_true(fit_strands("mixed", &strands, 100).rms < 2e-6);
+    assert_true(fit_strands("mixed", &strands, 100).rms < 2e-5);
     hair_test_strands_free(&strands);
 }
 
@@ -204,7 +208,7 @@ static void a_follower_is_as_long_as_its_strand(void** state)
         hair_vec3 root = hair_test_single(groom, follower, 0);
         float length = positions[6 * (int)(root.x + 0.5f) + 4];
         assert_float_equal(follower->length_ratio * groom->guides[0].arc_length, length, 1e-5);
-        assert_float_equal(hair_test_single(groom, follower, 1).y, length, 1e-5);
+        assert_float_equal(hair_test_single(groom, follower, 1).y, length, 3e-5 * (double)length);
     }
     hair_groom_destroy(groom);
 }
