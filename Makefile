@@ -335,6 +335,7 @@ clean: ## Remove build/
 
 include tests/gates.mk
 include tools/convert/convert.mk
+include tools/truth/truth.mk
 include tools/packaging/packaging.mk
 include tools/python/python.mk
 include tools/packaging/windows.mk

@@ -1,7 +1,6 @@
-// fibre.glsl - scattering of light by hair fibres. The model of a single fibre is that of Marschner
-// et al. 2003, with the longitudinal part after d'Eon et al. 2011. The model of many fibres is dual
-// scattering (Zinke et al. 2008), with the number of fibres in front of a point as in a Poisson
-// process. lib/light/fibre.c tabulates the azimuthal part.
+// fibre.glsl - scattering of light by one hair fibre. The model is that of Marschner
+// et al. 2003, with the longitudinal part after d'Eon et al. 2011. lib/light/fibre.c tabulates the
+// azimuthal part.
 //
 // Longitudinal lobes are made symmetric, so that the path of light is reversible. They are divided
 // by a factor q that is fitted to conserve energy, to 0.7 % for a fibre without tilt.
@@ -19,9 +18,10 @@ vec4 fibre_table(float x, float y, float layer)
 // Directions relative to the fibre. `light` and `eye` are sine and cosine of the inclination to the
 // plane across the fibre. `half_cosine` is the cosine of half the angle between their cones. `turn`
 // is phi / pi, and 0 when the eye is on the side of the light.
+// `between` is the cosine of the angle between both directions.
 struct fibre_angles {
     vec2  light, eye;
-    float half_cosine, turn;
+    float half_cosine, turn, between;
 };
 
 fibre_angles measure_angles(vec3 tangent, vec3 to_light, vec3 to_eye)
@@ -33,6 +33,7 @@ fibre_angles measure_angles(vec3 tangent, vec3 to_light, vec3 to_eye)
     a.half_cosine = sqrt(clamp(0.5 + 0.5 * (a.light.y * a.eye.y + l * e), 0.0, 1.0));
     float across  = (dot(to_light, to_eye) - l * e) / max(a.light.y * a.eye.y, 1e-6);
     a.turn        = acos(clamp(across, -1.0, 1.0)) * 0.31830989;
+    a.between     = dot(to_light, to_eye);
     return a;
 }
 
@@ -88,44 +89,3 @@ vec3 scatter_once(fibre_angles a, vec3 mu, float tilt, float v)
 }
 
 vec3 scatter_once(fibre_angles a, vec3 mu, float tilt) { return scatter_once(a, mu, tilt, draw.fibre.x); }
-
-// Light that fibres transmit forward and backward, by channel, when they are lit from one side.
-struct fibre_scattering {
-    vec3 on, back;
-    vec2 variance; // Longitudinal variances, forward and backward.
-};
-
-fibre_scattering find_scattering(fibre_angles a, vec3 mu)
-{
-    vec3 x = mu / (mu + HAIR_FIBRE_MU);
-    vec4 r = fibre_table(x.r, a.half_cosine, 2.0), g = fibre_table(x.g, a.half_cosine, 2.0);
-    vec4 b = fibre_table(x.b, a.half_cosine, 2.0);
-    return fibre_scattering(vec3(r.x, g.x, b.x), vec3(r.y, g.y, b.y), (r.zw + g.zw + b.zw) / 3.0);
-}
-
-// Return the light scattered to the eye by a fibre among many. `once` is the scattering of one
-// fibre. `direct` is the fraction of the light that meets no fibre on its way. `passed` is the
-// fraction that arrives in all. `met` is the number of fibres met.
-vec3 scatter_often(fibre_angles a, fibre_scattering multiple, vec3 once, float direct, vec3 passed, float met)
-{
-    // Light that the fibres behind return. It changes direction there once or three times.
-    vec3  f2 = multiple.on * multiple.on, gone = 1.0 - f2, b = multiple.back, b3 = b * b * b;
-    vec3  behind = min(b * f2 / gone + b3 * f2 / (gone * gone * gone), 1.0);
-    float f = dot(multiple.on, vec3(0.3333)), bb = dot(b, vec3(0.3333)), bbb = bb * bb * bb;
-    vec2  own = sqrt(multiple.variance);
-    float once_more = sqrt(dot(multiple.variance, vec2(2.0, 1.0))),
-          thrice = sqrt(dot(multiple.variance, vec2(2.0, 3.0)));
-    float deviation = (1.0 + 0.7 * f * f) * (bb * once_more + bbb * thrice);
-    deviation /= bb + bbb * dot(own, vec2(2.0, 3.0));
-    float spread = met * f * multiple.variance.x, v = deviation * deviation;
-    float on = sin(1.5707963 * a.turn);
-    on *= on;
-    vec2  level = vec2(0.0, 1.0);
-    vec3  back_once = behind * (longitudinal(a, v, level) * (1.0 - on) * 0.31830989);
-    vec3  back_often = behind * (longitudinal(a, v + spread, level) * (1.0 - on) * 0.31830989);
-    vec3 through =
-        multiple.on * (longitudinal(a, multiple.variance.x + spread, level) * on * 0.31830989) +
-        multiple.back * (longitudinal(a, multiple.variance.y + spread, level) * (1.0 - on) * 0.31830989);
-    return direct * (once + draw.fibre.w * back_once) +
-           max(passed - direct, 0.0) * draw.fibre.w * (through + draw.fibre.w * back_often);
-}

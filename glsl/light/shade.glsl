@@ -4,7 +4,7 @@
 #include "light/shadow.glsl"
 #include "light/strand_color.glsl"
 #ifdef HAIR_FIBRES
-#include "light/fibre.glsl"
+#include "light/multiple_scattering.glsl"
 #endif
 
 struct hair_fragment {
@@ -39,12 +39,13 @@ vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
     return light_past_bodies(number, f.position) * through;
 }
 
-// Return the fraction of the sky's light that comes through hair, or an estimate from `otherwise`
-// where it is unknown. Light hair transmits more.
-vec3 sky_through(hair_fragment f, vec3 otherwise)
+// Return the fraction of the sky that no hair hides. Without the density grid, it is an estimate
+// from the fraction `through` of the first light that comes through hair, because occluders of the
+// first light also occlude the sky.
+float sky_open(hair_fragment f, float through)
 {
-    if (draw.light_values == 0u) return 0.25 + 0.75 * sqrt(otherwise);
-    return pow(vec3(max(light_found(0u, f.strand, f.t).x, 1e-3)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)));
+    if (draw.light_values == 0u) return 0.1 + 0.4 * sqrt(through);
+    return clamp(light_found(0u, f.strand, f.t).x, 1e-3, 1.0);
 }
 
 vec3 sky_of(hair_fragment f)
@@ -56,19 +57,21 @@ vec3 sky_of(hair_fragment f)
 #ifdef HAIR_FIBRES
 vec3 hair_shade(hair_fragment f)
 {
-    vec3  albedo = albedo_of(f), mu = absorption_of(albedo), sum = vec3(0.0), open = vec3(1.0);
+    vec3  mu   = absorption_of(albedo_of(f)), sum = vec3(0.0);
     float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
+    float open = sky_open(f, 1.0);
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam    beam  = beam_at(i, f.position);
         fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
-        fibre_scattering multiple = find_scattering(a, mu);
-        float        met;
-        vec4         light = light_through(f, i, 1.0 - multiple.on, met);
-        vec3         once  = scatter_once(a, mu, tilt, variance);
-        sum += beam.irradiance * (a.light.y * scatter_often(a, multiple, once, light.x, light.yzw, met));
-        if (i == 0u) open = light.yzw; // Occluders of the first light also occlude the sky.
+        fibre_scattering fibre = find_scattering(a.half_cosine, mu);
+        float       met;
+        vec4        through = light_through(f, i, lost_by(fibre), met);
+        if (i == 0u) open = sky_open(f, through.x);
+        fibre_light light = fibre_light(through.x, max(through.yzw - through.x, 0.0), open);
+        vec3 once = scatter_once(a, mu, tilt, variance);
+        sum += beam.irradiance * (a.light.y * scatter_often(a, fibre, once, light, draw.fibre.w));
     }
-    return sum + sky_of(f) * albedo * sky_through(f, open) * 0.31830989;
+    return sum + sky_of(f) * reflect_sky(find_scattering(1.0, mu), open) * 0.31830989;
 }
 #else
 // Shading after Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as
@@ -102,6 +105,9 @@ vec3 hair_shade(hair_fragment f)
         sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
         if (i == 0u) open = light; // Occluders of the first light also occlude the sky.
     }
-    return sum + sky_of(f) * albedo * sky_through(f, vec3(open));
+    // Light hair transmits more of the sky.
+    vec3 through = draw.light_values > 0u ? pow(vec3(sky_open(f, open)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)))
+                                          : vec3(0.25 + 0.75 * sqrt(open));
+    return sum + sky_of(f) * albedo * through;
 }
 #endif

@@ -1,0 +1,1 @@
+"""Compares the light on drawn hair with path tracing by programs of others."""

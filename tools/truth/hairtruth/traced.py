@@ -1,0 +1,110 @@
+"""Path tracing of the cases by Mitsuba 3."""
+
+import math
+import os
+
+import mitsuba as mi
+import numpy as np
+
+from hairtruth import cases
+
+
+def use(variant):
+    mi.set_variant(variant)
+
+
+# Mitsuba moves the start of a ray off a surface by 1.8e-4 of 1 plus the largest coordinate. Around
+# the origin, in millimetres, this is less than a strand's radius.
+UNIT = 1000.0  # of Mitsuba's lengths in a metre
+MAX_POINTS = 900000  # of a shape
+
+
+def _place(position):
+    """Return a position in Mitsuba's space."""
+    return [UNIT * (x - middle) for x, middle in zip(position, cases.TARGET)]
+
+
+def _spline(vertices):
+    """Return the control points of natural cubic B-splines through the vertices of strands."""
+    inner = vertices.shape[1] - 2
+    points = 6 * vertices[:, 1:-1]
+    points[:, 0] -= vertices[:, 0]
+    points[:, -1] -= vertices[:, -1]
+    factor = np.zeros(inner)
+    for i in range(inner):
+        pivot = 1 / (4 - (factor[i - 1] if i else 0))
+        factor[i] = pivot
+        points[:, i] = pivot * (points[:, i] - (points[:, i - 1] if i else 0))
+    for i in reversed(range(inner - 1)):
+        points[:, i] -= factor[i] * points[:, i + 1]
+    first, last = vertices[:, :1], vertices[:, -1:]
+    return np.concatenate([2 * first - points[:, :1], first, points, last,
+                           2 * last - points[:, -1:]], 1)
+
+
+def _write_curves(points, radius, path):
+    """Write control points in the text format of Mitsuba's cubic B-splines."""
+    with open(path, "w", encoding="ascii") as file:
+        for strand in points:
+            file.writelines(f"{x:.4f} {y:.4f} {z:.4f} {UNIT * radius:g}\n" for x, y, z in strand)
+            file.write("\n")
+
+
+def _lights(light):
+    for i, (way, color) in enumerate(light.suns()):
+        yield f"sun{i}", {"type": "directional", "direction": [-x for x in way],
+                          "irradiance": {"type": "rgb", "value": list(color)}}
+    for i, (at, color) in enumerate(light.lamps()):
+        yield f"lamp{i}", {"type": "point", "position": _place(at),
+                           "intensity": {"type": "rgb", "value": [UNIT**2 * c for c in color]}}
+    if light.sky():
+        yield "sky", {"type": "constant",
+                      "radiance": {"type": "rgb", "value": light.sky() / math.pi}}
+
+
+class Traced:
+    """A haircut that is traced with several colours and lights."""
+
+    def __init__(self, strands, radius, folder, name):
+        points = _spline(UNIT * (strands - np.array(cases.TARGET, np.float64)))
+        fibre = mi.load_dict(_fibre((0.5, 0.5, 0.5)))
+        each = max(MAX_POINTS // points.shape[1], 1)
+        self.shapes = {}
+        for first in range(0, len(points), each):
+            path = os.path.join(folder, f"{name}{first}.txt")
+            _write_curves(points[first:first + each], radius, path)
+            self.shapes[f"hair{first}"] = mi.load_dict(
+                {"type": "bsplinecurve", "filename": path, "bsdf": fibre})
+        self.fibre = mi.traverse(fibre)
+
+    def picture(self, case, size, samples, seed=0, depth=200):
+        """Return the radiance and coverage of a picture as an array of rows, columns and rgba."""
+        self.fibre["sigma_a.value"] = mi.Color3f(cases.absorption(case.reflectance))
+        self.fibre.update()
+        scene = {
+            "type": "scene", **self.shapes,
+            "integrator": {"type": "path", "max_depth": depth, "rr_depth": 20,
+                           "hide_emitters": True},
+            "sensor": {
+                "type": "perspective", "fov": cases.FIELD_OF_VIEW, "fov_axis": "y",
+                "to_world": mi.ScalarTransform4f().look_at(_place(cases.EYE), [0, 0, 0], [0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": size, "height": size,
+                         "rfilter": {"type": "box"}, "pixel_format": "rgba"},
+                "sampler": {"type": "independent", "sample_count": samples},
+            },
+        }
+        scene.update(_lights(case.light))
+        return np.array(mi.render(mi.load_dict(scene), spp=samples, seed=seed))
+
+
+def _fibre(sigma):
+    return {"type": "hair", "sigma_a": {"type": "rgb", "value": list(sigma)},
+            "longitudinal_roughness": cases.ALONG, "azimuthal_roughness": cases.AROUND,
+            "scale_tilt": -math.degrees(cases.TILT),  # tilts towards the root are negative there
+            "int_ior": cases.REFRACTION, "ext_ior": 1.0}
+
+
+def read_exr(path):
+    """Return the linear colours of a picture."""
+    bitmap = mi.Bitmap(path).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+    return np.array(bitmap)
