@@ -54,7 +54,7 @@ static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_
 }
 
 // Prepare the guides for the physics of instances. The solver redblack has no rods.
-static hair_result prepare(hair_groom* groom, const hair_physics* physics, hair_solver solver)
+static hair_result prepare_rods(hair_groom* groom, const hair_physics* physics, hair_solver solver)
 {
     const struct hair_rod_source source = {.host = &groom->host,
                                            .tasks = &groom->tasks,
@@ -85,7 +85,7 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_groom* groom = NULL;
     HAIR_TRY(hair_groom_build(&host, &own, &import, &groom));
-    hair_result result = own.physics ? prepare(groom, &physics, own.solver) : HAIR_OK;
+    hair_result result = own.physics ? prepare_rods(groom, &physics, own.solver) : HAIR_OK;
     if (result)
         hair_groom_release(groom);
     else

@@ -179,7 +179,7 @@ static hair_result assign_strands(const struct choice* choice, const hair_host* 
 }
 
 // Make the strand nearest to the mean of each cell its guide.
-static void choose_nearest(struct choice* choice, uint32_t count, const float* mean, float* squared)
+static void choose_nearest_guides(struct choice* choice, uint32_t count, const float* mean, float* squared)
 {
     for (uint32_t g = 0; g < choice->found; ++g) squared[g] = INFINITY;
     for (uint32_t i = 0; i < count; ++i) {
@@ -207,7 +207,7 @@ static hair_result refine_cells(struct choice* choice, const hair_host* host, ui
         if (!sum_cells(choice, round ? r->owner : choice->owner, count, r->sum, r->members)) return HAIR_OK;
         if (round) memcpy(choice->owner, r->owner, count * sizeof *r->owner);
         for (size_t k = 0; k < features; ++k) r->mean[k] = (float)r->sum[k];
-        choose_nearest(choice, count, r->mean, r->squared);
+        choose_nearest_guides(choice, count, r->mean, r->squared);
         if (round < ROUNDS) HAIR_TRY(assign_strands(choice, host, count, r->mean, r->owner));
     }
     return HAIR_OK;

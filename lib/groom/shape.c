@@ -11,7 +11,7 @@
 // weight gave the smallest error of followers in hair-bench.
 #define DISTANCE_WEIGHT 0.3
 
-static hair_vec3 in_root_frame(const struct hair_guide_spline* spline, hair_vec3 v)
+static hair_vec3 in_frame_at_root(const struct hair_guide_spline* spline, hair_vec3 v)
 {
     return hair_rotate(hair_quat_conjugate(spline->frame[0]), v);
 }
@@ -20,7 +20,7 @@ void hair_shape_guide(struct hair_groom* groom, uint32_t guide, const struct hai
 {
     hair_vec4* out = groom->guide_shapes + (size_t)spline->count * guide;
     for (uint32_t k = 0; k < spline->count; ++k) {
-        hair_vec3 at = in_root_frame(spline, hair_sub(spline->position[k], spline->position[0]));
+        hair_vec3 at = in_frame_at_root(spline, hair_sub(spline->position[k], spline->position[0]));
         out[k] = (hair_vec4){at.x, at.y, at.z, 0};
     }
 }
@@ -118,13 +118,13 @@ void hair_shape_follower(const struct hair_groom_builder* builder, uint32_t stra
     hair_strand_resample(positions, builder->strands.vertices[strand], points, count);
     for (uint32_t k = 0; k < count; ++k)
         vertex[k + 1] =
-            in_root_frame(spline, hair_sub(hair_load3(points + 3 * (size_t)k), hair_load3(points)));
+            in_frame_at_root(spline, hair_sub(hair_load3(points + 3 * (size_t)k), hair_load3(points)));
     vertex[0] = hair_sub(hair_scale(vertex[1], 2), vertex[2]);
     vertex[count + 1] = hair_sub(hair_scale(vertex[count], 2), vertex[count - 1]);
     for (uint32_t k = 0; k < count + 2; ++k)
         unit = fmaxf(unit, fmaxf(fabsf(vertex[k].x), fmaxf(fabsf(vertex[k].y), fabsf(vertex[k].z))));
     HAIR_ASSERT(unit > 0 && spline->length > 0);
-    hair_vec3 root = in_root_frame(spline, hair_sub(hair_load3(points), spline->position[0]));
+    hair_vec3 root = in_frame_at_root(spline, hair_sub(hair_load3(points), spline->position[0]));
     follower->multi = -1;
     follower->length_ratio = builder->length[strand] / spline->length;
     follower->offset[0].x = root.x;

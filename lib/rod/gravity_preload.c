@@ -82,7 +82,7 @@ static hair_dvec3 strain_off(const struct search* a, uint32_t i)
 
 // Set `rest` to the rest shape that balances the pose under gravity. Return whether the strain of
 // the rest shape is allowed.
-static bool balance(struct search* a)
+static bool balance_gravity(struct search* a)
 {
     const struct hair_rod_shape* s = a->shape;
     hair_rod_load(s, 1, &a->pose);
@@ -101,7 +101,7 @@ static bool balance(struct search* a)
 // Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
 static bool holds(struct search* a)
 {
-    if (!balance(a)) return false;
+    if (!balance_gravity(a)) return false;
     hair_rod_load(a->shape, MARGIN, &a->pose);
     hair_rod_balance(a->shape, &a->pose);
     return hair_rod_is_stable(a->shape, &a->pose, SLOWEST * SLOWEST);
@@ -274,7 +274,7 @@ struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
         HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
         if (held.sags) held.sag = sag(&a);
     }
-    if (!held.sags) balance(&a);
+    if (!held.sags) balance_gravity(&a);
     finish_search(&a);
     return held;
 }

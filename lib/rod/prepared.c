@@ -6,7 +6,7 @@
 #define MIN_GUIDES 16 // Minimum number of guides of a task.
 
 // Work on all guides. Each kind of task uses a part of the members.
-struct work {
+struct rod_work {
     const struct hair_rod_source* source;
     const struct hair_rod_borne* borne;
     const hair_physics* physics;
@@ -26,7 +26,7 @@ struct work {
 };
 
 // Run tasks over all guides. Return their number.
-static uint32_t divide(struct work* work, hair_task task)
+static uint32_t divide_guides(struct rod_work* work, hair_task task)
 {
     uint32_t count = work->source->count;
     HAIR_ASSERT(count > 0);
@@ -38,7 +38,7 @@ static uint32_t divide(struct work* work, hair_task task)
 }
 
 // Return the guides of a task, and their number.
-static const struct hair_guide* guides_of(const struct work* work, uint32_t index, uint32_t* count)
+static const struct hair_guide* guides_of(const struct rod_work* work, uint32_t index, uint32_t* count)
 {
     uint32_t first = index * work->each, left = work->source->count - first;
     *count = left < work->each ? left : work->each;
@@ -47,7 +47,7 @@ static const struct hair_guide* guides_of(const struct work* work, uint32_t inde
 
 static void preload(uint32_t index, void* data)
 {
-    struct work* work = data;
+    struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     hair_rods_preload_gravity(guides, work->source->rest, count, work->physics, work->new_borne,
@@ -57,8 +57,8 @@ static void preload(uint32_t index, void* data)
 void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
                            struct hair_rod_borne* out, struct hair_rods_report* report)
 {
-    struct work work = {.source = source, .physics = physics, .new_borne = out};
-    uint32_t tasks = divide(&work, preload);
+    struct rod_work work = {.source = source, .physics = physics, .new_borne = out};
+    uint32_t tasks = divide_guides(&work, preload);
     *report = hair_rods_report_none();
     for (uint32_t i = 0; i < tasks; ++i) {
         const struct hair_rods_report* own = &work.report[i];
@@ -71,7 +71,7 @@ void hair_rods_preload_all(const struct hair_rod_source* source, const hair_phys
 
 static void find_mixed(uint32_t index, void* data)
 {
-    struct work* work = data;
+    struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->is_mixed[index] = hair_rods_are_mixed(guides, work->source->rest, work->borne, count, work->physics,
@@ -81,14 +81,14 @@ static void find_mixed(uint32_t index, void* data)
 bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
                              const hair_physics* physics, hair_solver solver, bool is_held, double substep)
 {
-    struct work work = {.source = source,
-                        .borne = borne,
-                        .physics = physics,
-                        .solver = solver,
-                        .is_held = is_held,
-                        .substep = substep};
+    struct rod_work work = {.source = source,
+                            .borne = borne,
+                            .physics = physics,
+                            .solver = solver,
+                            .is_held = is_held,
+                            .substep = substep};
     if (solver != HAIR_SOLVER_DIRECT && solver != HAIR_SOLVER_ACCURATE) return false;
-    uint32_t tasks = divide(&work, find_mixed);
+    uint32_t tasks = divide_guides(&work, find_mixed);
     for (uint32_t i = 0; i < tasks; ++i)
         if (work.is_mixed[i]) return true;
     return false;
@@ -96,7 +96,7 @@ bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct 
 
 static void write(uint32_t index, void* data)
 {
-    struct work* work = data;
+    struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->report[index].softened =
@@ -109,14 +109,14 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
                                               hair_solver solver, int mixed, double substep,
                                               struct hair_rod* out)
 {
-    struct work work = {.source = source,
-                        .borne = borne,
-                        .physics = physics,
-                        .solver = solver,
-                        .mixed = mixed,
-                        .substep = substep,
-                        .new_rod = out};
-    uint32_t tasks = divide(&work, write);
+    struct rod_work work = {.source = source,
+                            .borne = borne,
+                            .physics = physics,
+                            .solver = solver,
+                            .mixed = mixed,
+                            .substep = substep,
+                            .new_rod = out};
+    uint32_t tasks = divide_guides(&work, write);
     struct hair_rods_softened all = {.factor = 1};
     for (uint32_t i = 0; i < tasks; ++i) {
         const struct hair_rods_softened* own = &work.report[i].softened;
@@ -130,7 +130,7 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
 
 static void reduce(uint32_t index, void* data)
 {
-    struct work* work = data;
+    struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->rounds[index] = hair_rods_write_reduction(guides, count, work->rod, work->source->vertices,
@@ -139,7 +139,7 @@ static void reduce(uint32_t index, void* data)
 
 static void add_final_solve(uint32_t index, void* data)
 {
-    struct work* work = data;
+    struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     hair_rods_add_final_solve(guides, count, work->source->vertices, work->all_rounds, work->last,
@@ -150,12 +150,12 @@ static void add_final_solve(uint32_t index, void* data)
 static uint32_t reduce_into(const struct hair_rod_source* source, const struct hair_rod* rod, double substep,
                             hair_vec4* reduction, hair_vec4* last)
 {
-    struct work work = {
+    struct rod_work work = {
         .source = source, .rod = rod, .substep = substep, .reduction = reduction, .last = last};
-    uint32_t tasks = divide(&work, reduce);
+    uint32_t tasks = divide_guides(&work, reduce);
     for (uint32_t i = 0; i < tasks; ++i)
         if (work.rounds[i] > work.all_rounds) work.all_rounds = work.rounds[i];
-    divide(&work, add_final_solve);
+    divide_guides(&work, add_final_solve);
     return work.all_rounds;
 }
 

@@ -159,14 +159,14 @@ static void interrupted_capture_exits_with_1_and_keeps_the_old_file(void** state
     }
 }
 
-// Check a frame that takes much longer than a user waits after Ctrl-C.
+// Check a frame that takes minutes. A busy machine may need seconds to end the process.
 static void interrupt_within_a_frame_exits_with_1_in_time(void** state)
 {
     (void)state;
     const char* command = "$T --size 2048x2048 --samples 8 --supersample 4 --frames 0:1 -o $D/w.mp4 & "
                           "while ! ls $D/" TEMPORARY " >/dev/null 2>&1; do sleep 0.02; done; sleep 1; "
                           "kill -TERM $!; date +%s >$D/then; wait $!; code=$?; "
-                          "[ $(($(date +%s) - $(cat $D/then))) -le 3 ] && exit $code; exit 99";
+                          "[ $(($(date +%s) - $(cat $D/then))) -le 20 ] && exit $code; exit 99";
     expect(1, command, "interrupted within a frame");
     expect(0, "true" CLEAN, "");
 }
