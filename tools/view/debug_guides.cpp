@@ -60,7 +60,7 @@ void find_contact(viewer& viewer, const view_guide& guide)
 }
 
 // Compute the force that accelerates a vertex less gravity, damping and the pull to the rest pose.
-// What remains is the sum of tension and bending. `fraction` is the position along the guide.
+// This force is the sum of tension and bending. `fraction` is the position along the guide.
 void find_force(const viewer& viewer, uint32_t vertex, double fraction, double mass, double out[3])
 {
     const view_debug& debug = viewer.debug;
