@@ -284,6 +284,9 @@ void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct h
 // Restore the application's state. Nothing is owned or counted from then on.
 void hair_gl_leave(struct hair_gl* gl);
 
+// Unbind everything that the library may delete, before it deletes it within a [GL] call.
+void hair_gl_unbind(struct hair_gl* gl);
+
 // Create a framebuffer without attachments. Transform feedback without rasterisation needs one,
 // because every draw fails without a framebuffer.
 GLuint hair_gl_blank_framebuffer(struct hair_gl* gl);

@@ -139,7 +139,7 @@ void hair_gl_enter_for(struct hair_gl* gl, struct hair_gl_owner* owner, struct h
 // Unbind everything that the library may delete. A program that is deleted while current cannot be
 // made current again by an application that restores it. Mesa unbinds a deleted buffer with
 // glBindBufferBase, which also clears the application's generic binding.
-static void unbind(struct hair_gl* gl)
+void hair_gl_unbind(struct hair_gl* gl)
 {
     gl->UseProgram(0);
     gl->BindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
@@ -155,7 +155,7 @@ void hair_gl_leave(struct hair_gl* gl)
     gl->profiler = NULL;
     gl->owner = NULL;
     if (gl->state_policy == HAIR_GL_STATE_CLOBBER) {
-        unbind(gl);
+        hair_gl_unbind(gl);
         restore_feedback(gl);
         return;
     }

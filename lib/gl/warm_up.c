@@ -31,8 +31,6 @@ void hair_gl_warm_up(struct hair_gl* gl, struct hair_gl_program* own)
     gl->UseProgram(own->program);
     gl->DispatchCompute(1, 1, 1);
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    // Mesa resets the application's general binding when it deletes a buffer at an indexed one.
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, HAIR_BIND_REDUCTION + 1, NULL);
-    gl->BindBuffersBase(GL_UNIFORM_BUFFER, 0, HAIR_BIND_FIELD + 1, NULL);
+    hair_gl_unbind(gl);
     gl->DeleteBuffers(1, &buffer);
 }
