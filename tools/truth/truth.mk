@@ -10,6 +10,6 @@ $(TRUTH)/installed: tools/truth/requirements.txt
 
 # Half an hour on two cores. The variable `match` selects cases by their names.
 truth: $(TRUTH)/installed $(B)/hair-capture ## The light on drawn hair, against path tracing by Mitsuba 3
-	@PYTHONPATH=tools/truth $(TRUTH)/bin/python -B -m hairtruth --capture $(B)/hair-capture --match '$(match)' --csv $(TRUTH)/truth.csv
+	@PYTHONPATH=tools/truth:tools/convert $(TRUTH)/bin/python -B -m hairtruth --capture $(B)/hair-capture --match '$(match)' --csv $(TRUTH)/truth.csv
 
 .PHONY: truth

@@ -3,11 +3,9 @@
 import json
 import os
 import subprocess
+from types import SimpleNamespace
 
-import numpy as np
-
-HEADER = np.dtype([("name", "S8"), ("version", "<u4"), ("strands", "<u4"), ("vertices", "<u4"),
-                   ("frames", "<u4"), ("first", "<u4"), ("followers", "<u4"), ("fps", "<f8")])
+from hairconvert import dump as dumps
 
 
 def draw(program, case, size, folder, strands=False):
@@ -29,8 +27,5 @@ def draw(program, case, size, folder, strands=False):
 
 def read_strands(path):
     """Return the positions of a dump as an array of strands, vertices and coordinates, m."""
-    header = np.fromfile(path, HEADER, 1)[0]
-    if header["name"] != b"HAIRDUMP" or header["version"] != 1:
-        raise RuntimeError(f"{path} is no dump of version 1")
-    shape = (int(header["strands"]), int(header["vertices"]), 3)
-    return np.fromfile(path, "<f4", int(np.prod(shape)), offset=HEADER.itemsize).reshape(shape)
+    groom = dumps.read(path, SimpleNamespace(frame=None), None)
+    return groom.points.reshape(groom.strand_count(), -1, 3)

@@ -16,7 +16,6 @@ def use(variant):
 # Mitsuba moves the start of a ray off a surface by 1.8e-4 of 1 plus the largest coordinate. Around
 # the origin, in millimetres, this is less than a strand's radius.
 UNIT = 1000.0  # of Mitsuba's lengths in a metre
-MAX_POINTS = 900000  # of a shape
 
 
 def _place(position):
@@ -66,15 +65,10 @@ class Traced:
     """A haircut that is traced with several colours and lights."""
 
     def __init__(self, strands, radius, folder, name):
-        points = _spline(UNIT * (strands - np.array(cases.TARGET, np.float64)))
+        path = os.path.join(folder, f"{name}.txt")
+        _write_curves(_spline(UNIT * (strands - np.array(cases.TARGET, np.float64))), radius, path)
         fibre = mi.load_dict(_fibre((0.5, 0.5, 0.5)))
-        each = max(MAX_POINTS // points.shape[1], 1)
-        self.shapes = {}
-        for first in range(0, len(points), each):
-            path = os.path.join(folder, f"{name}{first}.txt")
-            _write_curves(points[first:first + each], radius, path)
-            self.shapes[f"hair{first}"] = mi.load_dict(
-                {"type": "bsplinecurve", "filename": path, "bsdf": fibre})
+        self.shape = mi.load_dict({"type": "bsplinecurve", "filename": path, "bsdf": fibre})
         self.fibre = mi.traverse(fibre)
 
     def picture(self, case, size, samples, seed=0, depth=200):
@@ -82,7 +76,7 @@ class Traced:
         self.fibre["sigma_a.value"] = mi.Color3f(cases.absorption(case.reflectance))
         self.fibre.update()
         scene = {
-            "type": "scene", **self.shapes,
+            "type": "scene", "hair": self.shape,
             "integrator": {"type": "path", "max_depth": depth, "rr_depth": 20,
                            "hide_emitters": True},
             "sensor": {
