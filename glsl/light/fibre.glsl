@@ -1,6 +1,6 @@
-// fibre.glsl - scattering of light by one hair fibre. The model is that of Marschner
-// et al. 2003, with the longitudinal part after d'Eon et al. 2011. lib/light/fibre.c tabulates the
-// azimuthal part.
+// fibre.glsl - scattering of light by one hair fibre. The model is that of Marschner et al. 2003,
+// with the longitudinal part after d'Eon et al. 2011. lib/light/fibre.c tabulates the azimuthal
+// part.
 //
 // Longitudinal lobes are made symmetric, so that the path of light is reversible. They are divided
 // by a factor q that is fitted to conserve energy, to 0.7 % for a fibre without tilt.
@@ -17,8 +17,8 @@ vec4 fibre_table(float x, float y, float layer)
 
 // Directions relative to the fibre. `light` and `eye` are sine and cosine of the inclination to the
 // plane across the fibre. `half_cosine` is the cosine of half the angle between their cones. `turn`
-// is phi / pi, and 0 when the eye is on the side of the light.
-// `between` is the cosine of the angle between both directions.
+// is phi / pi, and 0 when the eye is on the side of the light. `between` is the cosine of the angle
+// between both directions.
 struct fibre_angles {
     vec2  light, eye;
     float half_cosine, turn, between;

@@ -59,7 +59,7 @@ vec3 hair_shade(hair_fragment f)
 {
     vec3  mu   = absorption_of(albedo_of(f)), sum = vec3(0.0);
     float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
-    float open = sky_open(f, 1.0);
+    float open = draw.lights == 0u ? sky_open(f, 1.0) : 0.0;
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam    beam  = beam_at(i, f.position);
         fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);

@@ -50,8 +50,8 @@ typedef enum hair_curl_shape {
 
 /// Model of light scattering by strands.
 typedef enum hair_shading {
-    /// Scattering through fibres (Marschner et al. 2003) with dual scattering between them (Zinke
-    /// et al. 2008). Default.
+    /// Scattering through fibres (Marschner et al. 2003) and between them, by two streams (Zinke et
+    /// al. 2008; Kubelka and Munk 1931) whose weights are fitted to path tracing. Default.
     HAIR_SHADING_FIBRES = 0,
     /// Kajiya and Kay 1989 with two highlights. Cheaper, and needs no table.
     HAIR_SHADING_LINES
