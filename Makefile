@@ -248,6 +248,10 @@ $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@
 
+# This test contains an example with a window.
+$(B)/tests/golden/first_head_test.c.o: private C += $(patsubst -I%,-isystem %,$(call packages,--cflags,sdl2))
+$(B)/tests/golden/first_head_test: private TEST_LIBS += $(call packages,--libs,sdl2)
+
 # Hosts have only what users of the library have.
 $(B)/tests/hosts/%.c.o: tests/hosts/%.c
 	@mkdir -p $(@D)

@@ -8,6 +8,7 @@
 #define SHAPE_CYLINDER 3u
 #define SHAPE_CONE 4u
 #define SHAPE_PLANE 5u
+#define SHAPE_ELLIPSOID 7u
 
 float box_distance(vec3 size, vec3 p, out vec3 gradient)
 {
@@ -51,6 +52,24 @@ float cone_distance(vec2 size, vec2 p, out vec2 gradient)
     return outwards * far;
 }
 
+// Return the distance to an ellipsoid by Newton's method, as lib/collide/distance.c explains.
+float ellipsoid_distance(vec3 size, vec3 p, out vec3 gradient)
+{
+    float longest = max(max(size.x, size.y), max(size.z, 1e-9));
+    vec3  r = max(size / longest, 1.0 / 256.0), at = max(abs(p) / longest, 1e-6 * r), way = r * at;
+    float shortest = min(r.x, min(r.y, r.z));
+    vec3  beyond = (r - shortest) * (r + shortest), start = way - beyond;
+    float s = max(start.x, max(start.y, start.z));
+    for (int i = 0; i < 9; ++i) {
+        vec3  q = way / (s + beyond), squares = q * q;
+        float square = squares.x + squares.y + squares.z;
+        s += square * (sqrt(square) - 1.0) / dot(squares, 1.0 / (s + beyond));
+    }
+    vec3 q = way / (s + beyond), normal = normalize(q / r);
+    gradient = mix(normal, -normal, lessThan(p, vec3(0.0)));
+    return longest * dot(normal, at - r * normalize(q));
+}
+
 float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
 {
     if (shape <= SHAPE_CAPSULE) {
@@ -62,6 +81,7 @@ float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
         return away - size.x;
     }
     if (shape == SHAPE_BOX) return box_distance(size, p, gradient);
+    if (shape == SHAPE_ELLIPSOID) return ellipsoid_distance(size, p, gradient);
     gradient = vec3(0.0, 1.0, 0.0);
     if (shape >= SHAPE_PLANE) return p.y;
     float around = length(p.xz);

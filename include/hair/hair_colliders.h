@@ -83,7 +83,9 @@ typedef enum hair_shape {
     HAIR_SHAPE_CYLINDER, ///< size[0] is the radius. size[1] is half the height along local y.
     HAIR_SHAPE_CONE, ///< size[0] is the radius of the base at y = -size[1]. The tip is at +size[1].
     HAIR_SHAPE_PLANE, ///< The half space below local y = 0.
-    HAIR_SHAPE_MESH ///< hair_collider.mesh, scaled by hair_collider.scale.
+    HAIR_SHAPE_MESH, ///< hair_collider.mesh, scaled by hair_collider.scale.
+    /// size holds the half axes. Those below 1/256 of the longest are taken as that long.
+    HAIR_SHAPE_ELLIPSOID
 } hair_shape;
 
 /// A rigid body that hair collides with. Start from hair_collider_default().

@@ -15,7 +15,8 @@ static int sizes_of(hair_shape shape)
     case HAIR_SHAPE_CAPSULE:
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: return 2;
-    case HAIR_SHAPE_BOX: return 3;
+    case HAIR_SHAPE_BOX:
+    case HAIR_SHAPE_ELLIPSOID: return 3;
     default: return 0;
     }
 }
@@ -106,7 +107,7 @@ static void count_contacts(struct hair_colliders* colliders)
     for (uint32_t i = 0; i < colliders->current.count; ++i) {
         const hair_collider* collider = &colliders->current.collider[i];
         capsules += collider->shape <= HAIR_SHAPE_CAPSULE;
-        bodies += collider->shape <= HAIR_SHAPE_PLANE;
+        bodies += collider->shape != HAIR_SHAPE_MESH;
         meshes += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
     }
     colliders->contacts = bodies + meshes;

@@ -25,7 +25,8 @@ void hair_collider_extent(const hair_collider* collider, hair_vec3* middle, hair
     *middle = hair_v3(0, 0, 0);
     switch (collider->shape) {
     case HAIR_SHAPE_CAPSULE: *half = hair_v3(size[0], size[0] + size[1], size[0]); return;
-    case HAIR_SHAPE_BOX: *half = hair_load3(size); return;
+    case HAIR_SHAPE_BOX:
+    case HAIR_SHAPE_ELLIPSOID: *half = hair_load3(size); return;
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: *half = hair_v3(size[0], size[1], size[0]); return;
     case HAIR_SHAPE_PLANE: *half = hair_v3(EVERYWHERE, EVERYWHERE, EVERYWHERE); return;
@@ -50,6 +51,7 @@ static float radius_around(const hair_collider* collider)
     case HAIR_SHAPE_CYLINDER:
     case HAIR_SHAPE_CONE: return hypotf(size[0], size[1]);
     case HAIR_SHAPE_PLANE: return EVERYWHERE;
+    case HAIR_SHAPE_ELLIPSOID: return fmaxf(size[0], fmaxf(size[1], size[2]));
     default: return size[0];
     }
 }
@@ -113,16 +115,17 @@ static float distance_of(const hair_collider* collider, const struct hair_pose* 
     return hair_length(hair_add(a, hair_scale(axis, fminf(fmaxf(t, 0), 1)))) - end[0].w;
 }
 
-// Choose the nearest colliders of the shapes up to `last`, preserving order. At equal distances the
-// first one stays.
+// Choose the nearest colliders, spheres and capsules or all but collision meshes, preserving order.
+// At equal distances the first one stays.
 static uint32_t choose_nearest(const struct hair_colliders* colliders, const struct hair_pose* head,
-                               hair_shape last, uint32_t chosen[HAIR_STEP_COLLIDERS])
+                               bool only_capsules, uint32_t chosen[HAIR_STEP_COLLIDERS])
 {
     float distance[HAIR_STEP_COLLIDERS];
     uint32_t count = 0, farthest = 0;
     for (uint32_t i = 0; i < colliders->current.count; ++i) {
         const hair_collider* collider = &colliders->current.collider[i];
-        if (collider->shape > last) continue;
+        if (only_capsules ? collider->shape > HAIR_SHAPE_CAPSULE : collider->shape == HAIR_SHAPE_MESH)
+            continue;
         float far = distance_of(collider, head);
         if (count == HAIR_STEP_COLLIDERS) {
             if (far >= distance[farthest]) continue;
@@ -152,10 +155,10 @@ static struct hair_body body_of(const hair_collider* before, const hair_collider
 }
 
 static uint32_t fill_contacts(const struct hair_colliders* colliders, const struct hair_pose* head_before,
-                              const struct hair_pose* head_now, hair_shape last, struct hair_capsule* around,
-                              struct hair_body* out)
+                              const struct hair_pose* head_now, bool only_capsules,
+                              struct hair_capsule* around, struct hair_body* out)
 {
-    uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose_nearest(colliders, head_now, last, chosen);
+    uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose_nearest(colliders, head_now, only_capsules, chosen);
     for (uint32_t i = 0; i < count; ++i) {
         const hair_collider *now = &colliders->current.collider[chosen[i]],
                             *before = hair_colliders_previous(colliders, chosen[i]);
@@ -169,7 +172,7 @@ uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const s
                                  const struct hair_pose* head_now,
                                  struct hair_capsule out[HAIR_STEP_COLLIDERS])
 {
-    return fill_contacts(colliders, head_before, head_now, HAIR_SHAPE_CAPSULE, out, NULL);
+    return fill_contacts(colliders, head_before, head_now, true, out, NULL);
 }
 
 uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const struct hair_pose* head_before,
@@ -177,7 +180,7 @@ uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const str
                                struct hair_capsule around[HAIR_STEP_COLLIDERS],
                                struct hair_body out[HAIR_STEP_COLLIDERS])
 {
-    return fill_contacts(colliders, head_before, head_now, HAIR_SHAPE_PLANE, around, out);
+    return fill_contacts(colliders, head_before, head_now, false, around, out);
 }
 
 struct hair_contact hair_colliders_contact(const struct hair_colliders* colliders, uint32_t i,

@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+#define ELLIPSOID_STEPS 24
+#define ELLIPSOID_FLATTEST (1.0 / 256) // Shortest half axis, as a fraction of the longest.
+#define ELLIPSOID_MIN_SIZE 1e-9 // Minimum of the longest half axis, m.
+
 static double dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -100,6 +104,37 @@ static double to_cone(double radius, double half, const double p[3], double grad
     return revolve(nearest, inside, flank, p, gradient);
 }
 
+// Return the signed distance to an ellipsoid with the half axes r. The nearest point of the surface
+// is r^2 p / reach, where reach is s + r^2 - min(r)^2 for each axis, with the greatest s at which
+// the point is on the surface. Newton's method for the reciprocal of the norm of r p / reach
+// approaches s from below without passing it (More and Sorensen 1983).
+static double to_ellipsoid(const float size[3], const double p[3], double gradient[3])
+{
+    double longest = fmax(fmax((double)size[0], (double)size[1]), fmax((double)size[2], ELLIPSOID_MIN_SIZE));
+    double r[3], at[3], beyond[3], normal[3], shortest = 1, s = 0, away = 0;
+    for (int k = 0; k < 3; ++k) {
+        r[k] = fmax((double)size[k] / longest, ELLIPSOID_FLATTEST);
+        at[k] = fmax(fabs(p[k]) / longest, 1e-12 * r[k]); // Off the planes of symmetry.
+        shortest = fmin(shortest, r[k]);
+    }
+    for (int k = 0; k < 3; ++k) {
+        beyond[k] = (r[k] - shortest) * (r[k] + shortest);
+        s = fmax(s, r[k] * at[k] - beyond[k]);
+    }
+    for (int i = 0; i < ELLIPSOID_STEPS; ++i) {
+        double square = 0, slope = 0;
+        for (int k = 0; k < 3; ++k) {
+            double q = r[k] * at[k] / (s + beyond[k]);
+            square += q * q, slope += q * q / (s + beyond[k]);
+        }
+        s += square * (sqrt(square) - 1) / slope;
+    }
+    for (int k = 0; k < 3; ++k) normal[k] = copysign(at[k] / (s + beyond[k]), p[k]);
+    direction(normal, up, gradient);
+    for (int k = 0; k < 3; ++k) away += fabs(gradient[k]) * at[k] * (1 - r[k] * r[k] / (s + beyond[k]));
+    return longest * away;
+}
+
 double hair_distance_to_shape(hair_shape shape, const float size[3], const double point[3],
                               double gradient[3])
 {
@@ -112,6 +147,7 @@ double hair_distance_to_shape(hair_shape shape, const float size[3], const doubl
     case HAIR_SHAPE_BOX: return to_box(size, point, out);
     case HAIR_SHAPE_CYLINDER: return to_cylinder(a, b, point, out);
     case HAIR_SHAPE_CONE: return to_cone(a, b, point, out);
+    case HAIR_SHAPE_ELLIPSOID: return to_ellipsoid(size, point, out);
     default: out[0] = 0, out[1] = 1, out[2] = 0; return point[1]; // a plane
     }
 }

@@ -9,9 +9,11 @@
 #include "lib/gl/gl.h"
 
 #define POINTS 4000
-#define SHAPES 6
+#define SHAPES 8
 
-static const char* const names[SHAPES] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
+// The sizes below make no mesh. There the functions have a plane.
+static const char* const names[SHAPES] = {"sphere", "capsule", "box",  "cylinder",
+                                          "cone",   "plane",   "mesh", "ellipsoid"};
 static const float size[3] = {0.3f, 0.5f, 0.2f};
 
 static void any_point(uint32_t* seed, float out[4])
@@ -131,7 +133,9 @@ static void distance_is_negative_only_inside(void** state)
                               fabs(p[0]) < r && fabs(p[1]) < h && fabs(p[2]) < z,
                               around < r && fabs(p[1]) < h,
                               fabs(p[1]) < h && around < r * (h - p[1]) / (2 * h),
-                              p[1] < 0};
+                              p[1] < 0,
+                              p[1] < 0,
+                              pow(p[0] / r, 2) + pow(p[1] / h, 2) + pow(p[2] / z, 2) < 1};
         for (int shape = 0; shape < SHAPES; ++shape)
             if ((hair_distance_to_shape((hair_shape)shape, size, p, NULL) < 0) != inside[shape])
                 fail_msg("%s: point %d", names[shape], i);

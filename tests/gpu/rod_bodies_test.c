@@ -27,15 +27,18 @@ static void live(struct hair_test* test, int solver, hair_vec3 way, const hair_p
 // the ground.
 static void strand_on_any_shape_stays_outside_and_comes_to_rest(void** state)
 {
-    hair_collider bodies[] = {
-        hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0), hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
-        hair_test_body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
-        hair_test_body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0), hair_test_body(HAIR_SHAPE_PLANE, 0, -0.1f, 0)};
+    hair_collider bodies[] = {hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
+                              hair_test_body(HAIR_SHAPE_BOX, 0.08f, -0.05f, 0),
+                              hair_test_body(HAIR_SHAPE_CYLINDER, 0.1f, -0.06f, 0),
+                              hair_test_body(HAIR_SHAPE_CONE, 0.12f, -0.12f, 0),
+                              hair_test_body(HAIR_SHAPE_PLANE, 0, -0.1f, 0),
+                              hair_test_body(HAIR_SHAPE_ELLIPSOID, 0.1f, -0.06f, 0)};
     bodies[0].size[0] = 0.06f, bodies[0].size[1] = 0.03f, bodies[0].size[2] = 0.2f;
     bodies[1] = bodies[0];
     bodies[1].rounding = 0.01f;
     bodies[2].size[0] = 0.05f, bodies[2].size[1] = 0.2f;
     bodies[3].size[0] = 0.1f, bodies[3].size[1] = 0.1f;
+    bodies[5].size[0] = 0.09f, bodies[5].size[1] = 0.05f, bodies[5].size[2] = 0.2f;
     hair_test_turn(&bodies[1], 2, 0.5);
     hair_test_turn(&bodies[2], 0, 1.5707963);
     hair_physics physics = hair_test_loose(0.3f);

@@ -76,7 +76,8 @@ hair_collider hair_test_any_collider(const struct hair_field_box* box, const str
                                      float reach, uint32_t* random)
 {
     hair_collider collider = hair_collider_default();
-    collider.shape = (hair_shape)(hair_random(random) * HAIR_SHAPE_PLANE);
+    collider.shape = (hair_shape)(hair_random(random) * 6);
+    if (collider.shape == HAIR_SHAPE_PLANE) collider.shape = HAIR_SHAPE_ELLIPSOID;
     hair_vec3 side = hair_scale(hair_v3((float)box->bricks[0], (float)box->bricks[1], (float)box->bricks[2]),
                                 0.5f * HAIR_BRICK * box->voxel);
     hair_vec3 at = hair_add(hair_add(box->lower, side),

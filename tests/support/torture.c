@@ -150,14 +150,14 @@ void hair_test_torture_collide(struct hair_test_torture* t)
 {
     struct hair_test_mesh ball = hair_test_ball_mesh(0.05f, 6, 8);
     hair_collision_mesh_desc desc = hair_collision_mesh_desc_default();
-    hair_collider colliders[7];
+    hair_collider colliders[8];
     desc.host = &t->test->host.host;
     desc.positions = ball.positions, desc.vertex_count = ball.vertex_count;
     desc.triangles = ball.triangles, desc.triangle_count = ball.triangle_count;
     desc.resolution = 8;
     if (!t->mesh) hair_test_ok(t->test, hair_collision_mesh_create(&desc, &t->mesh));
     hair_test_mesh_free(&ball);
-    for (int i = 0; i < 7; ++i) {
+    for (int i = 0; i < 8; ++i) {
         hair_collider* c = &colliders[i];
         *c = hair_collider_default();
         c->shape = (hair_shape)i;
@@ -168,7 +168,7 @@ void hair_test_torture_collide(struct hair_test_torture* t)
         else if (i != HAIR_SHAPE_PLANE)
             c->size[0] = c->size[1] = c->size[2] = 0.03f;
     }
-    hair_test_ok(t->test, hair_set_colliders(t->hair, colliders, 7, sizeof *colliders));
+    hair_test_ok(t->test, hair_set_colliders(t->hair, colliders, 8, sizeof *colliders));
 }
 
 // Outcomes ----------------------------------------------------------------------------------------

@@ -193,8 +193,9 @@ static void collider_is_matched_by_key_at_any_index(void** state)
 static void each_shape_checks_its_own_sizes(void** state)
 {
     (void)state;
-    static const int sizes[] = {1, 2, 3, 2, 2, 0};
-    for (int shape = 0; shape < HAIR_SHAPE_MESH; ++shape) {
+    static const int sizes[] = {1, 2, 3, 2, 2, 0, 0, 3};
+    for (int shape = 0; shape <= HAIR_SHAPE_ELLIPSOID; ++shape) {
+        if (shape == HAIR_SHAPE_MESH) continue;
         hair_collider collider = hair_collider_default();
         collider.shape = (hair_shape)shape;
         for (int k = 0; k < 3; ++k) collider.size[k] = k < sizes[shape] ? 1 : NAN;

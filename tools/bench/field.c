@@ -321,11 +321,15 @@ static bool run_shape(struct subject* subject, const struct shape_row* shape, ha
 
 static void run_shapes(struct bench* bench)
 {
-    static const struct shape_row shapes[] = {
-        {"sphere", HAIR_SHAPE_SPHERE, 0, 0.5},     {"capsule", HAIR_SHAPE_CAPSULE, 0, 0.5},
-        {"box", HAIR_SHAPE_BOX, 0, 0.9},           {"rounded box", HAIR_SHAPE_BOX, 1, 0.5},
-        {"cylinder", HAIR_SHAPE_CYLINDER, 0, 0.9}, {"cone", HAIR_SHAPE_CONE, 0, 0.9},
-        {"plane", HAIR_SHAPE_PLANE, 0, 0.5},       {"mesh of a ball", HAIR_SHAPE_MESH, 0, 0.5}};
+    static const struct shape_row shapes[] = {{"sphere", HAIR_SHAPE_SPHERE, 0, 0.5},
+                                              {"capsule", HAIR_SHAPE_CAPSULE, 0, 0.5},
+                                              {"box", HAIR_SHAPE_BOX, 0, 0.9},
+                                              {"rounded box", HAIR_SHAPE_BOX, 1, 0.5},
+                                              {"cylinder", HAIR_SHAPE_CYLINDER, 0, 0.9},
+                                              {"cone", HAIR_SHAPE_CONE, 0, 0.9},
+                                              {"ellipsoid", HAIR_SHAPE_ELLIPSOID, 0, 0.5},
+                                              {"plane", HAIR_SHAPE_PLANE, 0, 0.5},
+                                              {"mesh of a ball", HAIR_SHAPE_MESH, 0, 0.5}};
     static const uint32_t resolutions[] = {32, 64, 128, 256};
     hair_collision_mesh* ball = NULL;
     for (int r = 0; r < (bench->options.quick ? 2 : 4); ++r)

@@ -10,18 +10,21 @@ typedef struct hair_json_entry entry;
 
 #define AT(member) offsetof(struct hair_scene_collider, member)
 
+const char* const hair_scene_shapes[HAIR_SCENE_SHAPES] = {
+    "sphere", "capsule", "box", "cylinder", "cone", "plane", NULL, "ellipsoid",
+};
+
 static bool read_shape(const place* json, const char* key, const json_t* value, void* out)
 {
-    static const char* const names[] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
     struct hair_scene_collider* collider = out;
     const char* name = json_is_string(value) ? json_string_value(value) : "";
-    for (int i = 0; i <= HAIR_SHAPE_PLANE; ++i)
-        if (strcmp(name, names[i]) == 0) {
+    for (int i = 0; i < HAIR_SCENE_SHAPES; ++i)
+        if (hair_scene_shapes[i] && strcmp(name, hair_scene_shapes[i]) == 0) {
             collider->collider.shape = (hair_shape)i;
             return true;
         }
-    return hair_json_wrong(json, key,
-                           "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"cone\" or \"plane\"");
+    return hair_json_wrong(
+        json, key, "\"sphere\", \"capsule\", \"box\", \"cylinder\", \"cone\", \"plane\" or \"ellipsoid\"");
 }
 
 bool hair_scene_read_keys(const place* json, const char* key, const json_t* value, struct hair_key* keys,

@@ -10,6 +10,10 @@
 #define HAIR_SCENE_COLLIDER_KEYS 32
 #define HAIR_SCENE_FAR 1e6 // maximum of any coordinate, m
 
+// Names of shapes in scene files, by hair_shape. NULL is a collision mesh, which no scene has.
+#define HAIR_SCENE_SHAPES (HAIR_SHAPE_ELLIPSOID + 1)
+extern const char* const hair_scene_shapes[HAIR_SCENE_SHAPES];
+
 struct hair_scene_collider {
     hair_collider collider; // at time 0
     // Fixed in the world. Otherwise the collider is in groom space and moves with the head.

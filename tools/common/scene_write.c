@@ -135,10 +135,9 @@ static void put_motion(const char* tool, json_t* root, const struct hair_motion*
 
 static json_t* collider_of(const struct hair_scene_collider* from)
 {
-    static const char* const shapes[] = {"sphere", "capsule", "box", "cylinder", "cone", "plane"};
     static const float size[3] = {0.1f, 0.1f, 0.1f};
     const hair_collider usual = hair_collider_default(), *collider = &from->collider;
-    json_t* out = json_pack("{s:s}", "shape", shapes[collider->shape]);
+    json_t* out = json_pack("{s:s}", "shape", hair_scene_shapes[collider->shape]);
     put(out, "position", collider->position, usual.position, 3);
     put(out, "rotation", collider->rotation, usual.rotation, 4);
     put(out, "size", collider->size, size, 3);

@@ -139,7 +139,7 @@ int find_collider(const viewer& viewer, const float ray[3])
         const hair_scene_collider& from = scene.colliders[i];
         hair_collider collider = hair_scene_collider_at(&from, (float)viewer.session.time);
         if (!from.stays) hair_collider_carry(viewer.session.transform, 1, &collider);
-        float radius = collider.rounding + std::max(collider.size[0], collider.size[1]);
+        float radius = collider.rounding + std::max({collider.size[0], collider.size[1], collider.size[2]});
         float along = 0, square = 0;
         for (int k = 0; k < 3; ++k) {
             float offset = collider.position[k] - scene.eye[k];

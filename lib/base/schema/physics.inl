@@ -83,7 +83,7 @@ END
 BEGIN(hair_collider)
 ENUM(hair_collider, shape, HAIR_SHAPE_SPHERE,
       "Shape of a collider in its local space, centred at the origin.", "sphere", "capsule", "box",
-      "cylinder", "cone", "plane", "mesh")
+      "cylinder", "cone", "plane", "mesh", "ellipsoid")
 VECTOR(hair_collider, position, 0, 0, 0, -1e9, 1e9, -2, 2, "m", "Position in the world.")
 QUATERNION(hair_collider, rotation, "Rotation in the world, a unit quaternion xyzw.")
 VECTOR(hair_collider, size, 0, 0, 0, 0, 1e6, 0, 1, "m", "Dimensions of the shape, see hair_shape.")
