@@ -10,5 +10,6 @@
 #define HAIR_MAX_ISOLINES 64
 #define HAIR_MAX_ISOLINE_SEGMENTS 64
 #define HAIR_STEP_SUBSTEPS 64        // Maximum per dispatch.
+#define HAIR_CURVE_INTERVALS 7 // Per curve along a strand.
 
 #endif

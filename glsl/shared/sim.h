@@ -254,6 +254,22 @@ struct hair_root_transform {
 };
 HAIR_SIZE(hair_root_transform)
 
+// Bit of hair_target_params.flags.
+#define HAIR_TARGETS_RESET 1u // There is no history. Vertices get their weights at once.
+
+// Parameters of target poses. A target in the head's frame is rotation (position + offset).
+struct hair_target_params {
+    hair_vec4 rotation;
+    hair_vec4 offset; // xyz: m.
+    // Factor of the weight along the strand: cubic polynomials of the intervals.
+    hair_vec4 along[HAIR_CURVE_INTERVALS];
+    float     max_change; // Maximum change of a weight in a substep.
+    float     strength; // Factor of all weights. 0 while the targets end, otherwise 1.
+    hair_uint flags; // HAIR_TARGETS_ bits.
+    hair_uint unused0;
+};
+HAIR_SIZE(hair_target_params)
+
 // Bits of hair_scalp_params.what.
 #define HAIR_SCALP_CHANGED 1u // The scalp was set since the last step.
 #define HAIR_SCALP_RESET 2u // There is no history.

@@ -73,6 +73,16 @@
 #define HAIR_BIND_ROOT_BINDING 6
 #define HAIR_BIND_FOLLOWER 7   // hair_follower[]
 
+// Buffers of the pass that blends targets. The first two are also of smooth.comp.
+
+// float[]. xyz per guide vertex: target at the end of the step, in the space of the application.
+// Read-only.
+#define HAIR_BIND_TARGET_POSITION 6
+// hair_vec4[] per guide vertex. xyz: target at the end of the last substep, in the head's frame, m.
+// w: weight.
+#define HAIR_BIND_TARGET 7
+#define HAIR_BIND_TARGET_WEIGHT 3 // float[] per guide. Weight to come. Read-only.
+
 // Buffers of the passes that find followers inside colliders.
 #define HAIR_BIND_HIT 3    // float[] per follower. First vertex inside, or HAIR_NO_HIT.
 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.
@@ -166,6 +176,7 @@
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, of passes that draw nothing.
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the fluid passes.
 #define HAIR_BIND_LEVEL 1        // hair_fluid_level, of the fluid passes.
+#define HAIR_BIND_TARGET_PARAMS 1 // hair_target_params, of passes that draw nothing.
 #define HAIR_BIND_ACTIVITY_PARAMS 1  // hair_activity_params, of passes that draw nothing.
 #define HAIR_BIND_ENERGY_PARAMS 1 // hair_energy_params, of passes that draw nothing.
 #define HAIR_BIND_MOTION_PARAMS 1 // hair_motion_params, of passes that draw nothing.

@@ -17,7 +17,6 @@
 // HAIR_FOLLOWER_COLLISION_SINGLE_GUIDE of hair_follower_collision.
 #define HAIR_COLLISION_IS_SINGLE_GUIDE 1
 
-#define HAIR_CURVE_INTERVALS 7 // Per curve along a strand.
 #define HAIR_TURN_PLACES 16    // Samples of one turn of a curl.
 
 // Curves of a look along a strand.

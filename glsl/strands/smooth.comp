@@ -14,6 +14,9 @@ layout(local_size_x = HAIR_GUIDE_THREADS) in;
 
 shared vec3  vertex[HAIR_GUIDE_THREADS];
 shared float from_root[HAIR_GUIDE_THREADS];
+#ifdef HAIR_TARGETS
+#include "strands/blend_pose.glsl"
+#endif
 
 // Compute distances from the root, by an inclusive scan of segment lengths.
 void sum_lengths(uint i, uint count)
@@ -74,6 +77,9 @@ void main()
     scalp     = quat_multiply(scalp, now.turn);
 #endif
     vec3 in_head = mix(before, after, params.alpha);
+#ifdef HAIR_TARGETS
+    in_head = blend_pose(i, own, count, in_head);
+#endif
     vertex[i]    = rotate(params.rotation_now, in_head);
     synchronise();
     vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);

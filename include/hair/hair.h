@@ -61,6 +61,7 @@
 #include <hair/hair_colliders.h>
 #include <hair/hair_wind.h>
 #include <hair/hair_look.h>
+#include <hair/hair_targets.h>
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>
 #include <hair/hair_buffers.h>

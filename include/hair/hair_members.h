@@ -31,6 +31,7 @@ typedef enum hair_struct {
     HAIR_STRUCT_BUFFERS, ///< hair_buffers. Only its inputs.
     HAIR_STRUCT_ASSET_DESC, ///< hair_asset_desc.
     HAIR_STRUCT_STYLE_DESC, ///< hair_style_desc.
+    HAIR_STRUCT_TARGET_BLEND, ///< hair_target_blend.
     HAIR_STRUCT_COUNT
 } hair_struct;
 

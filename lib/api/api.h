@@ -109,6 +109,19 @@ hair_result hair_leave(hair_context* context, hair_result result);
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,
                                  struct hair_pose* out);
 
+// Check how positions are passed, and that OpenGL is current. Convert their space to a pose.
+hair_result hair_check_positions(hair_instance* hair, size_t stride, const float* to_world,
+                                 struct hair_pose* space);
+// Return the positions packed. Return NULL and set `result` if memory for `what` runs out or a
+// position is invalid.
+float* hair_copy_positions(const hair_instance* hair, const char* what, const float* positions,
+                           uint32_t count, size_t stride, hair_result* result);
+// Check a buffer of `count` positions. `from` receives the aligned offset at which it is bound, and
+// `size` the bytes from there.
+hair_result hair_check_position_buffer(const hair_instance* hair, const char* what, uint32_t buffer,
+                                       size_t offset, size_t stride, uint32_t count, size_t* from,
+                                       size_t* size);
+
 // Check the textures that the application passes to a view, as far as a draw of `view` reads them.
 hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view);
 

@@ -1,44 +1,13 @@
 // scalp.c - public calls on scalp motion, for a scalp that the application skins.
 #include "lib/api/api.h"
 
-#define FARTHEST 1e9f // Maximum coordinate of a position, m.
-#define LONGEST 4096u // Maximum stride, bytes.
-
-static hair_result check_scalp(const hair_instance* hair, size_t stride, const float* to_world,
+static hair_result check_scalp(hair_instance* hair, size_t stride, const float* to_world,
                                struct hair_pose* space)
 {
     const hair_host* host = &hair->context->host;
-    *space = (struct hair_pose){.rotation = {0, 0, 0, 1}};
     if (!hair_scalp_motion_vertex_count(&hair->sim))
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: its groom has no scalp", hair->label);
-    if (stride < 12 || stride > LONGEST || stride % 4)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: stride is %zu, not a multiple of 4 in [12, %u]",
-                         hair->label, stride, LONGEST);
-    if (to_world) HAIR_TRY(hair_check_transform(hair, "to_world", to_world, space));
-    return hair_check_current(hair->context);
-}
-
-// Return the positions packed. Return NULL and set `result` if memory runs out or a position is
-// invalid.
-static float* copy_positions(const hair_instance* hair, const float* positions, uint32_t count, size_t stride,
-                             hair_result* result)
-{
-    const hair_host* host = &hair->context->host;
-    HAIR_ASSERT(stride >= 12 && stride % sizeof *positions == 0);
-    float* packed = hair_alloc(host, count, 3 * sizeof *packed);
-    *result = packed ? HAIR_OK : hair_fail_memory(host, "the scalp");
-    for (uint32_t i = 0; i < count && !*result; ++i) {
-        const float* p = positions + i * (stride / sizeof *positions);
-        for (int k = 0; k < 3; ++k) packed[3 * (size_t)i + (size_t)k] = p[k];
-        // NaN fails too.
-        if (!(fabsf(p[0]) <= FARTHEST && fabsf(p[1]) <= FARTHEST && fabsf(p[2]) <= FARTHEST))
-            *result = hair_fail(host, HAIR_ERROR_ARGUMENT,
-                                "%s: positions: vertex %u is (%g, %g, %g), not within %g m of the origin",
-                                hair->label, i, (double)p[0], (double)p[1], (double)p[2], (double)FARTHEST);
-    }
-    if (!*result) return packed;
-    hair_free(host, packed);
-    return NULL;
+    return hair_check_positions(hair, stride, to_world, space);
 }
 
 hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t count, size_t stride,
@@ -54,50 +23,13 @@ hair_result hair_set_scalp(hair_instance* hair, const float* positions, uint32_t
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "%s: count is %u, not the %u of the groom's scalp",
                          hair->label, count, vertices);
     hair_result result;
-    float* packed = copy_positions(hair, positions, count, stride, &result);
+    float* packed = hair_copy_positions(hair, "the scalp", positions, count, stride, &result);
     if (!packed) return result;
     hair_enter(hair);
     result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);
     if (!result) hair_scalp_motion_set(&hair->sim, packed, &space);
     hair_free(host, packed);
     return hair_leave(hair->context, result);
-}
-
-// Check a buffer of positions. `from` receives the aligned offset at which it is bound, and `size`
-// the bytes from there.
-static hair_result check_buffer(const hair_instance* hair, uint32_t buffer, size_t offset, size_t stride,
-                                size_t* from, size_t* size)
-{
-    const struct hair_gl* gl = &hair->context->gl;
-    GLint64 has = 0, mapped = 0, access = 0;
-    GLint max = 0, align = 1;
-    // Queries of another object would raise the application's error flag.
-    if (!buffer || !gl->IsBuffer(buffer))
-        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
-                         buffer);
-    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &has);
-    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_MAPPED, &mapped);
-    gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_ACCESS_FLAGS, &access);
-    if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
-        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
-                         hair->label, buffer);
-    uint64_t needed = (uint64_t)stride * (hair_scalp_motion_vertex_count(&hair->sim) - 1) + 12,
-             there = (uint64_t)has;
-    if (offset % 4 || offset > there || needed > there - offset)
-        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
-                         "%s: offset is %zu, not a multiple of 4 from which on gl_buffer's %llu bytes hold "
-                         "the %llu of the "
-                         "scalp",
-                         hair->label, offset, (unsigned long long)there, (unsigned long long)needed);
-    gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
-    *from = offset - offset % (size_t)align;
-    *size = (size_t)needed + (offset - *from);
-    HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
-    if (*size > (size_t)max)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                         "%s: the scalp takes %zu bytes, more than the driver's %d", hair->label, *size, max);
-    return HAIR_OK;
 }
 
 hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset, size_t stride,
@@ -107,7 +39,8 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     struct hair_pose space;
     size_t from = 0, size = 0;
     HAIR_TRY(check_scalp(hair, stride, to_world, &space));
-    hair_result result = check_buffer(hair, gl_buffer, offset, stride, &from, &size);
+    hair_result result = hair_check_position_buffer(hair, "scalp", gl_buffer, offset, stride,
+                                                    hair_scalp_motion_vertex_count(&hair->sim), &from, &size);
     if (result) return hair_check_lost(hair->context, result);
     hair_enter(hair);
     result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);

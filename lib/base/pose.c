@@ -55,6 +55,18 @@ hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b)
                    (float)(a->position[2] - b->position[2]));
 }
 
+// With s and t the rotation and position of the space, and r and o those of the head, a position p
+// is at conj(r) s (p + conj(s) (t - o)).
+void hair_pose_relative(const struct hair_pose* space, const struct hair_pose* head, hair_vec4* rotation,
+                        hair_vec4* offset)
+{
+    hair_quat s = space->rotation;
+    hair_vec3 away = hair_rotate(hair_quat_conjugate(s), hair_pose_offset(space, head));
+    *rotation =
+        hair_quat_to_vec4(hair_quat_normalize(hair_quat_multiply(hair_quat_conjugate(head->rotation), s)));
+    *offset = (hair_vec4){away.x, away.y, away.z, 0};
+}
+
 // Sum in double, because far from the world's origin both terms are large and nearly cancel.
 hair_mat4 hair_mat4_from_head(const float m[16], const struct hair_pose* head)
 {

@@ -24,6 +24,11 @@ struct hair_pose hair_pose_between(const struct hair_pose* a, const struct hair_
 // Return a.position - b.position.
 hair_vec3 hair_pose_offset(const struct hair_pose* a, const struct hair_pose* b);
 
+// Find the transform from the space of a pose to the frame of the head. It maps a position p to
+// rotation (p + offset). In this order, large coordinates cancel first.
+void hair_pose_relative(const struct hair_pose* space, const struct hair_pose* head, hair_vec4* rotation,
+                        hair_vec4* offset);
+
 // Return a rotation as shaders read it.
 static inline hair_vec4 hair_quat_to_vec4(hair_quat q)
 {

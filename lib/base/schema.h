@@ -29,6 +29,7 @@
     DESC(hair_buffers)                                                                                       \
     DESC(hair_asset_desc)                                                                                    \
     DESC(hair_style_desc)                                                                                    \
+    DESC(hair_target_blend)                                                                                  \
     INFO(hair_groom_info)                                                                                    \
     INFO(hair_collision_mesh_info)                                                                           \
     INFO(hair_memory)                                                                                        \

@@ -16,13 +16,14 @@
 // depth or opacity count as DEPTH or OPACITY, whatever their category.
 CATEGORY(RESET, "reset")
 CATEGORY(ROTATE_STATE, "rotate_state")
-CATEGORY(UNPACK_SCALP, "unpack_scalp")
+CATEGORY(UNPACK_POSITIONS, "unpack_positions")
 CATEGORY(ROOT_TRANSFORMS, "root_transforms")
 CATEGORY(WIND, "wind")
 CATEGORY(HAIR_GRID, "hair_grid")
 CATEGORY(ACTIVITY, "activity")
 CATEGORY(DIAGNOSE, "diagnose")
 CATEGORY(SOLVE, "solve")
+CATEGORY(TARGETS, "targets")
 CATEGORY(SMOOTH, "smooth")
 CATEGORY(BIND_FOLLOWERS, "bind_followers")
 CATEGORY(FIELD, "field")
@@ -46,6 +47,7 @@ FEATURE(ROD, "HAIR_ROD") // Guides are rods, with frames.
 FEATURE(WIND, "HAIR_WIND") // Wind blows.
 FEATURE(PINNED, "HAIR_PINNED") // Vertices are pinned.
 FEATURE(SKINNED, "HAIR_SKINNED") // Roots move with a skinned scalp.
+FEATURE(TARGETS, "HAIR_TARGETS") // Guides are blended with targets.
 FEATURE(HAIR_GRID, "HAIR_GRID") // The hair-hair grid acts on guides.
 // One thread per guide. Otherwise one work group per guide.
 FEATURE(THREAD_PER_GUIDE, "HAIR_THREAD_PER_GUIDE")
@@ -110,7 +112,9 @@ PASS(FLUID_PROJECT, "wind/project", WIND, 0, "HAIR_FLUID=1 wind/project.comp")
 PASS(FLUID_EXPORT_VELOCITY, "wind/export_velocity", WIND, 0, "HAIR_FLUID=1 wind/export_velocity.comp")
 PASS(RESET, "sim/reset", RESET, WITH(ROD) | WITH(SKINNED) | WITH(MIXED), "sim/reset.comp")
 PASS(ROTATE_STATE, "sim/rotate_state", ROTATE_STATE, WITH(ROD) | WITH(MIXED), "sim/rotate_state.comp")
-PASS(UNPACK_SCALP, "sim/unpack_scalp", UNPACK_SCALP, 0, "HAIR_SKINNED=1 sim/unpack_scalp.comp")
+PASS(UNPACK_POSITIONS, "sim/unpack_positions", UNPACK_POSITIONS, 0,
+     "HAIR_SKINNED=1 sim/unpack_positions.comp")
+PASS(BLEND_TARGETS, "sim/blend_targets", TARGETS, WITH(ROD) | WITH(MIXED), "sim/blend_targets.comp")
 PASS(ROOT_TRANSFORMS, "sim/root_transforms", ROOT_TRANSFORMS, 0, "HAIR_SKINNED=1 sim/root_transforms.comp")
 PASS(BIND_FOLLOWERS, "strands/bind_followers", BIND_FOLLOWERS, 0,
      "HAIR_SKINNED=1 strands/bind_followers.comp")
@@ -137,7 +141,7 @@ PASS(FEEDBACK_BEND_RED, "sim/feedback_bend_red", SOLVE, 0, "HAIR_PHASE=4 sim/fee
 PASS(FEEDBACK_BEND_BLACK, "sim/feedback_bend_black", SOLVE, 0, "HAIR_PHASE=5 sim/feedback.vert")
 PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", SOLVE, 0, "HAIR_PHASE=6 sim/feedback.vert")
 PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert")
-PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED), "strands/smooth.comp")
+PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED) | WITH(TARGETS), "strands/smooth.comp")
 PASS(DISPLACE, "strands/displace", SMOOTH, 0, "strands/displace.comp")
 PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED),
      "HAIR_STORED=1 HAIR_EVERY_FOLLOWER=1 strands/expand.comp")

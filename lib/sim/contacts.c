@@ -16,10 +16,8 @@ static struct hair_collider_grid_desc describe_grid(const struct hair_sim* sim, 
     hair_vec3 moved = hair_pose_offset(&sim->head, &sim->head_at_last_step);
     float h = (float)longest, half = 0.5f * (FASTEST * h + hair_length(moved) * fminf(h / (float)dt, 1));
     float far = HAIR_SIM_LOOSE * sim->reach;
-    // Hair that is free, pinned or on a skinned scalp may be farther than the reach.
-    int may = sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim);
     return (struct hair_collider_grid_desc){
-        .reach = may ? FARTHEST : fminf(far, FARTHEST),
+        .reach = hair_sim_may_leave(sim) ? FARTHEST : fminf(far, FARTHEST),
         .slack = (float)HAIR_CONTACT_FIT + fminf(half, HAIR_CONTACT_SLACK),
         .margin = sim->physics.collision.margin,
         .fraction_start = fraction_start,

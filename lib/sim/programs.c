@@ -238,12 +238,12 @@ hair_result hair_sim_ensure_programs(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
     int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
-    hair_gl_pass smooth =
-        hair_scalp_motion_is_on(sim) ? HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED) : HAIR_GL_SMOOTH;
     HAIR_TRY(ensure_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread)));
     if (any && sim->by_thread && gl->software) // The lists of a step decide which.
         HAIR_TRY(hair_gl_ensure_program(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread)));
-    HAIR_TRY(hair_gl_ensure_program(gl, hair_gl_pass_for(smooth, sim->max_vertices)));
+    HAIR_TRY(hair_gl_ensure_program(
+        gl, hair_sim_smooth_pass(sim, hair_scalp_motion_is_on(sim), hair_targets_are_on(sim))));
+    HAIR_TRY(hair_targets_ensure(sim));
     if (sim->physics.sleep_threshold > 0) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_ACTIVITY));
     if (hair_grid_is_on(sim))
         HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_HAIR_GRID_CLEAR, HAIR_GL_HAIR_GRID_GATHER, 0));

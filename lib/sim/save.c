@@ -53,7 +53,7 @@ static hair_result upload_state(const struct hair_serializer* s)
 }
 
 // Load a state whose frame has been checked, into a simulation that has all buffers of the state.
-static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, size_t size, int skinned)
+static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, size_t size, bool skinned)
 {
     const hair_host* host = &sim->gl->host;
     struct hair_sim own = *sim; // Copy that receives the loaded state.
@@ -106,14 +106,17 @@ hair_result hair_sim_load(struct hair_sim* sim, const unsigned char* bytes, size
     // The state may contain accelerations of the hair-hair grid and the air of a fluid.
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
-    int skinned = size >= HEADER + 4 + TRAILER && hair_read_u32(bytes + HEADER) == 1;
+    uint32_t marks = size >= HEADER + 4 + TRAILER ? hair_read_u32(bytes + HEADER) : 0;
+    bool skinned = marks & HAIR_SAVE_SKINNED, has_targets = marks & HAIR_SAVE_TARGETS;
     if (skinned && !sim->scalp_motion.root_bindings)
         return hair_fail(
             host, HAIR_ERROR_ARGUMENT,
             "the saved state is another's: its scalp is skinned, and the instance's groom has none");
-    bool was_skinned = hair_scalp_motion_is_on(sim);
+    bool was_skinned = hair_scalp_motion_is_on(sim), had_targets = hair_targets_are_on(sim);
     if (skinned) HAIR_TRY(hair_scalp_motion_create(sim));
-    hair_result result = load_state(sim, bytes, size, skinned);
+    hair_result result = has_targets ? hair_targets_create(sim) : HAIR_OK;
+    if (!result) result = load_state(sim, bytes, size, skinned);
     if (result && skinned && !was_skinned) hair_scalp_motion_undo_create(sim);
+    if (result ? has_targets && !had_targets : !has_targets) hair_targets_end(sim);
     return result;
 }

@@ -22,6 +22,7 @@ _Static_assert(
 #define MAX_SUBSTEPS_DONE 2000
 #define MAX_CELLS 1e16 // Maximum distance of the fluid's box from the world's origin, in cells.
 #define MAX_QUIET_TIME 1e9 // s
+#define MAX_BLEND 11 // Maximum of hair_target_blend.blend_time and two substeps, s.
 #define MAX_SUBSTEP_SCALE 16 // 1 / the minimum of hair_physics.substep_rate.
 // Number of words of a collider before the hash of its collision mesh and its key.
 #define COLLIDER_WORDS 14
@@ -166,6 +167,24 @@ static void serialize_scalp_motion(struct hair_serializer* s, struct hair_sim* s
     hair_serialize_buffer(s, "scalp to come", motion->scalp[1], size);
 }
 
+// Serialize targets. hair_sim_load() has created the buffers. Weights to come are settings.
+static void serialize_targets(struct hair_serializer* s, struct hair_sim* sim, bool has_targets)
+{
+    struct hair_targets* targets = &sim->targets;
+    if (!has_targets || s->result) return;
+    size_t size = 3 * (size_t)sim->guide_vertices * sizeof(float);
+    hair_serialize_vec4(s, "turn of the targets", &targets->rotation, 2);
+    hair_serialize_vec4(s, "offset of the targets", &targets->offset, MAX_PAST);
+    hair_serialize_flag(s, "whether targets end", &targets->ends);
+    hair_serialize_double(s, "time until targets are blended", &targets->blend_left, 0, MAX_BLEND);
+    hair_serialize_buffer(s, "targets", targets->target, sim->guide_vertices * sizeof(hair_vec4));
+    hair_serialize_buffer(s, "positions of targets", targets->position[0], size);
+    hair_serialize_flag(s, "whether targets have been given since the last step", &targets->changed);
+    if (!targets->changed || s->result) return;
+    hair_serialize_pose(s, "space of the targets", &targets->space, MAX_PLACE);
+    hair_serialize_buffer(s, "positions of targets to come", targets->position[1], size);
+}
+
 // Serialize the sleep state and the measurements of activity.
 static void serialize_sleep(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded)
 {
@@ -221,9 +240,11 @@ static void serialize_wind_coupling(struct hair_serializer* s, struct hair_wind_
 
 void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded)
 {
-    int skinned = hair_scalp_motion_is_on(sim);
+    uint32_t marks = (hair_scalp_motion_is_on(sim) ? HAIR_SAVE_SKINNED : 0) |
+                     (hair_targets_are_on(sim) ? HAIR_SAVE_TARGETS : 0);
     // hair_sim_load() reads this field in advance, so it is the first.
-    hair_serialize_flag(s, "mark of a skinned scalp", &skinned);
+    hair_serialize_uint(s, "marks of a skinned scalp and of targets", &marks,
+                        HAIR_SAVE_SKINNED | HAIR_SAVE_TARGETS);
     hair_serialize_same(s, "solver", sim->solver);
     hair_serialize_same(s, "substep", sim->asked_substep);
     hair_serialize_same(s, "number of guides", sim->guides);
@@ -248,7 +269,8 @@ void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct 
                           sim->guide_vertices * sizeof(struct hair_history));
     serialize_bend(s, sim);
     serialize_hair_grid(s, &sim->hair_grid, sim->guide_vertices);
-    serialize_scalp_motion(s, sim, skinned);
+    serialize_scalp_motion(s, sim, (marks & HAIR_SAVE_SKINNED) != 0);
+    serialize_targets(s, sim, (marks & HAIR_SAVE_TARGETS) != 0);
     serialize_sleep(s, sim, loaded);
     hair_serialize_uint(s, "how many times as long substeps are", &sim->substep_scale, MAX_SUBSTEP_SCALE);
     hair_serialize_double(s, "time since hair was seen", &sim->unseen, 0, 1);

@@ -12,6 +12,10 @@
 #define HAIR_SAVE_HEADER 20
 #define HAIR_SAVE_TRAILER 8
 
+// Bits of the first field of a saved state.
+#define HAIR_SAVE_SKINNED 1u // The scalp is skinned.
+#define HAIR_SAVE_TARGETS 2u // Guides have targets.
+
 // Loaded arrays, before they are checked and collision meshes are held.
 struct hair_loaded {
     struct hair_loaded_colliders {

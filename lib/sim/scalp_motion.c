@@ -59,13 +59,14 @@ static hair_result make_scalp_buffers(struct hair_sim* sim, GLuint* root_transfo
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_ROOT_TRANSFORMS, "hair root bindings",
                              motion->root_bindings->count * sizeof *motion->root_bindings->binding,
                              motion->root_bindings->binding, &motion->root_binding));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp at rest", size,
+    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_POSITIONS, "hair scalp at rest", size,
                              motion->root_bindings->positions, &motion->rest));
     for (int i = 0; i < 2; ++i)
-        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp", size,
+        HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_UNPACK_POSITIONS, "hair scalp", size,
                                  motion->root_bindings->positions, &motion->scalp[i]));
-    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp upload", size, &motion->upload));
-    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_SCALP, "hair scalp params",
+    HAIR_TRY(
+        hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_POSITIONS, "hair scalp upload", size, &motion->upload));
+    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_UNPACK_POSITIONS, "hair scalp params",
                              sizeof(struct hair_scalp_params), &motion->params));
     return hair_gl_buffer_texture(gl, "hair root transforms", GL_RGBA32F, *root_transform, &motion->texture);
 }
@@ -100,10 +101,9 @@ hair_result hair_scalp_motion_create(struct hair_sim* sim)
     struct hair_gl* gl = sim->gl;
     GLuint root_transform = 0;
     if (hair_scalp_motion_is_on(sim)) return HAIR_OK;
-    HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_SCALP, HAIR_GL_BIND_FOLLOWERS, 0));
+    HAIR_TRY(hair_gl_ensure_programs(gl, HAIR_GL_UNPACK_POSITIONS, HAIR_GL_BIND_FOLLOWERS, 0));
     HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 1)));
-    HAIR_TRY(hair_gl_ensure_program(
-        gl, hair_gl_pass_for(HAIR_GL_SMOOTH | HAIR_GL_WITH(SKINNED), sim->max_vertices)));
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_smooth_pass(sim, true, hair_targets_are_on(sim))));
     hair_result result = make_scalp_buffers(sim, &root_transform);
     if (result) {
         hair_gl_free_buffer(gl, &root_transform);
@@ -171,31 +171,22 @@ void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t of
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
     // Shaders of the application may have written the buffer.
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    hair_gl_run(gl, HAIR_GL_UNPACK_SCALP,
+    hair_gl_run(gl, HAIR_GL_UNPACK_POSITIONS,
                 (motion->root_bindings->vertex_count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
     motion->space = *space;
     motion->changed = 1;
 }
 
-// Make the new scalp the current one. Its transform into the head's frame maps a position p to
-//
-//   conj(r) s (p + conj(s) (t - o))
-//
-// where s and t are the rotation and position of its space, and r and o those of the head. In this
-// order, large coordinates cancel first.
+// Make the new scalp the current one.
 static void take_changed(struct hair_sim* sim)
 {
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     HAIR_ASSERT(motion->changed && motion->scalp[0] != motion->scalp[1]);
-    hair_quat s = motion->space.rotation;
-    hair_quat q = hair_quat_normalize(hair_quat_multiply(hair_quat_conjugate(sim->head.rotation), s));
-    hair_vec3 away = hair_rotate(hair_quat_conjugate(s), hair_pose_offset(&motion->space, &sim->head));
     GLuint given = motion->scalp[1];
     motion->scalp[1] = motion->scalp[0];
     motion->scalp[0] = given;
-    motion->rotation = hair_quat_to_vec4(q);
-    motion->offset = (hair_vec4){away.x, away.y, away.z, 0};
+    hair_pose_relative(&motion->space, &sim->head, &motion->rotation, &motion->offset);
 }
 
 static void run_scalp_pass(struct hair_sim* sim, struct hair_scalp_params params)

@@ -9,7 +9,7 @@
 // Maximum of any number in a buffer. A solver itself resets hair that is too far.
 #define HAIR_MAX_STATE 1e9
 #define HAIR_SERIALIZER_NEW UINT32_MAX // Name of a buffer that is read before it is created.
-#define HAIR_SERIALIZER_BUFFERS 10 // Maximum number of buffers of a state.
+#define HAIR_SERIALIZER_BUFFERS 13 // Maximum number of buffers of a state.
 
 struct hair_serializer {
     const hair_host* host;

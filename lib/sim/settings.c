@@ -48,13 +48,13 @@ void hair_sim_set_unseen_time(struct hair_sim* sim, double seconds)
 
 bool hair_sim_has_fixed_roots(const struct hair_sim* sim)
 {
-    return (sim->physics.root != HAIR_ROOT_FREE || !sim->rods) && !hair_scalp_motion_is_on(sim);
+    return (sim->physics.root != HAIR_ROOT_FREE || !sim->rods) && !hair_scalp_motion_is_on(sim) &&
+           !hair_targets_are_on(sim);
 }
 
 bool hair_sim_has_attached_strands(const struct hair_sim* sim)
 {
-    return sim->rods && sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count &&
-           !hair_scalp_motion_is_on(sim);
+    return sim->rods && !hair_sim_may_leave(sim);
 }
 
 bool hair_sim_has_wind(const struct hair_sim* sim)

@@ -21,6 +21,7 @@ static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
     sim->wind = desc->wind;
     sim->head = desc->head;
     sim->contacts.sdf_pool = desc->sdf_pool;
+    hair_targets_init(&sim->targets);
     sim->wind_coupling.field = desc->field;
 }
 
@@ -94,6 +95,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_wind_coupling_free(sim);
     hair_sim_free_rods(sim);
     hair_scalp_motion_free(sim);
+    hair_targets_free(sim);
     hair_sleep_free(sim);
     hair_diagnosis_free(sim);
     hair_snapshots_free(sim);
@@ -110,6 +112,7 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt, double 
 {
     sim->contacts.any = hair_contacts_are_any(sim);
     HAIR_TRY(hair_pins_write(sim));
+    HAIR_TRY(hair_targets_ensure(sim));
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
     if (sim->rods) HAIR_TRY(hair_wind_ensure(&sim->wind_state, sim->gl, &sim->wind));
     HAIR_TRY(hair_wind_coupling_ensure(sim));
@@ -146,10 +149,11 @@ static uint32_t min_count(uint32_t a, uint32_t b)
 }
 
 // Return the number of substeps of the next dispatch, of which `left` remain in the step. No block
-// of the hair-hair grid or of the fluid ends within a dispatch.
+// of the hair-hair grid or of the fluid ends within a dispatch. Targets hold guides after each
+// substep.
 static uint32_t next_substeps(const struct hair_sim* sim, uint32_t left)
 {
-    uint32_t count = min_count(left, hair_sim_substeps_at_once(sim));
+    uint32_t count = hair_targets_are_on(sim) ? 1 : min_count(left, hair_sim_substeps_at_once(sim));
     if (hair_grid_is_on(sim)) count = min_count(count, hair_grid_substeps_left(sim));
     if (hair_wind_coupling_is_on(sim)) count = min_count(count, hair_wind_coupling_substeps_left(sim));
     HAIR_ASSERT(0 < count && count <= left);
@@ -206,6 +210,10 @@ static void end_dispatch(struct hair_sim* sim, struct hair_step_params* params, 
 {
     if (hair_grid_is_on(sim)) hair_grid_count(sim, count);
     if (hair_wind_coupling_is_on(sim)) hair_wind_coupling_count(sim, count);
+    if (hair_targets_are_on(sim)) {
+        hair_targets_run(sim);
+        bind_buffers(sim);
+    }
     params->fraction_start = params->substep[count - 1].displacement.w;
     params->rescale = 1;
 }
@@ -228,6 +236,7 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
     hair_sim_write_colliders(sim, &params);
     params.fraction_start = fraction_of_step(from, dt);
     if (hair_scalp_motion_is_on(sim)) move_roots(sim, again, total, from, dt);
+    if (hair_targets_are_on(sim)) hair_targets_begin_step(sim);
     bind_buffers(sim);
     for (uint32_t done = 0, count; done < total; done += count) {
         count = next_substeps(sim, total - done);
@@ -242,6 +251,7 @@ static void advance(struct hair_sim* sim, bool again, uint32_t total, double fro
         hair_sim_upload(sim, &params);
     }
     if (!hair_grid_is_on(sim)) hair_grid_reset(sim);
+    hair_targets_pass_time(sim, total * sim->substep);
 }
 
 // Return the number of substeps that fit into a time. The tolerance EARLY makes 2/120 s hold two
@@ -319,6 +329,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     sim->head_at_last_step = sim->head;
     hair_colliders_end_step(&sim->colliders);
     hair_sleep_submit_query(sim, disturbed, dt);
+    hair_targets_end_step(sim);
     free_unused(sim);
     return HAIR_OK;
 }
@@ -361,6 +372,7 @@ void hair_sim_reset(struct hair_sim* sim)
     hair_sim_write_now(sim, &params);
     if (hair_scalp_motion_is_on(sim)) hair_scalp_motion_reset(sim);
     run_over_vertices(sim, hair_sim_reset_pass(sim, hair_scalp_motion_is_on(sim)), &params);
+    if (hair_targets_are_on(sim)) hair_targets_reset(sim);
 }
 
 // Move all past poses by the rigid motion that moves the head, so that the hair does not swing.

@@ -17,6 +17,7 @@
 #include "lib/sim/scalp_motion.h"
 #include "lib/sim/sleep.h"
 #include "lib/sim/pins.h"
+#include "lib/sim/targets.h"
 #include "lib/wind/wind_params.h"
 
 #include <stdbool.h>
@@ -103,6 +104,7 @@ struct hair_sim {
     struct hair_pins pins;
     struct hair_wind_state wind_state;
     struct hair_scalp_motion scalp_motion;
+    struct hair_targets targets;
     struct hair_sleep sleep;
     struct hair_wind_coupling wind_coupling;
     struct hair_feedback feedback;
@@ -222,6 +224,15 @@ uint32_t hair_sim_block_left(uint32_t done, uint32_t length);
 bool hair_scalp_motion_is_on(const struct hair_sim* sim);
 // Bind the scalp motion for the passes that read it.
 void hair_scalp_motion_bind(struct hair_sim* sim);
+// Return whether there are targets of guides.
+bool hair_targets_are_on(const struct hair_sim* sim);
+// Bind targets for the passes that read them.
+void hair_targets_bind(struct hair_sim* sim);
+// Return the pass that smooths guides, with a skinned scalp and with targets.
+hair_gl_pass hair_sim_smooth_pass(const struct hair_sim* sim, bool is_skinned, bool has_targets);
+// Return whether something other than its own motion moves hair away from the rest pose of the
+// head: a free root, pins, a skinned scalp or targets.
+bool hair_sim_may_leave(const struct hair_sim* sim);
 // Return whether the physics have cohesion or volume, and the solver supports them.
 bool hair_grid_is_on(const struct hair_sim* sim);
 

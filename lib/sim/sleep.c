@@ -91,8 +91,7 @@ static bool comes_near(const struct hair_sim* sim, const hair_collider* a, const
     float max = HAIR_SIM_LOOSE * sim->reach + AROUND + sim->physics.collision.margin + radius +
                 0.5f * hair_length(way);
     hair_vec3 mid = hair_add(away, hair_scale(way, 0.5f));
-    int bound = sim->physics.root != HAIR_ROOT_FREE && !sim->pins.count && !hair_scalp_motion_is_on(sim);
-    return !bound || !(hair_length(mid) > max);
+    return hair_sim_may_leave(sim) || !(hair_length(mid) > max);
 }
 
 static bool are_same_colliders(const hair_collider* a, const hair_collider* b)
@@ -120,8 +119,8 @@ static bool has_collider_near(const struct hair_sim* sim)
 bool hair_sleep_is_disturbed(const struct hair_sim* sim)
 {
     const struct hair_sleep* sleep = &sim->sleep;
-    if (sleep->disturbed || sim->scalp_motion.changed ||
-        sleep->program_generation != sim->gl->program_generation)
+    if (sleep->disturbed || sim->scalp_motion.changed || sim->targets.disturbs ||
+        sim->targets.blend_left > 0 || sleep->program_generation != sim->gl->program_generation)
         return true;
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return true;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return true;

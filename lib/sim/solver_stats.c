@@ -41,12 +41,13 @@ static hair_gl_pass energy_pass(const struct hair_sim* sim)
     return hair_sim_is_mixed(sim) ? HAIR_GL_ENERGY | HAIR_GL_WITH(MIXED) : HAIR_GL_ENERGY;
 }
 
-// Return whether work can be done on a guide from outside. A skinned scalp and other hair may do
-// work.
+// Return whether work can be done on a guide from outside. A skinned scalp, targets and other hair
+// may do work.
 static bool is_driven(const struct hair_sim* sim, int disturbed)
 {
     return disturbed || memcmp(&sim->head_at_last_step, &sim->head, sizeof sim->head) != 0 ||
-           hair_wind_is_on(&sim->wind) || hair_grid_is_on(sim) || hair_scalp_motion_is_on(sim);
+           hair_wind_is_on(&sim->wind) || hair_grid_is_on(sim) || hair_scalp_motion_is_on(sim) ||
+           hair_targets_are_on(sim);
 }
 
 // Return whether the solver has an energy. Follow-the-leader and redblack move vertices by rules

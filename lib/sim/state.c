@@ -77,6 +77,33 @@ bool hair_scalp_motion_is_on(const struct hair_sim* sim)
     return sim->scalp_motion.root_transform != 0;
 }
 
+bool hair_targets_are_on(const struct hair_sim* sim)
+{
+    return sim->targets.target != 0;
+}
+
+void hair_targets_bind(struct hair_sim* sim)
+{
+    struct hair_targets* targets = &sim->targets;
+    GLuint storage[] = {targets->position[0], targets->target};
+    HAIR_ASSERT(hair_targets_are_on(sim));
+    sim->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_TARGET_POSITION, 2, storage);
+    sim->gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_TARGET_PARAMS, 1, &targets->params);
+}
+
+hair_gl_pass hair_sim_smooth_pass(const struct hair_sim* sim, bool is_skinned, bool has_targets)
+{
+    hair_gl_pass pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
+    if (is_skinned) pass |= HAIR_GL_WITH(SKINNED);
+    return has_targets ? pass | HAIR_GL_WITH(TARGETS) : pass;
+}
+
+bool hair_sim_may_leave(const struct hair_sim* sim)
+{
+    return sim->physics.root == HAIR_ROOT_FREE || sim->pins.count || hair_scalp_motion_is_on(sim) ||
+           hair_targets_are_on(sim);
+}
+
 bool hair_grid_is_on(const struct hair_sim* sim)
 {
     return sim->rods &&

@@ -1,42 +1,15 @@
 // look_curves.c - curves of a look along a strand, as cubic polynomials for shaders.
 #include "lib/strands/geometry.h"
 
+#include "lib/base/curve.h"
+
 // Iterations of Gauss-Seidel over a turn. The remaining error is below float precision.
 #define SWEEPS 24
 
-// Return the cubic from a to b with these slopes at both ends. The slopes are per interval.
-static hair_vec4 hermite(float a, float b, float slope_a, float slope_b)
-{
-    float rise = b - a;
-    return (hair_vec4){a, slope_a, 3 * rise - 2 * slope_a - slope_b, slope_a + slope_b - 2 * rise};
-}
-
-// Return the slope between two intervals as the harmonic mean of their rises, which prevents
-// overshoot (Fritsch and Butland 1984).
-static float inner_slope(float before, float after)
-{
-    return before * after > 0 ? 2 * before * after / (before + after) : 0;
-}
-
-// Return the slope at an end, from the parabola that meets the slope next to it. A slope against
-// the rise becomes 0.
-static float end_slope(float rise, float next)
-{
-    float slope = 1.5f * rise - 0.5f * next;
-    return slope * rise > 0 ? slope : 0;
-}
-
 static void write_curve(hair_curve curve, struct hair_strand_look* out, int number)
 {
-    float slope[HAIR_CURVE_INTERVALS + 1], rise[HAIR_CURVE_INTERVALS];
-    int last = HAIR_CURVE_INTERVALS;
-    HAIR_ASSERT((size_t)((number + 1) * last) <= sizeof out->curve / sizeof *out->curve);
-    for (int i = 0; i < last; ++i) rise[i] = curve.at[i + 1] - curve.at[i];
-    for (int i = 1; i < last; ++i) slope[i] = inner_slope(rise[i - 1], rise[i]);
-    slope[0] = end_slope(rise[0], slope[1]);
-    slope[last] = end_slope(rise[last - 1], slope[last - 1]);
-    for (int i = 0; i < last; ++i)
-        out->curve[number * last + i] = hermite(curve.at[i], curve.at[i + 1], slope[i], slope[i + 1]);
+    HAIR_ASSERT((size_t)((number + 1) * HAIR_CURVE_INTERVALS) <= sizeof out->curve / sizeof *out->curve);
+    hair_curve_to_cubics(&curve, out->curve + number * HAIR_CURVE_INTERVALS);
 }
 
 // Write the periodic spline with two continuous derivatives through equally spaced values.
@@ -50,7 +23,7 @@ static void write_turn(const float at[HAIR_TURN_PLACES], float scale, hair_vec4*
         }
     for (int i = 0; i < HAIR_TURN_PLACES; ++i) {
         int after = (i + 1) % HAIR_TURN_PLACES;
-        out[i] = hermite(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
+        out[i] = hair_cubic_between(scale * at[i], scale * at[after], scale * slope[i], scale * slope[after]);
     }
 }
 

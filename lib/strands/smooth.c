@@ -17,8 +17,7 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     smooth->gl = gl;
     smooth->vertices = sim->guides * sim->smooth_vertices;
     HAIR_ASSERT(smooth->vertices > 0 && sim->smooth_vertices <= HAIR_MAX_SMOOTH_VERTICES);
-    smooth->pass = hair_gl_pass_for(HAIR_GL_SMOOTH, sim->max_vertices);
-    HAIR_TRY(hair_gl_ensure_program(gl, smooth->pass));
+    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_smooth_pass(sim, false, false)));
     for (int i = 0; i < 3; ++i) {
         size_t size = smooth->vertices * sizeof(hair_vec4);
         if (i == 0 && groom->guide_shapes) size *= 2; // Displacements follow the positions.
@@ -41,8 +40,8 @@ void hair_smooth_run(struct hair_smooth* smooth, struct hair_sim* sim)
     HAIR_ASSERT(smooth->buffer[0] && smooth->buffer[1] && smooth->buffer[2]);
     hair_sim_bind(sim);
     smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_POSITION, 3, smooth->buffer);
-    hair_gl_pass pass = smooth->pass;
-    if (hair_scalp_motion_is_on(sim)) pass |= HAIR_GL_WITH(SKINNED);
+    if (hair_targets_are_on(sim)) hair_targets_bind(sim);
+    hair_gl_pass pass = hair_sim_smooth_pass(sim, hair_scalp_motion_is_on(sim), hair_targets_are_on(sim));
     hair_gl_run(smooth->gl, pass, sim->guides);
     if (smooth->guide_shape) {
         smooth->gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GUIDE_SHAPE, 1, &smooth->guide_shape);

@@ -10,7 +10,6 @@ struct hair_smooth {
     GLuint buffer[3]; // Position, tangent and frame.
     GLuint texture[3]; // Their buffer textures, for stages without storage buffers.
     GLuint guide_shape; // Buffer of guides at rest. 0 unless followers have shapes of their own.
-    hair_gl_pass pass; // Variant of smooth.comp in the size that the longest guide needs.
     uint32_t vertices; // Total number of vertices.
     uint32_t runs; // Number of runs so far.
     int done; // Nonzero if the guides have not moved since the last run.

@@ -16,7 +16,22 @@
 enum { WITHOUT_BEND = 1, WITHOUT_GRID = 2, WITHOUT_FLUID = 4, WITHOUT_SCALP = 8, WITHOUT_RODS = 16 };
 
 // Names of the buffers of the stub. Those of HAIR_SERIALIZER_NEW get the last.
-enum { STATE = 1, MATERIAL, HISTORY, BEND, ACCELERATION, ROOTS, SCALP, SCALP_TO_COME, AIR, ANCHORS, BUFFERS };
+enum {
+    STATE = 1,
+    MATERIAL,
+    HISTORY,
+    BEND,
+    ACCELERATION,
+    ROOTS,
+    SCALP,
+    SCALP_TO_COME,
+    TARGETS,
+    TARGET_POSITIONS,
+    TARGET_POSITIONS_TO_COME,
+    AIR,
+    ANCHORS,
+    BUFFERS
+};
 
 static const unsigned char* contents[BUFFERS]; // in native byte order
 
@@ -71,6 +86,9 @@ static void make_stub(struct stub* stub, const struct hair_fuzz_host* host, unsi
         sim->scalp_motion.scalp[0] = SCALP;
         sim->scalp_motion.scalp[1] = SCALP_TO_COME;
     }
+    sim->targets.target = TARGETS;
+    sim->targets.position[0] = TARGET_POSITIONS;
+    sim->targets.position[1] = TARGET_POSITIONS_TO_COME;
     sim->wind_coupling.fluid.desc.cells = 2;
     sim->wind_coupling.fluid.desc.side = 1;
     if (!(kind & WITHOUT_FLUID)) sim->wind_coupling.fluid.gl = &stub->gl;
@@ -106,7 +124,9 @@ static void check_round_trip(struct hair_sim* sim, const struct hair_serializer*
     sim->pins.resolved_pin = loaded->resolved_pin;
     sim->pins.count = loaded->pins;
     sim->sleep.anchor = ANCHORS;
-    if (hair_read_u32(read->read + HAIR_SAVE_HEADER) == 0) sim->scalp_motion.root_transform = 0;
+    uint32_t marks = hair_read_u32(read->read + HAIR_SAVE_HEADER);
+    if (!(marks & HAIR_SAVE_SKINNED)) sim->scalp_motion.root_transform = 0;
+    if (!(marks & HAIR_SAVE_TARGETS)) sim->targets.target = 0;
     struct hair_serializer s = {.host = read->host, .gl = sim->gl, .at = HAIR_SAVE_HEADER};
     if (read->lacks_bend) sim->bend = 0;
     s.write = malloc(read->end);
@@ -153,7 +173,7 @@ static bool read_sealed(const struct hair_fuzz_host* host, const unsigned char* 
     struct hair_colliders colliders = {0};
     make_stub(&stub, host, kind);
     if (hair_save_check(&host->host, bytes, size)) return false;
-    if ((kind & WITHOUT_SCALP) && hair_read_u32(bytes + HAIR_SAVE_HEADER) == 1) return false;
+    if ((kind & WITHOUT_SCALP) && (hair_read_u32(bytes + HAIR_SAVE_HEADER) & HAIR_SAVE_SKINNED)) return false;
     struct hair_serializer s = {.host = &host->host,
                                 .gl = &stub.gl,
                                 .read = bytes,

@@ -131,6 +131,14 @@ static hair_result use_hair_pin(struct hair_test_scene* user, void* desc)
 {
     return hair_set_pins(user->hair, desc, 1, sizeof(hair_pin));
 }
+static hair_result use_hair_target_blend(struct hair_test_scene* user, void* given)
+{
+    hair_target_blend* blend = given;
+    float weights[2] = {1, 1};
+    if (blend->guide_count == 0) return hair_set_target_blend(user->hair, blend);
+    blend->guide_weights = weights;
+    return hair_set_target_blend(user->hair, blend);
+}
 static hair_result use_hair_wind(struct hair_test_scene* user, void* given)
 {
     hair_wind_source sources[4];
@@ -206,6 +214,7 @@ INIT(hair_light)
 INIT(hair_view)
 INIT(hair_buffers)
 INIT(hair_style_desc)
+INIT(hair_target_blend)
 #define SUBJECT(KIND, S)                                                                                     \
     {                                                                                                        \
         HAIR_STRUCT_##KIND, #S, use_##S, init_##S, true                                                      \
@@ -234,6 +243,7 @@ static const struct subject subjects[] = {
     SUBJECT(VIEW, hair_view),
     SUBJECT(BUFFERS, hair_buffers),
     SUBJECT(STYLE_DESC, hair_style_desc),
+    SUBJECT(TARGET_BLEND, hair_target_blend),
 };
 _Static_assert(sizeof subjects / sizeof *subjects == HAIR_STRUCT_COUNT - 1, "a struct is missing");
 

@@ -14,8 +14,9 @@ static size_t member_count;
 
 static void read_files(void)
 {
-    static const char* const names[] = {"base", "groom",    "context", "look",        "physics", "colliders",
-                                        "wind", "instance", "view",    "diagnostics", "buffers", "asset"};
+    static const char* const names[] = {"base",      "groom", "context",  "look", "physics",
+                                        "colliders", "wind",  "instance", "view", "diagnostics",
+                                        "buffers",   "asset", "targets"};
     size_t size = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char name[64];

@@ -1,5 +1,5 @@
-// unpack_scalp.comp - copy the scalp's positions out of the application's buffer, which may hold
-// other data between them. One thread per vertex.
+// unpack_positions.comp - copy positions out of the application's buffer, which may hold other data
+// between them. One thread per vertex.
 #version 450 core
 #include "sim/scalp_buffers.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
