@@ -24,6 +24,8 @@ void write(uint at)
 }
 #else
 #ifndef HAIR_DEPTH
+#include "draw/encode.glsl"
+
 layout(location = 0) out vec4 color;
 #endif
 
@@ -37,6 +39,7 @@ void write(uint at)
     float steps    = float(1u << raster.fraction_bits);
     float fraction = (float(place & ((1u << raster.fraction_bits) - 1u)) + 0.5) / steps;
     color = mix(texelFetch(shaded_texture, vertex), texelFetch(shaded_texture, vertex + 1), fraction);
+    color.rgb = encode_color(color.rgb, raster.encode);
 #endif
 }
 #endif

@@ -2,6 +2,9 @@
 #version 450 core
 #include "draw_params.glsl"
 #include "draw/varyings.glsl"
+#if !defined(HAIR_IDS) && !defined(HAIR_MOTION)
+#include "draw/encode.glsl"
+#endif
 #ifdef HAIR_USER_PIXELS
 #include "light/shading.glsl"
 #endif
@@ -68,6 +71,7 @@ void main()
 {
     vec4 shaded = shade_pixel();
     color       = min(mix(vec4(0.0), shaded, greaterThan(shaded, vec4(0.0))), HAIR_MAX_LIGHT);
+    color.rgb   = encode_color(color.rgb, draw.encode);
 #ifdef HAIR_ALPHA_COVERAGE
     color *= coverage_of(strand_fraction) * draw.viewport.w;
 #endif

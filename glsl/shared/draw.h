@@ -95,7 +95,7 @@ struct hair_raster_params {
     hair_uint fraction_bits;
     hair_uint tests; // HAIR_TEST_NEARER, ... of the application's depth, for opacity. 0 for none.
     hair_uint split; // Threads of a segment.
-    hair_uint unused0;
+    hair_uint encode; // hair_encoding.
     // Positions in the pixel of samples 2 i and 2 i + 1: xy and zw.
     hair_vec4 at[HAIR_RASTER_SAMPLES / 2];
 };
@@ -130,7 +130,8 @@ struct hair_draw_params {
     hair_uint reversed_maps; // Bit per shadow map. 1 if its depth falls away from the light.
     hair_uint guides;         // Number of guides.
     hair_uint shape_vertices; // Vertices of a follower's shape. 0 if followers have none.
-    hair_uint unused0, unused1;
+    hair_uint encode; // hair_encoding.
+    hair_uint unused0;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

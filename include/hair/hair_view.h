@@ -272,6 +272,15 @@ HAIR_DESC(hair_light)
 
 // Views -------------------------------------------------------------------------------------------
 
+/// Encoding of colours in the framebuffer.
+typedef enum hair_encoding {
+    /// Linear light, for floats and for framebuffers with GL_FRAMEBUFFER_SRGB. Default.
+    HAIR_ENCODING_LINEAR = 0,
+    /// sRGB values (IEC 61966-2-1), for framebuffers that are shown as they are. Samples and
+    /// transparency are then averaged as sRGB values. Colours above 1 continue the curve.
+    HAIR_ENCODING_SRGB
+} hair_encoding;
+
 /// Input of hair_draw().
 typedef struct hair_view {
     hair_struct_header header;
@@ -328,11 +337,14 @@ typedef struct hair_view {
     /// previous frame. Hair that has come out from behind an occluder since then appears one frame
     /// late. Hair outside that image is drawn. All 0 selects `projection` times `view`.
     float occluder_matrix[16]; ///< Default 0.
+    /// Encoding of what HAIR_PASS_COLOR writes. Hair that appears too dark lacks one.
+    hair_encoding encode; ///< Default HAIR_ENCODING_LINEAR.
 } hair_view;
 HAIR_DESC(hair_view)
 
 /// Draw an instance into the bound framebuffer and viewport, with the current depth function. A
-/// program that is not compiled yet is compiled by this call, see hair_precompile().
+/// program that is not compiled yet is compiled by this call, see hair_precompile(). Colours are
+/// linear, so enable GL_FRAMEBUFFER_SRGB or set hair_view.encode where no later pass encodes them.
 ///
 /// @param view What to draw, and how. The textures must exist during the call.
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, also if the framebuffer is

@@ -133,6 +133,7 @@ bool hair_draw_find_raster(const struct hair_renderer* renderer, const struct ha
     out->depth_from = range[0];
     out->depth_by = range[1] - range[0];
     out->clamps = gl->IsEnabled(GL_DEPTH_CLAMP);
+    out->encode = (hair_uint)plan->view->encode;
     out->flips = hair_draw_depth_direction(gl) * out->depth_by < 0 ? UINT32_MAX : 0;
     out->across = (out->columns + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE;
     out->tiles = out->across * ((out->rows + HAIR_RASTER_TILE - 1) / HAIR_RASTER_TILE);

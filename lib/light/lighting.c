@@ -41,6 +41,7 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
     hair_look_write_tint(look, &out->tint);
     if (!view) return;
     out->colored = view->pass == HAIR_PASS_COLOR;
+    out->encode = (hair_uint)view->encode;
     out->light_values = hair_lighting_value_count(look, view);
     hair_lighting_write_lights(lighting->gl, look, head, view, out);
 }

@@ -85,6 +85,7 @@ TEXTURE(hair_view, occluder_depth, "2D depth texture of your opaque geometry, fo
 MATRIX(hair_view, occluder_matrix, ZEROS,
       "Transform from the world to the clip space of occluder_depth, which may be that of the previous "
       "frame.")
+ENUM(hair_view, encode, HAIR_ENCODING_LINEAR, "Encoding of what HAIR_PASS_COLOR writes.", "linear", "srgb")
 END
 BEGIN(hair_buffers)
 UINT(hair_buffers, attributes, HAIR_ATTRIBUTE_POSITION, 0, 127, 0, 127, LINEAR, "",
