@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define MAX_FILE 65536 // bytes
+#define MAX_FILE (4u << 20) // bytes
+#define MAX_FLIPPED 65536 // Maximum size of a file whose bits are flipped.
 #define MAX_CUT 400 // Maximum size of a file that is cut off at every byte.
 #define HEADER 168 // Number of bytes whose bits are flipped. The longest header in use ends here.
 
@@ -25,10 +26,12 @@ static void run(const struct hair_fuzz_target* target, const uint8_t* bytes, siz
 static void run_file(const struct hair_fuzz_target* target, uint8_t* bytes, size_t size,
                      struct hair_fuzz_replay* out)
 {
+    uint32_t accepted = out->accepted;
     run(target, bytes, size, out);
+    out->whole += out->accepted - accepted;
     ++out->files;
     for (size_t cut = 0; cut < size && size <= MAX_CUT; ++cut) run(target, bytes, cut, out);
-    for (size_t bit = 0; bit < 8 * size && bit < 8 * HEADER; ++bit) {
+    for (size_t bit = 0; size <= MAX_FLIPPED && bit < 8 * size && bit < 8 * HEADER; ++bit) {
         bytes[bit / 8] ^= (uint8_t)(1u << bit % 8);
         run(target, bytes, size, out);
         bytes[bit / 8] ^= (uint8_t)(1u << bit % 8);
@@ -58,7 +61,9 @@ bool hair_fuzz_replay(const struct hair_fuzz_target* target, const char* folder,
         snprintf(path, sizeof path, "%s/%s/%s", folder, target->name, entries[i]->d_name);
         FILE* file = fopen(path, "rb");
         HAIR_FUZZ_CHECK(file);
-        run_file(target, bytes, fread(bytes, 1, sizeof bytes, file), out);
+        size_t size = fread(bytes, 1, sizeof bytes, file);
+        HAIR_FUZZ_CHECK(size < sizeof bytes);
+        run_file(target, bytes, size, out);
         fclose(file);
         free(entries[i]);
     }

@@ -2,6 +2,7 @@
 #                       parser=obj for one of them, sanitizer=memory with MemorySanitizer
 # make fuzz-coverage    the lines of the parsers that the corpus runs
 # make fuzz-merge       add to the corpus what `make fuzz` found to run more of the code
+# make corpora          files of public projects, whole, cut off and with flipped bits
 # make fuzz-static      build/fuzz-static, a folder with programs to carry to another machine
 # make fuzz-portable    the corpus on x86-64, in 32 bits, and on big-endian PowerPC under qemu, compared
 comma     := ,
@@ -45,6 +46,13 @@ FUZZ_WRAPS := $(addprefix -Wl$(comma)--wrap=,malloc calloc realloc hair_file_rea
 $(B)/tests/unit/fuzz_corpus_test: $(B)/tests/unit/fuzz_corpus_test.c.o $(FUZZ_REPLAY:%=$(B)/%.o) $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $(FUZZ_WRAPS) $^ $(TEST_LIBS) -o $@
+
+# Files of other projects ---------------------------------------------------------------------------------------
+$(B)/tests/fuzz/replay: $(B)/tests/fuzz/replay.c.o $(FUZZ_REPLAY:%=$(B)/%.o) $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $(FUZZ_WRAPS) $^ $(TEST_LIBS) -o $@
+corpora: $(B)/tests/fuzz/replay $(B)/hair-capture ## Parsers on files of public projects, by git; corpora=FOLDER has clones
+	@sh tests/fuzz/corpora.sh $(B) $(corpora)
 
 # Programs of libFuzzer, built by clang from the same sources -----------------------------------------------
 FUZZ_DIR := build/fuzz/$(sanitizer)
@@ -161,5 +169,5 @@ fuzz-portable: build/fuzz/64/replay build/fuzz/32/replay build/fuzz/ppc/replay #
 	@$(foreach a,64 32 ppc,echo "== $(a)"; $(FUZZ_RUN.$(a)) build/fuzz/$(a)/replay >build/fuzz/$(a)/hashes && cat build/fuzz/$(a)/hashes || exit 1;)
 	@cmp build/fuzz/64/hashes build/fuzz/32/hashes && cmp build/fuzz/64/hashes build/fuzz/ppc/hashes && echo "All hashes are equal."
 
-.PHONY: fuzz fuzz-needs fuzz-merge fuzz-coverage fuzz-static fuzz-portable
+.PHONY: fuzz corpora fuzz-needs fuzz-merge fuzz-coverage fuzz-static fuzz-portable
 -include $(shell find build/fuzz -name "*.d" 2>/dev/null)

@@ -18,8 +18,8 @@ int main(int count, char** arguments)
             fprintf(stderr, "replay: there is no input in %s/%s\n", folder, target->name);
             missing = 1;
         }
-        printf("%-18s %4u files %7u inputs %7u accepted, hash %016llx\n", target->name, replay.files,
-               replay.inputs, replay.accepted, (unsigned long long)replay.hash);
+        printf("%-18s %4u files, %4u whole accepted; %7u inputs, %7u accepted, hash %016llx\n", target->name,
+               replay.files, replay.whole, replay.inputs, replay.accepted, (unsigned long long)replay.hash);
     }
     return missing;
 }

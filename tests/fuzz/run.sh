@@ -1,7 +1,7 @@
 #!/bin/sh
 # Run carried fuzz programs: sh run.sh EXECUTIONS CORES [PARSER]...
 # Each program runs EXECUTIONS inputs, spread over CORES processes, and then the next. What is found is in found/.
-# The log of each process is logs/PARSER-N.
+# The log of each process is logs/PARSER-N. The seeds are 1 to CORES; seed=16 before the command begins with 17.
 cd "$(dirname "$0")" || exit 1
 executions=$1 cores=$2
 [ "$cores" ] || { echo "usage: sh run.sh EXECUTIONS CORES [PARSER]..."; exit 2; }
@@ -13,7 +13,7 @@ for parser; do
     start=$(date +%s) running=
     mkdir -p work/$parser logs found && rm -f logs/$parser-*
     for core in $(seq "$cores"); do
-        ./$parser -seed=$core -max_len=$max -runs=$((executions / cores)) -timeout=20 -rss_limit_mb=1024 \
+        ./$parser -seed=$((${seed:-0} + core)) -max_len=$max -runs=$((executions / cores)) -timeout=20 -rss_limit_mb=1024 \
             -print_final_stats=1 -verbosity=0 -artifact_prefix=found/$parser- work/$parser corpus/$parser \
             >logs/$parser-$core 2>&1 &
         running="$running $!"

@@ -168,7 +168,7 @@ static void other_processes_and_threads_give_equal_bits(void** state)
     (void)state;
     check_process(NULL);
     for (int threads = 1; threads <= 8; ++threads) {
-        char number[8];
+        char number[12];
         snprintf(number, sizeof number, "%d", threads);
         check_process(number);
     }

@@ -138,7 +138,8 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     atomic_init(&groom->holders, 1);
     groom->guides = take(host, wanted.guides, sizeof *groom->guides);
     groom->rest = take(host, vertices, sizeof *groom->rest);
-    groom->followers = take(host, wanted.followers, sizeof *groom->followers);
+    groom->info.follower_count = wanted.followers;
+    groom->followers = take(host, hair_groom_follower_bytes(groom) / 16, 16);
     groom->patches = take(host, patches, sizeof *groom->patches);
 
     uint32_t first = 0;
@@ -155,7 +156,6 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     for (uint32_t i = 0; i < patches; ++i) place_patch(&groom->patches[i], i * wanted.each, &wanted);
     groom->info.guide_count = wanted.guides;
     groom->info.guide_vertex_count = vertices;
-    groom->info.follower_count = wanted.followers;
     groom->info.patch_count = patches;
     measure_guides(groom);
     hair_measure_patches(groom);
