@@ -110,6 +110,61 @@ static void mouse_controls_change_the_scene(void** state)
     }
 }
 
+// An arrow moves the ball along one axis, and a ring turns a box. The handles follow the mouse.
+static void handles_move_and_turn_colliders(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    write_file(
+        "box.json",
+        "{\"style\": \"bob\", \"show\": \"guides,colliders\", \"camera\": {\"eye\": [0, 1.5, 2], "
+        "\"target\": [0, 1.5, 0], \"fov\": 30}, \"colliders\": [{\"shape\": \"box\", \"position\": "
+        "[0.1, 1.5, 0], \"size\": [0.05, 0.02, 0.03], \"stays\": true}], \"settings\": {\"guides\": 16, "
+        "\"followers\": 100}}");
+    snprintf(script, sizeof script,
+             "key P\nwait 2\nsave %s/0.json\ndrag Arrow 0 x 50 0\nsave %s/1.json\nkey Ctrl+Z\n"
+             "drag Ring 0 z -40 40\nsave %s/2.json\n",
+             folder, folder, folder);
+    write_file("s", script);
+    expect(0, "$T $D/box.json --size 1280x720 --scale 1 --script $D/s --frames 60", "");
+    json_t *moved = hair_test_shell_json("1.json"), *turned = hair_test_shell_json("2.json");
+    const json_t* box = json_array_get(json_object_get(moved, "colliders"), 0);
+    const json_t* position = json_object_get(box, "position");
+    // The picture is 554 pixels high and shows 1.072 m.
+    assert_true(fabs(json_number_value(json_array_get(position, 0)) - 0.1 - 50 * 1.072 / 554) < 0.002);
+    assert_true(fabs(json_number_value(json_array_get(position, 1)) - 1.5) < 1e-6);
+    assert_true(fabs(json_number_value(json_array_get(position, 2))) < 1e-6);
+    box = json_array_get(json_object_get(turned, "colliders"), 0);
+    const json_t* rotation = json_object_get(box, "rotation");
+    double z = json_number_value(json_array_get(rotation, 2)),
+           w = json_number_value(json_array_get(rotation, 3));
+    assert_true(fabs(z * z + w * w - 1) < 1e-5);
+    assert_true(fabs(z) > 0.1);
+    json_decref(moved);
+    json_decref(turned);
+}
+
+// The level of detail by the size on the screen falls as the camera moves away.
+static void levels_of_detail_follow_the_camera(void** state)
+{
+    (void)state;
+    char script[512];
+    const char* folder = hair_test_folder();
+    snprintf(script, sizeof script,
+             "key P\nclick Dynamic\nwait 2\nreport %s/0.json\nmove 450 300\nwheel -20\nwait 2\nreport "
+             "%s/1.json\n",
+             folder, folder);
+    write_file("s", script);
+    expect(0, RUN "30", "");
+    json_t *near = hair_test_shell_json("0.json"), *far = hair_test_shell_json("1.json");
+    const json_t *a = json_object_get(near, "drawn_fractions"), *b = json_object_get(far, "drawn_fractions");
+    assert_true(hair_test_json_number(b, "strands") < 0.7 * hair_test_json_number(a, "strands"));
+    assert_true(hair_test_json_number(b, "segments") <= hair_test_json_number(a, "segments"));
+    json_decref(near);
+    json_decref(far);
+}
+
 static void panels_find_change_and_reset_settings(void** state)
 {
     (void)state;
@@ -247,6 +302,8 @@ int main(void)
         cmocka_unit_test(actions_change_the_scene_by_key_and_label),
         cmocka_unit_test(mouse_controls_change_the_scene),
         cmocka_unit_test(grabbed_hair_follows_the_cursor),
+        cmocka_unit_test(handles_move_and_turn_colliders),
+        cmocka_unit_test(levels_of_detail_follow_the_camera),
         cmocka_unit_test(switches_change_the_window_by_key_and_label),
         cmocka_unit_test(files_open_by_their_name),
 #if HAIR_BULLET

@@ -106,6 +106,23 @@ static void mouse_and_keys_change_the_picture(void** state)
            "");
 }
 
+// A glide orbits the camera in several frames. The first 60 frames are not counted.
+static void frame_times_are_printed(void** state)
+{
+    (void)state;
+    expect(
+        0,
+        "printf 'wait 60\\nmove 400 120\\ndown left\\nglide 460 120 6\\nup left\\nsave '$D/o.json >$D/s; $T "
+        "$D/small.json --size 800x480 --script $D/s --frames 72 --fps | tee $D/fps",
+        "99th percentile");
+    expect(
+        0,
+        "awk '/^moving|^at rest/ {for (i = 1; i < NF; i++) if ($(i+1) == \"ms\") {n++; s = $(i-1); break}; "
+        "frames += s} END {exit frames != 12}' $D/fps",
+        "");
+    expect(0, "grep -q camera $D/o.json", "");
+}
+
 static void shaders_of_a_folder_are_compiled_again(void** state)
 {
     (void)state;
@@ -131,6 +148,7 @@ int main(void)
         cmocka_unit_test(a_missing_display_exits_with_3_and_names_scripts),
         cmocka_unit_test(wrong_scripts_exit_with_4),
         cmocka_unit_test(equal_scripts_give_equal_pictures),
+        cmocka_unit_test(frame_times_are_printed),
         cmocka_unit_test(shaders_of_a_folder_are_compiled_again),
         cmocka_unit_test(mouse_and_keys_change_the_picture),
     };

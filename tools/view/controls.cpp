@@ -3,6 +3,7 @@
 #include "tools/view/actions.h"
 #include "tools/view/camera.h"
 #include "tools/view/compare.h"
+#include "tools/view/gizmo.h"
 #include "tools/view/grab.h"
 #include "tools/view/hair_actions.h"
 
@@ -28,6 +29,7 @@ const view_mouse_help mouse_controls[] = {
     {"Right drag", "turn the head"},
     {"Middle drag", "move the head"},
     {"Ctrl + left drag", "pull the hair under the cursor, or move a collider that is shown"},
+    {"Left drag of an arrow or ring", "move or turn a collider that is shown"},
     {"Drop a file", "open a scene (.json) or a haircut (.hair, .tfx), or add a mesh (.obj) to collide with"},
     {nullptr, nullptr},
 };
@@ -71,9 +73,12 @@ void press(viewer& viewer, const SDL_MouseButtonEvent& event)
     if (viewer.drag != VIEW_DRAG_NONE) return;
     bool grabs = event.button == SDL_BUTTON_LEFT && (SDL_GetModState() & KMOD_CTRL);
     bool wipes = event.button == SDL_BUTTON_LEFT && view_is_on_wipe(viewer, (float)event.x, (float)event.y);
-    viewer.drag = wipes   ? VIEW_DRAG_WIPE
-                  : grabs ? view_grab(viewer, (float)event.x, (float)event.y)
-                          : drag_of(event.button, SDL_GetModState());
+    viewer.handle = event.button == SDL_BUTTON_LEFT ? view_find_handle(viewer, (float)event.x, (float)event.y)
+                                                    : view_handle{};
+    viewer.drag = wipes                         ? VIEW_DRAG_WIPE
+                  : viewer.handle.collider >= 0 ? VIEW_DRAG_HANDLE
+                  : grabs                       ? view_grab(viewer, (float)event.x, (float)event.y)
+                                                : drag_of(event.button, SDL_GetModState());
     viewer.drag_button = event.button;
     viewer.mouse[0] = (float)event.x;
     viewer.mouse[1] = (float)event.y;
@@ -85,6 +90,7 @@ void move(viewer& viewer, const SDL_MouseMotionEvent& event)
     float height = std::max(viewer.picture.bottom - viewer.picture.top, 1.0f);
     float x = ((float)event.x - viewer.mouse[0]) / height, y = ((float)event.y - viewer.mouse[1]) / height;
     hair_scene& scene = *viewer.document.scene;
+    if (viewer.drag == VIEW_DRAG_HANDLE) view_pull_handle(viewer, (float)event.x, (float)event.y);
     viewer.mouse[0] = (float)event.x;
     viewer.mouse[1] = (float)event.y;
     switch (viewer.drag) {
@@ -97,6 +103,7 @@ void move(viewer& viewer, const SDL_MouseMotionEvent& event)
     case VIEW_DRAG_HAIR:
     case VIEW_DRAG_COLLIDER: view_grab_move(viewer, x, y); break;
     case VIEW_DRAG_WIPE: view_move_wipe(viewer, (float)event.x); break;
+    case VIEW_DRAG_HANDLE:
     case VIEW_DRAG_NONE: break;
     }
 }

@@ -2,6 +2,7 @@
 #include "tools/view/grab.h"
 #include "tools/view/arrows.h"
 #include "tools/view/camera.h"
+#include "tools/view/gizmo.h"
 
 #include <epoxy/gl.h>
 
@@ -137,8 +138,7 @@ int find_collider(const viewer& viewer, const float ray[3])
     int found = -1;
     for (uint32_t i = 0; i < scene.collider_count; ++i) {
         const hair_scene_collider& from = scene.colliders[i];
-        hair_collider collider = hair_scene_collider_at(&from, (float)viewer.session.time);
-        if (!from.stays) hair_collider_carry(viewer.session.transform, 1, &collider);
+        hair_collider collider = view_collider_now(viewer, from);
         float radius = collider.rounding + std::max({collider.size[0], collider.size[1], collider.size[2]});
         float along = 0, square = 0;
         for (int k = 0; k < 3; ++k) {
@@ -190,11 +190,7 @@ void view_grab_move(viewer& viewer, float x, float y)
         for (int i = 0; i < 3; ++i) depth += (scene.eye[i] - position[i]) * axes.back[i];
         for (float& v : by) v *= std::max(depth / axes.distance, 0.0f);
     } else if (viewer.drag == VIEW_DRAG_COLLIDER && viewer.held_collider < (int)scene.collider_count) {
-        hair_scene_collider& collider = scene.colliders[viewer.held_collider];
-        position = collider.collider.position;
-        const float world[3] = {by[0], by[1], by[2]}, *m = viewer.session.transform;
-        for (int i = 0; i < 3 && !collider.stays; ++i)
-            by[i] = m[4 * i] * world[0] + m[4 * i + 1] * world[1] + m[4 * i + 2] * world[2];
+        view_move_collider(viewer, scene.colliders[viewer.held_collider], by);
     }
     for (int i = 0; i < 3 && position; ++i) position[i] = std::clamp(position[i] + by[i], -1e5f, 1e5f);
 }

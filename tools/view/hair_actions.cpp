@@ -1,6 +1,7 @@
 // hair_actions.cpp - Actions that change the hair of the document: look, wind, detail and
 // simulation.
 #include "tools/view/hair_actions.h"
+#include "tools/view/camera.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,6 +134,25 @@ void view_toggle_dynamic(viewer& viewer)
 bool view_is_dynamic(const viewer& viewer)
 {
     return settings_of(viewer).has_lod && settings_of(viewer).lod.per_patch;
+}
+
+view_levels view_present_levels(const viewer& viewer)
+{
+    const hair_scene& scene = *viewer.document.scene;
+    const hair_lod& lod = scene.settings.lod;
+    const hair_look& look = scene.settings.look;
+    view_levels levels = {1, 1};
+    if (!scene.settings.has_lod) return levels;
+    levels = {lod.strand_fraction, lod.segment_fraction};
+    if (!lod.per_patch) return levels;
+    float height = viewer.stage.density * (viewer.picture.bottom - viewer.picture.top);
+    float scale = lod.importance * height / view_camera_height(scene); // pixels per metre
+    float segments = levels.segments * (float)look.strand.segments;
+    float length = viewer.session.info.length[1] * look.strand.length;
+    levels.strands *=
+        std::clamp(2 * look.strand.radius * scale / lod.strand_pixels, lod.min_strand_fraction, 1.0f);
+    levels.segments *= std::clamp(length * scale / lod.segment_pixels / std::max(segments, 1.0f), 0.0f, 1.0f);
+    return levels;
 }
 
 // Simulation --------------------------------------------------------------------------------------

@@ -28,6 +28,13 @@ bool view_has_lod(const viewer& viewer);
 void view_toggle_dynamic(viewer& viewer);
 bool view_is_dynamic(const viewer& viewer);
 
+// Fractions of the strands and of their segments that are drawn at the distance of the camera's
+// target.
+struct view_levels {
+    float strands, segments;
+};
+view_levels view_present_levels(const viewer& viewer);
+
 // Simulation by passes of transform feedback, as of Direct3D 10, or by compute shaders.
 void view_toggle_passes(viewer& viewer);
 bool view_has_passes(const viewer& viewer);

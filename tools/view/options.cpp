@@ -27,6 +27,7 @@ enum option_name {
     GLSL,
     DEVICE,
     DEBUG,
+    FPS,
     VERSION
 };
 
@@ -53,6 +54,7 @@ const row rows[] = {
     {"save", SAVE, "FILE.json", "file that Save writes; without it, the opened file or a new one"},
     {"glsl", GLSL, "FOLDER", "read the shaders of the library from a folder, and follow its changes"},
     {"device", DEVICE, "N", "run a script on the EGL device of that index; without it, the first that works"},
+    {"fps", FPS, nullptr, "draw every frame of a script, and print the times of frames at the end"},
     {"debug", DEBUG, nullptr, "let OpenGL check all calls of a window, and tell in its messages"},
     {"help", 'h', nullptr, "(also -h) this"},
     {"version", VERSION, nullptr, "the version of the library"},
@@ -135,6 +137,7 @@ bool take(const row& row, const char* value, said_options& said, view_options& o
     case STYLE: said.style = value; break;
     case MOTION: said.motion = value; break;
     case DEBUG: out.debug = true; break;
+    case FPS: out.fps = true; break;
     case HEAD: said.head = true; break;
     case SET: said.changes.push_back(value); break;
     case SIZE: return parse_size(value, out);

@@ -14,6 +14,7 @@ struct view_options {
     uint32_t frames = 0; // 0 runs until the window is closed
     uint32_t width = 1280, height = 720; // size of the window, pixels
     bool debug = false; // OpenGL checks its calls
+    bool fps = false; // prints the times of the frames at the end
     bool has_size = false; // the size is given, not that of the last window
     float scale = 0; // size of text and panels, 0 selects by the display
     uint32_t quality = 0; // of pictures at rest and of scripts, 0 is full

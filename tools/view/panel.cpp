@@ -14,17 +14,32 @@
 namespace
 {
 
-constexpr float left_width = 280, right_width = 350, strip_height = 150; // at scale 1
+constexpr float left_width = 280, right_width = 370, strip_height = 166; // at scale 1
 constexpr uint32_t message_frames = 300; // time that a message stays
 
-void show_help_row(const char* key, const char* label, const char* about)
+void show_help_row(const char* key, const char* label)
 {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(key);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(label);
-    ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", about);
+    ImGui::TextDisabled("%s", label);
+}
+
+// Show the keys in three columns. A tooltip tells what a key does.
+void show_keys()
+{
+    constexpr int columns = 3;
+    int count = 0;
+    while (view_actions()[count].label) ++count;
+    int rows = (count + columns - 1) / columns;
+    if (!ImGui::BeginTable("keys", 2 * columns, ImGuiTableFlags_SizingFixedFit)) return;
+    for (int i = 0; i < rows * columns; ++i) {
+        int at = i % columns * rows + i / columns;
+        const view_action* action = at < count ? &view_actions()[at] : nullptr;
+        show_help_row(action ? view_action_key_name(*action).c_str() : "", action ? action->label : "");
+        if (action && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", action->about);
+    }
+    ImGui::EndTable();
 }
 
 void show_help(viewer& viewer)
@@ -36,13 +51,13 @@ void show_help(viewer& viewer)
     ImGui::SetNextWindowFocus();
     ImGui::Begin("Keys and mouse", &viewer.shows_help,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
-    if (ImGui::BeginTable("mouse", 3, ImGuiTableFlags_SizingFixedFit)) {
+    if (ImGui::BeginTable("mouse", 2, ImGuiTableFlags_SizingFixedFit)) {
         for (const view_mouse_help* row = view_mouse_controls(); row->gesture; ++row)
-            show_help_row(row->gesture, "", row->about);
-        for (const view_action* action = view_actions(); action->label; ++action)
-            show_help_row(view_action_key_name(*action).c_str(), action->label, action->about);
+            show_help_row(row->gesture, row->about);
         ImGui::EndTable();
     }
+    ImGui::Separator();
+    show_keys();
     ImGui::End();
 }
 
@@ -74,43 +89,41 @@ void show_messages(const viewer& viewer)
     ImGui::End();
 }
 
-// Show what a newcomer does not find in the panels.
-void show_hint(const viewer& viewer)
-{
-    const view_place& picture = viewer.picture;
-    float size = ImGui::GetFontSize();
-    ImGui::GetForegroundDrawList()->AddText({picture.left + 0.6f * size, picture.bottom - 1.5f * size},
-                                            IM_COL32(255, 255, 255, 110),
-                                            "Drag to orbit, Ctrl + drag to pull hair, ? for all keys");
-}
-
 } // namespace
 
 void view_panels(viewer& viewer)
 {
     ImVec2 size = ImGui::GetIO().DisplaySize;
+    float left = std::min(left_width * viewer.gui.scale, 0.3f * size.x);
+    float right = std::min(right_width * viewer.gui.scale, 0.4f * size.x);
+    float strip = std::min(strip_height * viewer.gui.scale, 0.3f * size.y);
     viewer.picture = {0, 0, size.x, size.y};
+    if (viewer.shows_panels) viewer.picture = {left, 0, size.x - right, size.y};
+    if (viewer.shows_panels && viewer.shows_strip) viewer.picture.bottom = size.y - strip;
     if (viewer.shows_panels) {
-        float left = std::min(left_width * viewer.gui.scale, 0.3f * size.x);
-        float right = std::min(right_width * viewer.gui.scale, 0.4f * size.x);
         if (begin_panel("Scene", 0, 0, left, size.y)) view_scene_panel(viewer);
         ImGui::End();
         if (begin_panel("Settings", size.x - right, 0, right, size.y)) view_settings_panel(viewer);
         ImGui::End();
-        viewer.picture.left = left;
-        viewer.picture.right = size.x - right;
-        float strip = std::min(strip_height * viewer.gui.scale, 0.3f * size.y);
-        if (viewer.shows_strip) {
-            view_strip_update(viewer);
-            if (begin_panel("Strip", left, size.y - strip, size.x - left - right, strip, true))
-                view_strip(viewer);
-            ImGui::End();
-            viewer.picture.bottom = size.y - strip;
-        }
     }
-    if (viewer.shows_panels) show_hint(viewer);
+    if (viewer.shows_panels && viewer.shows_strip) {
+        view_strip_update(viewer);
+        if (begin_panel("Strip", left, size.y - strip, size.x - left - right, strip, true))
+            view_strip(viewer);
+        ImGui::End();
+    }
     view_pareto_window(viewer);
     view_gl_messages_window(viewer.gl_messages);
     show_help(viewer);
     show_messages(viewer);
+}
+
+void view_hint(const viewer& viewer)
+{
+    if (!viewer.shows_panels) return;
+    const view_place& picture = viewer.picture;
+    float size = ImGui::GetFontSize();
+    ImGui::GetBackgroundDrawList()->AddText({picture.left + 0.6f * size, picture.bottom - 1.5f * size},
+                                            IM_COL32(255, 255, 255, 110),
+                                            "Drag to orbit, Ctrl + drag to pull hair, ? for all keys");
 }

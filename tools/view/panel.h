@@ -7,4 +7,7 @@
 // Show all panels of a frame, and set viewer.picture to what they leave of the window.
 void view_panels(viewer& viewer);
 
+// Show over the picture what a newcomer does not find in the panels.
+void view_hint(const viewer& viewer);
+
 #endif

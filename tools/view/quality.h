@@ -10,6 +10,7 @@ struct view_quality {
     uint32_t samples; // per pixel
     float strand_pixels, segment_pixels; // minimum level of detail, 0 for that of the scene
     bool shadows; // self-shadows, shadow maps, and followers that are pushed out of colliders
+    bool blends; // strands by the fraction of a pixel, because one sample shows them as dots
     const char* about;
 };
 

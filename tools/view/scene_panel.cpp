@@ -125,6 +125,12 @@ void show_sliders(viewer& viewer, const char* group)
     hair_settings& settings = viewer.document.scene->settings;
     if (!strcmp(group, "Show")) show_debug(viewer);
     if (!strcmp(group, "Detail") && settings.has_lod && settings.lod.per_patch) {
+        // The camera moves these sliders.
+        view_levels levels = view_present_levels(viewer);
+        ImGui::BeginDisabled();
+        show_level(viewer, "Strands", &levels.strands, 0.01f, 1);
+        show_level(viewer, "Segments", &levels.segments, 0.05f, 1);
+        ImGui::EndDisabled();
         show_level(viewer, "Strand px", &settings.lod.strand_pixels, 0.05f, 4);
         show_level(viewer, "Segment px", &settings.lod.segment_pixels, 1, 40);
     } else if (!strcmp(group, "Detail")) {

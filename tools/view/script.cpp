@@ -14,13 +14,14 @@ namespace
 constexpr size_t max_bytes = (size_t)1 << 20;
 constexpr int max_tries = 10; // frames that a widget has to appear in
 
-enum form { NUMBERS_1, NUMBERS_2, TEXT, TEXT_AND_2, BUTTON };
+enum form { NUMBERS_1, NUMBERS_2, NUMBERS_3, TEXT, TEXT_AND_2, BUTTON };
 
 const struct {
     const char* verb;
     form arguments;
     const char* usage;
 } verbs[] = {{"move", NUMBERS_2, "X Y"},
+             {"glide", NUMBERS_3, "X Y N"},
              {"down", BUTTON, "left, middle or right"},
              {"up", BUTTON, "left, middle or right"},
              {"wheel", NUMBERS_1, "N"},
@@ -65,6 +66,9 @@ bool parse_arguments(form arguments, view_command& command)
     switch (arguments) {
     case NUMBERS_1: return take_number(text, command.x) && text.empty();
     case NUMBERS_2: return take_number(text, command.y) && take_number(text, command.x) && text.empty();
+    case NUMBERS_3:
+        return take_number(text, command.count) && take_number(text, command.y) &&
+               take_number(text, command.x) && text.empty();
     case TEXT_AND_2: return take_number(text, command.y) && take_number(text, command.x) && !text.empty();
     case BUTTON: return text == "left" || text == "middle" || text == "right";
     case TEXT: break;
@@ -175,6 +179,16 @@ void insert(view_script& script, const char* verb, const std::string& text, floa
     script.commands.push_front(command);
 }
 
+// Move the mouse by the next part of a glide, and put the rest of it before the next command.
+void glide(view_script& script, view_command command)
+{
+    float part = 1 / std::max(command.count, 1.0f);
+    script.mouse[0] += part * (command.x - script.mouse[0]);
+    script.mouse[1] += part * (command.y - script.mouse[1]);
+    push_mouse(script, SDL_MOUSEMOTION, 0);
+    if (--command.count >= 1) script.commands.push_front(command);
+}
+
 // Replace a command on a label by commands at its place.
 int expand(view_script& script, const view_command& command, const view_gui& gui)
 {
@@ -224,6 +238,8 @@ int run(view_script& script, const view_command& command, SDL_Window* window)
         script.mouse[0] = command.x;
         script.mouse[1] = command.y;
         push_mouse(script, SDL_MOUSEMOTION, 0);
+    } else if (verb == "glide") {
+        glide(script, command);
     } else if (verb == "down" || verb == "up") {
         push_mouse(script, verb == "down" ? SDL_MOUSEBUTTONDOWN : SDL_MOUSEBUTTONUP,
                    button_named(command.text));

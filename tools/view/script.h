@@ -3,6 +3,7 @@
 // A line is one command. A command takes effect in the next frame:
 //
 //     move X Y              move the mouse
+//     glide X Y N           move the mouse there in N frames
 //     down BUTTON, up BUTTON    left, middle or right
 //     wheel N               turn the wheel, up if above 0
 //     key NAME              press and release a key, such as k, ?, Space or Ctrl+Z
@@ -27,6 +28,7 @@
 struct view_command {
     std::string verb, text;
     float x = 0, y = 0;
+    float count = 0; // frames of a glide
     int line = 0;
     int tries = 0; // frames in which no widget had the label
 };

@@ -61,6 +61,7 @@ void reduce(const view_quality& quality, hair_scene& scene)
         lod.strand_pixels = std::max(lod.strand_pixels, quality.strand_pixels);
         lod.segment_pixels = std::max(lod.segment_pixels, quality.segment_pixels);
     }
+    if (quality.blends) scene.settings.view.coverage = HAIR_COVERAGE_ALPHA;
     if (quality.shadows) return;
     scene.shadow = false;
     for (uint32_t i = 0; i < scene.lights.count; ++i) scene.lights.at[i].shadow = false;

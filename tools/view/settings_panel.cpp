@@ -281,7 +281,7 @@ void show_rows(viewer& viewer, const char* heading)
 {
     float width = ImGui::GetContentRegionAvail().x;
     if (!ImGui::BeginTable(heading, 3)) return;
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 0.46f * width);
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 0.5f * width);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * ImGui::GetFontSize());
     std::string group;

@@ -83,7 +83,7 @@ int open_window(const view_options& options, view_stage& out)
                                   SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
     if (out.window) out.context = SDL_GL_CreateContext(out.window);
     if (!out.context) return complain_of_display(SDL_GetError());
-    SDL_GL_SetSwapInterval(1);
+    SDL_GL_SetSwapInterval(options.fps ? 0 : 1);
     return HAIR_EXIT_OK;
 }
 

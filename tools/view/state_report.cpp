@@ -2,6 +2,7 @@
 #include "tools/view/state_report.h"
 #include "tools/view/arrows.h"
 #include "tools/view/debug_draw.h"
+#include "tools/view/hair_actions.h"
 
 #include <epoxy/gl.h>
 #include <jansson.h>
@@ -134,6 +135,10 @@ int view_state_report(const viewer& viewer, const std::string& path)
         root, "quality",
         json_string(
             view_quality_of(viewer.is_moving ? viewer.governor.level : viewer.options.quality).about));
+    view_levels levels = view_present_levels(viewer);
+    json_object_set_new(
+        root, "drawn_fractions",
+        json_pack("{s:f, s:f}", "strands", (double)levels.strands, "segments", (double)levels.segments));
     json_object_set_new(root, "film", json_boolean(viewer.film.is_on));
     add_debug(viewer, root);
     json_t* messages = json_array();

@@ -42,12 +42,13 @@ void show_frame(const viewer& viewer)
     hair_get_memory(viewer.session.context, &memory);
     const char* quality =
         view_quality_of(viewer.is_moving ? viewer.governor.level : viewer.options.quality).about;
-    ImGui::TextDisabled("Frame");
     // Frames of a script have no time of their own.
-    if (viewer.options.script.empty())
-        ImGui::Text("%.1f fps, %.1f ms", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0, viewer.frame_ms);
-    else
+    if (viewer.options.script.empty()) {
+        ImGui::Text("%.1f fps", viewer.frame_ms > 0 ? 1000 / viewer.frame_ms : 0);
+        ImGui::Text("frame %.1f ms", viewer.frame_ms);
+    } else {
         ImGui::Text("frame %u", viewer.frame);
+    }
     ImGui::Text("hair %.1f ms", (double)(now.info.ms / pictures_of(viewer)));
     ImGui::Text("%s", bytes_of(memory.bytes).c_str());
     ImGui::TextDisabled("%s", quality);
@@ -55,7 +56,29 @@ void show_frame(const viewer& viewer)
     ImGui::TextDisabled("%u guides", viewer.session.info.guide_count);
 }
 
-// Show the stages that took time as bars, and the others with the reason.
+// Show a stage with its time at the right edge, over a bar, or with the reason why it was skipped.
+void show_stage(const viewer& viewer, const hair_report_row& row, float max)
+{
+    bool has_run = row.skip_reason == HAIR_SKIP_REASON_NONE;
+    ImVec2 at = ImGui::GetCursorScreenPos();
+    float height = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x;
+    char text[64];
+    if (has_run)
+        snprintf(text, sizeof text, "%.2f ms", (double)(row.ms / pictures_of(viewer)));
+    else
+        snprintf(text, sizeof text, "%s", hair_skip_reason_string(row.skip_reason));
+    if (has_run)
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width * row.ms / max, at.y + 1.1f * height},
+                                                  IM_COL32(48, 96, 160, 255), 2);
+    if (!has_run) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextUnformatted(row.stage);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%s", row.pass ? row.pass : "no pass", bytes_of(row.bytes).c_str());
+    ImGui::SameLine(width - ImGui::CalcTextSize(text).x);
+    ImGui::TextUnformatted(text);
+    if (!has_run) ImGui::PopStyleColor();
+}
+
 void show_stages(viewer& viewer)
 {
     const std::vector<hair_report_row>& rows = viewer.measures.rows;
@@ -66,41 +89,19 @@ void show_stages(viewer& viewer)
     view_gui_mark(viewer.gui, "Faster");
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("Try settings, and plot their time against their visible error.");
-    if (!ImGui::BeginTable("stages", 3, ImGuiTableFlags_ScrollY)) return;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 6.3f * ImGui::GetFontSize());
-    ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 4.2f * ImGui::GetFontSize());
-    ImGui::TableSetupColumn("bar", ImGuiTableColumnFlags_WidthStretch);
-    for (const hair_report_row& row : rows) {
-        bool has_run = row.skip_reason == HAIR_SKIP_REASON_NONE;
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(row.stage);
-        if (ImGui::IsItemHovered())
-            ImGui::SetTooltip("%s\n%s", row.pass ? row.pass : "no pass", bytes_of(row.bytes).c_str());
-        ImGui::TableNextColumn();
-        if (has_run)
-            ImGui::Text("%.2f ms", (double)(row.ms / pictures_of(viewer)));
-        else
-            ImGui::TextDisabled("%s", hair_skip_reason_string(row.skip_reason));
-        ImGui::TableNextColumn();
-        ImVec2 at = ImGui::GetCursorScreenPos();
-        float height = ImGui::GetFontSize(), width = 0.9f * ImGui::GetContentRegionAvail().x;
-        if (has_run)
-            ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.2f * height},
-                                                      {at.x + width * row.ms / max, at.y + 0.8f * height},
-                                                      IM_COL32(66, 150, 250, 255), 2);
-    }
-    ImGui::EndTable();
+    ImGui::BeginChild("stages");
+    for (const hair_report_row& row : rows) show_stage(viewer, row, max);
+    ImGui::EndChild();
 }
 
 void show_history(const char* label, const std::vector<float>& values, const char* format, float factor)
 {
     char text[64];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s ", label);
     if (values.empty())
-        snprintf(text, sizeof text, "off");
+        snprintf(text + used, sizeof text - used, "off");
     else
-        snprintf(text, sizeof text, format, (double)(values.back() * factor));
-    ImGui::Text("%s", label);
-    ImGui::SameLine(4.3f * ImGui::GetFontSize());
+        snprintf(text + used, sizeof text - used, format, (double)(values.back() * factor));
     ImGui::PushID(label);
     ImGui::PlotLines("##plot", values.data(), (int)values.size(), 0, text, 0, FLT_MAX,
                      {ImGui::GetContentRegionAvail().x, 1.35f * ImGui::GetFontSize()});
@@ -199,10 +200,10 @@ void view_strip(viewer& viewer)
     float font = ImGui::GetFontSize(), width = ImGui::GetContentRegionAvail().x / font;
     int columns = width > 34 ? 4 : width > 26 ? 3 : 2;
     if (!ImGui::BeginTable("strip", columns)) return;
-    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 7.6f * font);
-    ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.3f);
-    if (columns > 2) ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthFixed, 10.6f * font);
-    if (columns > 3) ImGui::TableSetupColumn("histories", ImGuiTableColumnFlags_WidthStretch, 0.9f);
+    ImGui::TableSetupColumn("frame", ImGuiTableColumnFlags_WidthFixed, 7.9f * font);
+    ImGui::TableSetupColumn("stages", ImGuiTableColumnFlags_WidthStretch, 1.5f);
+    if (columns > 2) ImGui::TableSetupColumn("errors", ImGuiTableColumnFlags_WidthFixed, 9.8f * font);
+    if (columns > 3) ImGui::TableSetupColumn("histories", ImGuiTableColumnFlags_WidthStretch, 1);
     ImGui::TableNextColumn();
     show_frame(viewer);
     ImGui::TableNextColumn();

@@ -5,6 +5,7 @@
 #include "tools/view/controls.h"
 #include "tools/view/debug_draw.h"
 #include "tools/view/debug_guides.h"
+#include "tools/view/gizmo.h"
 #include "tools/view/panel.h"
 #include "tools/view/pareto.h"
 #include "tools/view/record.h"
@@ -101,6 +102,12 @@ void follow_document(viewer& viewer)
     if (view_session_apply(viewer.session, scene, viewer.document.name)) scene = *viewer.session.applied;
 }
 
+// Return whether pictures are drawn as in a window: every frame, by a budget while anything moves.
+bool is_live(const viewer& viewer)
+{
+    return viewer.options.script.empty() || viewer.options.fps;
+}
+
 float duration(const hair_motion& motion)
 {
     return motion.count ? motion.key[motion.count - 1].time : 0;
@@ -143,10 +150,9 @@ int draw_picture(viewer& viewer)
     int height = std::max(1, (int)(density * (place.bottom - place.top)));
     bool is_equal = viewer.is_full && !viewer.compared && viewer.picture_size[0] == width &&
                     viewer.picture_size[1] == height;
-    viewer.is_moving =
-        viewer.options.script.empty() && hair_now() - viewer.moved < (viewer.is_software ? long_rest : rest);
+    viewer.is_moving = is_live(viewer) && hair_now() - viewer.moved < (viewer.is_software ? long_rest : rest);
     int code = HAIR_EXIT_OK;
-    if (!is_equal || viewer.is_moving || !viewer.options.script.empty()) {
+    if (!is_equal || viewer.is_moving || !is_live(viewer)) {
         uint32_t level = viewer.is_moving ? viewer.governor.level : viewer.options.quality;
         view_render which = viewer.is_moving ? VIEW_RENDER_MOVING : VIEW_RENDER_FULL;
         code = view_session_draw(session, *viewer.document.scene, (uint32_t)width, (uint32_t)height,
@@ -175,7 +181,9 @@ int draw_picture(viewer& viewer)
     view_debug_show(viewer);
     if (viewer.compared)
         code = view_compare_draw(viewer, (uint32_t)width, (uint32_t)height, view_quality_of(level));
+    view_draw_handles(viewer);
     view_arrows(viewer);
+    view_hint(viewer);
     return code;
 }
 
@@ -246,12 +254,12 @@ int run_frame(viewer& viewer)
 {
     bool is_last = viewer.options.frames && viewer.frame + 1 >= viewer.options.frames;
     bool is_scripted = !viewer.options.script.empty();
-    bool draws = !is_scripted || (is_last && !viewer.options.shot.empty()) || view_record_is_due(viewer) ||
+    double before = hair_now();
+    bool draws = is_live(viewer) || (is_last && !viewer.options.shot.empty()) || view_record_is_due(viewer) ||
                  viewer.wants_picture || viewer.wants_bug_report || viewer.image_error.is_on;
     int code = view_script_feed(viewer.script, viewer.gui, viewer.stage.window);
     // The debug view counts while it draws.
     draws = draws || (viewer.debug.mode != VIEW_DEBUG_OFF && !viewer.script.report.empty());
-    double before = hair_now();
     float dt = tick(viewer);
     if (code) return code;
     take_events(viewer);
@@ -259,6 +267,7 @@ int run_frame(viewer& viewer)
     float scale = viewer.options.scale > 0 ? viewer.options.scale : viewer.stage.scale;
     view_gui_begin(viewer.gui, viewer.stage.width, viewer.stage.height, viewer.stage.density, scale, dt);
     view_panels(viewer);
+    view_mark_handles(viewer);
     follow_document(viewer);
     if (viewer.drag == VIEW_DRAG_NONE && !ImGui::IsAnyItemActive()) view_document_commit(viewer.document);
     code = step(viewer, dt);
@@ -272,6 +281,9 @@ int run_frame(viewer& viewer)
     if (!code && draws) code = write_pictures(viewer, is_last);
     if (draws) measure_frame(viewer, before);
     if (draws) view_stage_end(viewer.stage);
+    if (viewer.options.fps)
+        view_frame_times_add(viewer.frame_times, viewer.is_moving, viewer.governor.level,
+                             hair_now() - before);
     ++viewer.frame;
     viewer.quits = viewer.quits || is_last;
     return code;
@@ -302,6 +314,10 @@ int viewer_run(viewer& viewer)
     if (!code && !viewer.options.film.empty()) code = view_record_begin(viewer, viewer.options.film);
     while (!code && !viewer.quits) code = run_frame(viewer);
     if (viewer.film.is_on && view_record_end(viewer) && !code) code = HAIR_EXIT_RUNTIME;
+    if (!code && viewer.options.fps) {
+        view_frame_times_print(viewer.frame_times);
+        if (hair_flush(TOOL)) code = HAIR_EXIT_RUNTIME;
+    }
     close(viewer);
     return code;
 }

@@ -4,6 +4,7 @@
 
 #include "tools/view/debug_state.h"
 #include "tools/view/document.h"
+#include "tools/view/frame_times.h"
 #include "tools/view/gl_messages.h"
 #include "tools/view/gui.h"
 #include "tools/view/image_error.h"
@@ -27,7 +28,15 @@ enum view_drag {
     VIEW_DRAG_MOVE, // moves the head
     VIEW_DRAG_HAIR, // pulls a strand
     VIEW_DRAG_COLLIDER,
+    VIEW_DRAG_HANDLE, // moves or turns a collider
     VIEW_DRAG_WIPE // moves the line of a comparison
+};
+
+// Handle of a collider: an arrow or a ring.
+struct view_handle {
+    int collider = -1; // index into the scene's colliders, or -1
+    int axis = 0; // of the world
+    bool is_ring = false;
 };
 
 // Newest values of the strip.
@@ -78,6 +87,7 @@ struct viewer {
     view_drag drag = VIEW_DRAG_NONE;
     int drag_button = 0;
     int held_collider = -1; // index into the scene's colliders
+    view_handle handle; // that the mouse pulls
     float mouse[2] = {0, 0}; // units of SDL
     bool quits = false;
     bool plays = true; // the head follows its motion
@@ -97,6 +107,7 @@ struct viewer {
     uint32_t draws = 0; // pictures since the last step
     int picture_size[2] = {0, 0}; // pixels
     double frame_ms = 0; // smoothed time of a frame
+    view_frame_times frame_times; // for --fps
     bool shows_strip = true; // timings and errors below the picture
     view_measures measures;
     view_film film;
