@@ -201,7 +201,7 @@ void hair_targets_fade(struct hair_sim* sim)
 
 // Steps -------------------------------------------------------------------------------------------
 
-static void write_params(struct hair_sim* sim, hair_uint flags)
+static void write_targets(struct hair_sim* sim, hair_uint flags)
 {
     struct hair_targets* targets = &sim->targets;
     double time = (double)targets->blend.blend_time;
@@ -224,7 +224,7 @@ void hair_targets_begin_step(struct hair_sim* sim)
         hair_pose_relative(&targets->space, &sim->head, &targets->rotation, &targets->offset);
         targets->changed = targets->disturbs = 0;
     }
-    write_params(sim, 0);
+    write_targets(sim, 0);
 }
 
 void hair_targets_run(struct hair_sim* sim)
@@ -251,7 +251,7 @@ void hair_targets_end_step(struct hair_sim* sim)
 void hair_targets_reset(struct hair_sim* sim)
 {
     hair_targets_begin_step(sim);
-    write_params(sim, HAIR_TARGETS_RESET);
+    write_targets(sim, HAIR_TARGETS_RESET);
     hair_targets_run(sim);
     sim->targets.blend_left = 0;
 }
