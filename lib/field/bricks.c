@@ -8,9 +8,12 @@
 #include <string.h>
 
 #define MAX_PAIRS (1u << 18) // Maximum pairs in a dispatch, unless one brick has more.
-// Maximum colliders of a brick in a round. A collision mesh takes longer than other shapes.
-#define MAX_IN_ROUND 8192
-#define MAX_MESHES_IN_ROUND 1024
+// Maximum colliders of a brick in a round. A collision mesh takes longer than other shapes. A
+// thread of a GPU is slower than one of a processor.
+#define MAX_IN_ROUND 512
+#define MAX_MESHES_IN_ROUND 128
+#define MAX_IN_ROUND_SOFTWARE 8192
+#define MAX_MESHES_IN_ROUND_SOFTWARE 1024
 
 static uint32_t brick_at(const struct hair_field_box* box, uint32_t x, uint32_t y, uint32_t z)
 {
@@ -214,6 +217,8 @@ static void add_rounds(struct hair_field_job* job, const struct hair_field_brick
 hair_result hair_field_next(struct hair_collider_field* field, struct hair_field_job* job)
 {
     const hair_host* host = &field->gl->host;
+    uint32_t at_once = field->gl->software ? MAX_IN_ROUND_SOFTWARE : MAX_IN_ROUND;
+    uint32_t meshes = field->gl->software ? MAX_MESHES_IN_ROUND_SOFTWARE : MAX_MESHES_IN_ROUND;
     uint32_t bricks = 0;
     size_t max = 0;
     hair_field_end(field, job);
@@ -224,15 +229,15 @@ hair_result hair_field_next(struct hair_collider_field* field, struct hair_field
     struct hair_field_brick* whole = hair_alloc(host, bricks, sizeof *whole);
     uint32_t count = pairs ? find_brick_pairs(field, job, end, pairs) : 0;
     HAIR_ASSERT(count <= max);
-    job->brick = hair_alloc(host, bricks + count / MAX_MESHES_IN_ROUND, sizeof *job->brick);
+    job->brick = hair_alloc(host, bricks + count / meshes, sizeof *job->brick);
     job->brick_collider = hair_alloc(host, count, sizeof *job->brick_collider);
     job->collider = hair_alloc(host, count < field->count ? count : field->count, sizeof *job->collider);
     int failed = !pairs || !whole || !job->brick || !job->brick_collider || !job->collider;
     if (!failed) {
         uint32_t plain = sort_pairs(field, job, end, pairs, count, whole, bricks);
-        add_rounds(job, whole, plain, MAX_IN_ROUND);
+        add_rounds(job, whole, plain, at_once);
         uint32_t first = job->bricks;
-        add_rounds(job, whole + plain, bricks - plain, MAX_MESHES_IN_ROUND);
+        add_rounds(job, whole + plain, bricks - plain, meshes);
         job->with_meshes = job->bricks - first;
     }
     hair_free(host, whole);

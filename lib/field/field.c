@@ -143,7 +143,9 @@ static size_t aligned(size_t size)
 // Number of parts of the work buffer, which are colliders, members, bricks, and bricks with
 // collision meshes.
 #define PARTS 4
-// Maximum colliders of the bricks in a dispatch of a software rasteriser, unless a brick has more.
+// Maximum colliders of the bricks in a dispatch of a GPU and of a software rasteriser, unless a
+// brick has more.
+#define MAX_COLLIDERS (1u << 14)
 #define MAX_COLLIDERS_SOFTWARE 8192
 
 // Return the end of the bricks from `first` on that are of one round and have few enough colliders
@@ -166,7 +168,7 @@ static void run_pass(struct hair_collider_field* field, hair_gl_pass pass,
     const GLsizeiptr size[] = {length[part], length[1]};
     if (!bricks) return;
     field->gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BRICK, 2, buffers, begin, size);
-    uint32_t max = field->gl->software ? MAX_COLLIDERS_SOFTWARE : UINT32_MAX / 2;
+    uint32_t max = field->gl->software ? MAX_COLLIDERS_SOFTWARE : MAX_COLLIDERS;
     for (uint32_t first = 0, end; first < bricks; first = end) {
         end = find_end(brick, first, bricks, max);
         if (brick[first].round) field->gl->MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

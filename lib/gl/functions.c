@@ -150,6 +150,7 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     const char* renderer = (const char*)gl->GetString(GL_RENDERER);
     gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
+    gl->dispatch_ms = HAIR_GL_DISPATCH_MS;
     gl->compiles_late = gl->software != 0;
     gl->subgroup = find_subgroup(gl);
     if (gl->subgroup && has_extension(gl, "GL_NV_shader_thread_group"))

@@ -49,6 +49,7 @@ typedef uint64_t hair_gl_pass;
 
 #define HAIR_GL_UNITS (HAIR_UNIT_OCCLUSION + 1)
 
+#define HAIR_GL_DISPATCH_MS 1.9 // hair_gl.dispatch_ms, ms. The limit is 2 ms.
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be in flight while the next is timed.
 
 struct hair_gl_timer {
@@ -87,6 +88,7 @@ struct hair_gl_program {
     uint32_t asked; // Number of the last asynchronous round that needed the program.
     struct hair_gl_timer timer;
     uint32_t max_groups; // Work groups in a dispatch of a GPU. 0 until the pass runs.
+    uint32_t max_groups_of_threads; // Limit by the number of threads. 0 until limited.
     double ms_per_group; // Time of a group of a software rasteriser in the last run, ms.
     char label[128];
 };
@@ -132,6 +134,7 @@ struct hair_gl {
     int software; // Nonzero if the driver is a software rasteriser.
     bool compiles_late; // True if the driver compiles machine code when a program first runs.
     int subgroup; // Nonzero if a work group of 32 threads is one subgroup.
+    double dispatch_ms; // Maximum expected time of a solver's dispatch on a GPU. See time_budget.c.
     GLint units; // Number of multiprocessors of the GPU. 0 if unknown.
     int long_atomics; // Nonzero if storage buffers support 64-bit atomics.
     uint32_t program_generation; // Number of times that all programs have been compiled.
@@ -407,6 +410,8 @@ void hair_gl_end(struct hair_gl* gl, hair_gl_pass pass);
 // Run a compute pass over `groups` work groups, and make its writes visible. hair_group() in GLSL
 // returns the number of a group.
 void hair_gl_run(struct hair_gl* gl, hair_gl_pass pass, uint32_t groups);
+// Let each dispatch of a pass on a GPU have at most `max` work groups.
+void hair_gl_limit_groups(struct hair_gl* gl, hair_gl_pass pass, uint32_t max);
 // Run the work groups from `first` up to, not including, `end`, of all `groups` of a pass.
 void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups);
 // Run a compute pass by a program with the application's shading.

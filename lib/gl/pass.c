@@ -12,7 +12,7 @@
 #define MAX_GROWTH 8.0 // Maximum ratio of the groups in a part to those in the part before.
 #define FIRST_GROUPS 4.0 // Work groups in the first part of a pass that never ran.
 // Threads in a dispatch of a GPU. An operating system resets a GPU that takes too long for one.
-#define MAX_THREADS (1u << 23)
+#define MAX_THREADS (1u << 21)
 
 struct hair_gl_program* hair_gl_find(const struct hair_gl* gl, hair_gl_pass pass)
 {
@@ -139,6 +139,16 @@ static uint32_t find_max_groups(struct hair_gl* gl, GLuint program)
     uint32_t threads = (uint32_t)size[0] * (uint32_t)size[1] * (uint32_t)size[2];
     uint32_t max = MAX_THREADS / (threads ? threads : 1);
     return max < HAIR_MAX_GROUPS ? max : HAIR_MAX_GROUPS;
+}
+
+void hair_gl_limit_groups(struct hair_gl* gl, hair_gl_pass pass, uint32_t max)
+{
+    struct hair_gl_program* own = hair_gl_find(gl, pass);
+    HAIR_ASSERT(own && own->program && max > 0);
+    uint32_t all =
+        own->max_groups_of_threads ? own->max_groups_of_threads : find_max_groups(gl, own->program);
+    own->max_groups_of_threads = all;
+    own->max_groups = max < all ? max : all;
 }
 
 // Return the work groups that are expected to take `ms`.

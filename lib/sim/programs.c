@@ -31,15 +31,6 @@ bool hair_sim_is_by_thread(const struct hair_sim* sim)
     return sim->by_thread && (!sim->gl->software || hair_sim_rounds_of_substep(sim, 1) <= MAX_ROUNDS);
 }
 
-// Return how many substeps of `rounds` loop iterations fit into a dispatch.
-static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
-{
-    if (!sim->gl->software) return HAIR_STEP_SUBSTEPS;
-    HAIR_ASSERT(rounds > 0);
-    uint32_t max = MAX_ROUNDS / rounds;
-    return max < 1 ? 1 : max < HAIR_STEP_SUBSTEPS ? max : HAIR_STEP_SUBSTEPS;
-}
-
 // Return whether some substeps may be split. See glsl/sim/parts.glsl.
 static bool has_parts(const struct hair_sim* sim)
 {
@@ -54,6 +45,18 @@ static bool uses_two_passes_by_shake(const struct hair_sim* sim)
 {
     bool stiff = hair_sim_is_stiff(sim);
     return stiff ? has_parts(sim) : sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim);
+}
+
+// Return how many substeps fit into a dispatch. Those of a software rasteriser have `rounds` loop
+// iterations. The second of two programs begins again with the first substep of a dispatch, so that
+// other dispatches would round otherwise. A GPU then divides the guides only.
+static uint32_t substeps_of(const struct hair_sim* sim, uint32_t rounds)
+{
+    if (!sim->gl->software)
+        return uses_two_passes_by_shake(sim) ? HAIR_STEP_SUBSTEPS : hair_sim_substeps_in_time(sim);
+    HAIR_ASSERT(rounds > 0);
+    uint32_t max = MAX_ROUNDS / rounds;
+    return max < 1 ? 1 : max < HAIR_STEP_SUBSTEPS ? max : HAIR_STEP_SUBSTEPS;
 }
 
 // Return whether a thread of the second program solves a guide, and not a work group. Parts of long
@@ -216,6 +219,17 @@ static void run_pass2(struct hair_sim* sim, hair_gl_pass pass, struct hair_step_
     params->substeps = count;
 }
 
+// Run a program over the guides, in dispatches that a GPU takes not long for.
+static void run_in_time(struct hair_sim* sim, hair_gl_pass pass, uint32_t groups, uint32_t substeps)
+{
+    if (!sim->gl->software) {
+        uint32_t guides = hair_sim_guides_in_time(sim, substeps);
+        uint32_t each = hair_sim_is_by_thread(sim) ? GUIDES_PER_GROUP : 1;
+        hair_gl_limit_groups(sim->gl, pass, (guides + each - 1) / each);
+    }
+    hair_gl_run(sim->gl, pass, groups);
+}
+
 void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
 {
     hair_gl_pass pass = pass_now(sim);
@@ -223,14 +237,14 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
     uint32_t groups = hair_sim_is_by_thread(sim) ? by_thread : sim->guides;
     if (uses_two_passes_by_shake(sim)) {
         HAIR_ASSERT(sim->two_pass);
-        hair_gl_run(sim->gl, pass | HAIR_GL_WITH(PASS1), groups);
+        run_in_time(sim, pass | HAIR_GL_WITH(PASS1), groups, params->substeps);
         run_pass2(sim, pass, params);
     } else if (uses_two_passes(sim, pass)) {
         HAIR_ASSERT(sim->gl->units > 0);
         hair_gl_run(sim->gl, pass | HAIR_GL_WITH(PASS1), (uint32_t)sim->gl->units);
         run_list(sim, listed_pass(sim, pass), params->list);
     } else {
-        hair_gl_run(sim->gl, pass, groups);
+        run_in_time(sim, pass, groups, params->substeps);
     }
 }
 

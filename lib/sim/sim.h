@@ -297,6 +297,13 @@ uint32_t hair_sim_rounds_of_substep(const struct hair_sim* sim, int by_thread);
 // another program.
 uint32_t hair_sim_rounds_of_pass1(const struct hair_sim* sim, int by_thread);
 
+// Functions of time_budget.c, for GPUs.
+
+// Return how many substeps a dispatch can compute in its time.
+uint32_t hair_sim_substeps_in_time(const struct hair_sim* sim);
+// Return for how many guides a dispatch can compute so many substeps in its time.
+uint32_t hair_sim_guides_in_time(const struct hair_sim* sim, uint32_t substeps);
+
 // Functions of save.c, for the bytes of the state that the coming motion depends on.
 
 // Return the size of the saved state in bytes.

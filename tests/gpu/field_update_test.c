@@ -4,6 +4,7 @@
 #include "tests/support/fields.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "lib/api/api.h"
@@ -170,6 +171,43 @@ static void field_recovers_from_refused_host_memory(void** state)
     hair_test_field_end(&f);
 }
 
+// A GPU tests at most 512 colliders of a brick in a dispatch.
+static void field_of_a_gpu_has_the_same_distances_in_more_rounds(void** state)
+{
+    enum { MANY = 1200 };
+    struct hair_test_field_scene f;
+    hair_test_field_begin(*state, origin, &f);
+    struct hair_gl* gl = &f.test->context->gl;
+    int software = gl->software;
+    hair_collider* many = test_calloc(MANY, sizeof *many);
+    for (uint32_t i = 0; i < MANY; ++i) {
+        many[i] = f.colliders[0];
+        many[i].shape = HAIR_SHAPE_SPHERE;
+        many[i].size[0] = 0.001f;
+        for (int k = 0; k < 3; ++k) many[i].position[k] += 0.03f * (hair_random(&f.random) - 0.5f);
+    }
+    struct hair_test_field read[2];
+    uint32_t run[2];
+    for (int gpu = 0; gpu < 2; ++gpu) {
+        struct hair_collider_field field;
+        uint32_t before = runs(&f);
+        hair_field_create(&field, &f.test->context->sdf_pool, f.groom, HAIR_TEST_FIELD_VOXEL);
+        gl->software = gpu ? 0 : software;
+        hair_test_ok(f.test, hair_field_update(&field, many, MANY, &f.head));
+        gl->software = software;
+        read[gpu] = hair_test_field_read(&field);
+        run[gpu] = runs(&f) - before;
+        hair_field_destroy(&field);
+    }
+    size_t voxels = hair_test_field_count(&read[0]);
+    printf("    %zu voxels, %u and %u dispatches\n", voxels, run[0], run[1]);
+    assert_memory_equal(read[0].distance, read[1].distance, voxels * sizeof *read[0].distance);
+    assert_true(run[1] >= run[0] && run[1] >= 3);
+    for (int gpu = 0; gpu < 2; ++gpu) hair_test_field_free(&read[gpu]);
+    test_free(many);
+    hair_test_field_end(&f);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -180,6 +218,7 @@ int main(void)
         HAIR_TEST(field_is_absent_without_a_collider_near),
         HAIR_TEST(field_recovers_from_refused_driver_memory),
         HAIR_TEST(field_recovers_from_refused_host_memory),
+        HAIR_TEST(field_of_a_gpu_has_the_same_distances_in_more_rounds),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
