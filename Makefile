@@ -103,7 +103,7 @@ view: setup ## Build and open hair-view, a window with every option in a panel
 
 view-film: setup ## build/view.mp4: a tour of hair-view, by a script
 	@$(MAKE) -j$(JOBS) $(B)/hair-view
-	$(B)/hair-view --script tools/view/film.txt --frames 1000 --quality 2 --film build/view.mp4
+	$(B)/hair-view --script tools/view/film.txt --frames 940 --quality 2 --set strand.segments=18 --film build/view.mp4
 
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
@@ -123,7 +123,8 @@ report: setup ## build/report/index.html: run time against error on one page, af
 	@ls build/bench/*/*.json >/dev/null 2>&1 || $(MAKE) bench
 	python3 tools/report/report.py build/report/index.html build/bench/* $(wildcard .readme/*/) \
 	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
-	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery")
+	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery") \
+	  $(if $(wildcard build/view.mp4),--picture "build/view.mp4=hair-view in use: make view-film")
 
 docs: ## build/docs/index.html: the headers of include/hair and their guide as HTML, by doxygen
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/docs/packages.txt

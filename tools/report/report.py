@@ -167,7 +167,8 @@ def suite_of(entry, machines, out):
 def picture(argument):
     path, _, caption = argument.partition("=")
     data = base64.b64encode(pathlib.Path(path).read_bytes()).decode()
-    return {"type": "jpeg" if path.endswith((".jpg", ".jpeg")) else "png", "data": data, "caption": caption}
+    kind = "video/mp4" if path.endswith(".mp4") else "image/jpeg" if path.endswith((".jpg", ".jpeg")) else "image/png"
+    return {"type": kind, "data": data, "caption": caption}
 
 
 def main():
