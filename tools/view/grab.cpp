@@ -209,13 +209,17 @@ void view_add_ball(viewer& viewer)
         return;
     }
     view_axes axes = view_camera_axes(scene);
+    const view_place& picture = viewer.picture;
+    float aspect = (picture.right - picture.left) / std::max(picture.bottom - picture.top, 1.0f);
+    // Beside the hair, and in the picture.
+    float aside = std::min(0.25f, 0.3f * aspect * view_camera_height(scene));
     hair_scene_collider& collider = scene.colliders[scene.collider_count++];
     collider = {};
     collider.collider = hair_collider_default();
     collider.stays = true;
     for (int i = 0; i < 3; ++i) {
         collider.collider.size[i] = i ? 0.1f : ball_radius;
-        collider.collider.position[i] = scene.target[i] + 0.25f * axes.right[i] + 0.05f * axes.back[i];
+        collider.collider.position[i] = scene.target[i] + aside * axes.right[i] + 0.05f * axes.back[i];
     }
     scene.show |= HAIR_SHOW_COLLIDERS;
 }

@@ -71,10 +71,14 @@ void show_stage(const viewer& viewer, const hair_report_row& row, float max)
         ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width * row.ms / max, at.y + 1.1f * height},
                                                   IM_COL32(48, 96, 160, 255), 2);
     if (!has_run) ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    float place = width - ImGui::CalcTextSize(text).x;
+    ImGui::PushClipRect(at, {at.x + place - 0.3f * height, at.y + 2 * height}, true);
     ImGui::TextUnformatted(row.stage);
+    ImGui::PopClipRect();
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s\n%s", row.pass ? row.pass : "no pass", bytes_of(row.bytes).c_str());
-    ImGui::SameLine(width - ImGui::CalcTextSize(text).x);
+        ImGui::SetTooltip("%s\n%s\n%s", row.stage, row.pass ? row.pass : "no pass",
+                          bytes_of(row.bytes).c_str());
+    ImGui::SameLine(place);
     ImGui::TextUnformatted(text);
     if (!has_run) ImGui::PopStyleColor();
 }

@@ -83,10 +83,20 @@ void close(viewer& viewer)
     view_stage_close(viewer.stage);
 }
 
+// Take the events of a frame. Panels see one place of the mouse a frame. Therefore a button waits
+// for the next frame after a motion, and everything of the mouse does after a button.
 void take_events(viewer& viewer)
 {
     SDL_Event event;
-    while (SDL_PollEvent(&event)) {
+    bool has_moved = false, has_button = false;
+    SDL_PumpEvents();
+    while (SDL_PeepEvents(&event, 1, SDL_PEEKEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT) > 0) {
+        bool is_motion = event.type == SDL_MOUSEMOTION;
+        bool is_button = event.type == SDL_MOUSEBUTTONDOWN || event.type == SDL_MOUSEBUTTONUP;
+        if ((is_button && has_moved) || ((is_button || is_motion) && has_button)) break;
+        has_moved |= is_motion;
+        has_button |= is_button;
+        SDL_PeepEvents(&event, 1, SDL_GETEVENT, SDL_FIRSTEVENT, SDL_LASTEVENT);
         bool is_taken = view_gui_event(viewer.gui, event) && viewer.drag == VIEW_DRAG_NONE;
         if (!is_taken) view_controls_event(viewer, event);
         if (event.type == SDL_DROPFILE) SDL_free(event.drop.file);
