@@ -289,7 +289,7 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles symbols hardened comments lines functions words mutations formatted ## Check the order of folders, circles of files, exported names and style
+check: rooms circles symbols hardened comments lines functions words arrays mutations formatted ## Check the order of folders, circles of files, exported names and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
@@ -327,6 +327,9 @@ functions:
 words:
 	@awk -f tools/check/words.awk $(filter lib/% glsl/%,$(TEXTS))
 
+arrays:
+	@awk -f tools/check/arrays.awk $(wildcard glsl/shared/*.h)
+
 SOURCES = $$(git ls-files '*.c' '*.h' '*.cpp' | grep -v '^glsl/')
 # A machine without clang-format-14 skips this check.
 formatted:
@@ -348,4 +351,4 @@ include tools/packaging/windows.mk
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words formatted consumer install-tree format help clean
+.PHONY: all view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words arrays formatted consumer install-tree format help clean
