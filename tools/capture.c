@@ -9,6 +9,7 @@
 #include "tools/common/file.h"
 #include "tools/common/frame_hash.h"
 #include "tools/common/interrupt.h"
+#include "tools/common/playback.h"
 #include "tools/common/render.h"
 #include "tools/common/frame_writer.h"
 #include "tools/common/stats.h"
@@ -42,6 +43,7 @@ struct capture {
     float reach; // radius of the head's reach, m
     struct hair_frame_hash hash;
     struct hair_dump guides, followers;
+    struct hair_playback cache;
     double started; // ms
 };
 
@@ -181,6 +183,7 @@ static int make_hair(struct capture* capture)
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_set_wind(capture->hair, &wind);
     if (!result) result = set_colliders(capture, 0, desc.transform);
+    if (!result) result = hair_playback_play(&capture->cache, capture->hair, 0);
     return exit_for_settings(capture, hair_exit_for(result));
 }
 
@@ -218,6 +221,7 @@ static hair_result step(struct capture* capture, uint32_t frame)
         hair_motion_at(&scene->motion, time, transform);
         result = hair_set_transform(capture->hair, transform);
         if (!result) result = set_colliders(capture, time, transform);
+        if (!result) result = hair_playback_play(&capture->cache, capture->hair, (double)time);
         if (!result) result = hair_step(capture->hair, 1 / (scene->fps * (float)parts));
     }
     return result;
@@ -293,6 +297,7 @@ static int make(struct capture* capture)
         code = hair_world_create(TOOL, capture->options.name, &capture->options.scene, &capture->host,
                                  &capture->world);
     if (!code) code = make_shader(capture);
+    if (!code) code = hair_playback_open(TOOL, capture->options.cache, capture->groom, &capture->cache);
     if (!code) code = make_hair(capture);
     if (!code) code = make_hash(capture);
     return code;
@@ -376,6 +381,7 @@ static void destroy(struct capture* capture)
     hair_context_destroy(capture->context);
     hair_egl_destroy(capture->egl);
     hair_groom_destroy(capture->groom);
+    hair_playback_free(&capture->cache);
     hair_stats_free(&capture->stats);
     hair_frame_hash_free(&capture->hash);
     free(capture->colliders);

@@ -178,4 +178,17 @@ HAIR_DESC(hair_groom_info)
 /// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out);
 
+/// Write the guides of a groom at rest, in the order of HAIR_READ_GUIDES. hair_groom_describe()
+/// tells their numbers.
+///
+/// @param vertices Receives the number of vertices of each guide. NULL skips them.
+/// @param guide_capacity Maximum number of guides to write. 0 if `vertices` is NULL.
+/// @param positions Receives xyz per vertex in groom space, m. NULL skips them.
+/// @param vertex_capacity Maximum number of vertices to write. 0 if `positions` is NULL.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_groom_get_guides(const hair_groom* groom, uint32_t* vertices,
+                                           uint32_t guide_capacity, float* positions,
+                                           uint32_t vertex_capacity);
+
 #endif

@@ -47,7 +47,7 @@ HAIR_DESC(hair_target_blend)
 /// @param positions xyz per guide vertex, as floats, in the order of HAIR_READ_GUIDES. [-1e9, 1e9].
 ///     They are copied. NULL ends the targets. Weights then return to 0, and memory is freed.
 /// @param count Number of guide vertices, hair_groom_info.guide_vertex_count. 0 if `positions` is
-///     NULL.
+///     NULL. hair_groom_get_guides() tells the number of each guide.
 /// @param stride Distance from one vertex to the next in bytes, a multiple of 4 in [12, 4096].
 ///     Ignored if `positions` is NULL.
 /// @param to_world Rigid transform from the space of `positions` to the world. NULL if the

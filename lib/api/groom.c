@@ -103,3 +103,21 @@ hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out)
     if (!groom) return HAIR_ERROR_ARGUMENT;
     return HAIR_COPY_OUT(&groom->host, hair_groom_info, &groom->info, out);
 }
+
+hair_result hair_groom_get_guides(const hair_groom* groom, uint32_t* vertices, uint32_t guide_capacity,
+                                  float* positions, uint32_t vertex_capacity)
+{
+    if (!groom) return HAIR_ERROR_ARGUMENT;
+    if ((!vertices && guide_capacity) || (!positions && vertex_capacity))
+        return hair_fail(&groom->host, HAIR_ERROR_ARGUMENT,
+                         "vertices or positions is NULL but guide_capacity is %u and vertex_capacity is %u",
+                         guide_capacity, vertex_capacity);
+    const hair_groom_info* info = &groom->info;
+    for (uint32_t i = 0; i < info->guide_count && i < guide_capacity; ++i)
+        vertices[i] = groom->guides[i].count;
+    for (uint32_t i = 0; i < info->guide_vertex_count && i < vertex_capacity; ++i) {
+        hair_vec4 at = groom->rest[i].position;
+        hair_store3(positions + 3 * (size_t)i, hair_v3(at.x, at.y, at.z));
+    }
+    return HAIR_OK;
+}

@@ -407,7 +407,13 @@ static void wrong_targets_are_refused_with_their_range(void** state)
     hair_test_ok(test, hair_set_target_blend(hair, &blend));
     for (int i = 10; i < 20; ++i) play(&living, &cache, i);
     hair_test_read_guides(&living);
-    uint32_t first = living.groom->guides[0].count;
+    uint32_t first, both[2];
+    hair_test_ok(test, hair_groom_get_guides(living.groom, &first, 1, NULL, 0));
+    hair_test_ok(test, hair_groom_get_guides(living.groom, both, 2, at, count));
+    assert_true(first == both[0] && both[0] + both[1] == count);
+    assert_true(distance_of(at, &living.groom->rest[0].position.x) < EXACT);
+    hair_test_refused(test, hair_groom_get_guides(living.groom, NULL, 1, NULL, 0), HAIR_ERROR_ARGUMENT,
+                      "guide_capacity is 1");
     assert_true(farthest(living.positions, cache.frame[19], first) < EXACT);
     assert_true(farthest(living.positions + 3 * first, cache.frame[19] + 3 * first, count - first) > 1e-3);
     hair_test_die(&living);

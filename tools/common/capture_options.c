@@ -24,6 +24,7 @@ enum name {
     SET,
     DEVICE,
     STATS,
+    CACHE,
     DUMP_GUIDES,
     DUMP_FOLLOWERS,
     SHADER,
@@ -68,6 +69,7 @@ static const struct row rows[] = {
     {"device", DEVICE, "N", "the EGL device of that index; without it, the first that works"},
     {"shader", SHADER, "FILE.glsl", "shade pixels of strands by this: hair_shader_desc in hair.h says how"},
     {"stats", STATS, "FILE.json", "write what was drawn and how long it took"},
+    {"cache", CACHE, "FILE.dump", "play back guides of --dump-guides; the simulation goes on after the last"},
     {"dump-guides", DUMP_GUIDES, "FILE.dump", "write the guides of each frame, for hair-convert"},
     {"dump-followers", DUMP_FOLLOWERS, "FILE.dump", "write the followers of each frame, for hair-convert"},
     {"hash", HASH, NULL, "print a hash of the strands and one of the pixels of the frames drawn"},
@@ -239,6 +241,7 @@ static bool take(const char* tool, const struct row* row, const char* value, str
     case STATS: out->stats = value; return hair_output_has_ending(tool, value, ".json");
     case DUMP_GUIDES: out->dump_guides = value; return hair_output_has_ending(tool, value, ".dump");
     case DUMP_FOLLOWERS: out->dump_followers = value; return hair_output_has_ending(tool, value, ".dump");
+    case CACHE: out->cache = value; break;
     case SHADER: out->shader = value; break;
     case HASH: out->hash = true; break;
     case QUIET: out->quiet = true; break;

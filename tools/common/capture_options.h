@@ -12,6 +12,7 @@ struct hair_capture_options {
     const char* stats; // NULL disables it
     const char* dump_guides; // file of the guides of each frame, NULL disables it
     const char* dump_followers; // file of the followers of each frame, NULL disables it
+    const char* cache; // dump of guides to play back, NULL disables it
     const char* shader; // file with a pixel shader for strands, NULL disables it
     uint32_t first, end; // frames to draw, in the half-open range [first, end)
     uint32_t samples, supersample;
