@@ -103,7 +103,7 @@ view: setup ## Build and open hair-view, a window with every option in a panel
 
 view-film: setup ## build/view.mp4: a tour of hair-view, by a script
 	@$(MAKE) -j$(JOBS) $(B)/hair-view
-	$(B)/hair-view --script tools/view/film.txt --frames 940 --quality 2 --set strand.segments=18 --film build/view.mp4
+	$(B)/hair-view --script tools/view/film.txt --frames 650 --quality 2 --set strand.segments=18 --film build/view.mp4
 
 gallery: setup ## build/gallery.png: pictures with captions of what the library does
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
