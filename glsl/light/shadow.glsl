@@ -50,7 +50,7 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
     if (taps == 0) return vec4(1.0);
     vec3  at    = find_place_in_map(map, position);
-    vec2  texel = 1.0 / vec2(textureSize(hair_shadow_map[map], 0));
+    vec2  texel = 1.0 / (vec2(textureSize(hair_shadow_map[map], 0)) * draw.map_part[map].zw);
     float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034),
           from_light = distance_to_light(number, position);
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
@@ -58,7 +58,8 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     for (int i = 0; i < taps; ++i) {
         // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
-        float depth = depth_from_light(map, textureLod(hair_shadow_map[map], at.xy + r * arm, 0.0).r);
+        vec2  tap   = find_in_part(map, at.xy + r * arm);
+        float depth = depth_from_light(map, textureLod(hair_shadow_map[map], tap, 0.0).r);
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
         sum += exp(-n * vec4(1.0, taken));
         met += n;
@@ -83,12 +84,15 @@ float light_past_bodies(uint number, vec3 position)
     vec3  at    = find_place_in_map(map, position);
     float min_value = at.z - own.y * depth_by_metre(number, at.z, distance_to_light(number, position)),
           sum = 0.0;
-    vec2  size  = vec2(textureSize(opaque_shadow_map[map], 0)), place = clamp(at.xy, -9.0, 9.0) * size;
+    uint  part_of = uint(HAIR_SHADOW_MAPS) + map;
+    vec2  size  = vec2(textureSize(opaque_shadow_map[map], 0)) * draw.map_part[part_of].zw;
+    vec2  place = clamp(at.xy, -9.0, 9.0) * size;
     vec2  first = floor(place), part = place - first, rest = 1.0 - part;
     mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);
     for (int i = 0; i < taps; ++i) {
         ivec2 k = ivec2(i % 3, i / 3);
-        float depth = textureLod(opaque_shadow_map[map], (first + vec2(k) - 0.5) / size, 0.0).r;
+        float depth = textureLod(opaque_shadow_map[map],
+                                 find_in_part(part_of, (first + vec2(k) - 0.5) / size), 0.0).r;
         sum += min_value <= depth_from_light(map, depth) ? weight[k.x].x * weight[k.y].y : 0.0;
     }
     return sum;

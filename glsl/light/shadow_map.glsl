@@ -13,6 +13,15 @@ vec3 find_place_in_map(uint map, vec3 position)
     return at.w > 1e-6 ? vec3(at.xy / at.w, min(at.z / at.w, 1.0)) : vec3(-9.0, -9.0, 0.0);
 }
 
+// Return texture coordinates of a place in a rectangle of draw.map_part. Those of the border of the
+// texture, which is far away, stand for places outside the rectangle.
+vec2 find_in_part(uint part, vec2 at)
+{
+    vec4 own = draw.map_part[part];
+    bool is_inside = all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(at, vec2(1.0)));
+    return is_inside ? own.xy + own.zw * at : vec2(-9.0);
+}
+
 // Return the depth of a texel as it grows away from the light, also if the map has reversed depth.
 float depth_from_light(uint map, float texel)
 {

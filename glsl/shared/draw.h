@@ -165,6 +165,9 @@ struct hair_draw_params {
     hair_vec4 light[HAIR_LIGHTS * HAIR_LIGHT_VECTORS];
     // Matrix to each map: xy are texture coordinates and z is depth, both in [0, 1], all times w.
     hair_mat4 shadow[HAIR_SHADOW_MAPS];
+    // Rectangles of hair shadow maps, then of opaque shadow maps, as fractions of the texture. xy:
+    // lower left corner. zw: size.
+    hair_vec4 map_part[2 * HAIR_SHADOW_MAPS];
     // Matrices of r, g and b. The irradiance on a plane of unit normal n is (n, 1) sky (n, 1).
     hair_mat4 sky[3];
 };

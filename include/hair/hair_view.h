@@ -250,7 +250,8 @@ typedef struct hair_light {
     float outer_angle; ///< Radians. [0, 1.57]. Default 0.5.
     /// 2D depth texture of the hair, rendered from the light with HAIR_PASS_DEPTH. It attenuates
     /// the light. Opaque geometry in the texture attenuates only as hair would. A red channel of 16
-    /// bits or more may hold the depth too. 0 disables it.
+    /// bits or more may hold the depth too. An array, a cube map or an array of cube maps, with
+    /// immutable storage (glTexStorage), may hold the map in a layer. 0 disables it.
     uint32_t hair_shadow_map; ///< Default 0.
     /// Transform from the world to the clip space of both shadow maps. It is orthographic or, for
     /// points and spots, in perspective. Depth grows away from the light, unless
@@ -267,6 +268,22 @@ typedef struct hair_light {
     /// Reversed depth of both shadow maps. True means that depth falls away from the light, so that
     /// the maps were drawn with GL_GREATER and cleared to 0.
     bool shadow_depth_reversed; ///< Default false.
+    /// Part of hair_shadow_map that is seen by shadow_matrix, such as a cascade. Hair outside the
+    /// part is lit.
+    struct {
+        /// Layer of an array, or face of a cube map in the order of OpenGL. 0 for other textures.
+        uint32_t layer; ///< [0, 65535]. Default 0.
+        /// Lower left corner of a rectangle of an atlas, as a fraction of the texture.
+        float offset[2]; ///< [0, 1]. Default 0.
+        /// Width and height of the rectangle, as fractions of the texture. They end in the texture.
+        float size[2]; ///< [1e-4, 1]. Default 1.
+    } hair_shadow_part;
+    /// Part of opaque_shadow_map that is seen by shadow_matrix, as hair_shadow_part.
+    struct {
+        uint32_t layer; ///< [0, 65535]. Default 0.
+        float offset[2]; ///< [0, 1]. Default 0.
+        float size[2]; ///< [1e-4, 1]. Default 1.
+    } opaque_shadow_part;
 } hair_light;
 HAIR_DESC(hair_light)
 

@@ -39,6 +39,18 @@ static int is_seen_from_light(const hair_light* light)
     return zw > 0 && zz * ww - zw * zw <= PARALLEL * PARALLEL * zz * ww && a * (double)m[15] > z[3];
 }
 
+// Check that the rectangle of a map ends in the texture.
+static hair_result check_part(const hair_instance* hair, uint32_t light, const char* name,
+                              const float offset[2], const float size[2])
+{
+    for (int k = 0; k < 2; ++k)
+        if (!(offset[k] + size[k] <= 1.0001f))
+            return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT,
+                             "%s: hair_view.lights[%u].%s ends at %g, beyond the texture, which ends at 1",
+                             hair->label, light, name, (double)(offset[k] + size[k]));
+    return HAIR_OK;
+}
+
 static hair_result check_light(const hair_instance* hair, const hair_light* light, uint32_t i)
 {
     const hair_host* host = &hair->context->host;
@@ -49,6 +61,12 @@ static hair_result check_light(const hair_instance* hair, const hair_light* ligh
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
                          "%s: hair_view.lights[%u].inner_angle is %g, not below its outer_angle, %g",
                          hair->label, i, (double)light->inner_angle, (double)light->outer_angle);
+    if (light->hair_shadow_map)
+        HAIR_TRY(check_part(hair, i, "hair_shadow_part", light->hair_shadow_part.offset,
+                            light->hair_shadow_part.size));
+    if (light->opaque_shadow_map)
+        HAIR_TRY(check_part(hair, i, "opaque_shadow_part", light->opaque_shadow_part.offset,
+                            light->opaque_shadow_part.size));
     if (!(light->hair_shadow_map || light->opaque_shadow_map) || is_seen_from_light(light)) return HAIR_OK;
     return hair_fail(
         host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].shadow_matrix is %s", hair->label, i,
@@ -253,7 +271,9 @@ static hair_result ensure_programs(hair_instance* hair, struct hair_draw_plan* p
     if (shows && view->slice) HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_SLICE));
     if (shows) return HAIR_OK;
     hair_draw_bind_plan(&hair->renderer, plan); // Machine code depends on the formats of textures.
-    return hair_draw_precompile(&hair->renderer, plan, colliders);
+    hair_result result = hair_draw_precompile(&hair->renderer, plan, colliders);
+    hair_lighting_unbind(hair->renderer.lighting);
+    return result;
 }
 
 hair_result hair_precompile(hair_instance* hair, const hair_view* view, bool* ready)

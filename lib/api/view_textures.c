@@ -22,22 +22,51 @@ static bool has_depth_in_red(const struct hair_gl* gl, GLuint texture)
     return bits >= 16;
 }
 
-static hair_result check_shadow_map(const hair_instance* hair, GLuint texture, uint32_t light,
+// Return the layers of a texture that may hold shadow maps, or 0 for another kind.
+static GLint count_layers(const struct hair_gl* gl, GLuint texture)
+{
+    GLint layers = 0;
+    switch (hair_gl_find_texture_target(gl, texture)) {
+    case GL_TEXTURE_2D: return 1;
+    case GL_TEXTURE_CUBE_MAP: return 6;
+    case GL_TEXTURE_2D_ARRAY:
+    case GL_TEXTURE_CUBE_MAP_ARRAY:
+        gl->GetTextureLevelParameteriv(texture, 0, GL_TEXTURE_DEPTH, &layers);
+        return layers;
+    default: return 0;
+    }
+}
+
+// Check a map of a light. Layers are read through views, which need immutable storage.
+static hair_result check_shadow_map(const hair_instance* hair, GLuint texture, uint32_t layer, uint32_t light,
                                     const char* name)
 {
     const struct hair_gl* gl = &hair->context->gl;
     if (!texture) return HAIR_OK;
-    bool is_flat = hair_gl_find_texture_target(gl, texture) == GL_TEXTURE_2D;
-    if (is_flat && (is_depth(gl, texture) || has_depth_in_red(gl, texture))) return HAIR_OK;
-    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: hair_view.lights[%u].%s is %u, not a 2D texture%s",
-                     hair->label, light, name, texture, is_flat ? " of depth" : "");
+    GLint layers = count_layers(gl, texture), is_immutable = 0;
+    if (!layers || !(is_depth(gl, texture) || has_depth_in_red(gl, texture)))
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                         "%s: hair_view.lights[%u].%s is %u, not a 2D texture%s", hair->label, light, name,
+                         texture, layers ? " of depth" : ", an array or a cube map");
+    gl->GetTextureParameteriv(texture, GL_TEXTURE_IMMUTABLE_FORMAT, &is_immutable);
+    if (!is_immutable && hair_gl_find_texture_target(gl, texture) != GL_TEXTURE_2D)
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                         "%s: hair_view.lights[%u].%s is %u, a texture of layers without immutable storage",
+                         hair->label, light, name, texture);
+    if (layer < (uint32_t)layers) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
+                     "%s: hair_view.lights[%u] has layer %u of %s, which has %d layers", hair->label, light,
+                     layer, name, layers);
 }
 
 static hair_result check_shadow_maps(const hair_instance* hair, const hair_view* view)
 {
     for (uint32_t i = 0; view->pass == HAIR_PASS_COLOR && i < view->light_count; ++i) {
-        HAIR_TRY(check_shadow_map(hair, view->lights[i].hair_shadow_map, i, "hair_shadow_map"));
-        HAIR_TRY(check_shadow_map(hair, view->lights[i].opaque_shadow_map, i, "opaque_shadow_map"));
+        const hair_light* light = &view->lights[i];
+        HAIR_TRY(check_shadow_map(hair, light->hair_shadow_map, light->hair_shadow_part.layer, i,
+                                  "hair_shadow_map"));
+        HAIR_TRY(check_shadow_map(hair, light->opaque_shadow_map, light->opaque_shadow_part.layer, i,
+                                  "opaque_shadow_map"));
     }
     return HAIR_OK;
 }

@@ -143,5 +143,6 @@ hair_result hair_draw_run(struct hair_renderer* renderer, const struct hair_pose
     hair_gl_write_uniform(renderer->gl, renderer->geometry->params, sizeof params, &params);
     hair_draw_bind_plan(renderer, plan);
     draw_followers(renderer, plan, &params);
+    hair_lighting_unbind(renderer->lighting);
     return HAIR_OK;
 }

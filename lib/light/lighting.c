@@ -16,6 +16,7 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
 void hair_lighting_destroy(struct hair_lighting* lighting)
 {
     if (!lighting->gl) return;
+    hair_lighting_unbind(lighting);
     hair_lighting_free_fibres(lighting);
     hair_lighting_free_self_shadow(lighting);
     hair_gl_free_array(lighting->gl, &lighting->groom_color, &lighting->groom_color_texture);
@@ -53,5 +54,5 @@ void hair_lighting_bind(struct hair_lighting* lighting, const hair_look* look, c
     gl->BindSampler(HAIR_UNIT_FIBRE, 0);
     if (hair_lighting_value_count(look, view))
         gl->BindTextureUnit(HAIR_UNIT_LIGHT, lighting->self_shadow.texture);
-    hair_lighting_bind_shadow_maps(gl, view);
+    hair_lighting_bind_shadow_maps(lighting, view);
 }

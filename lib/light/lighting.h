@@ -19,6 +19,9 @@ struct hair_lighting {
     struct hair_fibres fibres;
     struct hair_self_shadow_state self_shadow;
     GLuint groom_color, groom_color_texture; // Colours of the groom. 0 if there are none.
+    // 2D views of layers of the application's shadow maps, until hair_lighting_unbind().
+    GLuint map_view[2 * HAIR_SHADOW_MAPS];
+    GLsizei map_views;
 };
 
 hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl* gl,
@@ -51,8 +54,10 @@ void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const
 uint32_t hair_view_maps(const hair_view* view, struct hair_light_maps out[HAIR_SHADOW_MAPS]);
 // Return whether a light of the colour pass has an opaque shadow map.
 bool hair_lighting_is_blocked(const hair_view* view);
+// Delete what hair_lighting_bind() made for a view.
+void hair_lighting_unbind(struct hair_lighting* lighting);
 // Bind the application's shadow maps to their texture units.
-void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view);
+void hair_lighting_bind_shadow_maps(struct hair_lighting* lighting, const hair_view* view);
 
 // Functions of self_shadow.c.
 

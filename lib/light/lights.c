@@ -91,23 +91,56 @@ bool hair_lighting_is_blocked(const hair_view* view)
     return false;
 }
 
-static void bind_map(struct hair_gl* gl, GLuint unit, GLuint texture, bool is_reversed)
+void hair_lighting_unbind(struct hair_lighting* lighting)
 {
+    if (lighting->map_views) lighting->gl->DeleteTextures(lighting->map_views, lighting->map_view);
+    lighting->map_views = 0;
+}
+
+// Return a map, or a 2D view of a layer of it. The view lives until hair_lighting_unbind().
+static GLuint find_layer(struct hair_lighting* lighting, GLuint map, uint32_t layer)
+{
+    struct hair_gl* gl = lighting->gl;
+    GLint format = GL_DEPTH_COMPONENT32F;
+    if (hair_gl_find_texture_target(gl, map) == GL_TEXTURE_2D) return map;
+    HAIR_ASSERT(lighting->map_views < 2 * HAIR_SHADOW_MAPS);
+    GLuint* view = &lighting->map_view[lighting->map_views++];
+    gl->GetTextureLevelParameteriv(map, 0, GL_TEXTURE_INTERNAL_FORMAT, &format);
+    gl->GenTextures(1, view);
+    gl->TextureView(*view, GL_TEXTURE_2D, map, (GLenum)format, 0, 1, layer, 1);
+    return *view;
+}
+
+static void bind_map(struct hair_lighting* lighting, GLuint unit, GLuint texture, uint32_t layer,
+                     bool is_reversed)
+{
+    struct hair_gl* gl = lighting->gl;
     if (!texture) return;
-    gl->BindTextureUnit(unit, texture);
+    gl->BindTextureUnit(unit, find_layer(lighting, texture, layer));
     gl->BindSampler(unit, gl->shadow_sampler[is_reversed]);
 }
 
-void hair_lighting_bind_shadow_maps(struct hair_gl* gl, const hair_view* view)
+void hair_lighting_bind_shadow_maps(struct hair_lighting* lighting, const hair_view* view)
 {
     struct hair_light_maps maps[HAIR_SHADOW_MAPS];
     uint32_t count = hair_view_maps(view, maps);
     HAIR_ASSERT(count <= HAIR_SHADOW_MAPS);
+    hair_lighting_unbind(lighting);
     for (GLuint i = 0; i < count; ++i) {
-        bool is_reversed = view->lights[maps[i].light].shadow_depth_reversed;
-        bind_map(gl, HAIR_UNIT_SHADOW + i, maps[i].shadow, is_reversed);
-        bind_map(gl, HAIR_UNIT_BODY + i, maps[i].body, is_reversed);
+        const hair_light* light = &view->lights[maps[i].light];
+        bind_map(lighting, HAIR_UNIT_SHADOW + i, maps[i].shadow, light->hair_shadow_part.layer,
+                 light->shadow_depth_reversed);
+        bind_map(lighting, HAIR_UNIT_BODY + i, maps[i].body, light->opaque_shadow_part.layer,
+                 light->shadow_depth_reversed);
     }
+}
+
+static void write_parts(const hair_light* light, hair_vec4* hair, hair_vec4* opaque)
+{
+    const float *a = light->hair_shadow_part.offset, *b = light->hair_shadow_part.size;
+    const float *c = light->opaque_shadow_part.offset, *d = light->opaque_shadow_part.size;
+    *hair = (hair_vec4){a[0], a[1], b[0], b[1]};
+    *opaque = (hair_vec4){c[0], c[1], d[0], d[1]};
 }
 
 void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const struct hair_pose* head,
@@ -123,6 +156,7 @@ void hair_lighting_write_lights(struct hair_gl* gl, const hair_look* look, const
         HAIR_ASSERT(maps[i].light < view->light_count);
         hair_vec4* light = &out->light[maps[i].light * HAIR_LIGHT_VECTORS];
         write_map(gl, head, &view->lights[maps[i].light], &out->shadow[i], &light[HAIR_LIGHT_MAP]);
+        write_parts(&view->lights[maps[i].light], &out->map_part[i], &out->map_part[HAIR_SHADOW_MAPS + i]);
         light[HAIR_LIGHT_MORE].z = look->self_shadow.absorption;
         if (view->lights[maps[i].light].shadow_depth_reversed) out->reversed_maps |= 1u << i;
         if (maps[i].shadow) light[HAIR_LIGHT_MORE].w = (float)i;

@@ -104,7 +104,7 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     if (result) return result;
     hair_gl_write_uniform(gl, geometry->params, sizeof *params, params);
     hair_geometry_bind(geometry);
-    hair_lighting_bind_shadow_maps(gl, view);
+    hair_lighting_bind_shadow_maps(lighting, view);
     uint32_t groups = geometry->patches * params->chunks;
     GLuint grid[] = {own->density, own->box};
     GLuint buffers[] = {own->nodes, geometry->vertex_cache.position, own->light};

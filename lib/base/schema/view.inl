@@ -47,6 +47,24 @@ ENUM(hair_light, shadow_depth_range, HAIR_DEPTH_RANGE_CURRENT,
       "Range of depth in the clip space of shadow_matrix, that with which both shadow maps were drawn.",
       "current", "negative_one_to_one", "zero_to_one")
 BOOL(hair_light, shadow_depth_reversed, false, "Reversed depth of both shadow maps.")
+#undef GROUP
+#define GROUP "hair_shadow_part"
+UINT(hair_light, hair_shadow_part.layer, 0, 0, 65535, 0, 15, LINEAR, "",
+      "Layer of an array, or face of a cube map in the order of OpenGL.")
+PAIR(hair_light, hair_shadow_part.offset, 0, 0, "x", "y", 0, 1, 0, 1, LINEAR, "",
+      "Lower left corner of a rectangle of an atlas, as a fraction of the texture.")
+PAIR(hair_light, hair_shadow_part.size, 1, 1, "x", "y", 1e-4, 1, 1e-4, 1, LINEAR, "",
+      "Width and height of the rectangle, as fractions of the texture.")
+#undef GROUP
+#define GROUP "opaque_shadow_part"
+UINT(hair_light, opaque_shadow_part.layer, 0, 0, 65535, 0, 15, LINEAR, "",
+      "Layer of an array, or face of a cube map in the order of OpenGL.")
+PAIR(hair_light, opaque_shadow_part.offset, 0, 0, "x", "y", 0, 1, 0, 1, LINEAR, "",
+      "Lower left corner of a rectangle of an atlas, as a fraction of the texture.")
+PAIR(hair_light, opaque_shadow_part.size, 1, 1, "x", "y", 1e-4, 1, 1e-4, 1, LINEAR, "",
+      "Width and height of the rectangle, as fractions of the texture.")
+#undef GROUP
+#define GROUP ""
 END
 BEGIN(hair_view)
 ENUM(hair_view, pass, HAIR_PASS_COLOR,
