@@ -30,40 +30,45 @@ vec3 reflectance_of(fibre_scattering fibre)
     return 1.0 / (1.0 + k + sqrt(k * (k + 2.0)));
 }
 
-// Return the fraction of scattered light that the hair loses by each fibre on its way.
-vec3 lost_by(fibre_scattering fibre)
-{
-    const float FIT_ON = 0.615, FIT_ROUND = 1.79;
-    return min(FIT_ON * (1.0 - fibre.on) + FIT_ROUND * sqrt(absorbed_by(fibre) * fibre.back), 0.999);
-}
-
 // Light that reaches a fibre among others.
 struct fibre_light {
-    float direct;    // Fraction of the light that meets no fibre on its way.
-    vec3  scattered; // Fraction that other fibres scatter on to the fibre.
-    float open;      // Fraction of the sky that no fibre hides.
+    float direct; // Fraction that meets no fibre on its way.
+    float met;    // Number of fibres that the light meets.
+    float open;   // Fraction of the sky that no fibre hides.
+    float order;  // From 0 where fibres point in all directions to 1 where they are parallel.
 };
 
-// Return the light scattered to the eye by a fibre among many. `once` is the scattering of one
-// fibre. `weight` is that of light that other fibres scatter.
-vec3 scatter_often(fibre_angles a, fibre_scattering fibre, vec3 once, fibre_light light, float weight)
+// Return the fraction of light that hair lets through, scattered or not, past `met` fibres (Kubelka
+// and Munk 1931). Parallel fibres return more of the light.
+vec3 pass_through(fibre_scattering fibre, float met, float order)
 {
-    const float FIT_NEAR = 0.33, FIT_RETURNED = 0.74, FIT_AHEAD = 2.63, FIT_SIDE = 2.21;
-    // The eye sees more of the lit points if the light is near the eye's direction.
-    float near      = max(a.between, 0.0);
-    float direct    = pow(light.direct, 1.0 - FIT_NEAR * near * near);
-    vec3  scattered = light.scattered * ((1.0 - direct) / max(1.0 - light.direct, 1e-4));
+    const float FIT_CURLED = 1.14, FIT_PARALLEL = 5.03, FIT_ABSORBED = 0.886;
+    vec3 back = mix(FIT_CURLED, FIT_PARALLEL, order) * fibre.back;
+    vec3 lost = FIT_ABSORBED * max(absorbed_by(fibre), 1e-5), rate = sqrt(lost * (lost + 2.0 * back));
+    vec3 on   = exp(-min(rate * met, 40.0));
+    return 2.0 * rate * on / ((back + lost) * (1.0 - on * on) + rate * (1.0 + on * on));
+}
+
+// Return the light that reaches a fibre from others and is scattered to the eye.
+vec3 scatter_often(fibre_angles a, fibre_scattering fibre, fibre_light light)
+{
+    const float FIT_AHEAD_CURLED = 1.735, FIT_AHEAD = 4.565, FIT_NARROW = 1.528, FIT_EVEN = 0.37;
+    const float FIT_RETURNED = 5.856, FIT_DEEP = 0.34;
+    const float EVEN = 0.5; // Longitudinal lobe of light that is scattered to all sides.
+    vec2  level = vec2(0.0, 1.0);
+    float none  = exp(-light.met);
+    // If light meets any fibre, a Poisson process has at least one.
+    vec3  if_any = max(pass_through(fibre, light.met, light.order) - none, 0.0) / max(1.0 - none, 1e-3);
+    vec3  scattered = (1.0 - light.direct) * if_any;
     // A fibre that sees the sky on all sides has no fibres behind it to return light.
-    vec3 arrived  = light.direct + light.scattered;
-    vec3 returned = FIT_RETURNED * (1.0 - light.open) * reflectance_of(fibre) * arrived;
-    float on = sin(1.5707963 * a.turn);
-    on *= on;
-    vec2 level = vec2(0.0, 1.0);
-    vec3 ahead = fibre.on * longitudinal(a, fibre.variance.x, level);
-    vec2 wide  = vec2(on, 1.0 - on) * longitudinal(a, fibre.variance.y, level);
-    vec3 often = scattered * (FIT_AHEAD * on * on * ahead + FIT_SIDE * fibre.back * wide.y) +
-                 returned * (fibre.on * wide.y + fibre.back * wide.x);
-    return direct * once + weight * 0.31830989 * often;
+    float behind   = 1.0 - pow(light.open, FIT_DEEP);
+    vec3  returned = behind * reflectance_of(fibre) * (light.direct + scattered);
+    float on    = pow(sin(1.5707963 * a.turn), 2.0 * FIT_NARROW);
+    float ahead = on * mix(longitudinal(a, fibre.variance.x, level), EVEN, FIT_EVEN);
+    float around = 0.5 * mix(EVEN, longitudinal(a, fibre.variance.y, level), light.order);
+    ahead *= mix(FIT_AHEAD_CURLED, FIT_AHEAD, light.order);
+    vec3 forward = ahead * fibre.on * scattered;
+    return 0.31830989 * (forward + FIT_RETURNED * around * (fibre.on + fibre.back) * returned);
 }
 
 // Return the reflectance under a uniform sky of hair in which a fraction `open` of the sky is
@@ -71,7 +76,7 @@ vec3 scatter_often(fibre_angles a, fibre_scattering fibre, vec3 once, fibre_ligh
 // hair.
 vec3 reflect_sky(fibre_scattering fibre, float open)
 {
-    const float FIT_DENSE = 0.226, FIT_OPEN = 1.042;
+    const float FIT_DENSE = 0.404, FIT_OPEN = 1.132;
     vec3 single = fibre.on + fibre.back, ratio = log(single / reflectance_of(fibre));
     return single * pow(vec3(open), FIT_OPEN * ratio * ratio / (ratio + FIT_DENSE));
 }

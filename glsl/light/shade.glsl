@@ -29,14 +29,16 @@ vec3 normal_of(hair_fragment f)
     return normalize(f.to_eye - dot(f.to_eye, f.tangent) * f.tangent + 1e-6);
 }
 
-vec4 light_through(hair_fragment f, uint number, vec3 taken, out float met)
+// Return the fraction of a light that meets no strand on its way. `met` is the number of strands
+// that light meets.
+float light_through(hair_fragment f, uint number, out float met)
 {
-    vec4 through;
+    float through;
     if (draw.light_values > 0u)
-        through = light_through_strands(number, f.strand, f.t, taken, met);
+        through = light_through_strands(number, f.strand, f.t, met);
     else
-        through = light_through_depth(number, f.position, f.seed, taken, met);
-    return light_past_bodies(number, f.position) * through;
+        through = light_through_depth(number, f.position, f.seed, met);
+    return through;
 }
 
 // Return the fraction of the sky that no hair hides. Without the density grid, it is an estimate
@@ -47,6 +49,10 @@ float sky_open(hair_fragment f, float through)
     if (draw.light_values == 0u) return 0.1 + 0.4 * sqrt(through);
     return clamp(light_found(0u, f.strand, f.t).x, 1e-3, 1.0);
 }
+
+// Return how parallel the strands around are: 1 for straight hair and 0 for curls. Without the
+// density grid nothing measures it.
+float order_of(hair_fragment f) { return draw.light_values > 0u ? light_found(0u, f.strand, f.t).y : 0.6; }
 
 vec3 sky_of(hair_fragment f)
 {
@@ -59,19 +65,21 @@ vec3 hair_shade(hair_fragment f)
 {
     vec3  mu   = absorption_of(albedo_of(f)), sum = vec3(0.0);
     float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
-    float open = draw.lights == 0u ? sky_open(f, 1.0) : 0.0;
+    float open = draw.lights == 0u ? sky_open(f, 1.0) : 0.0, order = order_of(f);
+    // Structs have names here, because Mesa 22.3 loses some that one call passes to another.
+    fibre_scattering fibre = find_scattering(1.0, mu);
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam    beam  = beam_at(i, f.position);
         fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
-        fibre_scattering fibre = find_scattering(a.half_cosine, mu);
-        float       met;
-        vec4        through = light_through(f, i, lost_by(fibre), met);
-        if (i == 0u) open = sky_open(f, through.x);
-        fibre_light light = fibre_light(through.x, max(through.yzw - through.x, 0.0), open);
-        vec3 once = scatter_once(a, mu, tilt, variance);
-        sum += beam.irradiance * (a.light.y * scatter_often(a, fibre, once, light, draw.fibre.w));
+        fibre_scattering inclined = find_scattering(a.half_cosine, mu);
+        float met, direct = light_through(f, i, met), past = light_past_bodies(i, f.position);
+        if (i == 0u) open = sky_open(f, past * direct);
+        vec3 once  = scatter_once(a, mu, tilt, variance);
+        fibre_light light = fibre_light(direct, met, open, order);
+        vec3 often = scatter_often(a, inclined, light);
+        sum += past * a.light.y * beam.irradiance * (direct * once + draw.fibre.w * often);
     }
-    return sum + sky_of(f) * reflect_sky(find_scattering(1.0, mu), open) * 0.31830989;
+    return sum + sky_of(f) * reflect_sky(fibre, open) * 0.31830989;
 }
 #else
 // Shading after Kajiya and Kay 1989, with the two highlights of Marschner et al. 2003 as
@@ -94,7 +102,7 @@ vec3 hair_shade(hair_fragment f)
     vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam beam = beam_at(i, f.position);
-        float     met, light = light_through(f, i, vec3(1.0), met).x;
+        float     met, light = light_through(f, i, met) * light_past_bodies(i, f.position);
         vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
         float     along   = dot(f.tangent, beam.to);
         float     diffuse = sqrt(max(1.0 - along * along, 0.0));

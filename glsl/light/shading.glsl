@@ -17,7 +17,11 @@ vec3  hair_light(hair_fragment f, uint i, out vec3 to)
     to = beam.to;
     return beam.irradiance;
 }
-float hair_light_through(hair_fragment f, uint i) { float met; return light_through(f, i, vec3(1.0), met).x; }
+float hair_light_through(hair_fragment f, uint i)
+{
+    float met;
+    return light_through(f, i, met) * light_past_bodies(i, f.position);
+}
 vec3  hair_sky(hair_fragment f) { return sky_of(f); }
 
 vec4 hair_shade(hair_fragment f);

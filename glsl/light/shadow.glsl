@@ -27,20 +27,16 @@ vec2 light_found(uint which, uint strand, float t)
     return mix(a, unpackHalf2x16(texelFetch(light_texture, i + int(draw.light_values)).x), at - k);
 }
 
-// Return the fractions of a light that reach a strand. x is the fraction that meets no strand on
-// its way. yzw are the fractions that arrive if each strand that is met absorbs the fraction
-// `taken`. `met` is the number of strands met. If light meets any, a Poisson process has at
-// least one.
-vec4 light_through_strands(uint number, uint strand, float t, vec3 taken, out float met)
+// Return the fraction of a light that meets no strand on its way to a strand. `met` is the number
+// of strands that light meets.
+float light_through_strands(uint number, uint strand, float t, out float met)
 {
-    vec2  found = light_found(number + 1u, strand, t);
-    float none  = exp(-found.y);
-    vec3  if_any = found.y > 1e-3 ? (exp(-found.y * taken) - none) / (1.0 - none) : 1.0 - taken;
-    met          = found.y;
-    return vec4(found.x, found.x + (1.0 - found.x) * if_any);
+    vec2 found = light_found(number + 1u, strand, t);
+    met        = found.y;
+    return found.x;
 }
 
-vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out float met)
+float light_through_depth(uint number, vec3 position, uint seed, out float met)
 {
     vec4 more = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE];
     uint map  = uint(more.w);
@@ -48,20 +44,20 @@ vec4 light_through_depth(uint number, vec3 position, uint seed, vec3 taken, out 
     // The number of taps is not constant, because some compilers would unroll the loop for each of
     // the maps.
     int taps = map < uint(HAIR_SHADOW_MAPS) ? SHADOW_TAPS : 0;
-    if (taps == 0) return vec4(1.0);
+    if (taps == 0) return 1.0;
     vec3  at    = find_place_in_map(map, position);
     vec2  texel = 1.0 / (vec2(textureSize(hair_shadow_map[map], 0)) * draw.map_part[map].zw);
     float angle = 6.2831853 * fract(float(seed & 1023u) * 0.618034),
           from_light = distance_to_light(number, position);
     vec2  arm   = texel * vec2(cos(angle), sin(angle));
-    vec4  sum   = vec4(0.0);
+    float sum   = 0.0;
     for (int i = 0; i < taps; ++i) {
         // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
         vec2  tap   = find_in_part(map, at.xy + r * arm);
         float depth = depth_from_light(map, textureLod(hair_shadow_map[map], tap, 0.0).r);
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
-        sum += exp(-n * vec4(1.0, taken));
+        sum += exp(-n);
         met += n;
         arm = GOLDEN_TURN * arm;
     }

@@ -10,8 +10,9 @@
 // fraction of sample points that nothing occludes in the map. The samples lie on the half segments
 // beside the vertex and across the strand.
 //
-// For the sky and for each light the pass writes two halves: the fraction that meets no strand, and
-// the number of strands met.
+// For each light the pass writes two halves: the fraction that meets no strand, and the number of
+// strands met. Before them are two halves for the visible fraction of the sky, and the order of the
+// strand.
 #version 450 core
 #include "strands/vertex_range.glsl"
 #include "light/density.glsl"
@@ -28,6 +29,7 @@ layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW
 
 #define TAPS 12
 #define NEAR_STEPS 2
+#define ORDER_REACH 0.02 // m, along the strand to each side of a vertex.
 #define OWN_DEPTH 0.35 // In radii. A strand must be nearer to the light by this to occlude.
 
 struct strand_bit {
@@ -114,6 +116,25 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
     return open / float(TAPS);
 }
 
+// Return how straight a strand is around vertex k: 1 for a line, and 0 for curls. Strands around it
+// are taken to have the same shape, so that this is how parallel they are.
+float find_order(uint vertex, uint k, strand_bit s)
+{
+    float part  = max(length(s.after - s.at), length(s.at - s.before));
+    uint  reach = uint(clamp(ORDER_REACH / max(part, 1e-6) + 0.5, 1.0, 8.0));
+    uint  first = k - min(reach, k), last = min(k + reach, draw.segments);
+    float path  = 0.0;
+    vec3  from  = strand_vertex[vertex - k + first].xyz, start = from;
+    for (uint i = first + 1u; i <= last; ++i) {
+        vec3 to = strand_vertex[vertex - k + i].xyz;
+        path += length(to - from);
+        from = to;
+    }
+    float straight = min(length(from - start) / max(path, 1e-9), 1.0);
+    straight *= straight, straight *= straight, straight *= straight;
+    return straight * straight;
+}
+
 void light(density_grid grid, uint vertex)
 {
     uint       each = draw.segments + 1u, k = vertex % each;
@@ -126,7 +147,7 @@ void light(density_grid grid, uint vertex)
     s.radius  = at.w;
     s.seed    = vertex / each;
     find_corners(grid, place_in(grid, s.at));
-    light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(around(0u), 0.0));
+    light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(around(0u), find_order(vertex, k, s)));
     for (uint i = 0u; i < draw.lights; ++i) {
         vec4  place = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
         vec3  to    = beam_at(i, s.at).to;

@@ -24,11 +24,12 @@ static void take_picture(SDL_Window* window)
     int width, height;
     SDL_GL_GetDrawableSize(window, &width, &height);
     assert_true(width == WIDTH && height == HEIGHT);
-    if (++frames < FRAMES) return;
+    if (++frames != FRAMES) return;
     assert_int_equal(glGetError(), GL_NO_ERROR);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGB, GL_UNSIGNED_BYTE, upward);
     for (int y = 0; y < HEIGHT; ++y) memcpy(pixels[y], upward[HEIGHT - 1 - y], sizeof pixels[y]);
+    SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);
     SDL_PushEvent(&quit);
 }
 
@@ -68,7 +69,7 @@ static void first_head_draws_its_golden_picture(void** state)
     static uint8_t half[HEIGHT / 2][WIDTH / 2][3];
     SDL_SetHint(SDL_HINT_VIDEODRIVER, "offscreen");
     assert_int_equal(run_first_head(), 0);
-    assert_int_equal(frames, FRAMES);
+    assert_true(frames >= FRAMES);
     reduce(half);
     assert_true(hair_test_distinct_colors(half[0][0], WIDTH / 2, HEIGHT / 2) >= 100);
     hair_test_golden("first_head", half[0][0], WIDTH / 2, HEIGHT / 2);
