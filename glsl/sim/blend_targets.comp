@@ -80,7 +80,7 @@ void place(uint i, vec3 position, vec3 displacement)
 // Turn the frame of segment i along the segment.
 void align_frame(uint i, vec3 link)
 {
-#ifdef HAIR_MIXED
+#if defined(HAIR_ROD) && defined(HAIR_MIXED)
     vec4 q      = material[i];
     material[i] = normalize(quat_multiply(quat_between(rotate(q, vec3(0.0, 1.0, 0.0)), link), q));
 #endif
