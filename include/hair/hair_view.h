@@ -280,8 +280,11 @@ typedef struct hair_light {
     } hair_shadow_part;
     /// Part of opaque_shadow_map that is seen by shadow_matrix, as hair_shadow_part.
     struct {
+        /// Layer of an array, or face of a cube map in the order of OpenGL. 0 for other textures.
         uint32_t layer; ///< [0, 65535]. Default 0.
+        /// Lower left corner of a rectangle of an atlas, as a fraction of the texture.
         float offset[2]; ///< [0, 1]. Default 0.
+        /// Width and height of the rectangle, as fractions of the texture. They end in the texture.
         float size[2]; ///< [1e-4, 1]. Default 1.
     } opaque_shadow_part;
 } hair_light;
