@@ -157,23 +157,26 @@ static void bind_scalp(struct hair_sim* sim, GLuint scalp, struct hair_scalp_par
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &motion->params);
 }
 
+void hair_unpack_positions(struct hair_gl* gl, GLuint buffer, size_t offset, size_t size, uint32_t vertices)
+{
+    GLintptr at = (GLintptr)offset;
+    GLsizeiptr whole = (GLsizeiptr)size;
+    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
+    // Shaders of the application may have written the buffer.
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    hair_gl_run(gl, HAIR_GL_UNPACK_POSITIONS, (vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
+}
+
 void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size,
                                   uint32_t first, uint32_t stride, const struct hair_pose* space)
 {
-    struct hair_gl* gl = sim->gl;
     struct hair_scalp_motion* motion = &sim->scalp_motion;
     HAIR_ASSERT(stride >= 3);
     HAIR_ASSERT((first + (size_t)stride * (motion->root_bindings->vertex_count - 1) + 3) * sizeof(float) <=
                 size);
-    GLintptr at = (GLintptr)offset;
-    GLsizeiptr whole = (GLsizeiptr)size;
     bind_scalp(sim, motion->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
-    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
-    // Shaders of the application may have written the buffer.
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    hair_gl_run(gl, HAIR_GL_UNPACK_POSITIONS,
-                (motion->root_bindings->vertex_count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
+    hair_unpack_positions(sim->gl, buffer, offset, size, motion->root_bindings->vertex_count);
     motion->space = *space;
     motion->changed = 1;
 }

@@ -45,6 +45,10 @@ void hair_scalp_motion_set(struct hair_sim* sim, const float* positions, const s
 void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size,
                                   uint32_t first, uint32_t stride, const struct hair_pose* space);
 
+// Copy `vertices` positions out of `size` bytes of the application's buffer, from the byte `offset`
+// on. The parameters of the copy and the buffer that receives the positions are bound.
+void hair_unpack_positions(struct hair_gl* gl, GLuint buffer, size_t offset, size_t size, uint32_t vertices);
+
 // Move the roots with the scalp in a step of `substeps` substeps. The last substep goes from the
 // fraction `before` of the step to the fraction `after`. `again` continues the step of the last
 // call. The head is already where it is at the end of the step.

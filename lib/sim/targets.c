@@ -176,18 +176,12 @@ void hair_targets_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset,
     struct hair_gl* gl = sim->gl;
     struct hair_targets* targets = &sim->targets;
     HAIR_ASSERT(hair_targets_are_on(sim) && stride >= 3);
-    GLintptr at = (GLintptr)offset;
-    GLsizeiptr whole = (GLsizeiptr)size;
     struct hair_scalp_params params = {.first = first, .stride = stride, .vertices = sim->guide_vertices};
     stop_fading(sim);
     hair_gl_write_uniform(gl, targets->unpack_params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_SCALP_PARAMS, 1, &targets->unpack_params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SCALP, 1, &targets->position[1]);
-    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &buffer, &at, &whole);
-    // Shaders of the application may have written the buffer.
-    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    hair_gl_run(gl, HAIR_GL_UNPACK_POSITIONS, (sim->guide_vertices + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, NULL);
+    hair_unpack_positions(gl, buffer, offset, size, sim->guide_vertices);
     set_space(sim, space, 0);
 }
 
