@@ -68,4 +68,7 @@ int view_session_draw_shifted(view_session& session, const hair_scene& scene, ui
 // Return whether the hair sleeps, because it is in equilibrium.
 bool view_session_sleeps(const view_session& session);
 
+// Return the number of programs that the driver has compiled.
+uint32_t view_session_compiled(const view_session& session);
+
 #endif

@@ -114,3 +114,11 @@ bool view_session_sleeps(const view_session& session)
         if (!strcmp(rows[i].stage, "solve")) return rows[i].skip_reason == HAIR_SKIP_REASON_ASLEEP;
     return false;
 }
+
+uint32_t view_session_compiled(const view_session& session)
+{
+    hair_report_info info = hair_report_info_default();
+    uint32_t count = 0;
+    if (hair_report(session.hair, false, &info, nullptr, sizeof(hair_report_row), 0, &count)) return 0;
+    return info.compiled_programs;
+}

@@ -251,13 +251,17 @@ float tick(viewer& viewer)
     return viewer.options.script.empty() ? std::clamp(dt, 1e-4f, 0.5f) : script_dt;
 }
 
-// Adjust the quality to the time that the frame has taken without waiting for the display.
+// Adjust the quality to the time that the frame has taken without waiting for the display. A frame
+// that compiles programs is slow once, in any quality.
 void measure_frame(viewer& viewer, double before)
 {
     glFinish();
     double ms = hair_now() - before;
+    uint32_t compiled = view_session_compiled(viewer.session);
+    bool has_compiled = compiled != viewer.compiled;
+    viewer.compiled = compiled;
     viewer.frame_ms += (viewer.frame_ms > 0 ? 0.1 : 1) * (ms - viewer.frame_ms);
-    if (viewer.is_moving) view_governor_add(viewer.governor, ms);
+    if (viewer.is_moving && !has_compiled) view_governor_add(viewer.governor, ms);
 }
 
 int run_frame(viewer& viewer)

@@ -107,6 +107,7 @@ struct viewer {
     uint32_t draws = 0; // pictures since the last step
     int picture_size[2] = {0, 0}; // pixels
     double frame_ms = 0; // smoothed time of a frame
+    uint32_t compiled = 0; // programs that the driver had compiled at the end of the last frame
     view_frame_times frame_times; // for --fps
     bool shows_strip = true; // timings and errors below the picture
     view_measures measures;
