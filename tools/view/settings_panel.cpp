@@ -145,8 +145,9 @@ void show_floats(viewer& viewer, const row& row)
             set(viewer, row, values, 3);
     } else if (row.elements > 1) {
         float speed = 0.005f * (float)(member.slider_max - member.slider_min);
-        if (ImGui::DragScalarN("##value", ImGuiDataType_Float, values, row.elements, speed, nullptr, nullptr,
-                               "%.3g"))
+        float low = (float)member.min, high = (float)member.max;
+        if (ImGui::DragScalarN("##value", ImGuiDataType_Float, values, row.elements, speed, &low, &high,
+                               "%.3g", ImGuiSliderFlags_AlwaysClamp))
             set(viewer, row, values, row.elements);
     } else if (isfinite(values[0]) ? show_slider(member, values) : ImGui::Button("guessed; set to 1")) {
         if (!isfinite(values[0])) values[0] = 1;
