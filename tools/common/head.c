@@ -97,10 +97,12 @@ int head_mesh_create(struct head_mesh* out)
 {
     struct head_builder builder = {0};
     for (enum part part = SKIN; part < PARTS && !builder.failed; ++part) put_part(&builder, part);
+    head_put_eyes(&builder);
+    uint32_t coarse = builder.mesh.triangle_count;
     head_put_brows(&builder);
     head_put_lashes(&builder);
     head_put_fringe(&builder);
-    head_put_eyes(&builder);
+    builder.mesh.fine_count = builder.mesh.triangle_count - coarse;
     if (builder.failed)
         head_mesh_free(&builder.mesh);
     else

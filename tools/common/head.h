@@ -13,6 +13,7 @@ struct head_mesh {
     uint32_t* triangles; // three indices each, counter-clockwise from outside
     uint32_t vertex_count;
     uint32_t triangle_count;
+    uint32_t fine_count; // number of triangles of brows, lashes and fine hairs, the last ones
 };
 
 // Create the mesh of the bust. Return 0, or -1 if memory runs out.

@@ -141,7 +141,9 @@ static void draw_mesh(const struct hair_render* render, GLuint program, const st
                       const struct hair_matrices* matrices)
 {
     if (!shows_mesh(render, frame)) return;
-    hair_render_mesh_draw(&render->mesh, program, frame->transform, matrices);
+    // Fine hairs are dots at one sample a pixel.
+    bool has_fine = render->desc.samples * render->desc.supersample > 1;
+    hair_render_mesh_draw(&render->mesh, program, frame->transform, matrices, has_fine);
 }
 
 // Draw one pass of the hair. Only the colour pass, seen from the camera, gets the lights' shadow

@@ -35,12 +35,13 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
     hair_render_mesh_delete(out);
     size_t bytes = (size_t)mesh->vertex_count * 3 * sizeof(float);
     glCreateVertexArrays(1, &out->vertex_array);
-    out->indices = 3 * mesh->triangle_count;
+    out->indices = 3 * (mesh->triangle_count - mesh->fine_count);
+    out->fine_indices = 3 * mesh->fine_count;
     out->buffer[HAIR_MESH_POSITIONS] = make_buffer(mesh->positions, bytes);
     out->buffer[HAIR_MESH_NORMALS] = make_buffer(mesh->normals, bytes);
     out->buffer[HAIR_MESH_COLORS] = make_buffer(mesh->colors, bytes);
     out->buffer[HAIR_MESH_SURFACE] = make_buffer(mesh->surface, bytes);
-    out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, out->indices * sizeof(uint32_t));
+    out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, 3 * (size_t)mesh->triangle_count * sizeof(uint32_t));
     out->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
     out->bend[1] = HAIR_HEAD_RIG_RESTS;
     for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_SURFACE; ++i) attach(out, i);
@@ -48,8 +49,9 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
 }
 
 void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
-                           const struct hair_matrices* matrices)
+                           const struct hair_matrices* matrices, bool has_fine)
 {
+    uint32_t indices = mesh->indices + (has_fine ? mesh->fine_indices : 0);
     glProgramUniformMatrix4fv(program, HAIR_AT_HEAD, 1, GL_FALSE, transform);
     glProgramUniformMatrix4fv(program, HAIR_AT_VIEW, 1, GL_FALSE, matrices->view);
     glProgramUniformMatrix4fv(program, HAIR_AT_PROJECTION, 1, GL_FALSE, matrices->projection);
@@ -57,6 +59,6 @@ void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program
     glUseProgram(program);
     glBindVertexArray(mesh->vertex_array);
     glEnable(GL_CULL_FACE);
-    glDrawElements(GL_TRIANGLES, (GLsizei)mesh->indices, GL_UNSIGNED_INT, NULL);
+    glDrawElements(GL_TRIANGLES, (GLsizei)indices, GL_UNSIGNED_INT, NULL);
     glDisable(GL_CULL_FACE);
 }

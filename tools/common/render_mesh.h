@@ -18,7 +18,8 @@ enum hair_mesh_buffer {
 // A mesh of zeros draws nothing.
 struct hair_render_mesh {
     unsigned vertex_array, buffer[HAIR_MESH_BUFFERS];
-    uint32_t indices;
+    uint32_t indices; // without fine hairs
+    uint32_t fine_indices; // those of fine hairs, which are the last ones
     float bend[2];
 };
 
@@ -27,8 +28,8 @@ struct hair_render_mesh {
 void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair_render_mesh* out);
 void hair_render_mesh_delete(struct hair_render_mesh* mesh);
 
-// Draw the mesh by a program of hair_mesh_vert.
+// Draw the mesh by a program of hair_mesh_vert, with or without brows, lashes and fine hairs.
 void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],
-                           const struct hair_matrices* matrices);
+                           const struct hair_matrices* matrices, bool has_fine);
 
 #endif

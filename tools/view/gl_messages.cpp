@@ -83,7 +83,7 @@ void view_gl_messages_window(view_gl_messages& messages)
 {
     if (!messages.shows) return;
     float font = ImGui::GetFontSize();
-    ImGui::SetNextWindowSize({40 * font, 14 * font}, ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({38 * font, 14 * font}, ImGuiCond_Appearing);
     ImGui::SetNextWindowPos({18 * font, 2 * font}, ImGuiCond_Appearing);
     if (ImGui::Begin("OpenGL", &messages.shows, ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::Button("Clear")) messages.list.clear();

@@ -9,7 +9,8 @@ struct view_quality {
     float resolution; // fraction of the pixels along each side
     uint32_t samples; // per pixel
     float strand_pixels, segment_pixels; // minimum level of detail, 0 for that of the scene
-    bool shadows; // self-shadows, shadow maps, and followers that are pushed out of colliders
+    bool shadows; // shadow maps, and followers that are pushed out of colliders
+    bool self_shadows; // by the method of the scene
     bool blends; // strands by the fraction of a pixel, because one sample shows them as dots
     const char* about;
 };

@@ -39,13 +39,11 @@ int make_render(view_session& session, const hair_scene& scene, const hair_rende
 }
 
 // Give the instance the look of a quality.
-hair_result set_look(view_session& session, const hair_scene& scene, bool is_cheap)
+hair_result set_look(view_session& session, const hair_scene& scene, const view_quality& quality)
 {
     hair_look look = scene.settings.look;
-    if (is_cheap) {
-        look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
-        look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
-    }
+    if (!quality.self_shadows) look.self_shadow.method = HAIR_SELF_SHADOW_DEPTH;
+    if (!quality.shadows) look.followers.collision = HAIR_FOLLOWER_COLLISION_NONE;
     if (!memcmp(&session.look, &look, sizeof look)) return HAIR_OK;
     hair_result result = hair_set_look(session.hair, &look);
     if (!result) session.look = look;
@@ -85,7 +83,7 @@ static int draw(view_session& session, const hair_scene& scene, uint32_t width, 
     desc.supersample = 1;
     desc.on_gpu = true;
     int code = make_render(session, scene, desc, which);
-    if (!code) code = hair_exit_for(set_look(session, scene, !quality.shadows));
+    if (!code) code = hair_exit_for(set_look(session, scene, quality));
     if (code) return code;
     hair_render_set_shift(session.render, shift);
     return hair_render_frame(session.render, &drawn, session.transform, session.reach, session.hair, &image);
