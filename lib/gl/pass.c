@@ -128,7 +128,6 @@ static void dispatch_part(struct hair_gl* gl, GLuint program, uint32_t first, ui
     HAIR_ASSERT(0 < count && count <= HAIR_MAX_GROUPS && count <= all && first <= all - count);
     if (count < all) gl->ProgramUniform2ui(program, HAIR_LOCATION_GROUPS, first, all);
     gl->DispatchCompute(count, 1, 1);
-    wait_for_writes(gl);
 }
 
 // Return the work groups in a dispatch of a GPU.
@@ -168,6 +167,7 @@ static uint32_t dispatch_by_time(struct hair_gl* gl, struct hair_gl_program* own
     for (uint32_t first = groups.first; first < groups.end; first += count) {
         count = groups.end - first < part ? groups.end - first : part;
         dispatch_part(gl, program, first, count, groups.all);
+        wait_for_writes(gl);
         double end = hair_gl_now();
         part = expect_groups(PART, (end - begun) / count, MAX_GROWTH * count);
         begun = end;
@@ -186,6 +186,7 @@ static uint32_t dispatch_by_count(struct hair_gl* gl, struct hair_gl_program* ow
         count = groups.end - first < own->max_groups ? groups.end - first : own->max_groups;
         dispatch_part(gl, program, first, count, groups.all);
     }
+    wait_for_writes(gl); // The parts do not read what others write.
     return count;
 }
 

@@ -4,7 +4,10 @@
 
 #include <string.h>
 
-#define NODE_GROUPS 1024 // Number of work groups. Their threads loop over all nodes of the grid.
+#define NODE_GROUPS 4096 // Number of work groups. Their threads loop over all nodes of the grid.
+// Work of a dispatch. A GPU must not take long for one. `hair-bench dispatch` measures them.
+#define SPLAT_SEGMENTS (1u << 21) // Segments of a dispatch that fills the grid.
+#define LIT_VALUES (1u << 21) // Light values of vertices of a dispatch.
 
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting)
 {
@@ -38,11 +41,6 @@ static hair_result make_light(struct hair_lighting* lighting, const struct hair_
                                 &own->light, GL_R32UI, &own->texture);
 }
 
-static hair_gl_pass past_colliders(const struct hair_geometry* geometry, hair_gl_pass pass)
-{
-    return geometry->follower_collision.field ? pass | HAIR_GL_WITH(COLLIDERS) : pass;
-}
-
 static hair_result ensure_shadow_buffers(struct hair_lighting* lighting, const struct hair_geometry* geometry,
                                          uint32_t each)
 {
@@ -65,6 +63,8 @@ static void fill_grid(struct hair_lighting* lighting, const struct hair_geometry
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
     hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
+    uint32_t patches = SPLAT_SEGMENTS / (HAIR_GROUP_SIZE * geometry->look.strand.segments);
+    hair_gl_limit_groups(gl, HAIR_GL_DENSITY_SPLAT, patches > 0 ? patches : 1);
     hair_gl_run(gl, HAIR_GL_DENSITY_SPLAT, geometry->patches);
     own->filled = geometry->vertex_cache.writes;
     own->frame = 0;
@@ -84,6 +84,16 @@ static bool is_found(struct hair_lighting* lighting, const hair_view* view,
     memcpy(own->lights, params->light, sizeof own->lights);
     memcpy(own->maps, params->shadow, sizeof own->maps);
     return same;
+}
+
+// Run a pass that finds the light of nodes or vertices, past colliders too.
+static void find_light(struct hair_lighting* lighting, const struct hair_geometry* geometry,
+                       hair_gl_pass pass, uint32_t groups, uint32_t max)
+{
+    HAIR_ASSERT(groups > 0 && max > 0);
+    if (geometry->follower_collision.field) pass |= HAIR_GL_WITH(COLLIDERS);
+    hair_gl_limit_groups(lighting->gl, pass, max);
+    hair_gl_run(lighting->gl, pass, groups);
 }
 
 uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view)
@@ -114,7 +124,9 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     if (is_found(lighting, view, params)) return HAIR_OK;
     if (is_part) own->frame = 0; // Another view draws other vertices.
     if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);
-    hair_gl_run(gl, past_colliders(geometry, HAIR_GL_NODE_TRANSMITTANCE), NODE_GROUPS);
-    hair_gl_run(gl, past_colliders(geometry, HAIR_GL_VERTEX_TRANSMITTANCE), groups);
+    uint32_t values = params->light_values;
+    find_light(lighting, geometry, HAIR_GL_NODE_TRANSMITTANCE, NODE_GROUPS, NODE_GROUPS / values);
+    find_light(lighting, geometry, HAIR_GL_VERTEX_TRANSMITTANCE, groups,
+               LIT_VALUES / (HAIR_GROUP_SIZE * values));
     return HAIR_OK;
 }

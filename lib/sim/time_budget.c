@@ -11,6 +11,11 @@
 #define SHORT 32 // Maximum vertices of a guide that fits into a subgroup.
 // Ratio of the cost among colliders that are looked up in the grid to that without.
 #define GRID_COST 2
+// Vertices of the guides beyond which a vertex costs twice as much, because caches hold few.
+#define LARGE (1u << 20)
+// Colliders among which a substep of even few guides is so long that a dispatch has one. A thread
+// may meet many of them, one after the other.
+#define MANY_COLLIDERS 1024
 
 // Return the time of a vertex in a substep of the solver, ns.
 static double cost_of_short(const struct hair_sim* sim)
@@ -28,6 +33,7 @@ static double cost_of_vertex(const struct hair_sim* sim)
 {
     double ratio = (double)sim->max_vertices / LONG, cost = cost_of_short(sim);
     if (ratio > 1 && sim->solver != HAIR_SOLVER_REDBLACK) cost *= ratio * ratio;
+    if (sim->guide_vertices > LARGE) cost *= 2;
     return sim->contacts.any ? GRID_COST * cost : cost;
 }
 
@@ -40,6 +46,7 @@ static double vertices_in_time(const struct hair_sim* sim)
 
 uint32_t hair_sim_substeps_in_time(const struct hair_sim* sim)
 {
+    if (sim->contacts.any && hair_sim_colliders(sim)->count >= MANY_COLLIDERS) return 1;
     uint32_t vertices = sim->guide_vertices < FULL ? sim->guide_vertices : FULL;
     double substeps = vertices_in_time(sim) / vertices;
     return substeps < 1 ? 1 : substeps < HAIR_STEP_SUBSTEPS ? (uint32_t)substeps : HAIR_STEP_SUBSTEPS;

@@ -20,7 +20,8 @@ struct result {
 // Let each dispatch have at most `max` work groups.
 static void limit_groups(struct hair_gl* gl, uint32_t max)
 {
-    for (uint32_t i = 0; i < gl->programs; ++i) gl->program[i]->max_groups = max;
+    for (uint32_t i = 0; i < gl->programs; ++i)
+        gl->program[i]->max_groups = gl->program[i]->max_groups_of_threads = max;
 }
 
 // Simulate hair that touches a ball, and draw the hair with light and shadow.

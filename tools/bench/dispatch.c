@@ -40,6 +40,8 @@ static const struct subject {
     {"long guides", HAIR_SOLVER_DIRECT, 1024, 256, 0, 0, 0, 0, false, false},
     {"long guides", HAIR_SOLVER_ACCURATE, 1024, 256, 0, 0, 0, 0, false, false},
     {"colliders", HAIR_SOLVER_DIRECT, 256, 16, 4096, 16, 10000, HAIR_RENDER_PATH_CACHED, true, false},
+    {"colliders", HAIR_SOLVER_ACCURATE, 256, 16, 0, 0, 10000, 0, true, false},
+    {"colliders", HAIR_SOLVER_DIRECT, 10240, 32, 0, 0, 10000, 0, true, false},
     {"colliders", HAIR_SOLVER_DIRECT, 256, 16, 4096, 16, 100000, HAIR_RENDER_PATH_CACHED, false, false},
     {"colliders", HAIR_SOLVER_DIRECT, 256, 16, 4096, 16, 1048576, HAIR_RENDER_PATH_CACHED, false, false},
     {"followers", HAIR_SOLVER_DIRECT, 256, 16, 100000, 64, 0, HAIR_RENDER_PATH_TESSELLATION, false, false},
