@@ -41,7 +41,8 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
     out->buffer[HAIR_MESH_NORMALS] = make_buffer(mesh->normals, bytes);
     out->buffer[HAIR_MESH_COLORS] = make_buffer(mesh->colors, bytes);
     out->buffer[HAIR_MESH_SURFACE] = make_buffer(mesh->surface, bytes);
-    out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, 3 * (size_t)mesh->triangle_count * sizeof(uint32_t));
+    size_t triangle = 3 * sizeof(uint32_t);
+    out->buffer[HAIR_MESH_TRIANGLES] = make_buffer(mesh->triangles, mesh->triangle_count * triangle);
     out->bend[0] = whole ? -1e9f : HAIR_HEAD_RIG_MOVES;
     out->bend[1] = HAIR_HEAD_RIG_RESTS;
     for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_SURFACE; ++i) attach(out, i);

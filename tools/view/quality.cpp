@@ -8,10 +8,8 @@ constexpr double slow_ms = 45, fast_ms = 18; // budget of a frame
 constexpr uint32_t slow_frames = 2, fast_frames = 90; // frames until the level changes
 
 const view_quality levels[view_quality_levels] = {
-    {1, 4, 0, 0, true, true, false, "full"},
-    {1, 4, 0.5f, 4, true, true, false, "level of detail"},
-    {1, 1, 1, 8, false, true, true, "no shadow maps"},
-    {0.5f, 1, 1, 8, false, true, true, "half resolution"},
+    {1, 4, 0, 0, true, true, false, "full"},           {1, 4, 0.5f, 4, true, true, false, "level of detail"},
+    {1, 1, 1, 8, false, true, true, "no shadow maps"}, {0.5f, 1, 1, 8, false, true, true, "half resolution"},
     {0.4f, 1, 2, 16, false, false, false, "coarse"},
 };
 
