@@ -1,6 +1,9 @@
 // barrier_test.c - every dispatch is followed by a memory barrier before anything reads what it has
 // written. Most drivers give the right result without one, so the calls themselves are checked.
+// Parts of one pass need no barriers between them on a GPU, because no part reads another.
 #include "tests/support/torture.h"
+
+#include "lib/api/api.h"
 
 #include <string.h>
 
@@ -13,11 +16,19 @@
 
 static GLbitfield missing; // Barriers that the last dispatch still needs.
 static GLbitfield missing_of_images; // Barriers that dispatches which wrote images still need.
-static uint32_t dispatches, barriers, too_early, image_dispatches;
+static uint32_t dispatches, parts, barriers, too_early, image_dispatches;
+
+static bool is_next_part; // The next dispatch is a later part of a pass.
 
 static void note_use(void)
 {
     too_early += missing != 0;
+}
+
+static void APIENTRY set_groups(GLuint program, GLint location, GLuint first, GLuint all)
+{
+    if (location == HAIR_LOCATION_GROUPS) is_next_part = first > 0;
+    glProgramUniform2ui(program, location, first, all);
 }
 
 // Return whether the current program writes images.
@@ -36,7 +47,9 @@ static bool writes_images(void)
 
 static void note_dispatch(void)
 {
-    note_use();
+    if (!is_next_part) note_use();
+    parts += is_next_part;
+    is_next_part = false;
     ++dispatches;
     missing = NEEDED;
     if (!writes_images()) return;
@@ -96,6 +109,7 @@ static void* proc(const char* name, void* user)
         {"glDispatchCompute", (void (*)(void))dispatch},
         {"glDispatchComputeIndirect", (void (*)(void))dispatch_indirect},
         {"glMemoryBarrier", (void (*)(void))barrier},
+        {"glProgramUniform2ui", (void (*)(void))set_groups},
         {"glDrawArrays", (void (*)(void))draw_arrays},
         {"glDrawArraysInstanced", (void (*)(void))draw_instances},
         {"glMultiDrawElementsIndirect", (void (*)(void))draw_indirect},
@@ -122,7 +136,8 @@ static void check(const char* what)
     dispatches = barriers = 0;
 }
 
-static void start(struct hair_test_torture* t, hair_solver solver)
+// Begin with the dispatches of a software rasterizer, or with the divided ones of a GPU.
+static void start(struct hair_test_torture* t, hair_solver solver, bool as_gpu)
 {
     hair_desc desc = hair_desc_default();
     hair_look look = hair_look_default();
@@ -131,8 +146,9 @@ static void start(struct hair_test_torture* t, hair_solver solver)
     look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
     desc.look = &look;
     t->context = hair_test_context(t->test, proc);
+    if (as_gpu) t->context->gl.software = 0, t->context->gl.dispatch_ms = 1e-9;
     t->groom = hair_test_torture_groom(t->test);
-    dispatches = barriers = too_early = image_dispatches = 0;
+    dispatches = parts = barriers = too_early = image_dispatches = 0;
     hair_test_torture_add(t, &desc);
     hair_test_torture_collide(t);
 }
@@ -145,13 +161,13 @@ static void finish(struct hair_test_torture* t)
     hair_context_destroy(t->context);
 }
 
-static void dispatches_of_steps_are_followed_by_barriers(void** state)
+static void check_steps(struct hair_test* test, bool as_gpu)
 {
     for (int solver = 0; solver <= HAIR_SOLVER_REDBLACK; ++solver) {
-        struct hair_test_torture t = {.test = *state};
+        struct hair_test_torture t = {.test = test};
         hair_physics physics = hair_physics_default();
         hair_wind wind = hair_wind_default();
-        start(&t, (hair_solver)solver);
+        start(&t, (hair_solver)solver, as_gpu);
         physics.hair_hair.cohesion = physics.hair_hair.pressure_stiffness = 1;
         wind.model = HAIR_WIND_FLUID, wind.velocity[0] = 1, wind.fluid.resolution = 16;
         hair_test_ok(t.test, hair_set_physics(t.hair, &physics));
@@ -159,19 +175,26 @@ static void dispatches_of_steps_are_followed_by_barriers(void** state)
         for (int i = 0; i < 2; ++i) hair_test_ok(t.test, hair_step(t.hair, 1.0f / 60));
         // Redblack feels no wind.
         assert_true(image_dispatches > 0 || solver == HAIR_SOLVER_REDBLACK);
+        assert_true(parts > 0 || !as_gpu);
         check("steps");
         finish(&t);
     }
 }
 
-static void dispatches_of_draws_are_followed_by_barriers(void** state)
+static void dispatches_of_steps_are_followed_by_barriers(void** state)
+{
+    check_steps(*state, false);
+    check_steps(*state, true);
+}
+
+static void check_draws(struct hair_test* test, bool as_gpu)
 {
     static const hair_render_path paths[] = {HAIR_RENDER_PATH_TESSELLATION, HAIR_RENDER_PATH_CACHED,
                                              HAIR_RENDER_PATH_COMPUTE};
-    struct hair_test_torture t = {.test = *state, .lod = hair_lod_default()};
+    struct hair_test_torture t = {.test = test, .lod = hair_lod_default()};
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, HAIR_TEST_TORTURE_SIZE, HAIR_TEST_TORTURE_SIZE, GL_RGBA32F, 0);
-    start(&t, HAIR_SOLVER_DIRECT);
+    start(&t, HAIR_SOLVER_DIRECT, as_gpu);
     for (int i = 0; i < 12; ++i) {
         hair_view view = hair_test_torture_view();
         view.render_path = paths[i % 3];
@@ -185,6 +208,12 @@ static void dispatches_of_draws_are_followed_by_barriers(void** state)
     assert_true(image_dispatches > 0); // The distance field.
     finish(&t);
     hair_test_frame_free(&frame);
+}
+
+static void dispatches_of_draws_are_followed_by_barriers(void** state)
+{
+    check_draws(*state, false);
+    check_draws(*state, true);
 }
 
 int main(void)

@@ -166,9 +166,13 @@ MUTATIONS = [
      "tests": ["gpu/light"]},
     # OpenGL
     {"name": "barrier_after_dispatch_lost", "file": "lib/gl/pass.c",
-     "old": ("    gl->DispatchCompute(count, 1, 1);\n"
-             "    wait_for_writes(gl);"),
-     "new": "    gl->DispatchCompute(count, 1, 1);",
+     "old": "    wait_for_writes(gl); // The parts do not read what others write.",
+     "new": "",
+     "tests": ["gpu/barrier"]},
+    {"name": "barrier_after_part_lost", "file": "lib/gl/pass.c",
+     "old": ("        dispatch_part(gl, program, first, count, groups.all);\n"
+             "        wait_for_writes(gl);\n"),
+     "new": "        dispatch_part(gl, program, first, count, groups.all);\n",
      "tests": ["gpu/barrier"]},
     {"name": "barrier_of_commands_lost", "file": "lib/gl/pass.c",
      "old": " | GL_COMMAND_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT",
