@@ -63,10 +63,11 @@ typedef enum hair_render_path {
     /// takes 8 bytes per sample of every pixel that the hair can reach, or 4 for depth and
     /// opacity, plus one half of this.
     HAIR_RENDER_PATH_COMPUTE,
-    /// The path that a built-in table has as the fastest on drivers of this name. Nothing is timed.
-    /// Paths that cache vertices are not selected for more than 4,194,304 vertices of followers,
-    /// or 33,554,432 where compute is the fastest, nor beyond hair_set_memory_limit().
-    /// hair_report() tells which path it is.
+    /// The fastest path for the view on this driver, by a built-in table of measured drivers.
+    /// Drivers that are not in the table use HAIR_RENDER_PATH_CACHED. Nothing is timed.
+    ///
+    /// Vertices or samples may exceed the driver's limits, hair_set_memory_limit() or the memory.
+    /// The view is then drawn by a path without them. hair_report() tells which path it is.
     HAIR_RENDER_PATH_AUTO
 } hair_render_path;
 
@@ -305,7 +306,7 @@ typedef enum hair_encoding {
 typedef struct hair_view {
     hair_struct_header header;
     hair_pass pass; ///< Default HAIR_PASS_COLOR.
-    hair_render_path render_path; ///< Default HAIR_RENDER_PATH_TESSELLATION.
+    hair_render_path render_path; ///< Default HAIR_RENDER_PATH_AUTO.
     hair_primitive primitive; ///< Default HAIR_PRIMITIVE_RIBBONS.
     float view[16]; ///< World to view. Default identity.
     /// View to clip space, without jitter. Reversed and infinite depth are supported.

@@ -250,6 +250,11 @@ hair_result hair_draw(hair_instance* hair, const hair_view* view)
             result = hair_update_follower_collision(hair);
         update_attachment(hair);
         if (!result) result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
+        if (result == HAIR_ERROR_MEMORY && hair_draw_avoid_cache(&hair->renderer, &plan)) {
+            make_plan(hair, &own, &plan);
+            hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, &plan);
+            result = hair_draw_run(&hair->renderer, &hair->sim.head_at_last_step, &plan);
+        }
     }
     result = hair_leave(context, result);
     if (!result) hair_sim_set_unseen_time(&hair->sim, 0);

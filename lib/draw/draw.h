@@ -47,6 +47,8 @@ struct hair_renderer {
     uint32_t frame; // Number of the current frame, set by hair_draw_free_unused().
     uint32_t last_used[HAIR_RESOURCES]; // Frame in which each resource was last used.
     uint32_t driver; // Row of paths.inl for this driver.
+    size_t scarce_vertices; // Vertices that the memory did not hold. 0 if it held all.
+    uint32_t scarce_frame; // Frame in which it did not.
     // Sphere under the hair, from the groom. xyz is the centre, w the radius in metres.
     hair_vec4 head_sphere;
     int is_cullable; // Nonzero if roots are attached, so that no strand leaves its patch's reach.
@@ -115,6 +117,9 @@ void hair_draw_find_fastest(struct hair_renderer* renderer);
 // the application's. NULL selects the built-in shading.
 void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* view,
                          struct hair_gl_shader* shader, struct hair_draw_plan* out);
+// Note that memory ran out for a plan. Return whether HAIR_RENDER_PATH_AUTO may select a path
+// without cached vertices instead.
+bool hair_draw_avoid_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 // Return whether the pass draws coverage, either blended colour or the opacity seen from a light.
 bool hair_draw_uses_analytic_coverage(const hair_view* view);
 // Return whether `view` has an occluder depth texture.

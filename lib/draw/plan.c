@@ -5,12 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-// Maximum vertices, of 24 bytes each and 8 for their shading. Beyond it, memory costs more than
-// time. Where compute rasterisation is the fastest, drawing takes a multiple of its time.
-#define MAX_CACHED 4194304u
-#define MAX_COMPUTED 33554432u
+// Bytes of a vertex in the vertex cache, with 8 for its shading, and of a sample of compute
+// rasterisation.
+#define POSITION_BYTES 16u
 #define VERTEX_BYTES 32u
-#define MAX_SAMPLES 33554432.0 // Maximum samples of a viewport, of 8 bytes each.
+#define SAMPLE_BYTES 8u
 
 // Methods of drawing strands.
 enum method { TESS, PROC, CACHE, VIEW, COMP, COMPV, METHODS };
@@ -53,15 +52,17 @@ static const uint8_t method_of[KINDS][3][2] = {
 };
 // clang-format on
 
+// Uses of a path, and the columns of paths.inl. UNCACHED is for vertices that no memory holds.
+enum use { RIBBONS, LINES, LOD_RIBBONS, LOD_LINES, DEPTH, UNCACHED, USES };
+
 static const struct {
     const char* renderer; // Part of the renderer's name.
-    // Paths of ribbons and lines, then of both with level of detail, then of depth without it.
-    uint8_t path[5];
+    uint8_t path[USES];
 } fastest[] = {
-#define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth)                                     \
+#define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth, uncached)                           \
     {renderer,                                                                                               \
      {HAIR_RENDER_PATH_##ribbons, HAIR_RENDER_PATH_##lines, HAIR_RENDER_PATH_##lod_ribbons,                  \
-      HAIR_RENDER_PATH_##lod_lines, HAIR_RENDER_PATH_##depth}},
+      HAIR_RENDER_PATH_##lod_lines, HAIR_RENDER_PATH_##depth, HAIR_RENDER_PATH_##uncached}},
 #include "lib/draw/paths.inl"
 #undef FASTEST
 };
@@ -74,14 +75,20 @@ void hair_draw_find_fastest(struct hair_renderer* renderer)
         ++renderer->driver;
 }
 
-static bool has_few_samples(const struct hair_gl* gl)
+// Return whether compute rasterisation has room for the samples of the viewport.
+static bool has_few_samples(const struct hair_renderer* renderer)
 {
+    const struct hair_gl* gl = renderer->gl;
     GLfloat viewport[4] = {0};
     GLint samples = 0;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     gl->GetIntegerv(GL_SAMPLES, &samples);
-    double max = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1);
-    return samples <= HAIR_RASTER_SAMPLES && max <= MAX_SAMPLES;
+    if (samples > HAIR_RASTER_SAMPLES) return false;
+    double bytes = (double)viewport[2] * (double)viewport[3] * fmax(samples, 1) * SAMPLE_BYTES;
+    double had = (double)renderer->raster.room * sizeof(uint32_t);
+    if (bytes <= had) return true;
+    return bytes < 1e12 && hair_gl_fits(gl, (uint64_t)bytes, sizeof(uint32_t)) &&
+           hair_gl_memory_allows(&gl->memory, (uint64_t)(bytes - had));
 }
 
 static enum kind find_kind(const hair_view* view, const struct hair_gl_shader* shader)
@@ -110,13 +117,15 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
     return method_of[kind][path][view->lod != NULL];
 }
 
-// Return whether the vertices of all followers may be cached: up to `max` of them, within the
-// memory limit. Vertices that are already cached may stay.
-static bool can_cache(const struct hair_renderer* renderer, size_t vertices, size_t max)
+// Return whether the vertices of all followers may be cached, within the limits of the driver and
+// of memory. Vertices that are already cached may stay.
+static bool can_cache(const struct hair_renderer* renderer)
 {
-    if (vertices > max) return false;
+    uint64_t vertices = hair_geometry_count_vertices(renderer->geometry);
+    if (renderer->scarce_vertices && vertices >= renderer->scarce_vertices) return false;
     if (renderer->geometry->vertex_cache.vertices >= vertices) return true;
-    return hair_gl_memory_allows(&renderer->gl->memory, vertices * VERTEX_BYTES);
+    return hair_gl_fits(renderer->gl, vertices * POSITION_BYTES, POSITION_BYTES) &&
+           hair_gl_memory_allows(&renderer->gl->memory, vertices * VERTEX_BYTES);
 }
 
 // Return the render path that HAIR_RENDER_PATH_AUTO selects.
@@ -124,18 +133,29 @@ static hair_render_path find_fastest_for(const struct hair_renderer* renderer, e
                                          const hair_view* view)
 {
     bool is_of_lines = view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_uses_analytic_coverage(view);
-    int column = view->lod || view->pass == HAIR_PASS_COLOR ? is_of_lines + 2 * (view->lod != NULL) : 4;
-    HAIR_ASSERT(0 <= column && column < 5 && renderer->driver < sizeof fastest / sizeof *fastest);
-    hair_render_path path = fastest[renderer->driver].path[column];
-    size_t vertices = hair_geometry_count_vertices(renderer->geometry);
-    if (path == HAIR_RENDER_PATH_TESSELLATION) return path;
-    if (!can_cache(renderer, vertices, path == HAIR_RENDER_PATH_COMPUTE ? MAX_COMPUTED : MAX_CACHED))
-        return HAIR_RENDER_PATH_TESSELLATION;
-    if (path != HAIR_RENDER_PATH_COMPUTE) return path;
-    if ((kind == PLAIN || kind == OPACITY) && methods[find_method(kind, view, path)].is_computed &&
-        has_few_samples(renderer->gl))
-        return path;
-    return view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
+    enum use use = is_of_lines ? LINES : RIBBONS;
+    if (view->lod)
+        use = is_of_lines ? LOD_LINES : LOD_RIBBONS;
+    else if (view->pass != HAIR_PASS_COLOR)
+        use = DEPTH;
+    HAIR_ASSERT(renderer->driver < sizeof fastest / sizeof *fastest);
+    const uint8_t* paths = fastest[renderer->driver].path;
+    hair_render_path path = (hair_render_path)paths[use];
+    if (path == HAIR_RENDER_PATH_COMPUTE &&
+        !(methods[find_method(kind, view, path)].is_computed && has_few_samples(renderer)))
+        path = view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
+    if (path == HAIR_RENDER_PATH_TESSELLATION || can_cache(renderer)) return path;
+    return (hair_render_path)paths[UNCACHED];
+}
+
+bool hair_draw_avoid_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan)
+{
+    if (plan->view->render_path != HAIR_RENDER_PATH_AUTO || plan->vertices == HAIR_VERTICES_TESSELLATED ||
+        plan->vertices == HAIR_VERTICES_PROCEDURAL)
+        return false;
+    renderer->scarce_vertices = hair_geometry_count_vertices(renderer->geometry);
+    renderer->scarce_frame = renderer->frame;
+    return renderer->scarce_vertices > 0;
 }
 
 bool hair_draw_uses_analytic_coverage(const hair_view* view)

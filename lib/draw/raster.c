@@ -150,7 +150,8 @@ static hair_result ensure_room(struct hair_gl* gl, const char* label, size_t cou
                                size_t* room)
 {
     if (count <= *room) return HAIR_OK;
-    count = (count + count / 2 + 3) / 4 * 4;
+    size_t more = (count + count / 2 + 3) / 4 * 4;
+    if (hair_gl_fits(gl, more * sizeof(uint32_t), sizeof(uint32_t))) count = more;
     hair_gl_free_buffer(gl, buffer);
     *room = 0;
     hair_result result =

@@ -136,6 +136,8 @@ hair_result hair_draw_ensure_resources(struct hair_renderer* renderer, struct ha
 void hair_draw_free_unused(struct hair_renderer* renderer, uint32_t frame)
 {
     renderer->frame = frame;
+    // Memory that has run out may be there again.
+    if (frame - renderer->scarce_frame > MAX_UNUSED_FRAMES) renderer->scarce_vertices = 0;
     for (int i = 0; i < HAIR_RESOURCES; ++i) {
         HAIR_ASSERT(renderer->last_used[i] <= frame);
         if (frame - renderer->last_used[i] > MAX_UNUSED_FRAMES) resources[i].release(renderer);

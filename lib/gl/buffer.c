@@ -64,6 +64,15 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
     return HAIR_OK;
 }
 
+bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel)
+{
+    GLint max_block = 0, max_texels = 0;
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max_block);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texels);
+    HAIR_ASSERT(texel > 0);
+    return size <= (uint64_t)max_block && size / texel <= (uint64_t)max_texels;
+}
+
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                             const void* data, GLuint* out)
 {

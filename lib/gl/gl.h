@@ -336,6 +336,9 @@ void hair_gl_memory_remove(struct hair_gl* gl, bool is_texture, GLuint name);
 // functions below.
 hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                            const void* data, GLuint* out);
+// Return whether the driver allows a storage buffer of `size` bytes, read as a buffer texture with
+// texels of `texel` bytes.
+bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel);
 // Create a buffer that shaders read or write as storage. Fail if the driver's largest block is
 // smaller.
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,

@@ -40,7 +40,8 @@ static void capture(const struct golden* golden, const char* more, const char* o
 {
     char command[512];
     snprintf(command, sizeof command,
-             HAIR_BUILD_DIR "/hair-capture %s --supersample 1 --size %dx%d --quiet %s -o %s",
+             HAIR_BUILD_DIR "/hair-capture %s --render-path tessellation --supersample 1 --size %dx%d "
+                            "--quiet %s -o %s",
              golden->arguments, WIDTH, HEIGHT, more, out);
     int status = system(command);
     assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 0);

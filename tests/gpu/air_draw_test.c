@@ -1,6 +1,7 @@
 // air_draw_test.c - wind drawn by hair_draw: arrows whose length and colour show the speed.
 #include "tests/support/live_hair.h"
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 
@@ -28,7 +29,7 @@ static void look(struct hair_test_living* living, hair_slice slice, struct pictu
 {
     const struct hair_field_box* box = &living->hair->field.box;
     const struct hair_test_scene scene = {.test = living->test, .hair = living->hair};
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     double brick = HAIR_BRICK * (double)box->voxel;
     const double lower[3] = {(double)box->lower.x, (double)box->lower.y, (double)box->lower.z};
     int axes[2] = {slice == HAIR_SLICE_X ? 1 : 0, slice == HAIR_SLICE_Y || slice == HAIR_SLICE_X ? 2 : 1};

@@ -2,6 +2,7 @@
 // and the nearest strand is in front in any order of strands. Blending respects colour and depth
 // that are already there. Without coverage, nothing runs.
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +26,7 @@ static struct hair_test_scene start(void** state, uint32_t followers, float radi
 // Make a view of 1 m around the head, along -z.
 static hair_view view_of(hair_coverage coverage)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.coverage = coverage;
     hair_test_set_orthographic(&view, 2, -0.5f, -0.2f);
     return view;

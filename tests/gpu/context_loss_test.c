@@ -7,6 +7,7 @@
 
 #include "tests/support/trace.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 #define SIDE 32
 #define FRAMES 3
@@ -111,7 +112,7 @@ static hair_result set(struct fixture* f, int i)
 // Draw by two paths. The second shades by the application.
 static hair_result draw(struct fixture* f)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_test_set_orthographic(&view, 4, 0.5f, 0);
     hair_test_frame_clear(&f->frame);
     HAIR_TRY(hair_draw(f->hair, &view));
@@ -198,7 +199,7 @@ static void check_lost(struct fixture* f)
     hair_solver_stats stats = hair_solver_stats_default();
     hair_field_info field = hair_field_info_default();
     hair_report_info report = hair_report_info_default();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_shader_desc shader = hair_shader_desc_default();
     hair_instance* other = NULL;
     hair_shader* other_shader = NULL;
@@ -283,7 +284,7 @@ static void loss_at_any_call_is_told_and_restored(void** state)
 static void loss_while_arguments_are_checked_is_told(void** state)
 {
     struct fixture f;
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_light light = hair_light_default();
     hair_wind wind = hair_wind_default();
     GLuint map, volume;

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tests/support/trace.h"
+#include "tests/support/tessellated.h"
 
 enum { SIZE = 48, VALUES = 4 * SIZE * SIZE, MAX = 4096 };
 
@@ -83,7 +84,7 @@ static void only_hair_out_of_view_is_culled(void** state)
     static float at[3 * MAX];
     struct hair_test_scene f = start(state);
     uint32_t random = 3, count, unseen = 0, culled = 0, wrong = 0;
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     const float head[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 5, 6, -7, 1};
     hair_test_ok(f.test, hair_teleport(f.hair, head));
     hair_test_ok(f.test, hair_read_positions(f.hair, HAIR_READ_FOLLOWERS, at, MAX, &count));
@@ -117,7 +118,7 @@ static void only_hair_out_of_view_is_culled(void** state)
 static void depth_clamp_disables_near_and_far_culling(void** state)
 {
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     for (int clamps = 0; clamps < 2; ++clamps) {
         look_along(hair_v3(0, 0, 9), hair_v3(0, 0, -1), view.view);
         project(0, view.projection);
@@ -134,7 +135,7 @@ static void depth_clamp_disables_near_and_far_culling(void** state)
 static void hair_with_free_roots_is_never_view_culled(void** state)
 {
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_physics physics = hair_physics_default();
     look_along(hair_v3(0, 0, 2), hair_v3(0, 0, 1), view.view);
     project(0, view.projection);
@@ -156,7 +157,7 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
 {
     static float kept[VALUES], anew[VALUES];
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_lod lod = hair_lod_default();
     hair_look look = f.hair->geometry.look;
     view.render_path = HAIR_RENDER_PATH_PROCEDURAL;
@@ -194,7 +195,7 @@ static void culled_patches_do_not_change_the_picture(void** state)
 {
     static float some[VALUES], all[VALUES];
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_physics physics = hair_physics_default(), lets_go = physics;
     uint32_t random = 7, drawn[2] = {0, 0};
     hair_look look = f.hair->geometry.look;
@@ -233,7 +234,7 @@ static void lights_cost_nothing_when_there_are_none(void** state)
 {
     static float pixels[VALUES];
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_light light = hair_light_default();
     GLuint shadow = 0;
     uint32_t binds[3], samplers[3];
@@ -268,7 +269,7 @@ static void lights_cost_nothing_when_there_are_none(void** state)
 static void frames_do_not_wait_for_the_gpu(void** state)
 {
     struct hair_test_scene f = start(state);
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_collider collider = hair_collider_default();
     uint32_t looked = 0;
     look_along(hair_v3(0, 0.1f, 0.8f), hair_v3(0, 0, -1), view.view);

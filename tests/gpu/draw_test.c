@@ -1,6 +1,7 @@
 // draw_test.c - the framebuffer after hair_draw: colour and depth agree, and ribbons have their
 // true width.
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ static struct hair_test_scene start(void** state, float radius)
 // Make a view of 1 m around the head, along -z.
 static hair_view view_of(hair_pass pass, hair_primitive primitive)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.pass = pass;
     view.primitive = primitive;
     hair_test_set_orthographic(&view, 2, -0.5f, -0.2f);

@@ -11,6 +11,7 @@
 
 #include "tests/support/shell.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 #define refused hair_test_refused
 
@@ -21,7 +22,7 @@ static void calls_without_a_current_context_are_opengl_errors(void** state)
     struct hair_test_scene f = hair_test_scene_of(*state, NULL, NULL);
     hair_instance* other;
     hair_desc desc = hair_desc_default();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_context_desc of = hair_context_desc_default();
     hair_context* context;
     float positions[3];

@@ -1,6 +1,7 @@
 // instance_test.c - one head of hair as an application uses it: reset, on colliders, beside others,
 // and under any calls.
 #include "tests/support/instances.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,7 +94,7 @@ static void strands_rest_on_a_collider_moved_into_them(void** state)
 static void draw(struct hair_test* test, hair_instance* hair, const struct hair_test_frame* frame,
                  float* pixels)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.primitive = HAIR_PRIMITIVE_LINES; // Ribbons are much narrower than these pixels.
     // The view is 0.8 m wide around the head, along -z.
     hair_test_set_orthographic(&view, 2.5f, -0.5f, -0.3f);

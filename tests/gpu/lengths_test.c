@@ -11,6 +11,7 @@
 #include "tests/support/frame.h"
 #include "tests/support/grooms.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 static const uint32_t lengths[] = {2, 3, 32, 33, 64, 65, 128, 129, 255, 256};
 #define LENGTHS (sizeof lengths / sizeof *lengths)
@@ -265,7 +266,7 @@ static void strands_of_every_length_are_drawn(void** state)
     hair_test_frame_make(&frame, SIDE, SIDE, GL_RGBA32F, 0);
     for (size_t i = 0; i < LENGTHS; ++i) {
         struct fixture f = start(state, lengths[i], 0);
-        hair_view view = hair_view_default();
+        hair_view view = hair_test_tessellated();
         view.primitive = HAIR_PRIMITIVE_LINES;
         // Orthographic, 0.6 m wide, around the middle of the hair.
         float to_clip[16] = {3.3f, 0, 0, 0, 0, 3.3f, 0, 0, 0, 0, -1, 0, 0, 0.5f, 0, 1};

@@ -9,6 +9,7 @@
 #include "tests/support/frame.h"
 #include "tests/support/handmade.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 #define MAX 4096
 
@@ -19,7 +20,7 @@ static void live_once(struct hair_test* test, const hair_groom* groom, int way, 
     hair_desc desc = hair_test_way(way);
     hair_collider collider = {HAIR_SHAPE_SPHERE, {0.1f, 0.2f, 0}, {0, 0, 0, 1},
                               {0.05f, 0},        .scale = 1,      .friction = 1};
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_look look = hair_look_default();
     hair_physics other = hair_physics_default();
     uint32_t count;
@@ -140,7 +141,7 @@ static void guides_are_smoothed_on_first_use_after_a_step(void** state)
     hair_instance *a = NULL, *b = NULL;
     hair_test_ok(test, hair_create(context, groom, &of, &a));
     hair_test_ok(test, hair_create(context, groom, &of, &b));
-    const hair_view view = hair_view_default();
+    const hair_view view = hair_test_tessellated();
     struct hair_test_frame frame;
     hair_test_frame_make(&frame, 16, 16, GL_RGBA8, 0);
     for (int how = 0; how < 3; ++how) {

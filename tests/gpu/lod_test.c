@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "tests/support/haircut.h"
+#include "tests/support/tessellated.h"
 
 // Tools are not linked into tests.
 #include "tools/common/flip.c"
@@ -27,7 +28,7 @@ static struct hair_test_scene start(void** state, hair_style style, uint32_t fol
 static hair_view view_from(float distance, float turn)
 {
     static const float target[3] = {0, 1.55f, 0};
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.render_path = HAIR_RENDER_PATH_TESSELLATION; // The other paths draw segments of no length.
     float s = sinf(turn), c = cosf(turn);
     const float rows[3][3] = {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};

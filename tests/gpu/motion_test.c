@@ -3,6 +3,7 @@
 // and not velocities.
 #include "tests/support/render_paths.h"
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -48,7 +49,7 @@ static void set_matrix(float m[16], float x, float y, float z)
 // previous frame, and the view has become narrower.
 static hair_view view_of(hair_pass pass, float moved)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.pass = pass;
     set_matrix(view.view, 0, 0, -0.8f);
     set_matrix(view.prev_view, moved, 0, -0.8f + 0.5f * moved);

@@ -5,6 +5,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/trace.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 #define refused(result) hair_test_refused(f->test, result, HAIR_ERROR_ARGUMENT, "its context is destroyed or")
 
@@ -23,7 +24,7 @@ struct fixture {
 
 static void draw(struct fixture* f)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_test_ok(f->test, hair_draw(f->hair, &view));
     view.shader = f->shader;
     view.render_path = HAIR_RENDER_PATH_CACHED;
@@ -79,7 +80,7 @@ static void check_refused(struct fixture* f)
     hair_physics physics = hair_physics_default();
     hair_look look = hair_look_default();
     hair_wind wind = hair_wind_default();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_pin pin = hair_pin_default();
     hair_collider collider = hair_collider_default();
     hair_solver_stats stats = hair_solver_stats_default();
@@ -199,7 +200,7 @@ static void orphaned_shader_is_of_another_context(void** state)
     start(&f, *state, 0);
     hair_context_destroy(f.context);
     hair_test_trace_clear();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.shader = f.shader;
     hair_test_refused(f.test, hair_draw(scene.hair, &view), HAIR_ERROR_ARGUMENT, "of another context");
     finish(&f);

@@ -1,6 +1,7 @@
 // other_context_test.c - calls while another OpenGL context than that of the hair_context is
 // current. They are refused, and leave the objects of the other context alone.
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <epoxy/egl.h>
 #include <string.h>
@@ -84,7 +85,7 @@ static void check_refused(struct fixture* f)
     hair_shader* shader = NULL;
     hair_desc desc = hair_desc_default();
     hair_shader_desc shader_desc = hair_shader_desc_default();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_solver_stats stats = hair_solver_stats_default();
     hair_field_info field = hair_field_info_default();
     hair_report_info report = hair_report_info_default();

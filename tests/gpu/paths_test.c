@@ -210,6 +210,7 @@ static void auto_uses_the_path_of_the_table_and_reports_it(void** state)
     static struct picture own, same;
     struct hair_test_scene f = start(state, 0);
     hair_lod lod = hair_lod_default();
+    assert_int_equal(hair_view_default().render_path, HAIR_RENDER_PATH_AUTO);
     for (int i = 0; i < 4; ++i) {
         hair_view view = front(HAIR_RENDER_PATH_AUTO, (hair_primitive)(i % 2));
         view.lod = i / 2 ? &lod : NULL;
@@ -223,16 +224,22 @@ static void auto_uses_the_path_of_the_table_and_reports_it(void** state)
     hair_test_scene_free(&f);
 }
 
-// Check that a fast path is not selected if it needs too much memory.
+// Check that a path needs no memory for vertices.
+static void check_uncached(hair_render_path path)
+{
+    assert_true(path == HAIR_RENDER_PATH_TESSELLATION || path == HAIR_RENDER_PATH_PROCEDURAL);
+}
+
+// Check that a fast path is not selected if it needs more than the driver allows.
 static void auto_does_not_cache_more_than_fits(void** state)
 {
     struct hair_test_scene f = start(state, 0);
     hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
     struct hair_geometry geometry = f.hair->geometry;
     struct hair_renderer many = f.hair->renderer;
-    geometry.followers = 4000000;
+    geometry.followers = 100000000; // No driver has buffers of 40 GB.
     many.geometry = &geometry;
-    assert_int_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_TESSELLATION);
+    check_uncached(hair_test_path_of(&many, &view));
     view.render_path = HAIR_RENDER_PATH_CACHED;
     assert_int_equal(hair_test_path_of(&many, &view), HAIR_RENDER_PATH_CACHED);
     hair_test_scene_free(&f);
@@ -248,7 +255,7 @@ static void auto_stays_within_the_memory_limit(void** state)
     assert_int_not_equal(usual, HAIR_RENDER_PATH_TESSELLATION);
     hair_test_ok(f.test, hair_get_memory(f.test->context, &memory));
     hair_test_ok(f.test, hair_set_memory_limit(f.test->context, memory.bytes + 1024));
-    assert_int_equal(hair_test_path_of(&f.hair->renderer, &view), HAIR_RENDER_PATH_TESSELLATION);
+    check_uncached(hair_test_path_of(&f.hair->renderer, &view));
     hair_test_ok(f.test, hair_set_memory_limit(f.test->context, 0));
     static struct picture picture;
     draw(&f, &view, &picture);
@@ -256,6 +263,44 @@ static void auto_stays_within_the_memory_limit(void** state)
     hair_test_ok(f.test, hair_set_memory_limit(f.test->context, memory.bytes));
     assert_int_equal(hair_test_path_of(&f.hair->renderer, &view), usual);
     hair_test_ok(f.test, hair_set_memory_limit(f.test->context, 0));
+    hair_test_scene_free(&f);
+}
+
+static PFNGLNAMEDBUFFERSTORAGEPROC make_storage;
+static GLsizeiptr refused; // Size of the buffers that refuse_storage() does not make.
+
+static void APIENTRY refuse_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags)
+{
+    if (size != refused) make_storage(buffer, size, data, flags);
+}
+
+// Check that drawing goes on if the driver has no memory for vertices, and asks again later.
+static void auto_draws_without_memory_for_vertices(void** state)
+{
+    static struct picture scarce, usual;
+    struct hair_image_error error;
+    struct hair_test_scene f = start(state, 0);
+    struct hair_gl* gl = &f.test->context->gl;
+    hair_view view = front(HAIR_RENDER_PATH_AUTO, HAIR_PRIMITIVE_RIBBONS);
+    hair_render_path fast = hair_test_path_of(&f.hair->renderer, &view);
+    assert_int_not_equal(fast, HAIR_RENDER_PATH_TESSELLATION);
+    make_storage = gl->NamedBufferStorage;
+    gl->NamedBufferStorage = refuse_storage;
+    refused = (GLsizeiptr)(16 * hair_geometry_count_vertices(&f.hair->geometry));
+    draw(&f, &view, &scarce);
+    assert_int_equal(hair_test_forgive(f.test), 1); // The log tells that memory ran out.
+    check_uncached(hair_test_path_of(&f.hair->renderer, &view));
+    assert_non_null(strstr(drawn_by(&f), name_of(hair_test_path_of(&f.hair->renderer, &view), &view)));
+    gl->NamedBufferStorage = make_storage;
+    view.render_path = HAIR_RENDER_PATH_TESSELLATION;
+    draw(&f, &view, &usual);
+    assert_true(hair_image_error(usual.shown, scarce.shown, usual.mask, SIDE, SIDE, &error));
+    print_message("    without memory: FLIP %.5f\n", error.flip);
+    assert_true(error.flip <= 0.01);
+    view.render_path = HAIR_RENDER_PATH_AUTO;
+    for (int i = 0; i < 300; ++i) hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
+    draw(&f, &view, &usual);
+    assert_int_equal(hair_test_path_of(&f.hair->renderer, &view), fast);
     hair_test_scene_free(&f);
 }
 
@@ -269,6 +314,7 @@ int main(void)
         HAIR_TEST(auto_uses_the_path_of_the_table_and_reports_it),
         HAIR_TEST(auto_does_not_cache_more_than_fits),
         HAIR_TEST(auto_stays_within_the_memory_limit),
+        HAIR_TEST(auto_draws_without_memory_for_vertices),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "tests/support/haircut.h"
+#include "tests/support/tessellated.h"
 
 enum { WIDTH = 203, HEIGHT = 157, PIXELS = WIDTH * HEIGHT, LONG_UNUSED = 242 };
 
@@ -22,7 +23,7 @@ static struct hair_test_scene start(void** state, uint32_t followers, float radi
 // Make a view from the front, at distance `away` from the middle of the head, in metres.
 static hair_view front(hair_render_path path, float away)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.render_path = path;
     view.view[13] = -1.6f, view.view[14] = -away;
     hair_test_set_perspective(&view, 3, 1.25f);

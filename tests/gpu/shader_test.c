@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "tests/support/live_hair.h"
+#include "tests/support/tessellated.h"
 
 #define SIDE 96
 
@@ -30,7 +31,7 @@ static hair_result make(struct hair_test_scene* f, const char* glsl, hair_shade_
 
 static hair_view view_of(hair_pass pass, hair_shader* shader)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.pass = pass;
     view.shader = shader;
     hair_test_set_orthographic(&view, 2, -0.5f, -0.2f);

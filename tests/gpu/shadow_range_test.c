@@ -1,6 +1,7 @@
 // shadow_range_test.c - shadow maps of any range and direction of depth give the same picture,
 // whatever the range and direction of the view.
 #include "tests/support/shadowed.h"
+#include "tests/support/tessellated.h"
 
 #include <stdlib.h>
 
@@ -81,7 +82,7 @@ static void depth_against_the_light_is_refused(void** state)
     for (int is_lamp = 0; is_lamp < 2; ++is_lamp)
         for (int i = 0; i < 4; ++i) {
             struct hair_test_shadowed* f = malloc(sizeof *f);
-            hair_view view = hair_view_default();
+            hair_view view = hair_test_tessellated();
             hair_test_shadowed_start(f, *state, HAIR_SELF_SHADOW_DEPTH, is_lamp);
             hair_test_shadowed_draw_map(f, hair_test_depths[i]);
             f->light.shadow_depth_reversed = !f->light.shadow_depth_reversed;

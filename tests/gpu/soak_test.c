@@ -13,6 +13,7 @@
 
 #include "lib/base/bytes.h"
 #include "tests/support/heads.h"
+#include "tests/support/tessellated.h"
 
 #define LIFE 20 // Number of steps of a life.
 #define PERIOD (LIFE * HAIR_TEST_HEADS)
@@ -84,7 +85,7 @@ static void draw(struct hair_test* test, const struct hair_test_head* head, stru
     static const float clear[5] = {0.2f, 0.2f, 0.2f, 1, 1};
     uint32_t i = head->steps;
     hair_lod lod = hair_lod_default();
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     resize(target, (GLsizei)(64 + 32 * (i / 5 % 4)));
     lod.strand_fraction = 1 - 0.2f * (float)(i % 4);
     lod.per_patch = i / 10 % 2;

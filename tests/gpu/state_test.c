@@ -13,6 +13,7 @@
 #include "tests/support/handmade.h"
 #include "tests/support/render_paths.h"
 #include "tests/support/ways.h"
+#include "tests/support/tessellated.h"
 
 // An application with a debug context of its own, and odd values for all state.
 struct fixture {
@@ -175,7 +176,7 @@ static hair_result teleport(struct fixture* f)
 #define DRAWS (5 * HAIR_TEST_PATHS)
 static hair_result draw_as(struct fixture* f, int i)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     hair_light lights[4];
     hair_lod lod = hair_lod_default();
     int path = i / 5, lit = i % 5 == 4;
@@ -210,7 +211,7 @@ static hair_result draw(struct fixture* f)
     int all = !f->way && f->promise == HAIR_GL_STATE_RESTORE;
     hair_result result = all ? HAIR_OK : draw_again(f);
     for (int i = 0; i < DRAWS && !result && all; ++i) result = draw_as(f, i);
-    hair_view other = hair_view_default();
+    hair_view other = hair_test_tessellated();
     other.pass = HAIR_PASS_WIND;
     if (!result) result = hair_draw(f->hair, &other);
     other.pass = HAIR_PASS_OPACITY;
@@ -227,7 +228,7 @@ static hair_result read_all(struct fixture* f)
 }
 static hair_result prepare(struct fixture* f)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     bool ready = false;
     view.render_path = HAIR_RENDER_PATH_CACHED;
     return hair_precompile(f->hair, &view, &ready);

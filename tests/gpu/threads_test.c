@@ -10,6 +10,7 @@
 
 #include "lib/base/bytes.h"
 #include "tests/support/heads.h"
+#include "tests/support/tessellated.h"
 
 #define THREADS 8
 #define FRAMES 60
@@ -29,7 +30,7 @@ static pthread_barrier_t barrier;
 static hair_result draw(const struct hair_test_head* head)
 {
     static const float clear[5] = {0.2f, 0.2f, 0.2f, 1, 1};
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.frame_index = head->steps;
     view.view[13] = -1.6f;
     view.projection[0] = view.projection[5] = 4, view.projection[10] = -0.5f;

@@ -8,6 +8,7 @@
 #include "lib/api/api.h"
 #include "tests/support/frame.h"
 #include "tests/support/passes.h"
+#include "tests/support/tessellated.h"
 
 // Functions and state that capture draws between the library and OpenGL.
 static struct {
@@ -112,7 +113,7 @@ struct hair_test_lines hair_test_capture_lines(struct hair_test* test, hair_inst
     own->program = program;
     gl->DrawArraysInstanced = capture_patches;
     gl->MultiDrawElementsIndirect = capture_listed;
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.render_path = hair_test_paths[path];
     view.lod = lod;
     view.primitive = HAIR_PRIMITIVE_LINES;

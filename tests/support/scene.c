@@ -1,6 +1,7 @@
 // scene.c - hair to draw, with its context, frame and view, draws that are read, and reports of
 // draws.
 #include "tests/support/scene.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 struct hair_test_scene hair_test_scene_make(struct hair_test* test,
                                             void* (*get_proc)(const char* name, void* user))
 {
-    struct hair_test_scene scene = {.test = test, .view = hair_view_default()};
+    struct hair_test_scene scene = {.test = test, .view = hair_test_tessellated()};
     if (get_proc) scene.context = hair_test_context(test, get_proc);
     return scene;
 }
@@ -87,7 +88,7 @@ void hair_test_set_orthographic(hair_view* view, float scale, float depth, float
 
 hair_view hair_test_view_by(hair_render_path path)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     view.render_path = path;
     hair_test_set_orthographic(&view, 3, 3, 0);
     return view;

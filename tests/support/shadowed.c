@@ -1,5 +1,6 @@
 // shadowed.c - hair under one light with a shadow map.
 #include "tests/support/shadowed.h"
+#include "tests/support/tessellated.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,7 +54,7 @@ void hair_test_shadowed_start(struct hair_test_shadowed* f, struct hair_test* te
 void hair_test_shadowed_draw_map(struct hair_test_shadowed* f, struct hair_test_depth as)
 {
     GLuint framebuffer, map;
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     float clear = as.is_reversed ? 0 : 1;
     glCreateTextures(GL_TEXTURE_2D, 1, &map);
     glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, HAIR_TEST_SHADOW_TEXELS, HAIR_TEST_SHADOW_TEXELS);

@@ -9,6 +9,7 @@
 #include "tests/support/grooms.h"
 #include "tests/support/meshes.h"
 #include "tests/support/refusal.h"
+#include "tests/support/tessellated.h"
 
 #define PIXELS (4 * HAIR_TEST_TORTURE_SIZE * HAIR_TEST_TORTURE_SIZE)
 #define BYTES (1 << 20) // Upper bound on the size of a state.
@@ -127,7 +128,7 @@ hair_groom* hair_test_torture_groom(struct hair_test* test)
 
 hair_view hair_test_torture_view(void)
 {
-    hair_view view = hair_view_default();
+    hair_view view = hair_test_tessellated();
     memset(view.view, 0, sizeof view.view); // From above, with x to the right and z down.
     view.view[0] = view.view[6] = view.view[15] = 1;
     view.view[9] = -1;

@@ -106,7 +106,7 @@ bool view_is_single(const viewer& viewer)
 void view_toggle_tessellation(viewer& viewer)
 {
     settings_of(viewer).view.render_path =
-        view_is_tessellated(viewer) ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
+        view_is_tessellated(viewer) ? HAIR_RENDER_PATH_AUTO : HAIR_RENDER_PATH_TESSELLATION;
 }
 
 bool view_is_tessellated(const viewer& viewer)

@@ -69,7 +69,7 @@ END
 BEGIN(hair_view)
 ENUM(hair_view, pass, HAIR_PASS_COLOR,
       "Output of a draw.", "color", "depth", "guides", "colliders", "motion", "id", "wind", "opacity")
-ENUM(hair_view, render_path, HAIR_RENDER_PATH_TESSELLATION,
+ENUM(hair_view, render_path, HAIR_RENDER_PATH_AUTO,
       "Way in which followers become pixels.", "tessellation", "cached", "compute", "auto", "procedural")
 ENUM(hair_view, primitive, HAIR_PRIMITIVE_RIBBONS, "Primitive that strands are drawn as.", "ribbons", "lines")
 MATRIX(hair_view, view, IDENTITY, "World to view.")
