@@ -56,9 +56,10 @@ function print_program(mixture, stages,    i, n, name, names, part, define, flag
         all = all substr(features, RSTART + 13, RLENGTH - 14) " "
         features = substr(features, RSTART + RLENGTH)
     }
-    # Features that replace colour output are not combined.
+    # Features that replace colour output are not combined. MOTION does not with MOTION_OUTPUT.
     mixed = all
-    gsub(/ (DEPTH|IDS|MOTION)/, "", mixed)
+    gsub(/ (DEPTH|IDS)/, "", mixed)
+    if (mixed !~ / MOTION_OUTPUT /) sub(/ MOTION /, " ", mixed)
     count = split(all, has, " ")
     print_program(" ", stages)
     print_program(mixed, stages)

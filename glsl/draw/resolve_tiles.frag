@@ -1,5 +1,6 @@
 // resolve_tiles.frag - composition of what raster.comp found, sample by sample: the depth, and the
-// colour between two shaded vertices, as it is on a drawn ribbon. With HAIR_ALPHA_COVERAGE it is
+// colour between two shaded vertices, as it is on a drawn ribbon, with HAIR_MOTION_OUTPUT also the
+// motion between two vertices of the vertex cache. With HAIR_ALPHA_COVERAGE it is
 // the opacity of all ribbons in a pixel.
 #version 450 core
 #include "shared.h"
@@ -29,6 +30,25 @@ void write(uint at)
 layout(location = 0) out vec4 color;
 #endif
 
+#ifdef HAIR_MOTION_OUTPUT
+#include "draw_params.glsl"
+#include "draw/motion.glsl"
+
+layout(binding = HAIR_UNIT_CACHED_POSITION) uniform samplerBuffer cached_position_texture;
+layout(binding = HAIR_UNIT_BEFORE) uniform samplerBuffer before_texture;
+layout(location = 1) out vec4 motion;
+
+vec4 motion_at(int vertex, float fraction)
+{
+    vec3 now    = mix(texelFetch(cached_position_texture, vertex).xyz,
+                      texelFetch(cached_position_texture, vertex + 1).xyz, fraction);
+    vec3 before = mix(texelFetch(before_texture, vertex).xyz, texelFetch(before_texture, vertex + 1).xyz,
+                      fraction);
+    return motion_between((draw.before_to_clip * vec4(before, 1.0)).xyw,
+                          (draw.now_to_clip * vec4(now, 1.0)).xyw);
+}
+#endif
+
 void write(uint at)
 {
     if (NUMBER(at) == HAIR_NOBODY) discard;
@@ -40,6 +60,9 @@ void write(uint at)
     float fraction = (float(place & ((1u << raster.fraction_bits) - 1u)) + 0.5) / steps;
     color = mix(texelFetch(shaded_texture, vertex), texelFetch(shaded_texture, vertex + 1), fraction);
     color.rgb = encode_color(color.rgb, raster.encode);
+#ifdef HAIR_MOTION_OUTPUT
+    motion = motion_at(vertex, fraction);
+#endif
 #endif
 }
 #endif

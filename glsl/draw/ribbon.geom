@@ -19,6 +19,12 @@ layout(location = 1) out vec3 ribbon_tangent;
 layout(location = 3) flat out uvec3 ribbon_numbers;
 layout(location = 4) out vec4 ribbon_place;
 #endif
+#ifdef HAIR_MOTION
+layout(location = 5) in vec3 clip_now[];
+layout(location = 6) in vec3 clip_before[];
+layout(location = 5) out vec3 ribbon_now;
+layout(location = 6) out vec3 ribbon_before;
+#endif
 #ifdef HAIR_ALPHA_COVERAGE
 layout(location = 7) noperspective out vec4 ribbon_fraction;
 #endif
@@ -31,6 +37,10 @@ void pass_on(int end, float across)
     ribbon_tangent  = strand_tangent[end];
     ribbon_numbers  = strand_numbers[end];
     ribbon_place    = vec4(strand_place[end].xyz, across);
+#endif
+#ifdef HAIR_MOTION
+    ribbon_now    = clip_now[end];
+    ribbon_before = clip_before[end];
 #endif
 }
 

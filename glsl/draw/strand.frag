@@ -1,8 +1,12 @@
 // strand.frag - a pixel of a strand: its colour, or its numbers or velocity in place of the colour.
+// With HAIR_MOTION_OUTPUT the velocity is beside the colour.
 #version 450 core
 #include "draw_params.glsl"
 #include "draw/varyings.glsl"
-#if !defined(HAIR_IDS) && !defined(HAIR_MOTION)
+#ifdef HAIR_MOTION
+#include "draw/motion.glsl"
+#endif
+#if !defined(HAIR_IDS) && (!defined(HAIR_MOTION) || defined(HAIR_MOTION_OUTPUT))
 #include "draw/encode.glsl"
 #endif
 #ifdef HAIR_USER_PIXELS
@@ -32,17 +36,15 @@ void main()
 {
     color = uvec4(strand_numbers.xy + 1u, uint(clamp(strand_place.x, 0.0, 1.0) * 65535.0 + 0.5), 0u);
 }
-#elif defined(HAIR_MOTION)
+#elif defined(HAIR_MOTION) && !defined(HAIR_MOTION_OUTPUT)
 layout(location = 0) out vec4 color;
 
-void main()
-{
-    // A point that was not in front of the eye has no previous position.
-    vec2 way = clip_before.z > 1e-6 ? clip_now.xy / clip_now.z - clip_before.xy / clip_before.z : vec2(0.0);
-    color    = vec4(0.5 * way, 0.0, 1.0);
-}
+void main() { color = motion_between(clip_before, clip_now); }
 #else
 layout(location = 0) out vec4 color;
+#ifdef HAIR_MOTION
+layout(location = 1) out vec4 motion;
+#endif
 
 #ifdef HAIR_USER_PIXELS
 vec4 shade_pixel()
@@ -74,6 +76,12 @@ void main()
     color.rgb   = encode_color(color.rgb, draw.encode);
 #ifdef HAIR_ALPHA_COVERAGE
     color *= coverage_of(strand_fraction) * draw.viewport.w;
+#endif
+#ifdef HAIR_MOTION
+    motion = motion_between(clip_before, clip_now);
+#ifdef HAIR_ALPHA_COVERAGE
+    motion *= color.a; // Blended like the colour.
+#endif
 #endif
 }
 #endif

@@ -12,7 +12,8 @@
 #define HAIR_UNIT_PATCH 4    // hair_patch[], unsigned.
 // hair_strand[], unsigned. Without a tessellator, in place of patches.
 #define HAIR_UNIT_STRAND 4
-#define HAIR_UNIT_TILE 2     // HAIR_BIND_TILE, for the pass that composes tiles.
+// HAIR_BIND_TILE, for the pass that composes tiles, in place of guide positions.
+#define HAIR_UNIT_TILE 0
 // Textures of redblack by transform feedback.
 #define HAIR_UNIT_STATE 0 // hair_state[].
 #define HAIR_UNIT_REST 1     // hair_rest[].
@@ -52,7 +53,7 @@
 // HAIR_UNIT_FACE_FRACTION and HAIR_UNIT_WALL_VELOCITY include the effect of hair.
 #define HAIR_UNIT_BARE_FACE_FRACTION 5
 #define HAIR_UNIT_BARE_WALL_VELOCITY 7
-// Vertex cache of the previous frame, as HAIR_UNIT_CACHED_POSITION. For velocity passes, in place
+// Vertex cache of the previous frame, as HAIR_UNIT_CACHED_POSITION. For motion vectors, in place
 // of frames.
 #define HAIR_UNIT_BEFORE 2
 #define HAIR_UNIT_UV 5       // vec2 per follower. Texture coordinates of its root on the scalp.

@@ -41,8 +41,8 @@ typedef struct hair_buffers {
     hair_struct_header header;
     /// Attributes to provide, bits of hair_attribute. Input. Others are not computed.
     uint32_t attributes; ///< [0, 127]. Default 1.
-    /// Number of the frame, as hair_view.frame_index. Input. Calls and views of one number share
-    /// the previous frame. 0 begins a new frame with every call.
+    /// Number of the frame. Input. Calls of one number and source share the previous frame. Motion
+    /// vectors of views do not count. 0 begins a new frame with every call.
     uint32_t frame_index; ///< Default 0.
     hair_buffer position; ///< See HAIR_ATTRIBUTE_POSITION.
     hair_buffer radius; ///< See HAIR_ATTRIBUTE_RADIUS.
@@ -69,11 +69,12 @@ HAIR_DESC(hair_buffers)
 /// The buffers have the vertices that hair_read_positions() reads. Only the attributes that are
 /// asked for are computed, and only if they are not up to date. Vertices of followers are those of
 /// HAIR_RENDER_PATH_CACHED, and take the same memory. Colours take 8 bytes per vertex, indices of
-/// strands 4, and previous positions 16. Memory that no call or view uses for 240 frames is freed.
+/// strands 4, and previous positions 16, beside those of motion vectors. Memory that no call or
+/// view uses for 240 frames is freed.
 ///
 /// Do not write to the buffers. Names and contents are valid until the next call for this instance
 /// that needs OpenGL. Draw with them, or copy them, before that. The previous frame is the last of
-/// another frame_index in which previous positions were asked for or HAIR_PASS_MOTION was drawn.
+/// another frame_index in which previous positions of the source were asked for.
 ///
 /// Storage buffers and buffer textures may be read at once. Before any other use, issue
 /// glMemoryBarrier() with the bit of that use, such as GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT.

@@ -183,6 +183,9 @@ typedef enum hair_shade_at {
 ///                                                            geometry towards light i
 ///     vec3 hair_sky(hair_fragment f)                         irradiance of the surroundings
 ///
+/// A shader at HAIR_SHADE_PIXELS may declare outputs from location 1 on. Location 1 is taken in
+/// views with hair_view.motion_output.
+///
 /// The text may use uniform buffers from binding 8 on and textures from unit 24 on. At
 /// HAIR_SHADE_PIXELS it may also use storage buffers from binding 8 on. The application binds them.
 /// Other names of the library are visible and may change, so give your own names a prefix.
@@ -334,8 +337,8 @@ typedef struct hair_view {
     float opacity; ///< [0, 1]. Default 1.
     /// Displacement of the image to the right and up, for temporal antialiasing.
     float jitter[2]; ///< Pixels. [-64, 64]. Default 0.
-    /// Number of the frame, for HAIR_PASS_MOTION and HAIR_SELF_SHADOW_STRANDS. Draws with the same
-    /// index share one previous frame: the last one drawn by HAIR_PASS_MOTION with a different
+    /// Number of the frame, for motion vectors and HAIR_SELF_SHADOW_STRANDS. Draws with the same
+    /// index share one previous frame: the last one drawn with motion vectors and a different
     /// index. Count frames, and motion vectors are right for several views and any number of steps
     /// between them. 0 makes every draw a frame of its own. Hair has no motion in the first frame,
     /// after hair_reset() or hair_load(), and after a change of the number of segments.
@@ -360,6 +363,14 @@ typedef struct hair_view {
     float occluder_matrix[16]; ///< Default 0.
     /// Encoding of what HAIR_PASS_COLOR writes. Hair that appears too dark lacks one.
     hair_encoding encode; ///< Default HAIR_ENCODING_LINEAR.
+    /// Motion vectors as a second output of HAIR_PASS_COLOR, into draw buffer 1, which has floats
+    /// like the target of HAIR_PASS_MOTION. They are the values of that pass, and need its memory.
+    /// Each sample that receives a colour receives a motion vector, so a resolve by averaging
+    /// averages both. With HAIR_COVERAGE_ALPHA motion vectors are blended like colours and
+    /// premultiplied by alpha, so draw the motion of the background before. Without draw buffer 1
+    /// they are lost. HAIR_RENDER_PATH_COMPUTE applies without a hair_lod and without a shader at
+    /// HAIR_SHADE_PIXELS. Other views use HAIR_RENDER_PATH_CACHED. False computes nothing.
+    bool motion_output; ///< Default false.
 } hair_view;
 HAIR_DESC(hair_view)
 

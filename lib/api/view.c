@@ -198,7 +198,7 @@ static int is_of_surroundings(const hair_view* view)
 // Return whether a view shows no hair and may be skipped. Velocities must be drawn in every frame.
 static int is_out_of_view(const hair_instance* hair, const hair_view* view)
 {
-    if (is_of_surroundings(view) || view->pass == HAIR_PASS_MOTION) return 0;
+    if (is_of_surroundings(view) || hair_draw_has_motion(view)) return 0;
     return hair_sim_has_attached_strands(&hair->sim) &&
            hair_draw_is_out_of_view(&hair->renderer, &hair->sim.head_at_last_step, view);
 }

@@ -73,7 +73,7 @@ static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_pl
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->shade) hair_draw_write_vertices(renderer, plan, params);
     if (plan->is_computed) hair_draw_rasterise(renderer, plan);
-    if (plan->view->pass == HAIR_PASS_MOTION) hair_geometry_bind_history(renderer->geometry);
+    if (hair_draw_has_motion(plan->view)) hair_geometry_bind_history(renderer->geometry);
     if (plan->blending == HAIR_BLENDING_SORTED) hair_draw_sort(renderer);
 }
 
@@ -102,7 +102,7 @@ static void draw_followers(struct hair_renderer* renderer, struct hair_draw_plan
     gl->Disable(GL_CULL_FACE); // A ribbon faces the eye with either side.
     hair_gl_begin(gl, plan->draw);
     gl->UseProgram(plan->draw_program);
-    if (plan->blending) hair_draw_begin_blend(gl, &was);
+    if (plan->blending) hair_draw_begin_blend(gl, plan->has_motion_output ? 2 : 1, &was);
     hair_draw_begin_outputs(gl, hair_draw_find_outputs(gl, plan), &outputs);
     submit(renderer, plan);
     hair_draw_end_outputs(gl, &outputs);

@@ -36,6 +36,7 @@ enum hair_draw_resource {
     HAIR_RESOURCE_SELF_SHADOW,
     HAIR_RESOURCE_REFLECTANCE,
     HAIR_RESOURCE_STRAND_INDEX,
+    HAIR_RESOURCE_HOST_HISTORY,
     HAIR_RESOURCE_GUIDE_HISTORY,
     HAIR_RESOURCES
 };
@@ -122,6 +123,8 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
 bool hair_draw_avoid_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan);
 // Return whether the pass draws coverage, either blended colour or the opacity seen from a light.
 bool hair_draw_uses_analytic_coverage(const hair_view* view);
+// Return whether `view` draws motion vectors, alone or beside colour.
+bool hair_draw_has_motion(const hair_view* view);
 // Return whether `view` has an occluder depth texture.
 bool hair_draw_uses_occlusion(const hair_view* view);
 
@@ -222,15 +225,21 @@ void hair_draw_free_strand_index(struct hair_renderer* renderer);
 
 // Blending state of the application. Functions of blend.c.
 struct hair_blend {
-    GLint equation[2], factor[4];
-    GLboolean blends, writes_depth;
+    struct {
+        GLint equation[2], factor[4];
+        GLboolean blends;
+    } buffer[2];
+    GLuint buffers; // Number of draw buffers whose state is changed.
+    GLboolean writes_depth;
 };
-// Blend by alpha and write no depth, until hair_draw_end_blend() restores the state saved in *was.
-void hair_draw_begin_blend(struct hair_gl* gl, struct hair_blend* was);
+// Blend the first `buffers` draw buffers by alpha and write no depth, until hair_draw_end_blend()
+// restores the state saved in *was.
+void hair_draw_begin_blend(struct hair_gl* gl, GLuint buffers, struct hair_blend* was);
 void hair_draw_end_blend(struct hair_gl* gl, const struct hair_blend* was);
 
 #define HAIR_DRAW_BUFFERS 16 // Draw buffers whose colour masks are saved. Drivers have 8.
 #define HAIR_DRAW_FIRST_BUFFER 1u // The draw buffer 0, which all passes but depth write, as a bit.
+#define HAIR_DRAW_MOTION_BUFFER 2u // The draw buffer 1, for motion vectors beside colour, as a bit.
 
 // Colour masks of the application. Functions of outputs.c.
 struct hair_outputs {

@@ -151,10 +151,10 @@ hair_result hair_draw_get_followers(struct hair_renderer* renderer, const struct
         out->strand = buffer_of(index->buffer, 0, 4, GL_R32UI, count);
     }
     if (wanted & HAIR_ATTRIBUTE_PREV_POSITION) {
-        mark_used(renderer, HAIR_RESOURCE_HISTORY);
-        HAIR_TRY(hair_geometry_ensure_history(geometry));
-        hair_geometry_begin_history(geometry, head, out->frame_index);
-        write_previous(&geometry->history, cache->position, count, out);
+        mark_used(renderer, HAIR_RESOURCE_HOST_HISTORY);
+        HAIR_TRY(hair_geometry_ensure_history(geometry, &geometry->host_history));
+        hair_geometry_begin_history(geometry, &geometry->host_history, head, out->frame_index);
+        write_previous(&geometry->host_history, cache->position, count, out);
     }
     if (wanted & HAIR_ATTRIBUTE_POSITION) out->position = buffer_of(cache->position, 0, 16, GL_RGB32F, count);
     if (wanted & HAIR_ATTRIBUTE_RADIUS) out->radius = buffer_of(cache->position, 12, 16, GL_R32F, count);

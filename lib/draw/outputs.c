@@ -19,6 +19,7 @@ uint32_t hair_draw_find_outputs(struct hair_gl* gl, const struct hair_draw_plan*
     GLint count = 0;
     uint32_t buffers = HAIR_DRAW_FIRST_BUFFER;
     if (plan->view->pass == HAIR_PASS_DEPTH) return 0;
+    if (plan->has_motion_output) buffers |= HAIR_DRAW_MOTION_BUFFER;
     if (!plan->shader || !plan->shader->pixels) return buffers;
     gl->GetProgramInterfaceiv(plan->draw_program, GL_PROGRAM_OUTPUT, GL_ACTIVE_RESOURCES, &count);
     for (GLint i = 0; i < count; ++i) buffers |= find_buffers(gl, plan->draw_program, (GLuint)i);

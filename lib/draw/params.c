@@ -56,7 +56,7 @@ static void write_view(const struct hair_renderer* renderer, const struct hair_p
                               hair_draw_cell(renderer, view)};
     out->head = (hair_vec4){head->rotation.x, head->rotation.y, head->rotation.z, head->rotation.w};
     write_clip(renderer, head, view, out);
-    if (view->pass == HAIR_PASS_MOTION) write_motion_matrices(&renderer->geometry->history, view, out);
+    if (hair_draw_has_motion(view)) write_motion_matrices(&renderer->geometry->history, view, out);
 }
 
 void hair_draw_write_params(const struct hair_renderer* renderer, const struct hair_pose* head,

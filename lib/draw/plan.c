@@ -28,7 +28,8 @@ static const struct {
 };
 
 // Kinds of views. The first three have colour or depth, and differ in the application's shader.
-enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, KINDS };
+// COLOR_MOTION has colour and motion vectors, without a pixel shader.
+enum kind { PLAIN, VERTEX_SHADER, PIXEL_SHADER, SORTED, OPACITY, IDS, MOTION, COLOR_MOTION, KINDS };
 
 // The method of each kind of view by render path, without and with a level of detail.
 //
@@ -49,6 +50,7 @@ static const uint8_t method_of[KINDS][3][2] = {
     [OPACITY]       = {{TESS,  TESS},  {CACHE, PROC},  {COMP,  COMPV}},
     [IDS]           = {{TESS,  TESS},  {CACHE, PROC},  {CACHE, PROC}},
     [MOTION]        = {{CACHE, CACHE}, {CACHE, CACHE}, {CACHE, CACHE}},
+    [COLOR_MOTION]  = {{CACHE, CACHE}, {CACHE, CACHE}, {COMP,  CACHE}},
 };
 // clang-format on
 
@@ -98,6 +100,7 @@ static enum kind find_kind(const hair_view* view, const struct hair_gl_shader* s
     case HAIR_PASS_OPACITY: return OPACITY;
     case HAIR_PASS_COLOR:
         if (view->coverage == HAIR_COVERAGE_ALPHA) return SORTED;
+        if (view->motion_output) return shader && shader->pixels ? MOTION : COLOR_MOTION;
         break;
     case HAIR_PASS_DEPTH: break;
     default: return IDS;
@@ -112,7 +115,8 @@ static enum method find_method(enum kind kind, const hair_view* view, hair_rende
 {
     if (path == HAIR_RENDER_PATH_COMPUTE && view->primitive == HAIR_PRIMITIVE_LINES && kind != OPACITY)
         path = HAIR_RENDER_PATH_CACHED;
-    if (path == HAIR_RENDER_PATH_PROCEDURAL) return kind == SORTED || kind == MOTION ? CACHE : PROC;
+    if (path == HAIR_RENDER_PATH_PROCEDURAL)
+        return kind == SORTED || kind == MOTION || kind == COLOR_MOTION ? CACHE : PROC;
     HAIR_ASSERT((unsigned)path < sizeof method_of[0] / sizeof method_of[0][0]);
     return method_of[kind][path][view->lod != NULL];
 }
@@ -164,6 +168,11 @@ bool hair_draw_uses_analytic_coverage(const hair_view* view)
            (view->pass == HAIR_PASS_COLOR && view->coverage == HAIR_COVERAGE_ALPHA);
 }
 
+bool hair_draw_has_motion(const hair_view* view)
+{
+    return view->pass == HAIR_PASS_MOTION || (view->pass == HAIR_PASS_COLOR && view->motion_output);
+}
+
 bool hair_draw_uses_occlusion(const hair_view* view)
 {
     return view->occluder_depth && view->pass != HAIR_PASS_GUIDES;
@@ -201,10 +210,12 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
     out->is_textured = is_colored && view->color_texture && has_uvs;
     out->is_painted = is_colored && renderer->lighting->groom_color && geometry->look.color.groom_colors > 0;
     out->has_root_uvs = out->is_textured || (out->shader && has_uvs);
+    out->has_motion_output = is_colored && view->motion_output;
     out->light_values = hair_lighting_value_count(&geometry->look, view);
     HAIR_ASSERT(out->path != HAIR_RENDER_PATH_AUTO && out->light_values <= 1 + HAIR_LIGHTS);
     // Pixels by compute are opaque or sums, and sorted segments index the vertex cache.
     HAIR_ASSERT(!out->is_computed || out->blending != HAIR_BLENDING_SORTED);
     HAIR_ASSERT(!out->is_computed || kind == OPACITY || view->primitive == HAIR_PRIMITIVE_RIBBONS);
     HAIR_ASSERT(out->blending != HAIR_BLENDING_SORTED || out->vertices == HAIR_VERTICES_CACHED);
+    HAIR_ASSERT(!hair_draw_has_motion(view) || out->vertices == HAIR_VERTICES_CACHED);
 }

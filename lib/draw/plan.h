@@ -40,6 +40,7 @@ struct hair_draw_plan {
     bool is_textured; // The application's texture colours the strands.
     bool is_painted; // The groom's colours colour the strands.
     bool has_root_uvs; // Programs read root uvs.
+    bool has_motion_output; // Motion vectors are a second output, beside colour.
     struct hair_depth_test depth_test; // The test that computed opacity makes.
     uint32_t light_values; // Number of light values per vertex. 0 without self-shadowing.
 

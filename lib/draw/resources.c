@@ -33,9 +33,10 @@ static hair_result ensure_root_uvs(struct hair_renderer* renderer, struct hair_d
 static hair_result ensure_history(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
     HAIR_ASSERT(plan->head && plan->vertices == HAIR_VERTICES_CACHED);
-    hair_result result = hair_geometry_ensure_history(renderer->geometry);
-    if (!result) hair_geometry_begin_history(renderer->geometry, plan->head, plan->view->frame_index);
-    return result;
+    struct hair_geometry* geometry = renderer->geometry;
+    HAIR_TRY(hair_geometry_ensure_history(geometry, &geometry->history));
+    hair_geometry_begin_history(geometry, &geometry->history, plan->head, plan->view->frame_index);
+    return HAIR_OK;
 }
 
 // Release -----------------------------------------------------------------------------------------
@@ -62,12 +63,17 @@ static void free_root_uvs(struct hair_renderer* renderer)
 
 static void free_history(struct hair_renderer* renderer)
 {
-    hair_geometry_free_history(renderer->geometry);
+    hair_geometry_free_history(renderer->geometry, &renderer->geometry->history);
+}
+
+static void free_host_history(struct hair_renderer* renderer)
+{
+    hair_geometry_free_history(renderer->geometry, &renderer->geometry->host_history);
 }
 
 static void free_guide_history(struct hair_renderer* renderer)
 {
-    hair_geometry_free_guide_history(renderer->geometry);
+    hair_geometry_free_history(renderer->geometry, &renderer->geometry->guide_history);
 }
 
 static void free_self_shadow(struct hair_renderer* renderer)
@@ -95,6 +101,7 @@ static const struct {
     // Views need none of these. See host_buffers.c.
     [HAIR_RESOURCE_REFLECTANCE] = {NULL, hair_draw_free_reflectance},
     [HAIR_RESOURCE_STRAND_INDEX] = {NULL, hair_draw_free_strand_index},
+    [HAIR_RESOURCE_HOST_HISTORY] = {NULL, free_host_history},
     [HAIR_RESOURCE_GUIDE_HISTORY] = {NULL, free_guide_history},
 };
 
@@ -114,7 +121,7 @@ static void find_needed(const struct hair_renderer* renderer, const struct hair_
     needed[HAIR_RESOURCE_SHADED] = plan->shade && !is_per_view;
     needed[HAIR_RESOURCE_ROOT_UVS] = plan->has_root_uvs;
     needed[HAIR_RESOURCE_SORTED_SEGMENTS] = plan->blending == HAIR_BLENDING_SORTED;
-    needed[HAIR_RESOURCE_HISTORY] = view->pass == HAIR_PASS_MOTION;
+    needed[HAIR_RESOURCE_HISTORY] = hair_draw_has_motion(view);
     needed[HAIR_RESOURCE_SELF_SHADOW] = is_lit;
 }
 

@@ -12,7 +12,8 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     hair_gl_pass features = 0;
     if (view->pass == HAIR_PASS_DEPTH || view->pass == HAIR_PASS_OPACITY) features |= HAIR_GL_WITH(DEPTH);
     if (view->pass == HAIR_PASS_ID) features |= HAIR_GL_WITH(IDS);
-    if (view->pass == HAIR_PASS_MOTION) features |= HAIR_GL_WITH(MOTION);
+    if (hair_draw_has_motion(view)) features |= HAIR_GL_WITH(MOTION);
+    if (plan->has_motion_output) features |= HAIR_GL_WITH(MOTION_OUTPUT);
     if (view->pass == HAIR_PASS_COLOR && look->shading.model == HAIR_SHADING_FIBRES)
         features |= HAIR_GL_WITH(FIBRES);
     if (plan->blending)

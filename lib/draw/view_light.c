@@ -7,7 +7,7 @@
 // cache that views share has all vertices.
 static bool needs_light_of_a_part(const struct hair_renderer* renderer, const hair_view* view)
 {
-    return view->lod && !renderer->geometry->history.buffer &&
+    return view->lod && !hair_geometry_has_history(renderer->geometry) &&
            !hair_geometry_has_vertex_cache(renderer->geometry);
 }
 

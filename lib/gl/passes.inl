@@ -68,7 +68,8 @@ FEATURE(STYLED, "HAIR_STYLED") // The look kinks, curls or cuts followers.
 FEATURE(ROOT_UV, "HAIR_ROOT_UV") // Strands have colours or positions on the scalp of their own.
 FEATURE(GROOM_COLORS, "HAIR_GROOM_COLORS") // Strands have the groom's colours.
 FEATURE(IDS, "HAIR_IDS") // Numbers in place of colour.
-FEATURE(MOTION, "HAIR_MOTION") // Velocities in place of colour.
+FEATURE(MOTION, "HAIR_MOTION") // Velocities, in place of colour without MOTION_OUTPUT.
+FEATURE(MOTION_OUTPUT, "HAIR_MOTION_OUTPUT") // Velocities beside colour.
 FEATURE(ALPHA_COVERAGE, "HAIR_ALPHA_COVERAGE") // Strands cover fractions of pixels.
 FEATURE(OPAQUE_SHADOWS, "HAIR_OPAQUE_SHADOWS") // Opaque geometry blocks lights.
 FEATURE(SHADED, "HAIR_SHADED") // A compute pass has shaded the vertices.
@@ -165,9 +166,10 @@ PASS(CULL_PATCHES, "draw/cull_patches", OCCLUSION, WITH(HITS), "draw/cull_patche
 PASS(TESSELLATED, "draw/tessellated", COLOR, DRAW_FEATURES | WITH(HITS) | WITH(OCCLUSION),
      "draw/patch.vert draw/patch.tesc draw/strand.tese" DRAW_STAGES)
 PASS(PROCEDURAL, "draw/procedural", COLOR, DRAW_FEATURES | WITH(HITS), "draw/strand.vert" DRAW_STAGES)
-PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
+PASS(CACHED, "draw/cached", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(MOTION_OUTPUT) | WITH(SHADED),
      "HAIR_VERTEX_CACHE=1 draw/strand.vert" DRAW_STAGES)
-PASS(CACHED_PAIRED, "draw/cached_paired", COLOR, DRAW_FEATURES | WITH(MOTION) | WITH(SHADED),
+PASS(CACHED_PAIRED, "draw/cached_paired", COLOR,
+     DRAW_FEATURES | WITH(MOTION) | WITH(MOTION_OUTPUT) | WITH(SHADED),
      "HAIR_VERTEX_CACHE=1 HAIR_PAIRED=1 draw/strand.vert !HAIR_DEPTH?draw/strand.frag "
      "HAIR_DEPTH?draw/depth.frag")
 PASS(EXPAND_VIEW, "draw/expand_view", COLOR, STAGE_FEATURES, "draw/expand_view.comp")
@@ -179,7 +181,7 @@ PASS(RASTER_CLEAR, "draw/raster_clear", COLOR, RASTER_FEATURES, "draw/raster_cle
 PASS(RASTER, "draw/raster", COLOR, RASTER_FEATURES | WITH(WIDENED), "HAIR_VERTEX_CACHE=1 draw/raster.comp")
 PASS(COMPOSE_TILES, "draw/compose_tiles", COLOR, RASTER_FEATURES | WITH(WIDENED),
      "HAIR_VERTEX_CACHE=1 draw/compose_tiles.comp")
-PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES,
+PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES | WITH(MOTION_OUTPUT),
      "draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR, WITH(FIBRES) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
      "HAIR_VERTEX_CACHE=1 draw/shade.comp")

@@ -40,7 +40,7 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     if (!gl) return;
     hair_geometry_free_follower_collision(geometry);
     hair_geometry_free_vertex_cache(geometry);
-    hair_geometry_free_guide_history(geometry);
+    hair_geometry_free_history(geometry, &geometry->guide_history);
     hair_geometry_free_uvs(geometry);
     hair_root_bindings_release(geometry->root_bindings);
     geometry->root_bindings = NULL;

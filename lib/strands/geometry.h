@@ -26,8 +26,10 @@ struct hair_geometry {
     uint32_t bound_run;
     struct hair_follower_collision_state follower_collision;
     struct hair_vertex_cache vertex_cache;
-    struct hair_vertex_history history;
-    struct hair_vertex_history guide_history; // Smoothed guides, for the application.
+    struct hair_vertex_history history; // Vertices of followers, for motion vectors.
+    // Vertices of followers and smoothed guides, for the application. Its frames are not those of
+    // views.
+    struct hair_vertex_history host_history, guide_history;
     // Root bindings to the scalp. NULL if there is no scalp.
     struct hair_root_bindings* root_bindings;
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
@@ -132,21 +134,23 @@ void hair_geometry_free_follower_collision(struct hair_geometry* geometry);
 
 // Functions of history.c.
 
-// Create the buffer of the previous frame's vertices.
-hair_result hair_geometry_ensure_history(struct hair_geometry* geometry);
-void hair_geometry_free_history(struct hair_geometry* geometry);
-// Begin frame number `frame`, or continue it. The vertices must be up to date.
-void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head,
-                                 uint32_t frame);
-// Keep the vertices that the previous frame displayed, before they are overwritten.
+// Create the buffer of the previous frame's vertices of followers. `history` is one of the
+// geometry.
+hair_result hair_geometry_ensure_history(struct hair_geometry* geometry, struct hair_vertex_history* history);
+void hair_geometry_free_history(struct hair_geometry* geometry, struct hair_vertex_history* history);
+// Begin frame number `frame` of followers, or continue it. The vertices must be up to date.
+void hair_geometry_begin_history(struct hair_geometry* geometry, struct hair_vertex_history* history,
+                                 const struct hair_pose* head, uint32_t frame);
+// Keep the vertices that previous frames displayed, before they are overwritten.
 void hair_geometry_save_history(struct hair_geometry* geometry);
+// Return whether vertices of followers of a previous frame are kept.
+bool hair_geometry_has_history(const struct hair_geometry* geometry);
 // Create the buffer of the previous frame's smoothed guides, and begin frame number `frame`, or
 // continue it. The guides must be up to date.
 hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, const struct hair_pose* head,
                                               uint32_t frame);
 // Keep the smoothed guides that the previous frame displayed, before they are overwritten.
 void hair_geometry_save_guide_history(struct hair_geometry* geometry);
-void hair_geometry_free_guide_history(struct hair_geometry* geometry);
 // Forget the previous frame, because the hair has jumped.
 void hair_geometry_forget_history(struct hair_geometry* geometry);
 // Move the previous frame's positions with a head that is teleported.

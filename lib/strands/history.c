@@ -4,19 +4,24 @@
 
 #include <string.h>
 
-hair_result hair_geometry_ensure_history(struct hair_geometry* geometry)
+hair_result hair_geometry_ensure_history(struct hair_geometry* geometry, struct hair_vertex_history* history)
 {
     size_t vertices = geometry->vertex_cache.vertices;
     HAIR_ASSERT(vertices > 0);
     return hair_gl_ensure_array(geometry->gl, HAIR_GL_CATEGORY_EXPAND, "hair vertex cache before",
-                                vertices * sizeof(hair_vec4), &geometry->history.buffer, GL_RGBA32F,
-                                &geometry->history.texture);
+                                vertices * sizeof(hair_vec4), &history->buffer, GL_RGBA32F,
+                                &history->texture);
 }
 
-void hair_geometry_free_history(struct hair_geometry* geometry)
+void hair_geometry_free_history(struct hair_geometry* geometry, struct hair_vertex_history* history)
 {
-    hair_gl_free_array(geometry->gl, &geometry->history.buffer, &geometry->history.texture);
-    geometry->history.shown = 0;
+    hair_gl_free_array(geometry->gl, &history->buffer, &history->texture);
+    history->shown = 0;
+}
+
+bool hair_geometry_has_history(const struct hair_geometry* geometry)
+{
+    return geometry->history.buffer || geometry->host_history.buffer;
 }
 
 static void swap_buffers(GLuint* a, GLuint* b)
@@ -26,20 +31,33 @@ static void swap_buffers(GLuint* a, GLuint* b)
     *b = c;
 }
 
+// Return whether a history displayed the buffer with this number of writes, so that it keeps it.
+static bool is_displayed(const struct hair_vertex_history* history, uint32_t writes)
+{
+    return history->buffer && history->shown && history->shown == writes;
+}
+
 // Exchange the buffer of the frame that was displayed for that of the frame before, which may be
 // overwritten. `writes` is the number of writes of the displayed buffer.
 static void save(struct hair_vertex_history* history, uint32_t writes, GLuint* buffer, GLuint* texture)
 {
-    if (!history->buffer || !history->shown || history->shown != writes) return;
+    if (!is_displayed(history, writes)) return;
     HAIR_ASSERT(history->buffer != *buffer && history->texture != *texture);
     swap_buffers(&history->buffer, buffer);
     swap_buffers(&history->texture, texture);
 }
 
+// Only one history can take the displayed buffer. The other copies it.
 void hair_geometry_save_history(struct hair_geometry* geometry)
 {
-    struct hair_vertex_cache* vertex_cache = &geometry->vertex_cache;
-    save(&geometry->history, vertex_cache->writes, &vertex_cache->position, &vertex_cache->position_texture);
+    struct hair_vertex_cache* cache = &geometry->vertex_cache;
+    struct hair_vertex_history *history = &geometry->history, *host = &geometry->host_history;
+    save(history, cache->writes, &cache->position, &cache->position_texture);
+    if (!is_displayed(history, cache->writes))
+        save(host, cache->writes, &cache->position, &cache->position_texture);
+    else if (is_displayed(host, cache->writes))
+        geometry->gl->CopyNamedBufferSubData(history->buffer, host->buffer, 0, 0,
+                                             (GLsizeiptr)(cache->vertices * sizeof(hair_vec4)));
 }
 
 void hair_geometry_save_guide_history(struct hair_geometry* geometry)
@@ -62,9 +80,10 @@ static void begin_history(struct hair_vertex_history* history, uint32_t writes, 
     history->shown = writes;
 }
 
-void hair_geometry_begin_history(struct hair_geometry* geometry, const struct hair_pose* head, uint32_t frame)
+void hair_geometry_begin_history(struct hair_geometry* geometry, struct hair_vertex_history* history,
+                                 const struct hair_pose* head, uint32_t frame)
 {
-    begin_history(&geometry->history, geometry->vertex_cache.writes, head, frame);
+    begin_history(history, geometry->vertex_cache.writes, head, frame);
 }
 
 hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, const struct hair_pose* head,
@@ -78,15 +97,10 @@ hair_result hair_geometry_begin_guide_history(struct hair_geometry* geometry, co
     return HAIR_OK;
 }
 
-void hair_geometry_free_guide_history(struct hair_geometry* geometry)
-{
-    hair_gl_free_array(geometry->gl, &geometry->guide_history.buffer, &geometry->guide_history.texture);
-    geometry->guide_history.shown = 0;
-}
-
 void hair_geometry_forget_history(struct hair_geometry* geometry)
 {
     geometry->history.shown = 0;
+    geometry->host_history.shown = 0;
     geometry->guide_history.shown = 0;
 }
 
@@ -112,6 +126,7 @@ void hair_geometry_teleport_history(struct hair_geometry* geometry, const struct
 {
     HAIR_ASSERT(geometry->history.shown <= geometry->vertex_cache.writes);
     teleport(&geometry->history, from, to);
+    teleport(&geometry->host_history, from, to);
     teleport(&geometry->guide_history, from, to);
 }
 

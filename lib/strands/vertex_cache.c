@@ -48,7 +48,8 @@ void hair_geometry_free_vertex_cache(struct hair_geometry* geometry)
     own->vertices = 0;
     own->is_complete = 0;
     hair_geometry_free_shaded(geometry);
-    hair_geometry_free_history(geometry);
+    hair_geometry_free_history(geometry, &geometry->history);
+    hair_geometry_free_history(geometry, &geometry->host_history);
 }
 
 // Return whether the cache is up to date. Whatever moves or changes followers also invalidates

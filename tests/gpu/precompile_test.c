@@ -147,6 +147,12 @@ static void show_motion(struct fixture* f, hair_view* view)
     view->pass = HAIR_PASS_MOTION;
 }
 
+static void show_motion_beside_colour(struct fixture* f, hair_view* view)
+{
+    (void)f;
+    view->motion_output = true;
+}
+
 static void leave_out(struct fixture* f, hair_view* view)
 {
     static hair_lod lod;
@@ -188,6 +194,7 @@ static const struct {
     {"levels of detail, computed", HAIR_RENDER_PATH_COMPUTE, leave_out},
     {"levels of detail, expanded", HAIR_RENDER_PATH_CACHED, leave_out},
     {"velocities", HAIR_RENDER_PATH_TESSELLATION, show_motion},
+    {"velocities beside colour, computed", HAIR_RENDER_PATH_COMPUTE, show_motion_beside_colour},
     {"colliders", HAIR_RENDER_PATH_TESSELLATION, show_colliders},
 };
 

@@ -49,7 +49,7 @@ static struct fixture* start(void)
 }
 
 // Settings of a view, as digits of a number.
-#define VIEWS (PASSES * HAIR_TEST_PATHS * 2 * 2 * 2 * 3)
+#define VIEWS (PASSES * HAIR_TEST_PATHS * 2 * 2 * 2 * 3 * 2)
 
 struct settings {
     hair_view view;
@@ -66,6 +66,7 @@ static struct settings settings_of(struct fixture* f, int number)
     s.view.lod = number % 2 ? &f->lod : NULL;
     s.view.primitive = (hair_primitive)(number / 2 % 2);
     s.view.coverage = (hair_coverage)(number / 4 % 2);
+    s.view.motion_output = number / 24 % 2;
     if (number / 8 % 3) s.shader = &f->shader;
     f->shader.pixels = number / 8 % 3 == 2;
     s.view.lights = &f->light;
@@ -94,15 +95,17 @@ static void plans_take_the_path_that_the_header_documents(void** state)
             path = HAIR_RENDER_PATH_CACHED;
         if (path == HAIR_RENDER_PATH_CACHED && view->lod && (!has_colour_or_depth || s.shader))
             path = HAIR_RENDER_PATH_PROCEDURAL;
-        if (view->pass == HAIR_PASS_MOTION || is_blended(view)) path = HAIR_RENDER_PATH_CACHED;
+        bool has_motion =
+            view->pass == HAIR_PASS_MOTION || (view->pass == HAIR_PASS_COLOR && view->motion_output);
+        if (is_blended(view) || (has_motion && (path != HAIR_RENDER_PATH_COMPUTE || view->lod)))
+            path = HAIR_RENDER_PATH_CACHED;
         if (plan.path != path) fail_msg("view %d takes path %d, not %d", i, plan.path, path);
         assert_int_equal(plan.is_computed, path == HAIR_RENDER_PATH_COMPUTE);
         assert_int_equal(plan.has_strand_list, path != HAIR_RENDER_PATH_TESSELLATION);
         assert_int_equal(plan.blending == HAIR_BLENDING_SORTED, is_blended(view));
         assert_int_equal(plan.blending == HAIR_BLENDING_UNSORTED, view->pass == HAIR_PASS_OPACITY);
         if (plan.vertices == HAIR_VERTICES_PER_VIEW) assert_non_null(view->lod);
-        if (plan.vertices == HAIR_VERTICES_CACHED && view->lod)
-            assert_true(view->pass == HAIR_PASS_MOTION || is_blended(view));
+        if (plan.vertices == HAIR_VERTICES_CACHED && view->lod) assert_true(has_motion || is_blended(view));
     }
 }
 

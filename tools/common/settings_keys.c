@@ -64,6 +64,7 @@ static const struct {
     {HAIR_STRUCT_VIEW, "light_count", NULL},
     {HAIR_STRUCT_VIEW, "jitter", NULL},
     {HAIR_STRUCT_VIEW, "frame_index", NULL},
+    {HAIR_STRUCT_VIEW, "motion_output", NULL},
 };
 
 // Return whether a member is a setting. Matrices and tables are none.

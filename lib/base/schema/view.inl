@@ -93,7 +93,7 @@ FLOAT(hair_view, opacity, 1, 0, 1, 0, 1, LINEAR, "",
 PAIR(hair_view, jitter, 0, 0, "x", "y", -64, 64, -0.5, 0.5, LINEAR, "pixels",
       "Displacement of the image to the right and up, for temporal antialiasing.")
 UINT(hair_view, frame_index, 0, 0, UINT32_MAX, 0, UINT32_MAX, LINEAR, "",
-      "Number of the frame, for HAIR_PASS_MOTION and HAIR_SELF_SHADOW_STRANDS.")
+      "Number of the frame, for motion vectors and HAIR_SELF_SHADOW_STRANDS.")
 MATRIX(hair_view, prev_view, IDENTITY, "`view` of the previous frame.")
 MATRIX(hair_view, prev_projection, IDENTITY, "`projection` of the previous frame.")
 TEXTURE(hair_view, color_texture,
@@ -104,10 +104,13 @@ MATRIX(hair_view, occluder_matrix, ZEROS,
       "Transform from the world to the clip space of occluder_depth, which may be that of the previous "
       "frame.")
 ENUM(hair_view, encode, HAIR_ENCODING_LINEAR, "Encoding of what HAIR_PASS_COLOR writes.", "linear", "srgb")
+BOOL(hair_view, motion_output, false,
+     "Motion vectors as a second output of HAIR_PASS_COLOR, into draw buffer 1, which has floats like the "
+     "target of HAIR_PASS_MOTION.")
 END
 BEGIN(hair_buffers)
 UINT(hair_buffers, attributes, HAIR_ATTRIBUTE_POSITION, 0, 127, 0, 127, LINEAR, "",
       "Attributes to provide, bits of hair_attribute.")
 UINT(hair_buffers, frame_index, 0, 0, UINT32_MAX, 0, UINT32_MAX, LINEAR, "",
-      "Number of the frame, as hair_view.frame_index.")
+      "Number of the frame.")
 END
