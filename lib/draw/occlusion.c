@@ -101,6 +101,7 @@ bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct
     if (!hair_draw_uses_occlusion(view)) return false;
     gl->GetFloati_v(GL_VIEWPORT, 0, viewport);
     find_size(gl, view->occluder_depth, out);
+    if (!out->width || !out->height) return false; // A lost context answers nothing.
     find_clip(renderer, head, view, &own, clip);
     write_texture(gl, to_texture, range);
     hair_mat4_multiply(to_texture, clip, matrix);
