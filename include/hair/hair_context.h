@@ -116,4 +116,35 @@ HAIR_API hair_result hair_context_restore(hair_context* context);
 /// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_context_reload(hair_context* context);
 
+/// Bytes that the text of hair_context_tune() takes at most, with its terminating 0.
+#define HAIR_TUNING_SIZE 256
+
+/// Measure which render path is the fastest on this driver for each kind of view. From then on
+/// HAIR_RENDER_PATH_AUTO selects these paths in the context, in place of the built-in table. The
+/// simulation does not change, and all paths draw the same image.
+///
+/// The call draws hair of its own into a texture of its own. It measures for about half a second.
+/// Before, it compiles the programs of all paths, which may take seconds. Keep the text, for
+/// example in a file beside the programs of hair_cache. Pass it to hair_context_set_tuning() when
+/// the application starts again. The OpenGL state is left as it was, whatever
+/// hair_context_desc.gl_state is.
+///
+/// @param context Context.
+/// @param out Receives the paths as text, with a key of the driver.
+/// @param capacity Bytes of `out`. At least HAIR_TUNING_SIZE.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_CONTEXT_LOST. The
+/// paths are then those of before.
+/// OpenGL: required. Waits for the GPU.
+HAIR_API hair_result hair_context_tune(hair_context* context, char* out, size_t capacity);
+
+/// Select the paths of an earlier hair_context_tune() for HAIR_RENDER_PATH_AUTO.
+/// hair_context_restore() goes back to the built-in table.
+///
+/// @param context Context.
+/// @param tuning Text of hair_context_tune(). It may be from an untrusted file, because every other
+///               text is refused. NULL selects the built-in table.
+/// Errors: HAIR_ERROR_ARGUMENT if the text is not of hair_context_tune(), or of another driver.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_context_set_tuning(hair_context* context, const char* tuning);
+
 #endif

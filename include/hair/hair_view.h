@@ -64,7 +64,8 @@ typedef enum hair_render_path {
     /// opacity, plus one half of this.
     HAIR_RENDER_PATH_COMPUTE,
     /// The fastest path for the view on this driver, by a built-in table of measured drivers.
-    /// Drivers that are not in the table use HAIR_RENDER_PATH_CACHED. Nothing is timed.
+    /// Drivers that are not in the table use HAIR_RENDER_PATH_CACHED. Nothing is timed while hair
+    /// is drawn. hair_context_tune() measures the paths of a driver.
     ///
     /// Vertices or samples may exceed the driver's limits, hair_set_memory_limit() or the memory.
     /// The view is then drawn by a path without them. hair_report() tells which path it is.

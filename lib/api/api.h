@@ -18,6 +18,7 @@ struct hair_context {
     hair_host host;
     hair_context_desc desc; // of the creation. The memory behind its pointers may be gone.
     struct hair_gl gl;
+    struct hair_fastest fastest; // render paths that HAIR_RENDER_PATH_AUTO selects
     struct hair_sdf_pool sdf_pool; // shared by the fields of all instances
     struct hair_context_member* members; // all that own something, newest first
     uint32_t holder_count; // the application, until it destroys the context, and all members

@@ -22,6 +22,7 @@ hair_result hair_context_create(const hair_context_desc* desc, hair_context** ou
         hair_free(&host, context);
         return result;
     }
+    hair_fastest_find(&context->gl, &context->fastest);
     *out = context;
     return HAIR_OK;
 }

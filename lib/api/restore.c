@@ -166,7 +166,10 @@ hair_result hair_context_restore(hair_context* context)
         context->gl = made;
         hair_sdf_pool_init(&context->sdf_pool, &context->gl);
         result = make_all_again(context, &lost);
-        if (!result) free_lost(context, &lost);
+        if (!result) {
+            hair_fastest_find(&context->gl, &context->fastest);
+            free_lost(context, &lost);
+        }
     }
     hair_free(host, lost.instances);
     return result;

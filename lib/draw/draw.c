@@ -5,7 +5,7 @@
 
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
                           const hair_vec3 bounds[2], struct hair_geometry* geometry,
-                          struct hair_lighting* lighting)
+                          struct hair_lighting* lighting, const struct hair_fastest* fastest)
 {
     hair_vec3 middle = hair_lerp(bounds[0], bounds[1], 0.5f);
     renderer->gl = gl;
@@ -14,7 +14,7 @@ void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, co
     renderer->head_sphere = groom->head_sphere;
     renderer->reach = (hair_vec4){middle.x, middle.y, middle.z, hair_distance(middle, bounds[1])};
     hair_draw_find_extent(renderer, groom);
-    hair_draw_find_fastest(renderer);
+    renderer->fastest = fastest;
 }
 
 void hair_renderer_destroy(struct hair_renderer* renderer)

@@ -2,6 +2,7 @@
 #ifndef HAIR_DRAW_DRAW_H
 #define HAIR_DRAW_DRAW_H
 
+#include "lib/draw/fastest.h"
 #include "lib/draw/host_buffers.h"
 #include "lib/draw/occlusion.h"
 #include "lib/draw/plan.h"
@@ -47,7 +48,7 @@ struct hair_renderer {
     struct hair_lighting* lighting;
     uint32_t frame; // Number of the current frame, set by hair_draw_free_unused().
     uint32_t last_used[HAIR_RESOURCES]; // Frame in which each resource was last used.
-    uint32_t driver; // Row of paths.inl for this driver.
+    const struct hair_fastest* fastest; // Paths that HAIR_RENDER_PATH_AUTO selects, of the context.
     size_t scarce_vertices; // Vertices that the memory did not hold. 0 if it held all.
     uint32_t scarce_frame; // Frame in which it did not.
     // Sphere under the hair, from the groom. xyz is the centre, w the radius in metres.
@@ -70,11 +71,11 @@ struct hair_renderer {
     hair_vec4 reach;
 };
 
-// Create a renderer of strands and lighting, which must outlive it. `bounds` are the lower and the
-// upper corner of the hair in the head's frame.
+// Create a renderer of strands and lighting, which must outlive it like `fastest`. `bounds` are the
+// lower and the upper corner of the hair in the head's frame.
 void hair_renderer_create(struct hair_renderer* renderer, struct hair_gl* gl, const struct hair_groom* groom,
                           const hair_vec3 bounds[2], struct hair_geometry* geometry,
-                          struct hair_lighting* lighting);
+                          struct hair_lighting* lighting, const struct hair_fastest* fastest);
 void hair_renderer_destroy(struct hair_renderer* renderer);
 // Set whether roots are fixed to the groom, and whether all strands are attached to it. Culling
 // depends on both.
@@ -112,8 +113,6 @@ void hair_draw_issue_strand_list(struct hair_renderer* renderer, int paired);
 
 // Functions of plan.c.
 
-// Find the row of paths.inl for the driver.
-void hair_draw_find_fastest(struct hair_renderer* renderer);
 // Make the plan of a view. Call this once per view, because it may query the viewport. `shader` is
 // the application's. NULL selects the built-in shading.
 void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* view,

@@ -54,29 +54,6 @@ static const uint8_t method_of[KINDS][3][2] = {
 };
 // clang-format on
 
-// Uses of a path, and the columns of paths.inl. UNCACHED is for vertices that no memory holds.
-enum use { RIBBONS, LINES, LOD_RIBBONS, LOD_LINES, DEPTH, UNCACHED, USES };
-
-static const struct {
-    const char* renderer; // Part of the renderer's name.
-    uint8_t path[USES];
-} fastest[] = {
-#define FASTEST(renderer, ribbons, lines, lod_ribbons, lod_lines, depth, uncached)                           \
-    {renderer,                                                                                               \
-     {HAIR_RENDER_PATH_##ribbons, HAIR_RENDER_PATH_##lines, HAIR_RENDER_PATH_##lod_ribbons,                  \
-      HAIR_RENDER_PATH_##lod_lines, HAIR_RENDER_PATH_##depth, HAIR_RENDER_PATH_##uncached}},
-#include "lib/draw/paths.inl"
-#undef FASTEST
-};
-
-void hair_draw_find_fastest(struct hair_renderer* renderer)
-{
-    const char* name = (const char*)renderer->gl->GetString(GL_RENDERER);
-    renderer->driver = 0;
-    while (*fastest[renderer->driver].renderer && !(name && strstr(name, fastest[renderer->driver].renderer)))
-        ++renderer->driver;
-}
-
 // Return whether compute rasterisation has room for the samples of the viewport.
 static bool has_few_samples(const struct hair_renderer* renderer)
 {
@@ -137,19 +114,18 @@ static hair_render_path find_fastest_for(const struct hair_renderer* renderer, e
                                          const hair_view* view)
 {
     bool is_of_lines = view->primitive == HAIR_PRIMITIVE_LINES && !hair_draw_uses_analytic_coverage(view);
-    enum use use = is_of_lines ? LINES : RIBBONS;
+    enum hair_path_use use = is_of_lines ? HAIR_USE_LINES : HAIR_USE_RIBBONS;
     if (view->lod)
-        use = is_of_lines ? LOD_LINES : LOD_RIBBONS;
+        use = is_of_lines ? HAIR_USE_LOD_LINES : HAIR_USE_LOD_RIBBONS;
     else if (view->pass != HAIR_PASS_COLOR)
-        use = DEPTH;
-    HAIR_ASSERT(renderer->driver < sizeof fastest / sizeof *fastest);
-    const uint8_t* paths = fastest[renderer->driver].path;
+        use = HAIR_USE_DEPTH;
+    const uint8_t* paths = renderer->fastest->path;
     hair_render_path path = (hair_render_path)paths[use];
     if (path == HAIR_RENDER_PATH_COMPUTE &&
         !(methods[find_method(kind, view, path)].is_computed && has_few_samples(renderer)))
         path = view->pass == HAIR_PASS_COLOR ? HAIR_RENDER_PATH_CACHED : HAIR_RENDER_PATH_TESSELLATION;
     if (path == HAIR_RENDER_PATH_TESSELLATION || can_cache(renderer)) return path;
-    return (hair_render_path)paths[UNCACHED];
+    return (hair_render_path)paths[HAIR_USE_UNCACHED];
 }
 
 bool hair_draw_avoid_cache(struct hair_renderer* renderer, const struct hair_draw_plan* plan)

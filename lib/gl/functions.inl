@@ -114,6 +114,7 @@ FUNCTION(void, ShaderSource, (GLuint, GLsizei, const GLchar* const*, const GLint
 FUNCTION(void, TextureBuffer, (GLuint, GLenum, GLuint))
 FUNCTION(void, TextureParameteri, (GLuint, GLenum, GLint))
 FUNCTION(void, TextureStorage2D, (GLuint, GLsizei, GLenum, GLsizei, GLsizei))
+FUNCTION(void, TextureStorage2DMultisample, (GLuint, GLsizei, GLenum, GLsizei, GLsizei, GLboolean))
 FUNCTION(void, TextureStorage3D, (GLuint, GLsizei, GLenum, GLsizei, GLsizei, GLsizei))
 FUNCTION(void, TextureSubImage3D,
          (GLuint, GLint, GLint, GLint, GLint, GLsizei, GLsizei, GLsizei, GLenum, GLenum, const void*))
