@@ -27,6 +27,7 @@ void hair_gl_profiler_next_frame(struct hair_gl_profiler* profiler)
     struct hair_gl_frame* frame = hair_gl_profiler_frame(profiler, ++profiler->number);
     frame->number = profiler->number;
     frame->spans = 0;
+    frame->is_full = false;
     memset(frame->runs, 0, sizeof frame->runs);
 }
 
@@ -54,7 +55,8 @@ void hair_gl_profiler_begin(struct hair_gl* gl, hair_gl_pass pass)
     ++frame->runs[category];
     frame->pass[category] = pass;
     int same = frame->spans > 0 && frame->category[frame->spans - 1] == category;
-    if (!gl->timings || same || frame->spans == HAIR_GL_SPANS) return;
+    frame->is_full |= !same && frame->spans == HAIR_GL_SPANS;
+    if (!gl->timings || same || frame->is_full) return;
     if (!frame->query[0][0]) gl->CreateQueries(GL_TIMESTAMP, 2 * HAIR_GL_SPANS, frame->query[0]);
     if (!frame->query[0][0]) return; // The driver has made no queries, so nothing is timed.
     gl->QueryCounter(frame->query[frame->spans][0], GL_TIMESTAMP);
@@ -65,7 +67,7 @@ void hair_gl_profiler_end(struct hair_gl* gl, hair_gl_pass pass)
 {
     if (!gl->profiler || !gl->timings) return;
     struct hair_gl_frame* frame = hair_gl_profiler_frame(gl->profiler, gl->profiler->number);
-    if (frame->spans > 0 && frame->category[frame->spans - 1] == category_of(pass))
+    if (frame->spans > 0 && !frame->is_full && frame->category[frame->spans - 1] == category_of(pass))
         gl->QueryCounter(frame->query[frame->spans - 1][1], GL_TIMESTAMP);
 }
 

@@ -15,6 +15,7 @@ struct hair_gl_frame {
     uint32_t runs[HAIR_GL_CATEGORIES];
     hair_gl_pass pass[HAIR_GL_CATEGORIES]; // Last pass that ran, per category.
     uint32_t spans;
+    bool is_full; // Passes after the last span are not timed.
     hair_gl_category category[HAIR_GL_SPANS]; // Category of each span of consecutive passes.
     GLuint query[HAIR_GL_SPANS][2]; // Start and end of each span. 0 until something is timed.
 };

@@ -9,13 +9,19 @@
 #define FULL 65536 // Vertices that keep all multiprocessors of a GPU busy.
 #define LONG 56 // Vertices of a guide from which on the cost of a vertex grows with their square.
 #define SHORT 32 // Maximum vertices of a guide that fits into a subgroup.
-// Ratio of the cost among colliders that are looked up in the grid to that without.
+// Ratios of the cost among colliders that are looked up in the grid to that without.
 #define GRID_COST 2
+#define MANY_COST 13
 // Vertices of the guides beyond which a vertex costs twice as much, because caches hold few.
 #define LARGE (1u << 20)
 // Colliders among which a substep of even few guides is so long that a dispatch has one. A thread
 // may meet many of them, one after the other.
 #define MANY_COLLIDERS 1024
+
+static bool has_many_colliders(const struct hair_sim* sim)
+{
+    return hair_sim_colliders(sim)->count >= MANY_COLLIDERS;
+}
 
 // Return the time of a vertex in a substep of the solver, ns.
 static double cost_of_short(const struct hair_sim* sim)
@@ -34,7 +40,7 @@ static double cost_of_vertex(const struct hair_sim* sim)
     double ratio = (double)sim->max_vertices / LONG, cost = cost_of_short(sim);
     if (ratio > 1 && sim->solver != HAIR_SOLVER_REDBLACK) cost *= ratio * ratio;
     if (sim->guide_vertices > LARGE) cost *= 2;
-    return sim->contacts.any ? GRID_COST * cost : cost;
+    return sim->contacts.any ? (has_many_colliders(sim) ? MANY_COST : GRID_COST) * cost : cost;
 }
 
 // Return how many vertices a dispatch can move by a substep in its time.
@@ -46,7 +52,7 @@ static double vertices_in_time(const struct hair_sim* sim)
 
 uint32_t hair_sim_substeps_in_time(const struct hair_sim* sim)
 {
-    if (sim->contacts.any && hair_sim_colliders(sim)->count >= MANY_COLLIDERS) return 1;
+    if (sim->contacts.any && has_many_colliders(sim)) return 1;
     uint32_t vertices = sim->guide_vertices < FULL ? sim->guide_vertices : FULL;
     double substeps = vertices_in_time(sim) / vertices;
     return substeps < 1 ? 1 : substeps < HAIR_STEP_SUBSTEPS ? (uint32_t)substeps : HAIR_STEP_SUBSTEPS;

@@ -237,6 +237,24 @@ static void report_does_not_wait_and_is_of_one_instance(void** state)
     hair_test_scene_free(&f.scene);
 }
 
+// Draws without steps are of one frame. The last of them must not count as parts of a timed one.
+static void pause_after_many_draws_is_no_time_of_a_stage(void** state)
+{
+    struct fixture f = start(state, NULL);
+    run_frame(&f);
+    hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
+    for (int i = 0; i < 80; ++i) {
+        if (i == 60) glFinish();
+        if (i == 60) thrd_sleep(&(struct timespec){.tv_nsec = 800 * 1000 * 1000}, NULL);
+        f.scene.view.pass = i % 2 ? HAIR_PASS_DEPTH : HAIR_PASS_COLOR;
+        hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &f.scene.view));
+    }
+    report(&f);
+    assert_true(row_of(&f, "color")->runs >= 40);
+    for (uint32_t i = 0; i < f.rows; ++i) assert_true(f.row[i].ms < 700);
+    hair_test_scene_free(&f.scene);
+}
+
 static void report_refuses_invalid_arguments(void** state)
 {
     struct fixture f = start(state, NULL);
@@ -268,6 +286,7 @@ int main(void)
         HAIR_TEST(reports_count_all_memory_of_each_instance),
         HAIR_TEST(report_names_sleep_and_culling_as_reasons),
         HAIR_TEST(report_does_not_wait_and_is_of_one_instance),
+        HAIR_TEST(pause_after_many_draws_is_no_time_of_a_stage),
         HAIR_TEST(report_refuses_invalid_arguments),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
