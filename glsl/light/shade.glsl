@@ -61,23 +61,42 @@ vec3 sky_of(hair_fragment f)
 }
 
 #ifdef HAIR_FIBRES
+// Properties of a strand that its reflection of all lights has in common.
+struct strand_reflection {
+    vec3  mu;
+    float tilt, variance, order;
+};
+
+strand_reflection find_reflection(hair_fragment f)
+{
+    return strand_reflection(absorption_of(albedo_of(f)), draw.fibre.z * tilt_of(f.random),
+                             draw.fibre.x * variance_of(f.seed), order_of(f));
+}
+
+// Return the light that a strand reflects of one light, of which the fraction `direct` meets no
+// strand. `met` is the number of strands that light meets, and `open` the visible part of the sky.
+vec3 reflect_beam(hair_fragment f, strand_reflection own, hair_beam beam, float direct, float met, float open)
+{
+    // Structs have names here, because Mesa 22.3 loses some that one call passes to another.
+    fibre_angles     a        = measure_angles(f.tangent, beam.to, f.to_eye);
+    fibre_scattering inclined = find_scattering(a.half_cosine, own.mu);
+    vec3 once  = scatter_once(a, own.mu, own.tilt, own.variance);
+    fibre_light light = fibre_light(direct, met, open, own.order);
+    vec3 often = scatter_often(a, inclined, light);
+    return a.light.y * beam.irradiance * (direct * once + draw.fibre.w * often);
+}
+
 vec3 hair_shade(hair_fragment f)
 {
-    vec3  mu   = absorption_of(albedo_of(f)), sum = vec3(0.0);
-    float tilt = draw.fibre.z * tilt_of(f.random), variance = draw.fibre.x * variance_of(f.seed);
-    float open = draw.lights == 0u ? sky_open(f, 1.0) : 0.0, order = order_of(f);
-    // Structs have names here, because Mesa 22.3 loses some that one call passes to another.
-    fibre_scattering fibre = find_scattering(1.0, mu);
+    strand_reflection own   = find_reflection(f);
+    vec3              sum   = vec3(0.0);
+    float             open  = draw.lights == 0u ? sky_open(f, 1.0) : 0.0;
+    fibre_scattering  fibre = find_scattering(1.0, own.mu);
     for (uint i = 0u; i < draw.lights; ++i) {
-        hair_beam    beam  = beam_at(i, f.position);
-        fibre_angles a     = measure_angles(f.tangent, beam.to, f.to_eye);
-        fibre_scattering inclined = find_scattering(a.half_cosine, mu);
+        hair_beam beam = beam_at(i, f.position);
         float met, direct = light_through(f, i, met), past = light_past_bodies(i, f.position);
         if (i == 0u) open = sky_open(f, past * direct);
-        vec3 once  = scatter_once(a, mu, tilt, variance);
-        fibre_light light = fibre_light(direct, met, open, order);
-        vec3 often = scatter_often(a, inclined, light);
-        sum += past * a.light.y * beam.irradiance * (direct * once + draw.fibre.w * often);
+        sum += past * reflect_beam(f, own, beam, direct, met, open);
     }
     return sum + sky_of(f) * reflect_sky(fibre, open) * 0.31830989;
 }
@@ -92,30 +111,53 @@ float lobe(vec3 tangent, vec3 halfway, float exponent)
     return pow(max(1.0 - along * along, 0.0), 0.5 * exponent);
 }
 
+// Properties of a strand that its reflection of all lights has in common.
+struct strand_reflection {
+    vec3 albedo, normal, to_root, to_tip, tinted;
+    vec2 glossy;
+};
+
+strand_reflection find_reflection(hair_fragment f)
+{
+    strand_reflection own;
+    float shift = 0.12 + 0.16 * (tilt_of(f.random) - 1.0);
+    own.albedo  = albedo_of(f);
+    own.normal  = normal_of(f);
+    own.glossy  = draw.specular.zw / variance_of(f.seed);
+    own.to_root = normalize(f.tangent + shift * own.normal);
+    own.to_tip  = normalize(f.tangent - 1.5 * shift * own.normal);
+    own.tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * own.albedo;
+    return own;
+}
+
+// Return the light that a strand reflects of one light, of which the fraction `direct` meets no
+// strand. This model ignores `met` and `open`.
+vec3 reflect_beam(hair_fragment f, strand_reflection own, hair_beam beam, float direct, float met, float open)
+{
+    vec3  halfway = normalize(beam.to + f.to_eye + 1e-6);
+    float along   = dot(f.tangent, beam.to);
+    float diffuse = sqrt(max(1.0 - along * along, 0.0));
+    vec3  glints  = draw.specular.x * lobe(own.to_root, halfway, own.glossy.x) +
+                  own.tinted * lobe(own.to_tip, halfway, own.glossy.y);
+    // Light from behind passes through the fibre but does not glint on its near side.
+    float facing = clamp(0.5 + 0.75 * dot(own.normal, beam.to), 0.0, 1.0);
+    return beam.irradiance * (direct * (own.albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
+}
+
 vec3 hair_shade(hair_fragment f)
 {
-    vec3  albedo  = albedo_of(f), normal = normal_of(f), sum = vec3(0.0);
-    float shift   = 0.12 + 0.16 * (tilt_of(f.random) - 1.0), open = 1.0;
-    vec2  glossy  = draw.specular.zw / variance_of(f.seed);
-    vec3 to_root = normalize(f.tangent + shift * normal),
-         to_tip = normalize(f.tangent - 1.5 * shift * normal);
-    vec3  tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * albedo;
+    strand_reflection own  = find_reflection(f);
+    vec3              sum  = vec3(0.0);
+    float             open = 1.0;
     for (uint i = 0u; i < draw.lights; ++i) {
         hair_beam beam = beam_at(i, f.position);
         float     met, light = light_through(f, i, met) * light_past_bodies(i, f.position);
-        vec3      halfway = normalize(beam.to + f.to_eye + 1e-6);
-        float     along   = dot(f.tangent, beam.to);
-        float     diffuse = sqrt(max(1.0 - along * along, 0.0));
-        vec3 glints =
-            draw.specular.x * lobe(to_root, halfway, glossy.x) + tinted * lobe(to_tip, halfway, glossy.y);
-        // Light from behind passes through the fibre but does not glint on its near side.
-        float     facing  = clamp(0.5 + 0.75 * dot(normal, beam.to), 0.0, 1.0);
-        sum += beam.irradiance * (light * (albedo * diffuse * mix(0.35, 1.0, facing) + facing * glints));
+        sum += reflect_beam(f, own, beam, light, met, open);
         if (i == 0u) open = light; // Occluders of the first light also occlude the sky.
     }
     // Light hair transmits more of the sky.
     vec3 through = draw.light_values > 0u ? pow(vec3(sky_open(f, open)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)))
                                           : vec3(0.25 + 0.75 * sqrt(open));
-    return sum + sky_of(f) * albedo * through;
+    return sum + sky_of(f) * own.albedo * through;
 }
 #endif

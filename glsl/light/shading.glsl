@@ -23,6 +23,14 @@ float hair_light_through(hair_fragment f, uint i)
     return light_through(f, i, met) * light_past_bodies(i, f.position);
 }
 vec3  hair_sky(hair_fragment f) { return sky_of(f); }
+float hair_sky_through(hair_fragment f) { return sky_open(f, 1.0); }
+vec3  hair_reflect(hair_fragment f, vec3 to, vec3 irradiance, float through)
+{
+    float direct = clamp(through, 0.0, 1.0), met = -log(max(direct, 1e-4));
+    strand_reflection own = find_reflection(f);
+    hair_beam beam = hair_beam(to, irradiance);
+    return reflect_beam(f, own, beam, direct, met, sky_open(f, direct));
+}
 
 vec4 hair_shade(hair_fragment f);
 #include "light/user_shader.glsl"

@@ -11,6 +11,23 @@
 layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW_MAPS];
 layout(binding = HAIR_UNIT_LIGHT) uniform usamplerBuffer light_texture;
 
+// Return the depth in a map at a place. After a texture of an array with a variable index, Mesa's
+// llvmpipe reads other textures wrongly if they were not read before. The application's text may
+// read them in any order, so its programs have constant indices. They are slower on llvmpipe.
+float depth_in_map(sampler2D maps[HAIR_SHADOW_MAPS], uint map, vec2 at)
+{
+#ifdef HAIR_USER_SHADER
+    switch (map) {
+    case 0u: return textureLod(maps[0], at, 0.0).r;
+    case 1u: return textureLod(maps[1], at, 0.0).r;
+    case 2u: return textureLod(maps[2], at, 0.0).r;
+    default: return textureLod(maps[3], at, 0.0).r;
+    }
+#else
+    return textureLod(maps[map], at, 0.0).r;
+#endif
+}
+
 #define SHADOW_TAPS 8
 #define SHADOW_RADIUS 5.0 // Texels.
 
@@ -55,7 +72,7 @@ float light_through_depth(uint number, vec3 position, uint seed, out float met)
         // Vogel's spiral covers the disc evenly. It is rotated per strand to hide the pattern.
         float r     = SHADOW_RADIUS * sqrt((float(i) + 0.5) / float(SHADOW_TAPS));
         vec2  tap   = find_in_part(map, at.xy + r * arm);
-        float depth = depth_from_light(map, textureLod(hair_shadow_map[map], tap, 0.0).r);
+        float depth = depth_from_light(map, depth_in_map(hair_shadow_map, map, tap));
         float n     = more.z * max(metres_behind(number, at.z, depth, from_light), 0.0);
         sum += exp(-n);
         met += n;
@@ -87,8 +104,8 @@ float light_past_bodies(uint number, vec3 position)
     mat3x2 weight = mat3x2(0.5 * rest * rest, 0.5 + part * rest, 0.5 * part * part);
     for (int i = 0; i < taps; ++i) {
         ivec2 k = ivec2(i % 3, i / 3);
-        float depth = textureLod(opaque_shadow_map[map],
-                                 find_in_part(part_of, (first + vec2(k) - 0.5) / size), 0.0).r;
+        vec2  tap   = find_in_part(part_of, (first + vec2(k) - 0.5) / size);
+        float depth = depth_in_map(opaque_shadow_map, map, tap);
         sum += min_value <= depth_from_light(map, depth) ? weight[k.x].x * weight[k.y].y : 0.0;
     }
     return sum;

@@ -183,6 +183,14 @@ typedef enum hair_shade_at {
 ///     float hair_light_through(hair_fragment f, uint i)      transmittance of hair and opaque
 ///                                                            geometry towards light i
 ///     vec3 hair_sky(hair_fragment f)                         irradiance of the surroundings
+///     float hair_sky_through(hair_fragment f)                fraction of the surroundings that no
+///                                                            hair hides, an estimate without
+///                                                            HAIR_SELF_SHADOW_STRANDS
+///     vec3 hair_reflect(hair_fragment f, vec3 to, vec3 irradiance, float through)
+///                                                            the built-in shading of a light of
+///                                                            the application, from the unit
+///                                                            direction `to`. Hair lets the
+///                                                            fraction `through` of it pass
 ///
 /// A shader at HAIR_SHADE_PIXELS may declare outputs from location 1 on. Location 1 is taken in
 /// views with hair_view.motion_output.
