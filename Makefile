@@ -62,6 +62,8 @@ TOOLS := $(B)/hair-capture $(B)/hair-groom $(B)/hair-bench $(B)/hair-gallery
 TOOLS += $(if $(filter 0,$(VIEW)),,$(B)/hair-view)
 TESTS := $(patsubst %.c,$(B)/%,$(wildcard tests/golden/*_test.c tests/gpu/*_test.c tests/hosts/*_test.c tests/unit/*_test.c))
 TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/unit/bullet_*_test.cpp)))
+# Hosts in C++ need packages that `make hosts` installs. `make test hosts=1` runs them.
+TESTS += $(if $(filter 1,$(hosts)),$(patsubst %.cpp,$(B)/%,$(wildcard tests/hosts/*_test.cpp)))
 TESTS += $(if $(filter 0,$(VIEW)),,$(patsubst %.c,$(B)/%,$(wildcard tests/view/*_test.c)))
 EXAMPLES := $(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c))
 EXAMPLES += $(if $(filter 0,$(BULLET)),,$(B)/examples/bullet_world)
@@ -134,6 +136,9 @@ docs: ## build/docs/index.html: the headers of include/hair and their guide as H
 test: setup ## Every test that a change must pass
 	@$(MAKE) -j$(JOBS) all examples $(TESTS)
 	@$(MAKE) check glsl consumer run-tests
+
+hosts: ## Print and install the missing Debian packages of the hosts that `make test hosts=1` runs
+	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tests/hosts/packages.txt
 
 setup: ## Print and install the missing Debian packages of tools/packages.txt
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh
@@ -262,6 +267,15 @@ $(B)/tests/hosts/%_test: $(B)/tests/hosts/%_test.c.o $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $^ $(call packages,--libs,cmocka) $(EXAMPLE_LIBS) -o $@
 
+QT = Qt6OpenGLWidgets Qt6Widgets Qt6OpenGL Qt6Gui Qt6Core
+$(B)/tests/hosts/%.cpp.o: tests/hosts/%.cpp
+	@mkdir -p $(@D)
+	$(call say,$@)
+	$(Q)$(CPP) -fPIC $(patsubst -I%,-isystem %,$(call packages,--cflags,$(QT))) -c $< -o $@
+$(B)/tests/hosts/qt_test: $(B)/tests/hosts/qt_test.cpp.o $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $^ $(call packages,--libs,cmocka $(QT)) -lm -o $@
+
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
@@ -351,4 +365,4 @@ include tools/packaging/windows.mk
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
 .DELETE_ON_ERROR:
 .SECONDARY:
-.PHONY: all view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words arrays formatted consumer install-tree format help clean
+.PHONY: all hosts view view-film bench report docs libraries tools examples demo gallery test setup run-tests glsl check rooms circles symbols hardened comments lines functions words arrays formatted consumer install-tree format help clean
