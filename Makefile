@@ -268,13 +268,19 @@ $(B)/tests/hosts/%_test: $(B)/tests/hosts/%_test.c.o $(B)/libhair.a
 	$(Q)$(CC) $(opt.$(config)) $^ $(call packages,--libs,cmocka) $(EXAMPLE_LIBS) -o $@
 
 QT = Qt6OpenGLWidgets Qt6Widgets Qt6OpenGL Qt6Gui Qt6Core
+$(B)/tests/hosts/qt_test.cpp.o: private HOST_FLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,$(QT)))
+$(B)/tests/hosts/ogre_test.cpp.o: private HOST_FLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,OGRE)) \
+  -fexceptions -frtti -DHAIR_OGRE_PLUGINS='"$(call packages,--variable=plugindir,OGRE)"'
 $(B)/tests/hosts/%.cpp.o: tests/hosts/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
-	$(Q)$(CPP) -fPIC $(patsubst -I%,-isystem %,$(call packages,--cflags,$(QT))) -c $< -o $@
+	$(Q)$(CPP) -fPIC $(HOST_FLAGS) -c $< -o $@
 $(B)/tests/hosts/qt_test: $(B)/tests/hosts/qt_test.cpp.o $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(call packages,--libs,cmocka $(QT)) -lm -o $@
+$(B)/tests/hosts/ogre_test: $(B)/tests/hosts/ogre_test.cpp.o $(B)/libhair.a
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $^ $(call packages,--libs,cmocka OGRE gl) -lm -o $@
 
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
