@@ -213,6 +213,8 @@ $(B)/lib/bullet/%.cpp.shared.o: lib/bullet/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CPP) -Wshadow -Wconversion $(BULLET_CFLAGS) -fPIC -DHAIR_BUILD_SHARED -c $< -o $@
+# Unrolled loops over small matrices prepare guides a ninth faster, with equal bits.
+$(B)/lib/rod/%: private C += $(if $(filter release,$(config)),-O3)
 $(B)/%.c.o: %.c
 	@mkdir -p $(@D)
 	$(call say,$@)

@@ -119,8 +119,9 @@ static bool make(struct subject* subject, const hair_cache* cache)
     desc.host = &subject->bench->host;
     desc.get_proc = hair_egl_get_proc;
     desc.cache = cache;
+    if (hair_context_create(&desc, &subject->context)) return false;
     double start = thread_time();
-    if (make_groom(subject, &physics) || hair_context_create(&desc, &subject->context)) return false;
+    if (make_groom(subject, &physics)) return false;
     double made = thread_time();
     if (make_hair(subject, &physics)) return false;
     subject->create_ms = made - start + subject->upload_ms;
