@@ -173,7 +173,7 @@ static hair_result read_value(struct json_reader* reader, const struct hair_memb
 
 static hair_result read_member(struct json_reader* reader, void* desc, size_t size)
 {
-    struct hair_span name, value;
+    struct hair_span name = {0}, value = {0};
     struct hair_member_place place;
     HAIR_TRY(read_string(reader, &name));
     HAIR_TRY(hair_find_member(reader->host, reader->schema, size, name, &place));

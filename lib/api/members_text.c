@@ -163,6 +163,7 @@ void hair_text_put(struct hair_text_out* out, const char* text)
 
 hair_result hair_text_end(const hair_host* host, struct hair_text_out* out, size_t* length)
 {
+    HAIR_ASSERT(out->text || !out->capacity);
     if (length) *length = out->length;
     if (!out->text && !out->capacity) return HAIR_OK;
     if (out->length < out->capacity) {

@@ -202,6 +202,7 @@ static void dispatch(struct hair_gl* gl, struct hair_gl_program* own, GLuint pro
 void hair_gl_run_part(struct hair_gl* gl, hair_gl_pass pass, uint32_t first, uint32_t end, uint32_t groups)
 {
     struct hair_gl_program* own = hair_gl_find(gl, pass);
+    HAIR_ASSERT(own);
     hair_gl_begin(gl, pass);
     dispatch(gl, own, own->program, (struct groups){first, end, groups});
     hair_gl_end(gl, pass);

@@ -220,7 +220,8 @@ static void folded_strands_become_valid_guides(void** state)
             assert_in_range(guide->count, guide_vertices < 4 ? guide_vertices : 4, guide_vertices);
             for (uint32_t j = 0; j < guide->count; ++j) {
                 const float* rest = &groom->rest[guide->first + j].position.x;
-                for (int k = 0; k < 12; ++k) assert_true(isfinite(rest[k]));
+                for (size_t k = 0; k < sizeof *groom->rest / sizeof *rest; ++k)
+                    assert_true(isfinite(rest[k]));
                 if (j + 1 < guide->count) assert_true(rest[3] > 0);
             }
         }

@@ -91,7 +91,7 @@ static bool find_truth(struct bench* bench, const struct crowd_desc* scene, stru
     if (!bench_crowd_make(bench, &desc, &crowd)) return false;
     size_t each = 3 * (size_t)crowd.vertices, size = each * crowd.strands;
     out->strands = malloc((CROWD_FRAMES + 1) * size * sizeof *out->strands);
-    out->length = malloc(crowd.strands * sizeof *out->length);
+    out->length = calloc(crowd.strands, sizeof *out->length);
     bool whole = out->strands && out->length && bench_crowd_read(&crowd, out->strands);
     for (uint32_t i = 0; i < crowd.strands && whole; ++i)
         out->mean_length += (out->length[i] = length_of(out->strands + each * i, crowd.vertices));

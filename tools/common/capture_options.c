@@ -332,7 +332,7 @@ static bool choose_frames(const char* tool, const struct said* said, struct hair
 static const char* find_clash(const struct said* said, const struct hair_capture_options* options)
 {
     const char* outputs[] = {options->out, options->stats, options->dump_guides, options->dump_followers};
-    int piped = options->hash, asked = options->hash;
+    int piped = options->hash, asked = piped;
     for (size_t i = 0; i < sizeof outputs / sizeof *outputs; ++i) {
         piped += outputs[i] && !strcmp(outputs[i], "-");
         asked += outputs[i] != NULL;

@@ -72,7 +72,7 @@ static bool read_corner(const struct place* place, char** at, uint32_t* corner)
 static bool read_face(struct place* place, char* at)
 {
     struct hair_obj* out = place->out;
-    uint32_t first = 0, last = 0, next, corners = 0;
+    uint32_t first = 0, last = 0, next = 0, corners = 0;
     for (at += strspn(at, " \t\r"); *at; at += strspn(at, " \t\r"), ++corners) {
         if (!read_corner(place, &at, &next)) return false;
         if (corners == 0) first = next;

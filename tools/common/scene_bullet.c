@@ -250,7 +250,10 @@ static void make_absolute(const place* json, json_t* value)
     const char* name;
     json_t* member;
     size_t i;
-    json_array_foreach(value, i, member) make_absolute(json, member);
+    json_array_foreach(value, i, member)
+    {
+        make_absolute(json, member);
+    }
     json_object_foreach(value, name, member)
     {
         if (strcmp(name, "mesh") || !json_is_string(member)) {

@@ -225,11 +225,11 @@ static void put_picture(json_t* root, const struct hair_scene* scene, const stru
         json_object_set_new(root, "size", json_pack("[i, i]", (int)scene->width, (int)scene->height));
     if (scene->show == usual->show) return;
     char show[128] = "";
-    for (int i = 0; hair_scene_part(i); ++i)
-        if (scene->show & 1u << i) {
-            if (*show) strcat(show, ",");
-            strcat(show, hair_scene_part(i));
-        }
+    size_t length = 0;
+    for (int i = 0; hair_scene_part(i) && length < sizeof show; ++i)
+        if (scene->show & 1u << i)
+            length += (size_t)snprintf(show + length, sizeof show - length, "%s%s", length ? "," : "",
+                                       hair_scene_part(i));
     json_object_set_new(root, "show", json_string(show));
 }
 

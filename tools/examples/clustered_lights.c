@@ -84,11 +84,9 @@ static void place_lights(struct light lights[LIGHTS])
         {0.030f, 0.011f, 0.003f}, {0.004f, 0.018f, 0.026f}, {0.022f, 0.005f, 0.020f}};
     for (int i = 0; i < LIGHTS; ++i) {
         float part = ((float)i + 0.5f) / LIGHTS, angle = 2.3999632f * (float)i;
-        float across = 0.15f + 0.13f * part;
-        lights[i] = (struct light){{across * cosf(angle), 1.78f - 0.42f * part, across * sinf(angle)},
-                                   REACH,
-                                   {colors[i % 3][0], colors[i % 3][1], colors[i % 3][2]},
-                                   0};
+        float across = 0.15f + 0.13f * part, x = across * cosf(angle), z = across * sinf(angle);
+        lights[i] = (struct light){
+            {x, 1.78f - 0.42f * part, z}, REACH, {colors[i % 3][0], colors[i % 3][1], colors[i % 3][2]}, 0};
     }
 }
 
