@@ -156,7 +156,7 @@ static hair_result make_hair(struct tuner* tuner)
     return hair_create(tuner->context, tuner->groom, &desc, &tuner->hair);
 }
 
-static void free_hair(struct tuner* tuner)
+static void free_tuned(struct tuner* tuner)
 {
     hair_destroy(tuner->hair);
     hair_groom_destroy(tuner->groom);
@@ -221,7 +221,7 @@ static hair_result find_load(struct tuner* tuner)
         for (int i = 0; i < 2; ++i) // The first draw compiles programs.
             HAIR_TRY(measure(tuner, HAIR_USE_RIBBONS, HAIR_RENDER_PATH_TESSELLATION, &ms));
         if (ms >= MIN_MS || tuner->followers >= MAX_FOLLOWERS) return HAIR_OK;
-        free_hair(tuner);
+        free_tuned(tuner);
     }
 }
 
@@ -274,7 +274,7 @@ hair_result hair_context_tune(hair_context* context, char* out, size_t capacity)
         result = find_paths(&tuner);
         end_state(&tuner);
     }
-    free_hair(&tuner);
+    free_tuned(&tuner);
     free_target(&tuner);
     context->gl.state_policy = policy;
     if (result)

@@ -74,7 +74,7 @@ static bool skip(const char** text, const char* word)
     return true;
 }
 
-static hair_result fail_at(const struct hair_gl* gl, const char* text, const char* at, const char* expected)
+static hair_result refuse_at(const struct hair_gl* gl, const char* text, const char* at, const char* expected)
 {
     // The rest of the text may have anything in it.
     char shown[SHOWN + 1] = {0};
@@ -101,20 +101,20 @@ hair_result hair_fastest_read(struct hair_gl* gl, const char* text, struct hair_
     char key[32], word[32];
     struct hair_fastest read = {{0}};
     snprintf(key, sizeof key, "%016llx", (unsigned long long)find_key(gl));
-    if (!skip(&at, FORMAT " ")) return fail_at(gl, text, at, "\"" FORMAT "\"");
+    if (!skip(&at, FORMAT " ")) return refuse_at(gl, text, at, "\"" FORMAT "\"");
     if (!skip(&at, key)) {
-        if (strspn(at, "0123456789abcdef") != strlen(key)) return fail_at(gl, text, at, "16 digits");
+        if (strspn(at, "0123456789abcdef") != strlen(key)) return refuse_at(gl, text, at, "16 digits");
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                          "the tuning is of another driver, whose key is %.16s, not %s", at, key);
     }
     for (int use = 0; use < HAIR_PATH_USES; ++use) {
         snprintf(word, sizeof word, " %s=", uses[use]);
-        if (!skip(&at, word)) return fail_at(gl, text, at, word);
+        if (!skip(&at, word)) return refuse_at(gl, text, at, word);
         const char* value = at;
         if (!read_path(&at, (enum hair_path_use)use, &read.path[use]))
-            return fail_at(gl, text, value, "a path for this use");
+            return refuse_at(gl, text, value, "a path for this use");
     }
-    if (*at) return fail_at(gl, text, at, "the end");
+    if (*at) return refuse_at(gl, text, at, "the end");
     *out = read;
     return HAIR_OK;
 }
