@@ -66,7 +66,7 @@ void hair_fastest_write(struct hair_gl* gl, const struct hair_fastest* fastest, 
 }
 
 // Move `*text` behind `word`. Return false if the text does not begin with the word.
-static bool skip(const char** text, const char* word)
+static bool skip_word(const char** text, const char* word)
 {
     size_t size = strlen(word);
     if (strncmp(*text, word, size) != 0) return false;
@@ -88,7 +88,7 @@ static hair_result refuse_at(const struct hair_gl* gl, const char* text, const c
 static bool read_path(const char** text, enum hair_path_use use, uint8_t* out)
 {
     for (size_t i = 0; i < PATHS; ++i) {
-        if (!paths[i] || !skip(text, paths[i])) continue;
+        if (!paths[i] || !skip_word(text, paths[i])) continue;
         *out = (uint8_t)i;
         return hair_fastest_allows(use, (hair_render_path)i);
     }
@@ -101,15 +101,15 @@ hair_result hair_fastest_read(struct hair_gl* gl, const char* text, struct hair_
     char key[32], word[32];
     struct hair_fastest read = {{0}};
     snprintf(key, sizeof key, "%016llx", (unsigned long long)find_key(gl));
-    if (!skip(&at, FORMAT " ")) return refuse_at(gl, text, at, "\"" FORMAT "\"");
-    if (!skip(&at, key)) {
+    if (!skip_word(&at, FORMAT " ")) return refuse_at(gl, text, at, "\"" FORMAT "\"");
+    if (!skip_word(&at, key)) {
         if (strspn(at, "0123456789abcdef") != strlen(key)) return refuse_at(gl, text, at, "16 digits");
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                          "the tuning is of another driver, whose key is %.16s, not %s", at, key);
     }
     for (int use = 0; use < HAIR_PATH_USES; ++use) {
         snprintf(word, sizeof word, " %s=", uses[use]);
-        if (!skip(&at, word)) return refuse_at(gl, text, at, word);
+        if (!skip_word(&at, word)) return refuse_at(gl, text, at, word);
         const char* value = at;
         if (!read_path(&at, (enum hair_path_use)use, &read.path[use]))
             return refuse_at(gl, text, value, "a path for this use");
