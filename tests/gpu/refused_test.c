@@ -152,7 +152,7 @@ static void refused_memory_leaks_nothing_and_a_retry_works(void** state)
         hair_test_ok(user.test, make_context(&user, &user.context));
         hair_test_ok(user.test, hair_create(user.context, user.groom, &user.desc, &user.hair));
         hair_test_ok(user.test, read_all(&user)); // Has compiled all programs afterwards.
-        torture(&user, create_instance, of_memory(&user, 5 + 4 * rods), 1);
+        torture(&user, create_instance, of_memory(&user, 1 + 3 * rods), 1);
         torture(&user, create_instance, of_objects(20 + 8 * rods), 1);
         torture(&user, step_with_other_physics, of_memory(&user, rods), 1);
         torture(&user, step_with_other_physics, of_objects(2 * rods), 1);

@@ -37,7 +37,7 @@ static const struct action actions[] = {
     {"Stronger", "]", "\"wind.x\": \"1\""},
     {"Level of detail", "D", "\"lod\": \"on\""},
     {"Dynamic", "A", "\"lod\": \"on\""},
-    {"Tessellation", "T", "\"render_path\": \"cached\""},
+    {"Tessellation", "T", "\"render_path\": \"tessellation\""},
     {"Multi-pass", "X", "\"solver\": \"redblack\""},
     {"Fewer steps", "V", "\"substep_rate\": \"0.25\""},
 };
