@@ -43,7 +43,7 @@ hair_result hair_check_position_buffer(const hair_instance* hair, const char* wh
 {
     const struct hair_gl* gl = &hair->context->gl;
     GLint64 has = 0, mapped = 0, access = 0;
-    GLint max = 0, align = 1;
+    GLint align = 1;
     // Queries of another object would raise the application's error flag.
     if (!buffer || !gl->IsBuffer(buffer))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
@@ -61,13 +61,12 @@ hair_result hair_check_position_buffer(const hair_instance* hair, const char* wh
                          "the %llu of the %s",
                          hair->label, offset, (unsigned long long)there, (unsigned long long)needed, what);
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
     *from = offset - offset % (size_t)align;
     *size = (size_t)needed + (offset - *from);
     HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
-    if (*size > (size_t)max)
+    if (*size > (size_t)gl->max_storage_bytes)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "%s: the %s takes %zu bytes, more than the driver's %d", hair->label, what, *size,
-                         max);
+                         gl->max_storage_bytes);
     return HAIR_OK;
 }

@@ -194,12 +194,10 @@ static hair_result dispatch_job(struct hair_collider_field* field, const struct 
         all += aligned((size_t)length[i]);
         HAIR_ASSERT(at[i] % ALIGNMENT == 0 && all % ALIGNMENT == 0);
     }
-    GLint max = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
-    if (sizes[0] / 16 > (size_t)max)
+    if (sizes[0] / 16 > (size_t)gl->max_buffer_texels)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "the field's %u colliders at once take more than the driver's %d texels",
-                         job->colliders, max);
+                         job->colliders, gl->max_buffer_texels);
     unsigned char* bytes = hair_alloc(&gl->host, all, 1);
     if (!bytes) return hair_fail_memory(&gl->host, "what is to be written of the field");
     for (int i = 0; i < PARTS; ++i)

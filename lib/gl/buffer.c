@@ -67,21 +67,16 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
 
 bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel)
 {
-    GLint max_block = 0, max_texels = 0;
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max_block);
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max_texels);
     HAIR_ASSERT(texel > 0);
-    return size <= (uint64_t)max_block && size / texel <= (uint64_t)max_texels;
+    return size <= (uint64_t)gl->max_storage_bytes && size / texel <= (uint64_t)gl->max_buffer_texels;
 }
 
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                             const void* data, GLuint* out)
 {
-    GLint max = 0;
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
-    if (size > (size_t)max)
+    if (size > (size_t)gl->max_storage_bytes)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
-                         size, max);
+                         size, gl->max_storage_bytes);
     return hair_gl_buffer(gl, category, label, size, data, out);
 }
 
@@ -159,11 +154,9 @@ hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum
 {
     HAIR_ASSERT(buffer && !*out);
     uint64_t texels = buffer_bytes(gl, buffer) / texel_bytes(format);
-    GLint max = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
-    if (texels > (uint64_t)max)
+    if (texels > (uint64_t)gl->max_buffer_texels)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %llu texels, more than the driver's %d",
-                         label, (unsigned long long)texels, max);
+                         label, (unsigned long long)texels, gl->max_buffer_texels);
     GLuint texture = 0;
     gl->CreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
     if (!texture) return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver makes no texture for %s", label);

@@ -151,6 +151,8 @@ hair_result hair_gl_load(struct hair_gl* gl, const hair_context_desc* desc)
     gl->software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe") ||
                                 strstr(renderer, "SwiftShader"));
     gl->dispatch_ms = HAIR_GL_DISPATCH_MS;
+    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &gl->max_storage_bytes);
+    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &gl->max_buffer_texels);
     gl->compiles_late = gl->software != 0;
     gl->subgroup = find_subgroup(gl);
     if (gl->subgroup && has_extension(gl, "GL_NV_shader_thread_group"))

@@ -136,6 +136,8 @@ struct hair_gl {
     int subgroup; // Nonzero if a work group of 32 threads is one subgroup.
     double dispatch_ms; // Maximum expected time of a solver's dispatch on a GPU. See time_budget.c.
     GLint units; // Number of multiprocessors of the GPU. 0 if unknown.
+    GLint max_storage_bytes; // Maximum size of a storage buffer.
+    GLint max_buffer_texels; // Maximum texels of a buffer texture.
     int long_atomics; // Nonzero if storage buffers support 64-bit atomics.
     uint32_t program_generation; // Number of times that all programs have been compiled.
     int async; // Nonzero if needed programs are compiled asynchronously.

@@ -75,11 +75,9 @@ static hair_result ensure_texture_buffer(struct hair_gl* gl, const char* label, 
 {
     size_t texel = format == GL_R32UI ? 4 : 16;
     HAIR_ASSERT(size > 0 && size % texel == 0);
-    GLint max = 0;
-    gl->GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &max);
-    if (size / texel > (size_t)max)
+    if (size / texel > (size_t)gl->max_buffer_texels)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu texels, more than the driver's %d",
-                         label, size / texel, max);
+                         label, size / texel, gl->max_buffer_texels);
     if (!*buffer) HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_FIELD, label, 16, buffer));
     if (!*texture) HAIR_TRY(hair_gl_buffer_texture(gl, label, format, *buffer, texture));
     return hair_gl_resize(gl, label, size, data, *buffer);

@@ -20,7 +20,7 @@
 
 static bool has_many_colliders(const struct hair_sim* sim)
 {
-    return hair_sim_colliders(sim)->count >= MANY_COLLIDERS;
+    return sim->contacts.any && hair_sim_colliders(sim)->count >= MANY_COLLIDERS;
 }
 
 // Return the time of a vertex in a substep of the solver, ns.
@@ -40,7 +40,8 @@ static double cost_of_vertex(const struct hair_sim* sim)
     double ratio = (double)sim->max_vertices / LONG, cost = cost_of_short(sim);
     if (ratio > 1 && sim->solver != HAIR_SOLVER_REDBLACK) cost *= ratio * ratio;
     if (sim->guide_vertices > LARGE) cost *= 2;
-    return sim->contacts.any ? (has_many_colliders(sim) ? MANY_COST : GRID_COST) * cost : cost;
+    if (has_many_colliders(sim)) return MANY_COST * cost;
+    return sim->contacts.any ? GRID_COST * cost : cost;
 }
 
 // Return how many vertices a dispatch can move by a substep in its time.
@@ -52,7 +53,7 @@ static double vertices_in_time(const struct hair_sim* sim)
 
 uint32_t hair_sim_substeps_in_time(const struct hair_sim* sim)
 {
-    if (sim->contacts.any && has_many_colliders(sim)) return 1;
+    if (has_many_colliders(sim)) return 1;
     uint32_t vertices = sim->guide_vertices < FULL ? sim->guide_vertices : FULL;
     double substeps = vertices_in_time(sim) / vertices;
     return substeps < 1 ? 1 : substeps < HAIR_STEP_SUBSTEPS ? (uint32_t)substeps : HAIR_STEP_SUBSTEPS;

@@ -4,13 +4,11 @@
 hair_result hair_geometry_create_scalp_roots(struct hair_geometry* geometry, struct hair_sim* sim)
 {
     struct hair_gl* gl = geometry->gl;
-    GLint max = 0;
     size_t size = geometry->followers * sizeof(struct hair_follower);
-    gl->GetIntegerv(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &max);
-    if (size > (size_t)max)
+    if (size > (size_t)gl->max_storage_bytes)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
                          "hair followers on a skinned scalp take %zu bytes, more than the driver's %d", size,
-                         max);
+                         gl->max_storage_bytes);
     return hair_scalp_motion_create(sim);
 }
 
