@@ -15,7 +15,7 @@ struct hair_guide {
     hair_uint first;      // Index of the first vertex.
     hair_uint count; // Number of vertices.
     float     arc_length; // m.
-    hair_uint unused;
+    hair_uint group;
 };
 HAIR_SIZE(hair_guide)
 

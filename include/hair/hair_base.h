@@ -120,6 +120,9 @@ typedef struct hair_tasks {
 /// Only fields with "Default HAIR_AUTO" accept it.
 #define HAIR_AUTO 0
 
+/// Maximum number of groups of strands in a groom. See hair_groom_desc.strand_groups.
+#define HAIR_MAX_STRAND_GROUPS 8
+
 /// Size and version of a desc or info struct, its first member. The struct's default function fills
 /// the header in where the caller is compiled. Later versions can therefore add members at the end
 /// without breaking the caller. Always start from the defaults:

@@ -97,7 +97,8 @@ typedef struct hair_groom_desc {
     const hair_import* import; ///< Default NULL.
     hair_strand_set strand_set; ///< Default HAIR_STRAND_SET_FULL.
     /// Number of guides to choose from HAIR_STRAND_SET_FULL. HAIR_AUTO chooses one strand in ten,
-    /// and at least 64. Ignored for HAIR_STRAND_SET_GUIDES, whose strands are all guides.
+    /// and at least 64. Every group gets at least one guide. Ignored for HAIR_STRAND_SET_GUIDES,
+    /// whose strands are all guides.
     uint32_t guide_count; ///< [0, 262144]. Default HAIR_AUTO.
     /// Maximum number of simulated vertices per guide. The scalp holds the first two of them.
     uint32_t guide_vertices; ///< [2, 256]. Default 32.
@@ -142,6 +143,10 @@ typedef struct hair_groom_desc {
     /// Threads on which the guides are prepared. This call, hair_create(), and a hair_step() after
     /// physics have changed use them. The struct is copied. NULL uses the calling thread.
     const hair_tasks* tasks; ///< Default NULL.
+    /// Group of each strand, such as beard, brows or undercoat. A group has guides of its own, and
+    /// its followers move with these guides only. hair_set_group_physics() sets its physics. NULL
+    /// puts all strands into group 0, at no cost.
+    const uint8_t* strand_groups; ///< [0, 7]. Default NULL.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 
@@ -170,6 +175,7 @@ typedef struct hair_groom_info {
     float lower[3]; ///< Lower corner of the bounds of the strands at rest, m.
     float upper[3]; ///< Upper corner of the bounds of the strands at rest, m.
     hair_import_stats import_stats; ///< Repairs of the import.
+    uint32_t group_count; ///< Highest group of the strands that are left, plus 1.
 } hair_groom_info;
 HAIR_DESC(hair_groom_info)
 
@@ -190,5 +196,14 @@ HAIR_API hair_result hair_groom_describe(const hair_groom* groom, hair_groom_inf
 HAIR_API hair_result hair_groom_get_guides(const hair_groom* groom, uint32_t* vertices,
                                            uint32_t guide_capacity, float* positions,
                                            uint32_t vertex_capacity);
+
+/// Write the group of each guide, in the order of hair_groom_get_guides().
+///
+/// @param groups Receives one number per guide.
+/// @param guide_capacity Maximum number of guides to write.
+/// Errors: HAIR_ERROR_ARGUMENT.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_groom_get_groups(const hair_groom* groom, uint8_t* groups,
+                                           uint32_t guide_capacity);
 
 #endif

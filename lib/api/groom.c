@@ -121,3 +121,14 @@ hair_result hair_groom_get_guides(const hair_groom* groom, uint32_t* vertices, u
     }
     return HAIR_OK;
 }
+
+hair_result hair_groom_get_groups(const hair_groom* groom, uint8_t* groups, uint32_t guide_capacity)
+{
+    if (!groom) return HAIR_ERROR_ARGUMENT;
+    if (!groups && guide_capacity)
+        return hair_fail(&groom->host, HAIR_ERROR_ARGUMENT, "groups is NULL but guide_capacity is %u",
+                         guide_capacity);
+    for (uint32_t i = 0; i < groom->info.guide_count && i < guide_capacity; ++i)
+        groups[i] = (uint8_t)groom->guides[i].group;
+    return HAIR_OK;
+}

@@ -16,6 +16,7 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     hair_free(host, strands->vertices);
     hair_free(host, strands->radii);
     hair_free(host, strands->colors);
+    hair_free(host, strands->groups);
     memset(strands, 0, sizeof *strands);
 }
 
@@ -58,10 +59,11 @@ struct kept {
     uint32_t strands, vertices;
 };
 
-// Keep the radius and the colours of a strand.
+// Keep the radius, the group and the colours of a strand.
 static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
 {
     if (strands->radii) strands->radii[kept] = strands->radii[strand];
+    if (strands->groups) strands->groups[kept] = strands->groups[strand];
     if (strands->colors)
         memmove(colors_of(strands, kept), colors_of(strands, strand),
                 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
@@ -236,16 +238,18 @@ static hair_result shrink(const hair_host* host, void** memory, size_t count, si
 static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
 {
     void *positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii,
-         *colors = strands->colors;
+         *colors = strands->colors, *groups = strands->groups;
     hair_result result = shrink(host, &positions, strands->vertex_count, 3 * sizeof(float));
     if (!result) result = shrink(host, &vertices, strands->strand_count, sizeof(uint32_t));
     if (!result) result = shrink(host, &radii, strands->strand_count, sizeof(float));
+    if (!result) result = shrink(host, &groups, strands->strand_count, sizeof *strands->groups);
     if (!result)
         result = shrink(host, &colors, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof(float));
     strands->positions = positions;
     strands->vertices = vertices;
     strands->radii = radii;
     strands->colors = colors;
+    strands->groups = groups;
     return result;
 }
 

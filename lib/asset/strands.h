@@ -15,6 +15,7 @@ struct hair_strands {
     uint32_t* vertices; // of each strand
     float* radii; // of each strand at its root, in the unit of the positions. NULL if unknown.
     float* colors; // linear rgb at HAIR_STRAND_COLORS points of each strand. NULL if unknown.
+    uint8_t* groups; // of each strand, below HAIR_MAX_STRAND_GROUPS. NULL if all are 0.
     uint32_t strand_count;
     uint32_t vertex_count;
 };

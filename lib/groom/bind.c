@@ -20,23 +20,37 @@ static void gather_features(const struct hair_groom_builder* builder, float* fea
                HAIR_FEATURES * sizeof *features);
 }
 
-static hair_result find_owners(struct hair_groom_builder* builder, const float* features)
+// Find the nearest guides of the strands of a group among the guides of the group.
+static hair_result find_owners_in_group(struct hair_groom_builder* builder, const float* all, uint32_t group)
 {
     struct hair_kd_tree tree;
-    HAIR_TRY(hair_kd_tree_build(builder->host, (struct hair_point_set){features, HAIR_FEATURES},
-                                builder->groom->info.guide_count, &tree));
+    uint32_t first = builder->group_first[group], count = builder->group_first[group + 1] - first;
+    const float* features = all + HAIR_FEATURES * (size_t)first;
+    if (count == 0) return HAIR_OK;
+    HAIR_TRY(
+        hair_kd_tree_build(builder->host, (struct hair_point_set){features, HAIR_FEATURES}, count, &tree));
     for (uint32_t i = 0; i < builder->strands.strand_count; ++i) {
+        if (hair_group_of(builder, i) != group) continue;
         // The guide of the strand's cell is near, so the search only has to find a nearer one.
-        HAIR_ASSERT(builder->owner[i] < builder->groom->info.guide_count);
+        uint32_t owner = builder->owner[i] - first;
+        HAIR_ASSERT(owner < count);
         const float* own = builder->features + HAIR_FEATURES * (size_t)i;
         struct hair_kd_neighbor* near = builder->near + HAIR_FOLLOWED * (size_t)i;
-        near[0] = (struct hair_kd_neighbor){
-            builder->owner[i], distance_squared(own, features + HAIR_FEATURES * (size_t)builder->owner[i])};
+        near[0] =
+            (struct hair_kd_neighbor){owner, distance_squared(own, features + HAIR_FEATURES * (size_t)owner)};
         uint32_t found = hair_kd_tree_nearest(&tree, own, near, 1, HAIR_FOLLOWED);
         for (uint32_t k = found; k < HAIR_FOLLOWED; ++k) near[k] = near[0];
+        for (uint32_t k = 0; k < HAIR_FOLLOWED; ++k) near[k].index += first;
         builder->owner[i] = near[0].index;
     }
     hair_kd_tree_free(builder->host, &tree);
+    return HAIR_OK;
+}
+
+static hair_result find_owners(struct hair_groom_builder* builder, const float* features)
+{
+    for (uint32_t group = 0; group < HAIR_MAX_STRAND_GROUPS; ++group)
+        HAIR_TRY(find_owners_in_group(builder, features, group));
     for (uint32_t i = 0; i < builder->groom->info.guide_count; ++i) builder->owner[builder->chosen[i]] = i;
     return HAIR_OK;
 }

@@ -52,6 +52,9 @@ static void compute_info(struct hair_groom_builder* builder)
     }
     HAIR_ASSERT(0 < info->length[0] && info->length[0] <= info->length[2]);
     info->length[1] = (float)(sum / strands->strand_count);
+    info->group_count = 1;
+    for (uint32_t i = 0; strands->groups && i < strands->strand_count; ++i)
+        if (strands->groups[i] >= info->group_count) info->group_count = strands->groups[i] + 1u;
     for (size_t a = 0; a < 3; ++a) {
         info->lower[a] = info->upper[a] = strands->positions[a];
         for (size_t i = 1; i < strands->vertex_count; ++i) {

@@ -36,6 +36,8 @@ struct hair_groom_builder {
 
     uint32_t* chosen; // strand of each guide
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
+    // First guide of each group, and the number of guides, only with HAIR_STRAND_SET_FULL.
+    uint32_t group_first[HAIR_MAX_STRAND_GROUPS + 1];
     // The HAIR_FOLLOWED guides nearest to each strand, only with HAIR_STRAND_SET_FULL.
     struct hair_kd_neighbor* near;
 
@@ -59,6 +61,11 @@ struct hair_groom_builder {
     float* map_thickness; // of each candidate, the maximum over all sets
     hair_vec4* map_fraction; // thickness in each set as a fraction of map_thickness
 };
+
+static inline uint32_t hair_group_of(const struct hair_groom_builder* builder, uint32_t strand)
+{
+    return builder->strands.groups ? builder->strands.groups[strand] : 0;
+}
 
 // Steps, in order. Each reports a failure by one sentence and leaves its results in the builder.
 hair_result hair_build_strands(struct hair_groom_builder* builder);

@@ -17,10 +17,13 @@
 
 _Static_assert(HAIR_FEATURES <= HAIR_KD_MAX_DIMENSIONS, "a strand's marks are one point");
 
+// The choice of guides for the strands of one group.
 struct choice {
+    const struct hair_groom_builder* builder;
+    uint32_t group;
     const float* features;
-    uint32_t* chosen;
-    uint32_t* owner;
+    uint32_t* chosen; // strand of each guide of the group
+    uint32_t* owner; // guide of each strand, counted from the first guide of the group
     uint32_t found;
 };
 
@@ -135,6 +138,11 @@ static void choose_guides(struct choice* choice, const struct cell* cell, uint32
     choose_guides(choice, &back, guides - front_guides, depth + 1);
 }
 
+static bool is_of_other_group(const struct choice* choice, uint32_t strand)
+{
+    return hair_group_of(choice->builder, strand) != choice->group;
+}
+
 // Sum up the features of the strands of each cell. Return false if a cell is empty.
 static bool sum_cells(const struct choice* choice, const uint32_t* owner, uint32_t count, double* mean,
                       uint32_t* members)
@@ -142,6 +150,7 @@ static bool sum_cells(const struct choice* choice, const uint32_t* owner, uint32
     memset(mean, 0, (size_t)choice->found * HAIR_FEATURES * sizeof *mean);
     memset(members, 0, choice->found * sizeof *members);
     for (uint32_t i = 0; i < count; ++i) {
+        if (is_of_other_group(choice, i)) continue;
         ++members[owner[i]];
         for (size_t a = 0; a < HAIR_FEATURES; ++a)
             mean[HAIR_FEATURES * (size_t)owner[i] + a] +=
@@ -169,6 +178,7 @@ static hair_result assign_strands(const struct choice* choice, const hair_host* 
     struct hair_kd_tree tree;
     HAIR_TRY(hair_kd_tree_build(host, (struct hair_point_set){mean, HAIR_FEATURES}, choice->found, &tree));
     for (uint32_t i = 0; i < count; ++i) {
+        if (is_of_other_group(choice, i)) continue;
         struct hair_kd_neighbor near = {
             choice->owner[i], squared_from(choice, i, mean + HAIR_FEATURES * (size_t)choice->owner[i])};
         hair_kd_tree_nearest(&tree, choice->features + HAIR_FEATURES * (size_t)i, &near, 1, 1);
@@ -183,6 +193,7 @@ static void choose_nearest_guides(struct choice* choice, uint32_t count, const f
 {
     for (uint32_t g = 0; g < choice->found; ++g) squared[g] = INFINITY;
     for (uint32_t i = 0; i < count; ++i) {
+        if (is_of_other_group(choice, i)) continue;
         uint32_t g = choice->owner[i];
         float own = squared_from(choice, i, mean + HAIR_FEATURES * (size_t)g);
         if (!(own < squared[g])) continue;
@@ -205,7 +216,8 @@ static hair_result refine_cells(struct choice* choice, const hair_host* host, ui
     size_t features = (size_t)choice->found * HAIR_FEATURES;
     for (int round = 0; round <= ROUNDS; ++round) {
         if (!sum_cells(choice, round ? r->owner : choice->owner, count, r->sum, r->members)) return HAIR_OK;
-        if (round) memcpy(choice->owner, r->owner, count * sizeof *r->owner);
+        for (uint32_t i = 0; round && i < count; ++i)
+            if (!is_of_other_group(choice, i)) choice->owner[i] = r->owner[i];
         for (size_t k = 0; k < features; ++k) r->mean[k] = (float)r->sum[k];
         choose_nearest_guides(choice, count, r->mean, r->squared);
         if (round < ROUNDS) HAIR_TRY(assign_strands(choice, host, count, r->mean, r->owner));
@@ -233,17 +245,76 @@ static hair_result refine(struct choice* choice, const hair_host* host, uint32_t
     return result;
 }
 
-static uint32_t count_guides(const struct hair_groom_builder* builder)
+// Count the strands of each group. Return the number of groups that have strands.
+static uint32_t count_groups(const struct hair_groom_builder* builder,
+                             uint32_t strands[HAIR_MAX_STRAND_GROUPS])
+{
+    uint32_t groups = 0;
+    memset(strands, 0, HAIR_MAX_STRAND_GROUPS * sizeof *strands);
+    for (uint32_t i = 0; i < builder->strands.strand_count; ++i) ++strands[hair_group_of(builder, i)];
+    for (uint32_t group = 0; group < HAIR_MAX_STRAND_GROUPS; ++group) groups += strands[group] > 0;
+    return groups;
+}
+
+static uint32_t count_guides(const struct hair_groom_builder* builder, uint32_t groups)
 {
     uint32_t strands = builder->strands.strand_count;
     uint32_t wanted = builder->desc->guide_count;
     if (builder->desc->strand_set == HAIR_STRAND_SET_GUIDES) return strands;
     if (wanted == 0) wanted = strands / 10 < 64 ? 64 : strands / 10;
     if (wanted > HAIR_MAX_GUIDES) wanted = HAIR_MAX_GUIDES;
+    if (wanted < groups) wanted = groups;
     return wanted < strands ? wanted : strands;
 }
 
-static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guides)
+// Choose the guides of the group to which all strands of the cell belong.
+static hair_result choose_in_group(struct hair_groom_builder* builder, const struct cell* cell,
+                                   uint32_t group, uint32_t guides)
+{
+    uint32_t first = builder->group_first[group], strands = builder->strands.strand_count;
+    struct choice choice = {.builder = builder,
+                            .group = group,
+                            .features = builder->features,
+                            .chosen = builder->chosen + first,
+                            .owner = builder->owner};
+    choose_guides(&choice, cell, guides, 0);
+    HAIR_ASSERT(choice.found == guides);
+    if (guides < cell->count) HAIR_TRY(refine(&choice, builder->host, strands));
+    for (uint32_t i = 0; first && i < strands; ++i)
+        if (!is_of_other_group(&choice, i)) builder->owner[i] += first;
+    return HAIR_OK;
+}
+
+// Divide the guides among the groups like among the cells of a group. `order` has the strands of
+// one group after the other, and `strands` their numbers.
+static hair_result choose_by_group(struct hair_groom_builder* builder, uint32_t* order,
+                                   const uint32_t strands[HAIR_MAX_STRAND_GROUPS], uint32_t groups,
+                                   uint32_t guides)
+{
+    const struct choice all = {.features = builder->features};
+    uint32_t left = builder->strands.strand_count;
+    for (uint32_t group = 0; group < HAIR_MAX_STRAND_GROUPS; ++group) {
+        uint32_t count = strands[group], own = 0;
+        if (count) {
+            struct cell front = measure_cell(&all, order, count);
+            own = guides;
+            if (count < left) {
+                struct cell back = measure_cell(&all, order + count, left - count);
+                own = count_front_guides(&front, &back, guides);
+                // Each of the other groups needs a guide.
+                if (own > guides - --groups) own = guides - groups;
+            }
+            HAIR_TRY(choose_in_group(builder, &front, group, own));
+        }
+        builder->group_first[group + 1] = builder->group_first[group] + own;
+        order += count, left -= count, guides -= own;
+    }
+    HAIR_ASSERT(left == 0 && guides == 0);
+    return HAIR_OK;
+}
+
+static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guides,
+                              const uint32_t strands[HAIR_MAX_STRAND_GROUPS], uint32_t groups)
 {
     uint32_t count = builder->strands.strand_count;
     uint32_t* order = hair_alloc(builder->host, count, sizeof *order);
@@ -252,24 +323,25 @@ static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guide
         hair_free(builder->host, order);
         return hair_fail_memory(builder->host, "the choice of guides");
     }
-    for (uint32_t i = 0; i < count; ++i) order[i] = i;
-    struct choice choice = {
-        .features = builder->features, .chosen = builder->chosen, .owner = builder->owner};
-    struct cell all = measure_cell(&choice, order, count);
-    choose_guides(&choice, &all, guides, 0);
-    HAIR_ASSERT(choice.found == guides);
+    uint32_t next[HAIR_MAX_STRAND_GROUPS] = {0};
+    for (uint32_t group = 1; group < HAIR_MAX_STRAND_GROUPS; ++group)
+        next[group] = next[group - 1] + strands[group - 1];
+    for (uint32_t i = 0; i < count; ++i) order[next[hair_group_of(builder, i)]++] = i;
+    hair_result result = choose_by_group(builder, order, strands, groups, guides);
     hair_free(builder->host, order);
-    return guides < count ? refine(&choice, builder->host, count) : HAIR_OK;
+    return result;
 }
 
 hair_result hair_build_guides(struct hair_groom_builder* builder)
 {
-    uint32_t guides = count_guides(builder);
+    uint32_t strands[HAIR_MAX_STRAND_GROUPS];
+    uint32_t groups = count_groups(builder, strands), guides = count_guides(builder, groups);
     HAIR_ASSERT(0 < guides && guides <= HAIR_MAX_GUIDES);
     builder->groom->info.guide_count = guides;
     builder->chosen = hair_alloc(builder->host, guides, sizeof *builder->chosen);
     if (!builder->chosen) return hair_fail_memory(builder->host, "the choice of guides");
-    if (builder->desc->strand_set == HAIR_STRAND_SET_FULL) return choose_all(builder, guides);
+    if (builder->desc->strand_set == HAIR_STRAND_SET_FULL)
+        return choose_all(builder, guides, strands, groups);
     for (uint32_t i = 0; i < guides; ++i) builder->chosen[i] = i;
     return HAIR_OK;
 }

@@ -37,12 +37,29 @@ static hair_result check_numbers(const struct hair_groom_builder* builder, const
     return HAIR_OK;
 }
 
-// Copy the radii and colours of strands.
+static hair_result copy_groups(struct hair_groom_builder* builder)
+{
+    const uint8_t* groups = builder->desc->strand_groups;
+    struct hair_strands* strands = &builder->strands;
+    if (!groups) return HAIR_OK;
+    for (uint32_t i = 0; i < strands->strand_count; ++i)
+        if (groups[i] >= HAIR_MAX_STRAND_GROUPS)
+            return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.strand_groups[%u] is %u, not in [0, %d]", i, groups[i],
+                             HAIR_MAX_STRAND_GROUPS - 1);
+    strands->groups = hair_alloc(builder->host, strands->strand_count, sizeof *groups);
+    if (!strands->groups) return hair_fail_memory(builder->host, "strands");
+    memcpy(strands->groups, groups, strands->strand_count * sizeof *groups);
+    return HAIR_OK;
+}
+
+// Copy the groups, radii and colours of strands.
 static hair_result copy_rest(struct hair_groom_builder* builder)
 {
     const hair_groom_desc* desc = builder->desc;
     struct hair_strands* strands = &builder->strands;
     uint32_t each = desc->color_count, count = strands->strand_count;
+    HAIR_TRY(copy_groups(builder));
     if (desc->strand_radii) {
         HAIR_TRY(check_numbers(builder, "strand_radii", desc->strand_radii, count, FARTHEST));
         strands->radii = hair_alloc(builder->host, count, sizeof *strands->radii);

@@ -142,7 +142,9 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
     if (!groom->guides) return hair_fail_memory(builder->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         uint32_t count = count_guide_vertices(builder, i);
-        groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count, .count = count};
+        groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count,
+                                               .count = count,
+                                               .group = hair_group_of(builder, builder->chosen[i])};
         info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
         if (count > groom->max_vertices) groom->max_vertices = count;
     }

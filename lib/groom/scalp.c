@@ -6,6 +6,8 @@
 #define COINCIDE 1e-3f
 // Number of nearest guides among which three that surround a root are searched.
 #define NEAR 8
+// Number of nearest guides among which those of one group are searched, where groups are mixed.
+#define NEAR_MIXED 24
 
 // Return the area of a triangle, m^2, or 0 if no hair grows on it.
 static double fertile_area(const struct hair_groom_builder* builder, uint32_t triangle)
@@ -138,13 +140,10 @@ static struct trio weigh_by_distance(const struct hair_kd_neighbor* near, uint32
     return trio;
 }
 
-// Return the nearest three guides that surround the root.
-static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
+// Return the nearest three of the given guides that surround the root.
+static struct trio choose_trio(const struct hair_groom* groom, const struct hair_kd_neighbor* near,
+                               uint32_t found, hair_vec3 root)
 {
-    const struct hair_groom* groom = scalp->builder->groom;
-    float point[3] = {root.x, root.y, root.z};
-    struct hair_kd_neighbor near[NEAR];
-    uint32_t found = hair_kd_tree_nearest(&scalp->roots, point, near, 0, NEAR);
     for (uint32_t k = 2; k < found; ++k)
         for (uint32_t j = 1; j < k; ++j)
             for (uint32_t i = 0; i < j; ++i) {
@@ -158,6 +157,33 @@ static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
                 return trio;
             }
     return weigh_by_distance(near, found);
+}
+
+static struct trio find_trio(const struct scalp* scalp, hair_vec3 root)
+{
+    float point[3] = {root.x, root.y, root.z};
+    struct hair_kd_neighbor near[NEAR];
+    uint32_t found = hair_kd_tree_nearest(&scalp->roots, point, near, 0, NEAR);
+    return choose_trio(scalp->builder->groom, near, found, root);
+}
+
+static bool is_mixed(const struct hair_groom* groom, const struct trio* trio)
+{
+    uint32_t group = groom->guides[trio->guide[0]].group;
+    return groom->guides[trio->guide[1]].group != group || groom->guides[trio->guide[2]].group != group;
+}
+
+// Return three guides of the group of `guide`, or `guide` alone if others surround the root.
+static struct trio find_trio_in_group(const struct scalp* scalp, hair_vec3 root, uint32_t guide)
+{
+    const struct hair_groom* groom = scalp->builder->groom;
+    float point[3] = {root.x, root.y, root.z};
+    struct hair_kd_neighbor near[NEAR_MIXED];
+    uint32_t found = hair_kd_tree_nearest(&scalp->roots, point, near, 0, NEAR_MIXED), kept = 0;
+    for (uint32_t i = 0; i < found && kept < NEAR; ++i)
+        if (groom->guides[near[i].index].group == groom->guides[guide].group) near[kept++] = near[i];
+    if (kept) return choose_trio(groom, near, kept, root);
+    return (struct trio){.guide = {guide, guide, guide}, .weight = {1, 0, 0}};
 }
 
 // Draw guide 0 at random by weight, so that the borders of clumps are soft.
@@ -253,6 +279,10 @@ static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
         else
             trio = find_trio(scalp, root);
         draw_first(&trio, &random);
+        if (is_mixed(builder->groom, &trio)) {
+            trio = find_trio_in_group(scalp, root, trio.guide[0]);
+            draw_first(&trio, &random);
+        }
         respect_partings(builder->groom, &trio);
         HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
         builder->groom->followers[builder->place[candidate]] =

@@ -20,6 +20,7 @@ struct hostile {
     float positions[3 * VERTICES], scalp[3 * SCALP], density[SCALP];
     float radii[STRANDS], colors[3 * VERTICES];
     uint32_t vertices[STRANDS], triangles[3 * 2 * SCALP];
+    uint8_t groups[STRANDS];
     hair_import import;
     hair_groom_desc desc;
     uint32_t random;
@@ -75,7 +76,10 @@ static void invent(struct hostile* h, uint32_t seed)
         h->colors[i] = below(h, 2000) || !wild ? hair_random(&h->random) : number(h, 100);
     for (uint32_t i = 0; i < STRANDS; ++i)
         h->radii[i] = below(h, 60) || !wild ? hair_random(&h->random) : number(h, 100);
+    for (uint32_t i = 0; i < STRANDS; ++i)
+        h->groups[i] = (uint8_t)(below(h, 400) ? below(h, 8) : below(h, 256));
     if (below(h, 2)) h->desc.strand_radii = h->radii;
+    if (below(h, 2)) h->desc.strand_groups = h->groups;
     if (below(h, 2)) h->desc.colors = h->colors;
     h->desc.color_count = below(h, 2) * below(h, VERTICES / STRANDS);
 
@@ -105,6 +109,7 @@ static void assert_sound(const hair_groom* groom)
         assert_finite(&groom->guides[i].root_frame, 4);
         assert_true(isfinite(groom->guides[i].arc_length) && groom->guides[i].arc_length > 0);
         assert_in_range(groom->guides[i].count, 2, groom->max_vertices);
+        assert_in_range(groom->guides[i].group, 0, info->group_count - 1);
     }
     assert_finite(groom->rest, 8 * (size_t)info->guide_vertex_count);
     for (uint32_t i = 0; i < info->follower_count; ++i) {
@@ -112,6 +117,8 @@ static void assert_sound(const hair_groom* groom)
         assert_true(follower->guide0 < info->guide_count);
         assert_true(follower->guide1 < info->guide_count);
         assert_true(follower->guide2 < info->guide_count);
+        assert_int_equal(groom->guides[follower->guide1].group, groom->guides[follower->guide0].group);
+        assert_int_equal(groom->guides[follower->guide2].group, groom->guides[follower->guide0].group);
         assert_finite(&follower->weight1, 20);
         assert_true(follower->length_ratio > 0);
     }

@@ -67,4 +67,5 @@ POINTER(hair_groom_desc, physics, "Physics that instances will be created with."
 ENUM(hair_groom_desc, solver, HAIR_SOLVER_DIRECT, "Solver for which `physics` prepares the guides.",
       "direct", "accurate", "follow", "redblack")
 POINTER(hair_groom_desc, tasks, "Threads on which the guides are prepared.")
+POINTER(hair_groom_desc, strand_groups, "Group of each strand, such as beard, brows or undercoat.")
 END

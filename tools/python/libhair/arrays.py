@@ -21,6 +21,14 @@ def integers(values, name):
     return np.ascontiguousarray(out, dtype=np.uint32).ravel()
 
 
+def small_integers(values, count, name):
+    """Return `count` values as an array of unsigned integers of 8 bits."""
+    out = integers(values, name)
+    if len(out) != count or (count and out.max() > 255):
+        raise ValueError(f"{name} must be {count} integers from 0 to 255")
+    return out.astype(np.uint8)
+
+
 def pointer(kind, array):
     return ffi.cast(kind + "*", ffi.from_buffer(array))
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ._native import call, ffi, hair, host, new_desc, to_dict
-from .arrays import array, floats, integers, pointer
+from .arrays import array, floats, integers, pointer, small_integers
 from .settings import CLASSES
 
 
@@ -73,11 +73,12 @@ class Groom:
     """An immutable haircut that hair is made from.
 
     The strands are those of an asset, or arrays: positions of all vertices, strand after strand, and the
-    number of vertices of each strand. `members` are those of GroomDesc.
+    number of vertices of each strand. strand_groups has the group of each strand. `members` are those
+    of GroomDesc.
     """
 
     def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
-                 scalp_triangles=None, members=None, **more):  # fmt: skip
+                 scalp_triangles=None, strand_groups=None, members=None, **more):  # fmt: skip
         desc, out, kept = CLASSES["GroomDesc"](), ffi.new("hair_groom**"), []
         c = desc._c
         if asset is not None:
@@ -90,6 +91,9 @@ class Groom:
                 raise ValueError(f"strand_vertices add up to {kept[1].sum()}, and there are {len(kept[0])} positions")
             c.positions, c.strand_vertices = pointer("float", kept[0]), pointer("uint32_t", kept[1])
             c.strand_count = len(kept[1])
+        if strand_groups is not None:
+            kept.append(small_integers(strand_groups, c.strand_count, "strand_groups"))
+            c.strand_groups = pointer("uint8_t", kept[-1])
         if scalp_positions is not None:
             points = floats(scalp_positions, 3, "scalp_positions")
             triangles = integers(() if scalp_triangles is None else scalp_triangles, "scalp_triangles")
@@ -100,6 +104,14 @@ class Groom:
         c.host = host
         call(hair.hair_groom_create, c, out)
         self._c = ffi.gc(out[0], hair.hair_groom_destroy)
+
+    @property
+    def groups(self):
+        """The group of each guide."""
+        count = self.info["guide_count"]
+        out = np.zeros(count, dtype=np.uint8)
+        call(hair.hair_groom_get_groups, self._c, pointer("uint8_t", out), count)
+        return out
 
     @property
     def info(self):

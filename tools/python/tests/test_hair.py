@@ -54,6 +54,22 @@ class HaircutTest(unittest.TestCase):
         self.assertEqual(groom.info["follower_count"], 100)
         np.testing.assert_allclose(groom.info["length"], 0.14, rtol=1e-5)
 
+    def test_groups_of_strands(self):
+        positions = np.zeros((20, 8, 3))
+        positions[:, :, 0] = np.arange(20)[:, None] * 0.01
+        positions[:, :, 1] = -0.02 * np.arange(8)
+        arrays = {"positions": positions, "strand_vertices": [8] * 20, "strand_set": "guides"}
+        groups = np.arange(20) % 3
+        groom = libhair.Groom(**arrays, strand_groups=groups)
+        self.assertEqual(groom.info["group_count"], 3)
+        np.testing.assert_array_equal(groom.groups, groups)
+        np.testing.assert_array_equal(libhair.Groom(**arrays).groups, np.zeros(20))
+        for wrong in (groups[1:], [256] * 20, [-1] * 20, [0.5] * 20):
+            with self.assertRaises(ValueError):
+                libhair.Groom(**arrays, strand_groups=wrong)
+        with self.assertRaisesRegex(libhair.HairArgumentError, r"strand_groups\[0\] is 8, not in \[0, 7\]"):
+            libhair.Groom(**arrays, strand_groups=[8] * 20)
+
     def test_wrong_arrays_raise(self):
         for positions, counts in (([0, 0, 0, 1], [2]), ([0] * 6, [3]), ([0] * 6, [-2]), ([0] * 6, [1.5]), (None, [1])):
             with self.assertRaises(ValueError):
