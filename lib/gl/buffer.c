@@ -2,6 +2,8 @@
 // success is checked by querying sizes.
 #include "lib/gl/gl.h"
 
+#include <string.h>
+
 // Sizes -------------------------------------------------------------------------------------------
 
 static uint64_t buffer_bytes(const struct hair_gl* gl, GLuint buffer)
@@ -43,18 +45,18 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
     GLuint buffer = 0;
     GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
     HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)want));
+    // The zeros are uploaded. The driver of an H100 lost data that glNamedBufferSubData wrote after
+    // glClearNamedBufferData.
+    void* zeros = data && size >= 16 ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
+    if (!zeros && !(data && size >= 16)) return hair_fail_memory(&gl->host, label);
+    if (zeros && data) memcpy(zeros, data, size);
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
-        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, data && size >= 16 ? data : NULL,
-                               GL_DYNAMIC_STORAGE_BIT);
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, zeros ? zeros : data, GL_DYNAMIC_STORAGE_BIT);
         gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
     }
-    if (got == want) {
-        // The driver writes zeros faster than it copies them.
-        if (!data || size < 16)
-            gl->ClearNamedBufferData(buffer, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, NULL);
-        if (data && size && size < 16) gl->NamedBufferSubData(buffer, 0, (GLsizeiptr)size, data);
-    } else {
+    hair_free(&gl->host, zeros);
+    if (got != want) {
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want,
                          label);
