@@ -254,6 +254,19 @@ struct hair_root_transform {
 };
 HAIR_SIZE(hair_root_transform)
 
+// Joints that move a vertex of the scalp, and their weights. The sum of the weights is 1.
+struct hair_vertex_joints {
+    hair_uint joint0, joint1, joint2, joint3;
+    hair_vec4 weights;
+};
+HAIR_SIZE(hair_vertex_joints)
+
+// Matrix of a joint, by rows. It takes a position at rest to the space of the application.
+struct hair_joint {
+    hair_vec4 row0, row1, row2; // xyz: linear part. w: translation, m.
+};
+HAIR_SIZE(hair_joint)
+
 // Bit of hair_target_params.flags.
 #define HAIR_TARGETS_RESET 1u // There is no history. Vertices get their weights at once.
 

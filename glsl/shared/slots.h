@@ -72,6 +72,9 @@
 // hair_root_binding[] of guides, then of followers. Read-only.
 #define HAIR_BIND_ROOT_BINDING 6
 #define HAIR_BIND_FOLLOWER 7   // hair_follower[]
+// Buffers of the pass that skins the scalp. It has the scalp, and the scalp at rest.
+#define HAIR_BIND_VERTEX_JOINTS 2 // hair_vertex_joints[] per scalp vertex. Read-only.
+#define HAIR_BIND_JOINT 7         // hair_joint[] per joint. Read-only.
 
 // Buffers of the pass that blends targets. The first two are also of smooth.comp.
 

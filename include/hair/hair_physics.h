@@ -220,6 +220,38 @@ HAIR_API hair_result hair_set_scalp(hair_instance* hair, const float* positions,
 HAIR_API hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_t offset,
                                            size_t stride, const float to_world[16]);
 
+/// Bind the scalp's vertices to joints, so that hair_set_scalp_joints() can skin the scalp on the
+/// GPU. Each vertex has four joints. A joint of weight 0 does not move the vertex.
+///
+/// @param joints Indices of joints, four per vertex, each less than `joint_count`. NULL removes the
+///     joints. The other arguments must then be NULL or 0.
+/// @param weights Weights of the joints, four per vertex. [0, 1]. Their sum per vertex is 1 within
+///     0.01. The library divides by the sum.
+/// @param vertex_count Number of vertices, that of the groom's scalp.
+/// @param joint_count Number of joints. [1, 65536].
+/// Errors: HAIR_ERROR_ARGUMENT, also if the groom has no scalp, HAIR_ERROR_MEMORY,
+///     HAIR_ERROR_OPENGL.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_set_scalp_weights(hair_instance* hair, const uint16_t* joints,
+                                            const float* weights, uint32_t vertex_count,
+                                            uint32_t joint_count);
+
+/// Set the positions of the scalp's vertices by joints, in every other respect like
+/// hair_set_scalp(). The library skins the scalp at rest on the GPU: a vertex moves to the mean of
+/// the positions that its joints would give it, by the weights of hair_set_scalp_weights().
+///
+/// @param matrices Affine matrix per joint, column-major: the pose of the joint times the inverse
+///     of its bind pose. It takes a position in the groom's space to the joints' space. Each number
+///     is in [-1e9, 1e9].
+/// @param joint_count Number of joints, that of hair_set_scalp_weights().
+/// @param to_world Rigid transform from the joints' space to the world. NULL if the joints are in
+///     the world.
+/// Errors: HAIR_ERROR_ARGUMENT, also without hair_set_scalp_weights(), HAIR_ERROR_MEMORY,
+///     HAIR_ERROR_OPENGL.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_set_scalp_joints(hair_instance* hair, const float* matrices,
+                                           uint32_t joint_count, const float to_world[16]);
+
 // Steps -------------------------------------------------------------------------------------------
 
 /// Advance the simulation.

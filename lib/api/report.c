@@ -96,6 +96,9 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     case HAIR_GL_CATEGORY_TARGETS: return why_not_simulated(requests, hair_targets_are_on(sim));
     case HAIR_GL_CATEGORY_UNPACK_POSITIONS:
         return skin || hair_targets_are_on(sim) ? HAIR_SKIP_REASON_NOT_CALLED : HAIR_SKIP_REASON_NOT_WANTED;
+    case HAIR_GL_CATEGORY_SKIN_SCALP:
+        return sim->scalp_motion.skin.vertex_joints ? HAIR_SKIP_REASON_NOT_CALLED
+                                                    : HAIR_SKIP_REASON_NOT_WANTED;
     case HAIR_GL_CATEGORY_ROOT_TRANSFORMS: return why_not_simulated(requests, skin);
     case HAIR_GL_CATEGORY_WIND: return why_not_simulated(requests, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_CATEGORY_HAIR_GRID: return why_not_simulated(requests, hair_grid_is_on(sim));

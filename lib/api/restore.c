@@ -58,7 +58,8 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
         memcpy(own, pins->resolved_pin, pins->count * sizeof *own);
     }
     hair_pins_adopt(&hair->sim, own, pins->count);
-    return HAIR_OK;
+    return hair_scalp_skin_copy(&hair->context->gl, &lost->sim.scalp_motion.skin,
+                                hair_scalp_motion_vertex_count(&hair->sim), &hair->sim.scalp_motion.skin);
 }
 
 // Make the rooms of an instance again, in place of those that are lost.

@@ -25,6 +25,7 @@ void hair_scalp_motion_undo_create(struct hair_sim* sim)
 void hair_scalp_motion_free(struct hair_sim* sim)
 {
     free_buffers(sim);
+    hair_scalp_skin_adopt(sim->gl, &sim->scalp_motion.skin, NULL, 0);
     hair_root_bindings_release(sim->scalp_motion.root_bindings);
     sim->scalp_motion.root_bindings = NULL;
 }
@@ -177,6 +178,17 @@ void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t of
                 size);
     bind_scalp(sim, motion->scalp[1], (struct hair_scalp_params){.first = first, .stride = stride});
     hair_unpack_positions(sim->gl, buffer, offset, size, motion->root_bindings->vertex_count);
+    motion->space = *space;
+    motion->changed = 1;
+}
+
+void hair_scalp_motion_set_joints(struct hair_sim* sim, const struct hair_joint* joints,
+                                  const struct hair_pose* space)
+{
+    struct hair_scalp_motion* motion = &sim->scalp_motion;
+    HAIR_ASSERT(hair_scalp_motion_is_on(sim) && joints);
+    bind_scalp(sim, motion->scalp[1], (struct hair_scalp_params){0});
+    hair_scalp_skin_run(sim->gl, &motion->skin, joints, motion->root_bindings->vertex_count);
     motion->space = *space;
     motion->changed = 1;
 }

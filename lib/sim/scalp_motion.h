@@ -9,8 +9,9 @@
 #include "lib/base/pose.h"
 #include "lib/gl/gl.h"
 #include "lib/groom/scalp_binding.h"
+#include "lib/sim/scalp_skin.h"
 
-// All members but `root_bindings` are 0 until the application first sets a scalp.
+// All members but `root_bindings` and `skin` are 0 until the application first sets a scalp.
 struct hair_scalp_motion {
     // Root bindings, of which a reference is held. NULL without a scalp.
     struct hair_root_bindings* root_bindings;
@@ -22,6 +23,7 @@ struct hair_scalp_motion {
     struct hair_pose space; // Pose in the world of the space of scalp[1].
     int changed; // 1 if a scalp has been set since the last step.
     hair_vec4 rotation, offset; // Transform of scalp[0] to the head's frame, as in shared.h.
+    struct hair_scalp_skin skin; // Joints, if the library skins the scalp.
 };
 
 struct hair_sim;
@@ -44,6 +46,10 @@ void hair_scalp_motion_set(struct hair_sim* sim, const float* positions, const s
 // hair_scalp_motion_create() has succeeded.
 void hair_scalp_motion_set_buffer(struct hair_sim* sim, GLuint buffer, size_t offset, size_t size,
                                   uint32_t first, uint32_t stride, const struct hair_pose* space);
+// Set the scalp of the next step by joints. hair_scalp_motion_create() and hair_scalp_skin_create()
+// have succeeded.
+void hair_scalp_motion_set_joints(struct hair_sim* sim, const struct hair_joint* joints,
+                                  const struct hair_pose* space);
 
 // Copy `vertices` positions out of `size` bytes of the application's buffer, from the byte `offset`
 // on. The parameters of the copy and the buffer that receives the positions are bound.

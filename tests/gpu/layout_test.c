@@ -41,6 +41,8 @@ static const struct {
     STRUCT(hair_root_binding),
     STRUCT(hair_root_transform),
     STRUCT(hair_scalp_params),
+    STRUCT(hair_vertex_joints),
+    STRUCT(hair_joint),
     STRUCT(hair_target_params),
     STRUCT(hair_fluid_params),
     STRUCT(hair_fluid_level),

@@ -102,6 +102,8 @@ static void check_refused(struct fixture* f)
     refused(hair_set_pins(f->hair, &pin, 1, sizeof pin));
     refused(hair_set_scalp(f->hair, positions, 3, 12, NULL));
     refused(hair_set_scalp_buffer(f->hair, 1, 0, 12, NULL));
+    refused(hair_set_scalp_weights(f->hair, NULL, NULL, 0, 0));
+    refused(hair_set_scalp_joints(f->hair, positions, 1, NULL));
     refused(hair_step(f->hair, 0));
     refused(hair_step(f->hair, 1.0f / 60));
     refused(hair_reset(f->hair));

@@ -74,6 +74,22 @@ static hair_result set_scalp(struct hair_test_torture* t)
     return result;
 }
 
+// Skin the scalp by two joints.
+static hair_result set_joints(struct hair_test_torture* t)
+{
+    float matrices[32] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.1f, 0, 1,
+                          1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0.2f, 0, 1};
+    return hair_set_scalp_joints(t->hair, matrices, 2, NULL);
+}
+
+static hair_result set_weights(struct hair_test_torture* t)
+{
+    uint16_t joints[100];
+    float weights[100];
+    for (uint16_t i = 0; i < 100; ++i) joints[i] = i % 2, weights[i] = i % 4 < 2 ? 0.5f : 0;
+    return hair_set_scalp_weights(t->hair, joints, weights, 25, 2);
+}
+
 static hair_result set_many(struct hair_test_torture* t, uint32_t count)
 {
     hair_collider colliders[80];
@@ -140,6 +156,13 @@ static void start_grown(struct hair_test_torture* t)
     if (has_rods(t)) hair_test_ok(t->test, set_pins(t, 9));
     set_physics(t, 0.5f);
     hair_test_ok(t->test, set_many(t, 80));
+}
+
+// The scalp's vertices have joints, which are not set yet.
+static void start_weighted(struct hair_test_torture* t)
+{
+    start_moving(t);
+    hair_test_ok(t->test, set_weights(t));
 }
 
 // A state that has everything is to be loaded into hair that has nothing.
@@ -307,6 +330,8 @@ static void other_refused_calls_change_and_leak_nothing(void** state)
         {"pixel shader", 1, true, start_at_rest, create_shader},
         {"scalp", 0, false, start_changed, set_scalp},
         {"scalp of redblack", 6, false, start_changed, set_scalp},
+        {"joints of vertices", 0, false, start_moving, set_weights},
+        {"joints", 0, false, start_weighted, set_joints},
         {"teleport", 0, false, start_changed, teleport},
         {"teleport of redblack", 6, true, start_moving, teleport},
         {"field", 0, false, start_changed, get_field},

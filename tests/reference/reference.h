@@ -133,6 +133,13 @@ void hair_reference_shaped(const struct hair_follower* follower, const hair_look
                            const struct hair_reference_shapes* shapes, double t, double freed,
                            struct hair_reference_point* out);
 
+// skin.cpp ----------------------------------------------------------------------------------------
+
+/// Compute the position of a vertex that four joints move, by linear blend skinning. Matrices are
+/// column-major. Weights are divided by their sum.
+void hair_reference_skin(const float rest[3], const uint16_t joints[4], const float weights[4],
+                         const float* matrices, double position[3]);
+
 #ifdef __cplusplus
 }
 #endif

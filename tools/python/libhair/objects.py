@@ -5,7 +5,7 @@ import threading
 import numpy as np
 
 from ._native import call, egl, ffi, hair, host, new_desc, to_dict
-from .arrays import floats, matrix, pointer
+from .arrays import floats, integers, matrix, pointer
 from .settings import CLASSES
 
 _current = threading.local()
@@ -152,6 +152,26 @@ class Hair:
         points = floats(positions, 3, "positions")
         space = ffi.NULL if to_world is None else pointer("float", matrix(to_world))
         self._call(hair.hair_set_scalp, pointer("float", points), len(points), 12, space)
+
+    def set_scalp_weights(self, joints, weights, joint_count):
+        """Give each vertex of the scalp four joints and their weights, as rows. None removes the joints."""
+        if joints is None:
+            self._call(hair.hair_set_scalp_weights, ffi.NULL, ffi.NULL, 0, 0)
+            return
+        indices, own = integers(joints, "joints"), floats(weights, 4, "weights")
+        if indices.size != own.size:
+            raise ValueError(f"joints has {indices.size} numbers, and weights has {own.size}")
+        if indices.size and indices.max() > 0xFFFF:
+            raise ValueError("joints must be integers from 0 to 65535")
+        indices = indices.astype(np.uint16)
+        self._call(hair.hair_set_scalp_weights, pointer("uint16_t", indices), pointer("float", own),
+                   len(own), joint_count)
+
+    def set_scalp_joints(self, matrices, to_world=None):
+        """Skin the scalp by a 4x4 matrix per joint. None places the joints in the world."""
+        own = np.ascontiguousarray([matrix(one) for one in matrices], dtype=np.float32)
+        space = ffi.NULL if to_world is None else pointer("float", matrix(to_world))
+        self._call(hair.hair_set_scalp_joints, pointer("float", own), len(own), space)
 
     def _get(self, title, function):
         out = CLASSES[title]()

@@ -162,6 +162,22 @@ class HairTest(unittest.TestCase):
             changed.set_scalp(corners[1:])
         self.assertTrue((changed.bounds[0] < changed.bounds[1]).all())
 
+    def test_joints_of_the_scalp_move_hair_as_its_positions_do(self):
+        by_joints, by_positions = self.make(), self.make()
+        corners = libhair.Asset.generate("long", guide_count=64).arrays["scalp_positions"]
+        poses = np.array([np.eye(4), np.eye(4)])
+        poses[1, :3, 3] = 0.02, 0, 0.01
+        half = np.tile([0.5, 0.5, 0, 0], (len(corners), 1))
+        by_joints.set_scalp_weights(np.tile([0, 1, 0, 0], (len(corners), 1)), half, 2)
+        by_joints.set_scalp_joints(poses, np.eye(4))
+        by_positions.set_scalp(corners + [0.01, 0, 0.005])
+        for hair in (by_joints, by_positions):
+            hair.step(1 / 60)
+        np.testing.assert_allclose(by_joints.read(), by_positions.read(), atol=1e-4)
+        by_joints.set_scalp_weights(None, None, 0)
+        with self.assertRaises(libhair.HairArgumentError):
+            by_joints.set_scalp_joints(poses)
+
     def test_mesh_collider_pushes_hair_out(self):
         corners = 0.1 * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
         quads = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
