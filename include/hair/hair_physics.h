@@ -135,6 +135,28 @@ HAIR_API hair_result hair_set_physics(hair_instance* hair, const hair_physics* p
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_get_physics(const hair_instance* hair, hair_physics* out);
 
+/// Set the physics of one group of strands, see hair_groom_desc.strand_groups.
+///
+/// Only fiber.youngs_modulus, the members of `shape`, and tip_mass can differ by group. All other
+/// members must be those of the instance, and follow later calls of hair_set_physics(). The group
+/// that needs the shortest substeps decides their length for all groups.
+///
+/// @param group Group. [0, 7].
+/// @param physics Physics of the group, from hair_get_group_physics(). NULL gives the group the
+///     physics of the instance again. Groups with the physics of the instance cost nothing.
+/// Errors: HAIR_ERROR_ARGUMENT, also for HAIR_SOLVER_REDBLACK, HAIR_ERROR_MEMORY,
+///     HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_set_group_physics(hair_instance* hair, uint32_t group,
+                                            const hair_physics* physics);
+
+/// Write the physics of one group of strands to `out`, which comes from hair_physics_default().
+/// Groups that have not been set have the physics of the instance.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_group_physics(const hair_instance* hair, uint32_t group,
+                                            hair_physics* out);
+
 /// Kinds of hair.
 typedef enum hair_preset {
     HAIR_PRESET_NATURAL = 0, ///< The defaults.

@@ -45,6 +45,9 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
     wind.sources = lost->sim.wind_state.source;
     wind.texture = 0; // The name means another object in another OpenGL context.
     hair_sim_set_wind(&hair->sim, &wind);
+    for (uint32_t g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g)
+        if (lost->sim.groups.own >> g & 1)
+            HAIR_TRY(hair_sim_set_group_physics(&hair->sim, g, &lost->sim.groups.physics[g]));
     HAIR_TRY(hair_targets_set_blend(&hair->sim, &lost->sim.targets.blend, lost->sim.targets.guide_weights));
     // The state is checked as bytes of a file are. A state that is refused leaves the hair at rest.
     hair_result result = hair_snapshots_load(&hair->sim, &lost->sim.snapshots);

@@ -2,6 +2,8 @@
 // computed alone, so the results do not depend on the division.
 #include "lib/rod/prepared.h"
 
+#include <math.h>
+
 #define MAX_TASKS 256
 #define MIN_GUIDES 16 // Minimum number of guides of a task.
 
@@ -45,13 +47,55 @@ static const struct hair_guide* guides_of(const struct rod_work* work, uint32_t 
     return work->source->guides + first;
 }
 
+// Guides of one group, one after the other, and their physics.
+struct group_run {
+    uint32_t first, count;
+    const hair_physics* physics;
+};
+
+// Advance to the next run among `count` guides. An empty run precedes the first one. Return false
+// at the end.
+static bool next_run(const struct hair_rod_source* source, const hair_physics* physics,
+                     const struct hair_guide* guides, uint32_t count, struct group_run* run)
+{
+    uint32_t first = run->first + run->count, end = first;
+    if (first >= count) return false;
+    while (end < count && (!source->groups || guides[end].group == guides[first].group)) ++end;
+    HAIR_ASSERT(guides[first].group < HAIR_MAX_STRAND_GROUPS);
+    *run = (struct group_run){first, end - first,
+                              source->groups ? &source->groups[guides[first].group] : physics};
+    return true;
+}
+
+static void add_report(struct hair_rods_report* all, const struct hair_rods_report* own)
+{
+    all->stiffened += own->stiffened;
+    all->sagging += own->sagging;
+    all->stiffest = own->stiffest > all->stiffest ? own->stiffest : all->stiffest;
+    if (own->farthest_sag > all->farthest_sag) all->farthest_sag = own->farthest_sag;
+}
+
+// Add the softened guides from guide `first` on.
+static void add_softened(struct hair_rods_softened* all, const struct hair_rods_softened* own, uint32_t first)
+{
+    all->guides += own->guides;
+    if (own->factor >= all->factor) return;
+    all->worst = first + own->worst;
+    all->factor = own->factor;
+}
+
 static void preload(uint32_t index, void* data)
 {
     struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
-    hair_rods_preload_gravity(guides, work->source->rest, count, work->physics, work->new_borne,
-                              &work->report[index]);
+    work->report[index] = hair_rods_report_none();
+    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
+        struct hair_rods_report own;
+        hair_rods_preload_gravity(guides + run.first, work->source->rest, run.count, run.physics,
+                                  work->new_borne, &own);
+        add_report(&work->report[index], &own);
+    }
 }
 
 void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
@@ -60,13 +104,7 @@ void hair_rods_preload_all(const struct hair_rod_source* source, const hair_phys
     struct rod_work work = {.source = source, .physics = physics, .new_borne = out};
     uint32_t tasks = divide_guides(&work, preload);
     *report = hair_rods_report_none();
-    for (uint32_t i = 0; i < tasks; ++i) {
-        const struct hair_rods_report* own = &work.report[i];
-        report->stiffened += own->stiffened;
-        report->sagging += own->sagging;
-        report->stiffest = own->stiffest > report->stiffest ? own->stiffest : report->stiffest;
-        if (own->farthest_sag > report->farthest_sag) report->farthest_sag = own->farthest_sag;
-    }
+    for (uint32_t i = 0; i < tasks; ++i) add_report(report, &work.report[i]);
 }
 
 static void find_mixed(uint32_t index, void* data)
@@ -74,8 +112,11 @@ static void find_mixed(uint32_t index, void* data)
     struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
-    work->is_mixed[index] = hair_rods_are_mixed(guides, work->source->rest, work->borne, count, work->physics,
-                                                work->solver, work->is_held, work->substep);
+    work->is_mixed[index] = false;
+    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);)
+        if (hair_rods_are_mixed(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
+                                work->solver, work->is_held, work->substep))
+            work->is_mixed[index] = true;
 }
 
 bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
@@ -94,14 +135,28 @@ bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct 
     return false;
 }
 
+double hair_rods_shared_substep(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                                const hair_physics* physics, hair_solver solver, int mixed)
+{
+    double shortest = INFINITY;
+    for (struct group_run run = {0}; next_run(source, physics, source->guides, source->count, &run);)
+        shortest = fmin(shortest, hair_rods_substep(source->guides + run.first, source->rest, borne,
+                                                    run.count, run.physics, solver, mixed));
+    return shortest;
+}
+
 static void write(uint32_t index, void* data)
 {
     struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
-    work->report[index].softened =
-        hair_rods_write(guides, work->source->rest, work->borne, count, work->physics, work->solver,
-                        work->mixed, work->substep, work->new_rod);
+    work->report[index].softened = (struct hair_rods_softened){.factor = 1};
+    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
+        struct hair_rods_softened own =
+            hair_rods_write(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
+                            work->solver, work->mixed, work->substep, work->new_rod);
+        add_softened(&work->report[index].softened, &own, run.first);
+    }
 }
 
 struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,
@@ -118,13 +173,7 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
                             .new_rod = out};
     uint32_t tasks = divide_guides(&work, write);
     struct hair_rods_softened all = {.factor = 1};
-    for (uint32_t i = 0; i < tasks; ++i) {
-        const struct hair_rods_softened* own = &work.report[i].softened;
-        all.guides += own->guides;
-        if (own->factor >= all.factor) continue;
-        all.worst = i * work.each + own->worst;
-        all.factor = own->factor;
-    }
+    for (uint32_t i = 0; i < tasks; ++i) add_softened(&all, &work.report[i].softened, i * work.each);
     return all;
 }
 
@@ -195,8 +244,7 @@ static hair_result fill(const struct hair_rod_source* source, struct hair_prepar
     if (!p->borne || !p->rod) return hair_fail_memory(host, "the guides as rods");
     hair_rods_preload_all(source, &p->physics, p->borne, &p->report);
     p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
-    p->substep = hair_rods_substep(source->guides, source->rest, p->borne, source->count, &p->physics,
-                                   p->solver, p->mixed);
+    p->substep = hair_rods_shared_substep(source, p->borne, &p->physics, p->solver, p->mixed);
     p->report.softened =
         hair_rods_write_all(source, p->borne, &p->physics, p->solver, p->mixed, p->substep, p->rod);
     if (p->solver == HAIR_SOLVER_FOLLOW) return HAIR_OK;

@@ -11,6 +11,9 @@ struct hair_rod_source {
     const hair_tasks* tasks;
     const struct hair_guide* guides;
     const struct hair_rest* rest;
+    // Physics of HAIR_MAX_STRAND_GROUPS groups, which replace those that are passed along with the
+    // source. NULL if all groups have the physics that are passed along.
+    const hair_physics* groups;
     uint32_t count, vertices, max_vertices; // Guides, their vertices, and the maximum of a guide.
 };
 
@@ -21,6 +24,10 @@ void hair_rods_preload_all(const struct hair_rod_source* source, const hair_phys
 // Apply hair_rods_are_mixed() to all guides.
 bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
                              const hair_physics* physics, hair_solver solver, bool is_held, double substep);
+
+// Apply hair_rods_substep() to all guides. All groups get the shortest length.
+double hair_rods_shared_substep(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                                const hair_physics* physics, hair_solver solver, int mixed);
 
 // Apply hair_rods_write() to all guides.
 struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,

@@ -303,17 +303,18 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
 
 void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_resolved_pin* resolved_pin,
-                   uint32_t count, const hair_physics* physics, hair_solver solver, int mixed, double substep,
-                   struct hair_rod* out)
+                   uint32_t count, const hair_physics* physics, const hair_physics* groups,
+                   hair_solver solver, int mixed, double substep, struct hair_rod* out)
 {
     for (uint32_t i = 0; i < count;) {
         const struct hair_guide* guide = guides + resolved_pin[i].guide;
+        const hair_physics* own = groups ? groups + guide->group : physics;
         struct hair_rod_shape shape;
-        hair_rod_shape_with(guide, rest, borne, physics, &shape);
+        hair_rod_shape_with(guide, rest, borne, own, &shape);
         HAIR_ASSERT(resolved_pin[i].vertex < shape.count);
         for (uint32_t same = resolved_pin[i].guide; i < count && resolved_pin[i].guide == same; ++i)
             shape.pinned[resolved_pin[i].vertex] = i + 1;
-        write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
+        write_shape(&shape, own, solver, mixed, substep, out + guide->first);
     }
 }
 

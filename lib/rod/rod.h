@@ -80,11 +80,12 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
                                           const hair_physics* physics, hair_solver solver, int mixed,
                                           double substep, struct hair_rod* out);
 
-// Write the pinned guides again. The pins are in the order of guides and their vertices.
+// Write the pinned guides again. The pins are in the order of guides and their vertices. `groups`
+// has the physics of each group instead of `physics`, unless it is NULL.
 void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_resolved_pin* resolved_pin,
-                   uint32_t count, const hair_physics* physics, hair_solver solver, int mixed, double substep,
-                   struct hair_rod* out);
+                   uint32_t count, const hair_physics* physics, const hair_physics* groups,
+                   hair_solver solver, int mixed, double substep, struct hair_rod* out);
 
 // Return whether the mixed scheme is to solve the guides under direct and accurate. The mixed
 // scheme is needed when some guides are curved at rest. It is also needed when segments are too

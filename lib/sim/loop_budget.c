@@ -115,7 +115,7 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
         loops->along += led * (PINNED_SWEEPS * abreast + 1);
         loops->ends += led * PINNED_ENDS * sim->pins.max_per_guide;
     } else {
-        loops->along += led * (sim->physics.tip_mass > 0 ? HEAVY_SWEEPS : 1);
+        loops->along += led * (hair_sim_max_physics(sim).tip_mass > 0 ? HEAVY_SWEEPS : 1);
     }
 }
 

@@ -32,6 +32,7 @@ static struct hair_rod_source source_of(const struct hair_sim* sim)
                                     .tasks = &groom->tasks,
                                     .guides = groom->guides,
                                     .rest = groom->rest,
+                                    .groups = hair_sim_groups(sim),
                                     .count = sim->guides,
                                     .vertices = sim->guide_vertices,
                                     .max_vertices = sim->max_vertices};
@@ -83,7 +84,7 @@ static const struct hair_prepared_rods* find_prepared(const struct hair_sim* sim
 {
     const struct hair_prepared_rods* p = sim->rods->groom->prepared;
     bool is_own = p && p->solver == sim->solver && sim->asked_substep == 0 && !sim->pins.count &&
-                  !had_contact && find_substep_scale(sim) == 1;
+                  !had_contact && find_substep_scale(sim) == 1 && !hair_sim_groups(sim);
     return is_own && !hair_rods_differ(&p->physics, &sim->physics) ? p : NULL;
 }
 
@@ -109,8 +110,10 @@ static hair_result hold(struct hair_sim* sim)
     struct hair_rods* rods = sim->rods;
     const struct hair_prepared_rods* p = rods->groom->prepared;
     const hair_host* host = &sim->gl->host;
-    if (rods->borne && !hair_rods_differ(&rods->borne_for, &sim->physics)) return HAIR_OK;
-    if (p && !hair_rods_differ(&p->physics, &sim->physics)) {
+    if (rods->borne && rods->borne_for_groups == sim->groups.version &&
+        !hair_rods_differ(&rods->borne_for, &sim->physics))
+        return HAIR_OK;
+    if (p && !hair_sim_groups(sim) && !hair_rods_differ(&p->physics, &sim->physics)) {
         rods->borne = p->borne;
         rods->report = p->report;
     } else {
@@ -122,17 +125,17 @@ static hair_result hold(struct hair_sim* sim)
         rods->borne = rods->own_borne;
     }
     rods->borne_for = sim->physics;
+    rods->borne_for_groups = sim->groups.version;
     return HAIR_OK;
 }
 
 // Return the length of a substep, s. `substep_scale` is its multiple of the solver's own length.
 static double find_substep(const struct hair_sim* sim, int mixed, int had_contact, uint32_t substep_scale)
 {
-    const struct hair_rods* rods = sim->rods;
     double substep = sim->asked_substep;
     if (substep == 0) {
-        substep = hair_rods_substep(rods->groom->guides, rods->groom->rest, rods->borne, sim->guides,
-                                    &sim->physics, sim->solver, mixed);
+        struct hair_rod_source source = source_of(sim);
+        substep = hair_rods_shared_substep(&source, sim->rods->borne, &sim->physics, sim->solver, mixed);
         // Impacts can destabilise explicit bending that is near its limit.
         if (had_contact && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
     }
@@ -178,6 +181,7 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
                                  .stiff = rods->stiff,
                                  .had_contact = rods->had_contact,
                                  .made_for = rods->made_for,
+                                 .made_for_groups = rods->made_for_groups,
                                  .softened = rods->report.softened,
                                  .pinned = rods->pinned,
                                  .substep_scale = rods->substep_scale,
@@ -192,6 +196,7 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
     rods->stiff = now.stiff;
     rods->had_contact = now.had_contact;
     rods->made_for = now.made_for;
+    rods->made_for_groups = now.made_for_groups;
     rods->report.softened = now.softened;
     rods->pinned = now.pinned;
     rods->substep_scale = now.substep_scale;
@@ -209,7 +214,7 @@ static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair
     out->softened =
         hair_rods_write_all(&source, rods->borne, &sim->physics, sim->solver, out->mixed, out->substep, rod);
     hair_rods_pin(source.guides, source.rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
-                  &sim->physics, sim->solver, out->mixed, out->substep, rod);
+                  &sim->physics, source.groups, sim->solver, out->mixed, out->substep, rod);
     out->stiff = is_stiff(sim, rod);
     return upload_rods(sim, rod, out);
 }
@@ -235,6 +240,7 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
     if (!prepared && !rod) return hair_fail_memory(host, "the guides as rods");
     *out = (struct hair_rod_set){.had_contact = had_contact,
                                  .made_for = sim->physics,
+                                 .made_for_groups = sim->groups.version,
                                  .pinned = sim->pins.vertex_hash,
                                  .substep_scale = find_substep_scale(sim)};
     out->last_scale = out->substep_scale;
@@ -281,6 +287,13 @@ static bool is_first_contact(const struct hair_sim* sim, int had_contact)
     return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->groom->guides, sim->guides);
 }
 
+// Return whether the rods are for the present physics of all groups.
+static bool are_for_physics(const struct hair_sim* sim)
+{
+    return sim->rods->made_for_groups == sim->groups.version &&
+           !hair_rods_differ(&sim->rods->made_for, &sim->physics);
+}
+
 static bool had_contact_now(const struct hair_sim* sim)
 {
     return sim->had_contact || hair_sim_contacts(sim) > 0;
@@ -291,7 +304,7 @@ bool hair_sim_is_other_rate(const struct hair_sim* sim)
     const struct hair_rods* rods = sim->rods;
     if (!rods || rods->substep_scale == find_substep_scale(sim)) return false;
     return sim->pins.vertex_hash == rods->pinned && !is_first_contact(sim, had_contact_now(sim)) &&
-           !hair_rods_differ(&rods->made_for, &sim->physics);
+           are_for_physics(sim);
 }
 
 hair_result hair_sim_make_rods(struct hair_sim* sim, struct hair_rod_set* out)
@@ -301,7 +314,7 @@ hair_result hair_sim_make_rods(struct hair_sim* sim, struct hair_rod_set* out)
     if (!rods) return HAIR_OK;
     int had_contact = had_contact_now(sim);
     int other = rods->substep_scale != find_substep_scale(sim) || is_first_contact(sim, had_contact) ||
-                sim->pins.vertex_hash != rods->pinned || hair_rods_differ(&rods->made_for, &sim->physics);
+                sim->pins.vertex_hash != rods->pinned || !are_for_physics(sim);
     return other ? create(sim, had_contact, out) : HAIR_OK;
 }
 
@@ -321,6 +334,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->bend);
     hair_grid_free(sim);
     hair_free(host, sim->rods->own_borne);
+    hair_free(host, sim->groups.physics);
     hair_groom_release(sim->rods->groom);
     hair_free(host, sim->rods);
 }

@@ -6,6 +6,7 @@
 void hair_sim_set_physics(struct hair_sim* sim, const hair_physics* physics)
 {
     sim->physics = *physics;
+    hair_sim_update_groups(sim);
 }
 
 void hair_sim_set_wind(struct hair_sim* sim, const hair_wind* wind)

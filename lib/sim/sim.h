@@ -37,6 +37,15 @@ struct hair_contacts {
     uint32_t holds; // Length of `held`.
 };
 
+// Physics of groups of strands, kept by group_physics.c.
+struct hair_group_physics {
+    hair_physics* physics; // Physics of all groups. NULL until one is set.
+    uint32_t own; // Bit g is 1 if group g has been set.
+    // Number of changes so far. 0 while all groups have the physics of the instance.
+    uint32_t version;
+    uint32_t last_version;
+};
+
 // Rods of the guides, made by rods.c.
 struct hair_rods {
     // Guides at rest. A reference, because the application may destroy the groom before the physics
@@ -45,6 +54,8 @@ struct hair_rods {
     const struct hair_rod_borne* borne; // Gravity preload for `borne_for`, own or of the groom.
     struct hair_rod_borne* own_borne; // NULL unless the groom has no preload for the physics.
     hair_physics made_for, borne_for;
+    // Values of sim->groups.version that the rods and the gravity preload were made for.
+    uint32_t made_for_groups, borne_for_groups;
     struct hair_rods_report report;
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
@@ -61,6 +72,7 @@ struct hair_rod_set {
     uint32_t rounds;
     int mixed, stiff, had_contact;
     hair_physics made_for;
+    uint32_t made_for_groups;
     struct hair_rods_softened softened;
     uint32_t pinned, substep_scale;
     uint32_t last_scale; // Value of hair_sim.substep_scale. Loading sets it apart from the rods.
@@ -71,6 +83,7 @@ struct hair_sim {
     struct hair_gl* gl;
     hair_solver solver;
     hair_physics physics;
+    struct hair_group_physics groups;
     hair_wind wind;
     double asked_substep; // Substep length set by the application, s. 0 selects the solver's own.
     double substep; // Substep length, s.
@@ -142,10 +155,21 @@ void hair_sim_reset(struct hair_sim* sim);
 // Move sim->head to a pose, and the hair rigidly with it.
 hair_result hair_sim_teleport(struct hair_sim* sim, const struct hair_pose* to);
 
-// Functions of settings.c, for what the application sets and asks between steps.
+// Functions of settings.c and group_physics.c, for what applications set and ask between steps.
 
 // Set the physics, from the next step on.
 void hair_sim_set_physics(struct hair_sim* sim, const hair_physics* physics);
+// Set the physics of a group of strands, from the next step on. NULL gives the group those of the
+// instance. Only members that hair_sim_copy_group_members() copies count.
+hair_result hair_sim_set_group_physics(struct hair_sim* sim, uint32_t group, const hair_physics* physics);
+// Copy the members of physics that can differ by group.
+void hair_sim_copy_group_members(const hair_physics* from, hair_physics* to);
+// Return the physics of all groups. Return NULL if all groups have the physics of the instance.
+const hair_physics* hair_sim_groups(const struct hair_sim* sim);
+// Return the physics of the instance, with the largest frequencies and tip mass of any group.
+hair_physics hair_sim_max_physics(const struct hair_sim* sim);
+// Apply changed physics of the instance to the groups.
+void hair_sim_update_groups(struct hair_sim* sim);
 // Set the wind, from the next step on. Copy the checked sources to which `wind` points. Other
 // sources wake sleeping hair.
 void hair_sim_set_wind(struct hair_sim* sim, const hair_wind* wind);

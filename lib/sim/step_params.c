@@ -22,8 +22,10 @@ void hair_sim_write_physics(const struct hair_sim* sim, struct hair_step_params*
     params->gravity =
         (hair_vec4){physics->gravity[0], physics->gravity[1], physics->gravity[2], (float)sim->substep};
     params->keep = (float)exp(-(double)physics->damping * sim->substep); // dv/dt = -c v, exactly
-    params->shape_frequency_root = TWO_PI * physics->shape.frequency_root;
-    params->shape_frequency_tip = TWO_PI * physics->shape.frequency_tip;
+    // Solvers with rods only ask whether there is a frequency.
+    const hair_physics max = hair_sim_max_physics(sim);
+    params->shape_frequency_root = TWO_PI * max.shape.frequency_root;
+    params->shape_frequency_tip = TWO_PI * max.shape.frequency_tip;
     params->angular = squared_frequency(physics->redblack.angular_hz);
     params->bend = physics->redblack.bend;
     params->collision_margin = physics->collision.margin;

@@ -450,7 +450,10 @@ static void settings_made_after_a_loss_are_kept(void** state)
     hair_test_refused(test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_CONTEXT_LOST, "lost");
     physics.damping = 5;
     look.strand.segments = 7;
+    hair_physics stiff = physics, got_stiff = physics;
+    stiff.shape.stiffness_tip = 3;
     hair_test_ok(test, hair_set_physics(f.hair, &physics));
+    hair_test_ok(test, hair_set_group_physics(f.hair, 2, &stiff));
     hair_test_ok(test, hair_set_look(f.hair, &look));
     hair_test_ok(test, hair_set_memory_limit(f.context, 123456789));
     replace_egl(&f);
@@ -458,6 +461,8 @@ static void settings_made_after_a_loss_are_kept(void** state)
     hair_test_ok(test, hair_get_physics(f.hair, &got));
     hair_test_ok(test, hair_get_look(f.hair, &got_look));
     assert_memory_equal(&got, &physics, sizeof got);
+    hair_test_ok(test, hair_get_group_physics(f.hair, 2, &got_stiff));
+    assert_memory_equal(&got_stiff, &stiff, sizeof stiff);
     assert_memory_equal(&got_look, &look, sizeof look);
     hair_memory memory = hair_memory_default();
     hair_test_ok(test, hair_get_memory(f.context, &memory));

@@ -238,6 +238,11 @@ static void check_settings(struct dozing* d)
     physics.damping += 0.01f;
     hair_test_ok(d->test, hair_set_physics(d->hair, &physics));
     check_activity(d, "other physics", 1);
+    hair_test_ok(d->test, hair_set_group_physics(d->hair, 1, &physics));
+    check_activity(d, "the same physics for a group", 0);
+    physics.shape.stiffness_tip += 0.01f;
+    hair_test_ok(d->test, hair_set_group_physics(d->hair, 1, &physics));
+    check_activity(d, "other physics for a group", 1);
     hair_test_ok(d->test, hair_set_wind(d->hair, NULL));
     check_activity(d, "no wind once more", 0);
     wind.velocity[2] = 0.01f;

@@ -83,6 +83,7 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
     desc.positions = strands->positions;
     desc.strand_vertices = strands->vertices;
     desc.strand_count = strands->count;
+    desc.strand_groups = strands->groups;
     return desc;
 }
 

@@ -12,6 +12,7 @@ struct hair_test_strands {
     float* positions;
     uint32_t* vertices;
     uint32_t count, vertex_count;
+    const uint8_t* groups; // Groups of the strands. NULL puts all into group 0.
 };
 
 // Return an empty list with room for `count` strands of at most `max` vertices.

@@ -196,6 +196,16 @@ class Hair:
     def physics(self, physics):
         self._call(hair.hair_set_physics, physics._c)
 
+    def group_physics(self, group):
+        """Return a copy of the physics of a group of strands."""
+        out = CLASSES["Physics"]()
+        self._call(hair.hair_get_group_physics, group, out._c)
+        return out
+
+    def set_group_physics(self, group, physics):
+        """Set the physics of a group of strands. None gives the group those of the hair."""
+        self._call(hair.hair_set_group_physics, group, ffi.NULL if physics is None else physics._c)
+
     @property
     def wind(self):
         """A copy of the wind, without its sources. Setting it changes the hair. None disables it."""

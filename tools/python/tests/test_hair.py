@@ -119,6 +119,19 @@ class HairTest(unittest.TestCase):
         np.testing.assert_allclose(hair.read("guides"), at_rest, atol=1e-4)
         self.assertEqual(hair.solver_stats["reset"], 0)
 
+    def test_groups_have_physics_of_their_own(self):
+        hair = self.make()
+        physics = hair.group_physics(3)
+        physics.shape.stiffness_tip = 4
+        hair.set_group_physics(3, physics)
+        self.assertEqual(hair.group_physics(3).shape.stiffness_tip, 4)
+        self.assertEqual(hair.physics.shape.stiffness_tip, 1)
+        hair.set_group_physics(3, None)
+        self.assertEqual(hair.group_physics(3).shape.stiffness_tip, 1)
+        physics.damping = 5
+        with self.assertRaisesRegex(libhair.HairArgumentError, "damping is 5 for group 3 but 4 for the instance"):
+            hair.set_group_physics(3, physics)
+
     def test_followers_have_a_vertex_for_each_end_of_a_segment(self):
         hair = self.make(look=libhair.Look({"strand.segments": 8}))
         followers = hair.read("followers")
