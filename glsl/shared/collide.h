@@ -28,18 +28,18 @@ HAIR_SIZE(hair_capsule)
 
 // The collider itself, where a hair_capsule only encloses it, at the start and at the end of the
 // step.
-struct hair_body {
+struct hair_contact_body {
     // xyz: from the head's origin, m. [0].w: rounding, m. [1].w: factor of the friction.
     hair_vec4 position[2];
     hair_vec4 rotation[2]; // Unit quaternions of one hemisphere.
     hair_vec4 size;        // xyz: as the shape says, m. w: hair_shape.
 };
-HAIR_SIZE(hair_body)
+HAIR_SIZE(hair_contact_body)
 
 // A collider, for scenes with any number of them.
 struct hair_contact {
     HAIR_STRUCT(hair_capsule) around; // The collider, or a sphere around it.
-    HAIR_STRUCT(hair_body) body;      // size.x of a collision mesh is its scale.
+    HAIR_STRUCT(hair_contact_body) body;      // size.x of a collision mesh is its scale.
     hair_vec4 grid; // Grid of a collision mesh. xyz: first node, m. w: spacing of nodes, m.
     hair_uint nodes_x, nodes_y, nodes_z;
     hair_uint first; // Index of its first node.

@@ -41,4 +41,22 @@ struct hair_field_brick {
 };
 HAIR_SIZE(hair_field_brick)
 
+// Distance from a triangle of a body in which nodes find their nearest triangle, voxels.
+#define HAIR_BODY_BAND 2
+// Steps per voxel of the distance by which nodes find their nearest triangle.
+#define HAIR_BODY_STEPS 4096
+#define HAIR_BODY_TRIANGLE_BITS 18 // Bits of the index of a triangle.
+#define HAIR_BODY_THREADS 32 // Threads in a work group of body_line.comp.
+
+// Grid of a body.
+struct hair_body_params {
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint first; // Index of its first node among those of all meshes.
+    hair_uint triangles;
+    hair_uint is_closed; // 1 if the body has an inside.
+    float     voxel; // Distance between nodes, m.
+    float     shell; // Half the thickness of a body without an inside, m.
+};
+HAIR_SIZE(hair_body_params)
+
 #endif

@@ -151,7 +151,7 @@ struct hair_step_params {
     float     cells_slack;
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) collider[HAIR_STEP_COLLIDERS];
-    HAIR_STRUCT(hair_body) body[HAIR_STEP_COLLIDERS];
+    HAIR_STRUCT(hair_contact_body) body[HAIR_STEP_COLLIDERS];
 };
 HAIR_SIZE(hair_step_params)
 

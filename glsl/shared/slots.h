@@ -39,6 +39,12 @@
 // uint[]. Indices in HAIR_UNIT_WORK of the colliders that reach into each brick.
 #define HAIR_BIND_BRICK_COLLIDER 1
 #define HAIR_BIND_NODE 3   // float[]. Distances at the grid nodes of collision meshes, m.
+// Buffers of the passes that compute the distances of a body. They also have HAIR_BIND_NODE.
+#define HAIR_BIND_BODY_POSITION 0 // float[]. xyz per vertex, voxels from the first node. Read-only.
+#define HAIR_BIND_BODY_TRIANGLE 1 // uint[]. Three vertices per triangle. Read-only.
+#define HAIR_BIND_BODY_NEAREST 2  // uint[] per node. Nearest triangle, see glsl/field/body.glsl.
+#define HAIR_BIND_BODY_CROSSING 4 // int[] per node. Surfaces that its column enters, see there.
+#define HAIR_BIND_BODY_POINT 5    // hair_vec4[] per node. Surface point, see body_line.comp.
 // Additional buffers of the hair-hair grid, whose passes also read the state and the history. The
 // grid gives each guide vertex the effect of the hair around it.
 
@@ -177,6 +183,7 @@
 #define HAIR_BIND_WIND 2
 #define HAIR_BIND_HAIR_GRID_PARAMS 1 // hair_grid_params, of passes that draw nothing.
 #define HAIR_BIND_SCALP_PARAMS 1 // hair_scalp_params, of passes that draw nothing.
+#define HAIR_BIND_BODY 0         // hair_body_params, of the passes that compute a body's distances.
 #define HAIR_BIND_FLUID 0        // hair_fluid_params, of the fluid passes.
 #define HAIR_BIND_LEVEL 1        // hair_fluid_level, of the fluid passes.
 #define HAIR_BIND_TARGET_PARAMS 1 // hair_target_params, of passes that draw nothing.

@@ -3,7 +3,8 @@
 /// Objects. A hair_groom is a haircut. It is immutable, lives on the CPU, and can be shared by any
 /// number of heads. A hair_context holds the library's objects in one OpenGL context. A
 /// hair_instance is the hair of one head: a groom in a context. A hair_collision_mesh is the shape
-/// of a collider that no simpler shape describes. It is immutable and can be shared too.
+/// of a collider that no simpler shape describes. It is immutable and can be shared too. A
+/// hair_body is such a shape that deforms. It belongs to a context.
 ///
 /// Terms.
 ///   strand     One hair.
@@ -23,9 +24,9 @@
 /// Ownership. Arrays and strings that are passed in are copied before the call returns, unless the
 /// comment says otherwise. X_create() is undone by X_destroy(), which accepts NULL. A groom or a
 /// collision mesh may be destroyed while instances use it. A context may be destroyed or abandoned
-/// before its instances and shaders, which are orphans then. Every call on an orphan fails with
-/// HAIR_ERROR_ARGUMENT. Destroying an orphan frees its memory and needs no OpenGL. Callbacks of
-/// hair_host must work until the last orphan is destroyed.
+/// before its instances, bodies and shaders, which are orphans then. Every call on an orphan fails
+/// with HAIR_ERROR_ARGUMENT. Destroying an orphan frees its memory and needs no OpenGL. Callbacks
+/// of hair_host must work until the last orphan is destroyed.
 ///
 /// Errors. A call that can fail returns a hair_result. After any result but HAIR_OK and
 /// HAIR_ERROR_CONTEXT_LOST, the object is as it was, and one sentence has been sent to
@@ -59,6 +60,7 @@
 #include <hair/hair_instance.h>
 #include <hair/hair_physics.h>
 #include <hair/hair_colliders.h>
+#include <hair/hair_body.h>
 #include <hair/hair_wind.h>
 #include <hair/hair_look.h>
 #include <hair/hair_targets.h>

@@ -43,6 +43,9 @@ typedef struct hair_groom hair_groom;
 /// A triangle mesh to collide with. It is immutable and can be shared. See hair_colliders.h.
 typedef struct hair_collision_mesh hair_collision_mesh;
 
+/// A triangle mesh to collide with that deforms from frame to frame. See hair_body.h.
+typedef struct hair_body hair_body;
+
 /// The objects of the library in one OpenGL context. See hair_context.h.
 typedef struct hair_context hair_context;
 

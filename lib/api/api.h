@@ -4,6 +4,7 @@
 
 #include "lib/base/schema.h"
 #include "lib/draw/draw.h"
+#include "lib/field/body_grid.h"
 #include "lib/field/field.h"
 #include "lib/gl/frame_profiler.h"
 
@@ -23,6 +24,16 @@ struct hair_context {
     struct hair_context_member* members; // all that own something, newest first
     uint32_t holder_count; // the application, until it destroys the context, and all members
     bool is_dead; // true once its OpenGL objects and those of its members are gone
+};
+
+struct hair_body {
+    struct hair_context_member member;
+    hair_context* context;
+    hair_body_desc desc; // of the creation, without arrays
+    hair_collision_mesh* mesh;
+    uint32_t* triangles;
+    float *position, *next; // voxels from the first node, now, and memory for the next
+    struct hair_body_grid grid;
 };
 
 struct hair_shader {
@@ -78,6 +89,11 @@ hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* gr
                                        struct hair_sim_desc* sim);
 // Free everything that an instance owns. Function of hair_context_member.
 void hair_instance_empty(struct hair_context_member* member);
+
+// Create the buffers of a body, and compute the distances to it. On failure nothing is left.
+hair_result hair_body_create_grid(hair_body* body);
+// Free everything of OpenGL that a body owns. Function of hair_context_member.
+void hair_body_empty(struct hair_context_member* member);
 
 // Compute the bounds of a groom's strands in its space. Return their maximum length.
 float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2]);

@@ -70,6 +70,7 @@ void hair_context_remove(hair_context* context, struct hair_context_member* memb
 static void end(hair_context* context)
 {
     while (context->members) empty_member(context, context->members);
+    hair_sdf_pool_free(&context->sdf_pool);
     hair_gl_destroy(&context->gl);
     context->is_dead = true;
 }

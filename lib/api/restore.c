@@ -14,6 +14,8 @@ struct lost {
     struct hair_sdf_pool sdf_pool;
     hair_instance* instances; // Copies of all instances, in the order of the context.
     uint32_t count;
+    struct hair_body_grid* grids; // Grids of all bodies, in the order of the context.
+    uint32_t grid_count;
 };
 
 // Return the first instance from `member` on. NULL if there is none.
@@ -28,10 +30,18 @@ static hair_instance* find_next(const hair_instance* hair)
     return find_instance(hair->member.next);
 }
 
-static uint32_t count_instances(const hair_context* context)
+// Return the first body from `member` on. NULL if there is none.
+static hair_body* find_body(struct hair_context_member* member)
+{
+    while (member && member->empty != hair_body_empty) member = member->next;
+    return (hair_body*)member;
+}
+
+static uint32_t count_members(const hair_context* context, void (*empty)(struct hair_context_member* member))
 {
     uint32_t count = 0;
-    for (hair_instance* hair = find_instance(context->members); hair; hair = find_next(hair)) ++count;
+    for (struct hair_context_member* member = context->members; member; member = member->next)
+        count += member->empty == empty;
     return count;
 }
 
@@ -89,6 +99,29 @@ static hair_result make_again(hair_instance* hair, hair_instance* lost)
     return hair_leave(hair->context, result);
 }
 
+// Make the grids of all bodies again. Instances read them from their first step on.
+static hair_result make_bodies_again(hair_context* context, struct lost* lost)
+{
+    hair_body* body = find_body(context->members);
+    for (uint32_t i = 0; body; body = find_body(body->member.next)) {
+        lost->grids[i++] = body->grid;
+        body->grid = (struct hair_body_grid){0};
+    }
+    for (body = find_body(context->members); body; body = find_body(body->member.next))
+        HAIR_TRY(hair_body_create_grid(body));
+    return HAIR_OK;
+}
+
+// Free the grids of all bodies, and put `grids` in their place.
+static void replace_grids(hair_context* context, const struct hair_body_grid* grids)
+{
+    hair_body* body = find_body(context->members);
+    for (uint32_t i = 0; body; body = find_body(body->member.next)) {
+        hair_body_grid_destroy(&body->grid);
+        body->grid = grids[i++];
+    }
+}
+
 // Empty the first `count` instances, whose rooms are of the current OpenGL context, and put back
 // everything that was lost.
 static void undo(hair_context* context, const struct lost* lost, uint32_t count)
@@ -98,6 +131,8 @@ static void undo(hair_context* context, const struct lost* lost, uint32_t count)
         if (i < count) hair_instance_empty(&hair->member);
         *hair = lost->instances[i];
     }
+    replace_grids(context, lost->grids);
+    hair_sdf_pool_free(&context->sdf_pool);
     hair_gl_destroy(&context->gl);
     context->gl = lost->gl;
     context->sdf_pool = lost->sdf_pool;
@@ -107,9 +142,14 @@ static hair_result make_all_again(hair_context* context, struct lost* lost)
 {
     hair_instance* hair = find_instance(context->members);
     for (uint32_t i = 0; i < lost->count; ++i, hair = find_next(hair)) lost->instances[i] = *hair;
+    hair_result result = make_bodies_again(context, lost);
+    if (result) {
+        undo(context, lost, 0);
+        return result;
+    }
     hair = find_instance(context->members);
     for (uint32_t i = 0; i < lost->count; ++i, hair = find_next(hair)) {
-        hair_result result = make_again(hair, &lost->instances[i]);
+        result = make_again(hair, &lost->instances[i]);
         if (!result) continue;
         undo(context, lost, i + 1);
         return result;
@@ -126,6 +166,8 @@ static void free_lost(hair_context* context, struct lost* lost)
     context->gl = lost->gl;
     context->sdf_pool = lost->sdf_pool;
     hair_gl_ignore_deletions(&context->gl);
+    hair_body* body = find_body(context->members);
+    for (uint32_t i = 0; body; body = find_body(body->member.next)) hair_body_grid_destroy(&lost->grids[i++]);
     for (uint32_t i = 0; i < lost->count; ++i, hair = find_next(hair)) {
         hair_snapshots_move(&hair->sim.snapshots, &lost->instances[i].sim.snapshots);
         hair_instance made = *hair;
@@ -134,8 +176,9 @@ static void free_lost(hair_context* context, struct lost* lost)
         *hair = made;
     }
     for (struct hair_context_member* member = context->members; member; member = member->next)
-        if (member->empty != hair_instance_empty)
+        if (member->empty != hair_instance_empty && member->empty != hair_body_empty)
             hair_gl_free_shader_programs(&context->gl, &((hair_shader*)member)->gl);
+    hair_sdf_pool_free(&context->sdf_pool);
     hair_gl_destroy(&context->gl);
     context->gl = gl;
     context->sdf_pool = sdf_pool;
@@ -159,11 +202,13 @@ hair_result hair_context_restore(hair_context* context)
     const hair_host* host = &context->host;
     if (!context->desc.restorable)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_context_desc.restorable was false");
-    struct lost lost = {.count = count_instances(context)};
-    lost.instances = hair_alloc(host, lost.count ? lost.count : 1, sizeof *lost.instances);
-    if (!lost.instances) return hair_fail_memory(host, "the instances to restore");
+    struct lost lost = {.count = count_members(context, hair_instance_empty),
+                        .grid_count = count_members(context, hair_body_empty)};
     struct hair_gl made;
-    hair_result result = make_gl(context, &made);
+    lost.instances = hair_alloc(host, lost.count ? lost.count : 1, sizeof *lost.instances);
+    lost.grids = hair_alloc(host, lost.grid_count ? lost.grid_count : 1, sizeof *lost.grids);
+    hair_result result = lost.instances && lost.grids ? make_gl(context, &made)
+                                                      : hair_fail_memory(host, "the instances to restore");
     if (!result) {
         lost.gl = context->gl;
         lost.sdf_pool = context->sdf_pool;
@@ -176,5 +221,6 @@ hair_result hair_context_restore(hair_context* context)
         }
     }
     hair_free(host, lost.instances);
+    hair_free(host, lost.grids);
     return result;
 }

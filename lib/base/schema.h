@@ -30,6 +30,7 @@
     DESC(hair_asset_desc)                                                                                    \
     DESC(hair_style_desc)                                                                                    \
     DESC(hair_target_blend)                                                                                  \
+    DESC(hair_body_desc)                                                                                     \
     INFO(hair_groom_info)                                                                                    \
     INFO(hair_collision_mesh_info)                                                                           \
     INFO(hair_memory)                                                                                        \

@@ -80,11 +80,16 @@ static hair_result reserve_all(const hair_host* host, struct hair_colliders* col
     HAIR_TRY(reserve(host, &colliders->current, count));
     HAIR_TRY(reserve(host, &colliders->previous, count > count_before ? count : count_before));
     if (count <= colliders->capacity) return HAIR_OK;
-    uint32_t* pair = hair_alloc(host, colliders->current.capacity, sizeof *pair);
+    // The second half is for the generations.
+    uint32_t* pair = hair_alloc(host, 2 * (size_t)colliders->current.capacity, sizeof *pair);
     if (!pair) return hair_fail_memory(host, "colliders");
+    uint32_t* generation = pair + colliders->current.capacity;
     if (colliders->current.count) memcpy(pair, colliders->match, colliders->current.count * sizeof *pair);
+    if (colliders->generations)
+        memcpy(generation, colliders->generation, colliders->generations * sizeof *generation);
     hair_free(host, colliders->match);
     colliders->match = pair;
+    colliders->generation = generation;
     colliders->capacity = colliders->current.capacity;
     return HAIR_OK;
 }
@@ -103,18 +108,30 @@ static void append_colliders(struct hair_collider_list* list, const hair_collide
 
 static void count_contacts(struct hair_colliders* colliders)
 {
-    uint32_t capsules = 0, bodies = 0, meshes = 0;
+    uint32_t capsules = 0, bodies = 0, meshes = 0, deforming = 0;
     for (uint32_t i = 0; i < colliders->current.count; ++i) {
         const hair_collider* collider = &colliders->current.collider[i];
         capsules += collider->shape <= HAIR_SHAPE_CAPSULE;
         bodies += collider->shape != HAIR_SHAPE_MESH;
         meshes += collider->shape == HAIR_SHAPE_MESH && collider->mesh;
+        deforming += collider->shape == HAIR_SHAPE_MESH && collider->mesh && collider->mesh->home;
     }
     colliders->contacts = bodies + meshes;
     HAIR_ASSERT(capsules <= bodies && colliders->contacts <= colliders->current.count);
     colliders->meshes = meshes;
+    colliders->deforming = deforming;
     colliders->capsules = capsules < HAIR_STEP_COLLIDERS ? capsules : HAIR_STEP_COLLIDERS;
     colliders->bodies = bodies < HAIR_STEP_COLLIDERS ? bodies : HAIR_STEP_COLLIDERS;
+}
+
+// Note the shapes of bodies at the last step.
+static void note_generations(struct hair_colliders* colliders)
+{
+    const struct hair_collider_list* list = &colliders->previous;
+    uint32_t count = list->count < colliders->capacity ? list->count : colliders->capacity;
+    for (uint32_t i = 0; i < count; ++i)
+        colliders->generation[i] = list->collider[i].mesh ? list->collider[i].mesh->generation : 0;
+    colliders->generations = count;
 }
 
 static hair_result check_list(const hair_host* host, const hair_collider* from, uint32_t count, size_t stride)
@@ -155,6 +172,9 @@ hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* col
         if (collider.shape != HAIR_SHAPE_MESH && collider.mesh)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "colliders[%u].mesh is not NULL, but its shape is not HAIR_SHAPE_MESH", i);
+        if (collider.mesh && collider.mesh->home && collider.mesh->home != colliders->home)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "colliders[%u].mesh is that of a hair_body of another context", i);
     }
     if (are_there(&colliders->current, from, count, stride)) return HAIR_OK;
     HAIR_TRY(reserve_all(host, colliders, count, colliders->previous.count));
@@ -177,6 +197,7 @@ hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders*
     append_colliders(&colliders->current, now, count, sizeof *now);
     append_colliders(&colliders->previous, before, count_before, sizeof *before);
     count_contacts(colliders);
+    note_generations(colliders);
     colliders->changed = 1;
     return HAIR_OK;
 }
@@ -201,18 +222,40 @@ const hair_collider* hair_colliders_previous(const struct hair_colliders* collid
     return before->shape == now->shape ? before : now;
 }
 
+bool hair_colliders_has_deformed(const struct hair_colliders* colliders, uint32_t i)
+{
+    HAIR_ASSERT(i < colliders->current.count);
+    const hair_collision_mesh* mesh = colliders->current.collider[i].mesh;
+    uint32_t k = colliders->match[i];
+    if (!mesh || !mesh->home || k >= colliders->generations) return false;
+    return colliders->previous.collider[k].mesh == mesh && colliders->generation[k] != mesh->generation;
+}
+
+bool hair_colliders_have_deformed(const struct hair_colliders* colliders)
+{
+    if (!colliders->deforming) return false;
+    for (uint32_t i = 0; i < colliders->current.count; ++i)
+        if (hair_colliders_has_deformed(colliders, i)) return true;
+    return false;
+}
+
 void hair_colliders_end_step(struct hair_colliders* colliders)
 {
-    if (!colliders->changed) return;
+    if (!colliders->changed) {
+        if (colliders->deforming) note_generations(colliders);
+        return;
+    }
     colliders->changed = 0;
     HAIR_ASSERT(colliders->current.count <= colliders->capacity);
     append_colliders(&colliders->previous, colliders->current.collider, colliders->current.count,
                      sizeof *colliders->current.collider);
     for (uint32_t i = 0; i < colliders->current.count; ++i) colliders->match[i] = i;
+    note_generations(colliders);
 }
 
 void hair_colliders_reset(struct hair_colliders* colliders)
 {
     append_colliders(&colliders->previous, NULL, 0, 0);
+    colliders->generations = 0;
     colliders->changed = 1;
 }

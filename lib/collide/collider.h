@@ -3,6 +3,8 @@
 #ifndef HAIR_COLLIDE_COLLIDER_H
 #define HAIR_COLLIDE_COLLIDER_H
 
+#include <stdbool.h>
+
 #include "lib/base/host.h"
 #include "lib/base/pose.h"
 #include "glsl/shared.h"
@@ -16,15 +18,19 @@ struct hair_collider_list {
 };
 
 struct hair_colliders {
+    const void* home; // hair_sdf_pool of the context, which has the distances of bodies
     // `previous` is the list of the previous step. It has room for as many colliders as `current`
     // has.
     struct hair_collider_list current, previous;
     uint32_t* match; // index in `previous` of each collider of `current`, or HAIR_UNMATCHED
-    uint32_t capacity; // of match
+    uint32_t* generation; // of the mesh of each collider of `previous`, at the last step
+    uint32_t generations; // number of those. They may be fewer than `previous` has.
+    uint32_t capacity; // of match and of generation
     uint32_t capsules; // result of hair_colliders_capsules()
     uint32_t bodies; // result of hair_colliders_bodies()
     uint32_t contacts; // number of all but collision meshes without data
     uint32_t meshes; // number of collision meshes among the contacts
+    uint32_t deforming; // number of meshes of bodies among the collision meshes
     int changed; // 1 if `current` differs from `previous`
 };
 
@@ -44,6 +50,11 @@ void hair_colliders_free(const hair_host* host, struct hair_colliders* colliders
 // Return the i-th collider at the previous step, or its current state if it was not there.
 const hair_collider* hair_colliders_previous(const struct hair_colliders* colliders, uint32_t i);
 
+// Return whether the i-th collider is a body that has changed its shape since the last step.
+bool hair_colliders_has_deformed(const struct hair_colliders* colliders, uint32_t i);
+// Return whether any collider has.
+bool hair_colliders_have_deformed(const struct hair_colliders* colliders);
+
 // Write the HAIR_STEP_COLLIDERS spheres and capsules nearest to the head, in their order, relative
 // to its start and end poses. Return their number.
 uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const struct hair_pose* head_before,
@@ -55,7 +66,7 @@ uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const s
 uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const struct hair_pose* head_before,
                                const struct hair_pose* head_now,
                                struct hair_capsule around[HAIR_STEP_COLLIDERS],
-                               struct hair_body out[HAIR_STEP_COLLIDERS]);
+                               struct hair_contact_body out[HAIR_STEP_COLLIDERS]);
 
 // Return the i-th collider in the same way. A collision mesh must have its data. The offset of its
 // nodes is not set.

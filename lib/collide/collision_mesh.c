@@ -332,6 +332,11 @@ void hair_collision_mesh_hold(const hair_collision_mesh* mesh)
     if (mesh) atomic_fetch_add_explicit(&own(mesh)->holders, 1, memory_order_relaxed);
 }
 
+uint32_t hair_collision_mesh_holders(const hair_collision_mesh* mesh)
+{
+    return atomic_load(&own(mesh)->holders);
+}
+
 void hair_collision_mesh_release(const hair_collision_mesh* mesh)
 {
     HAIR_ASSERT(!mesh || atomic_load(&own(mesh)->holders) > 0);

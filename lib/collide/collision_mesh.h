@@ -8,7 +8,7 @@
 #include "lib/base/host.h"
 #include "lib/base/math.h"
 
-// Immutable once made, except the reference count.
+// Immutable once made, except the reference count. The mesh of a body changes its shape.
 struct hair_collision_mesh {
     hair_host host; // owner of the memory
     atomic_uint holders;
@@ -21,8 +21,12 @@ struct hair_collision_mesh {
     // Signed distance at each node, m, negative inside. Node (i, j, k) is at i + size[0] (j +
     // size[1] k). The surface and the padding around it stay HAIR_COLLISION_MESH_PADDING voxels
     // away from the grid's faces. Distances are exact up to HAIR_COLLISION_MESH_BAND voxels from
-    // the mesh, and nearly exact beyond.
+    // the mesh, and nearly exact beyond. NULL for the mesh of a body, whose distances are only in
+    // the hair_sdf_pool `home`.
     float* distance;
+    const void* home; // NULL for all but bodies
+    uint32_t generation; // number of shapes of a body so far
+    float shape_lower[3], shape_upper[3]; // bounds of the current shape of a body, m
 };
 
 #define HAIR_COLLISION_MESH_PADDING 3
@@ -35,6 +39,8 @@ hair_result hair_collision_mesh_build(const hair_host* host, const hair_collisio
 
 // Add a reference. Any thread. NULL is ignored.
 void hair_collision_mesh_hold(const hair_collision_mesh* mesh);
+// Return the number of references.
+uint32_t hair_collision_mesh_holders(const hair_collision_mesh* mesh);
 // Remove a reference and free the collision mesh with the last one. Any thread. NULL is ignored.
 void hair_collision_mesh_release(const hair_collision_mesh* mesh);
 

@@ -142,13 +142,13 @@ static uint32_t choose_nearest(const struct hair_colliders* colliders, const str
     return count;
 }
 
-static struct hair_body body_of(const hair_collider* before, const hair_collider* now,
-                                const struct hair_pose* head_before, const struct hair_pose* head_now)
+static struct hair_contact_body body_of(const hair_collider* before, const hair_collider* now,
+                                        const struct hair_pose* head_before, const struct hair_pose* head_now)
 {
     hair_vec3 a = from_head(before, head_before), b = from_head(now, head_now);
     hair_quat p = turn_of(before), q = turn_of(now);
     float side = p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w < 0 ? -1.0f : 1.0f;
-    return (struct hair_body){
+    return (struct hair_contact_body){
         .position = {{a.x, a.y, a.z, now->rounding}, {b.x, b.y, b.z, now->friction}},
         .rotation = {{side * p.x, side * p.y, side * p.z, side * p.w}, {q.x, q.y, q.z, q.w}},
         .size = {now->size[0], now->size[1], now->size[2], (float)now->shape}};
@@ -156,7 +156,7 @@ static struct hair_body body_of(const hair_collider* before, const hair_collider
 
 static uint32_t fill_contacts(const struct hair_colliders* colliders, const struct hair_pose* head_before,
                               const struct hair_pose* head_now, bool only_capsules,
-                              struct hair_capsule* around, struct hair_body* out)
+                              struct hair_capsule* around, struct hair_contact_body* out)
 {
     uint32_t chosen[HAIR_STEP_COLLIDERS], count = choose_nearest(colliders, head_now, only_capsules, chosen);
     for (uint32_t i = 0; i < count; ++i) {
@@ -178,7 +178,7 @@ uint32_t hair_colliders_capsules(const struct hair_colliders* colliders, const s
 uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const struct hair_pose* head_before,
                                const struct hair_pose* head_now,
                                struct hair_capsule around[HAIR_STEP_COLLIDERS],
-                               struct hair_body out[HAIR_STEP_COLLIDERS])
+                               struct hair_contact_body out[HAIR_STEP_COLLIDERS])
 {
     return fill_contacts(colliders, head_before, head_now, false, around, out);
 }
@@ -195,7 +195,7 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
                                    .body = body_of(&before, now, head_before, head_now)};
     if (now->shape != HAIR_SHAPE_MESH) return contact;
     const hair_collision_mesh* mesh = now->mesh;
-    HAIR_ASSERT(mesh && mesh->distance);
+    HAIR_ASSERT(mesh && (mesh->distance || mesh->home));
     contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_MESH};
     contact.grid = (hair_vec4){mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel};
     contact.nodes_x = mesh->size[0];

@@ -325,7 +325,7 @@ static hair_result build_lists(const hair_host* host, struct hair_collider_grid*
 static int is_still(const struct hair_contact* contact)
 {
     const struct hair_capsule* around = &contact->around;
-    const struct hair_body* body = &contact->body;
+    const struct hair_contact_body* body = &contact->body;
     return !memcmp(around->start, around->end, sizeof around->start) &&
            !memcmp(&body->rotation[0], &body->rotation[1], sizeof body->rotation[0]);
 }

@@ -164,6 +164,7 @@ struct hair_placed_collider hair_field_place(const struct hair_field_box* box, c
     if (collider->shape == HAIR_SHAPE_MESH && collider->mesh) {
         const hair_collision_mesh* mesh = collider->mesh;
         placed.mesh = mesh;
+        placed.generation = mesh->generation;
         placed.collider.size = (hair_vec4){0, 0, 0, collider->scale};
         placed.collider.grid = (hair_vec4){mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel};
         placed.collider.nodes_x = mesh->size[0];
@@ -178,8 +179,9 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
                          const struct hair_placed_collider* to)
 {
     const struct hair_field_collider *a = &from->collider, *b = &to->collider;
-    if (from->mesh != to->mesh || a->shape != b->shape || a->number != b->number ||
-        a->position.w != b->position.w || memcmp(&a->size, &b->size, sizeof a->size))
+    if (from->mesh != to->mesh || from->generation != to->generation || a->shape != b->shape ||
+        a->number != b->number || a->position.w != b->position.w ||
+        memcmp(&a->size, &b->size, sizeof a->size))
         return 1;
     // A point moves at most by the centre's translation plus the rotation times its distance from
     // the centre. Only points in the box count.
@@ -207,6 +209,19 @@ int hair_field_has_moved(const struct hair_field_box* box, const struct hair_pla
     return !(hair_length(way) + 2 * sqrtf(turn) * arm <= STILL * box->voxel);
 }
 
+// Return bounds of the distance to a body from a point, in its own space. The CPU knows only the
+// box of the body.
+static struct hair_field_span span_of_body(const hair_collision_mesh* mesh, const double point[3])
+{
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+        double lower = (double)mesh->info.lower[k], upper = (double)mesh->info.upper[k];
+        double off = fmax(fmax(lower - point[k], point[k] - upper), 0);
+        square += off * off;
+    }
+    return (struct hair_field_span){square > 0 ? (float)sqrt(square) : -EVERYWHERE, EVERYWHERE};
+}
+
 // Return bounds of a collider's distance to the voxels of a brick. Distances are 1-Lipschitz,
 // except slightly between the nodes of a collision mesh.
 struct hair_field_span hair_field_find_span(const struct hair_field_box* box,
@@ -226,6 +241,11 @@ struct hair_field_span hair_field_find_span(const struct hair_field_box* box,
     if (placed->mesh) {
         double scale = (double)collider->size.w;
         for (int k = 0; k < 3; ++k) own[k] /= scale;
+        if (placed->mesh->home) {
+            struct hair_field_span span = span_of_body(placed->mesh, own);
+            radius = 1.25f * radius + 2 * collider->size.w * collider->grid.w + collider->position.w;
+            return (struct hair_field_span){(float)scale * span.min - radius, (float)scale * span.max};
+        }
         distance = scale * hair_distance_to_mesh(placed->mesh, own, NULL);
         radius = 1.25f * radius + 2 * collider->size.w * collider->grid.w;
     } else {

@@ -34,6 +34,7 @@ struct hair_placed_collider {
     // NULL if the collider is no collision mesh, or one without data.
     const hair_collision_mesh* mesh;
     uint32_t place; // Place of the mesh in hair_sdf_pool.
+    uint32_t generation; // Number of shapes that the mesh of a body had then.
     uint16_t first[3], end[3];
 };
 

@@ -11,13 +11,27 @@ static size_t count_nodes(const hair_collision_mesh* mesh)
     return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
 }
 
-static void upload_sdf(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled_sdf* pooled)
+// Add the nodes of a mesh. Those of a body are written later.
+static void upload_sdf(struct hair_sdf_pool* pool, struct hair_pooled_sdf* pooled)
 {
     size_t count = count_nodes(pooled->mesh);
     HAIR_ASSERT(pool->used + count <= pool->room);
     pooled->first = (uint32_t)pool->used;
-    pool->gl->NamedBufferSubData(buffer, (GLintptr)(pool->used * sizeof(float)),
-                                 (GLsizeiptr)(count * sizeof(float)), pooled->mesh->distance);
+    if (pooled->mesh->distance)
+        pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pool->used * sizeof(float)),
+                                     (GLsizeiptr)(count * sizeof(float)), pooled->mesh->distance);
+    pool->used += count;
+}
+
+// Copy the nodes of a mesh to a larger buffer. The nodes of a body are on the GPU only.
+static void move_sdf(struct hair_sdf_pool* pool, GLuint buffer, struct hair_pooled_sdf* pooled)
+{
+    size_t count = count_nodes(pooled->mesh);
+    HAIR_ASSERT(pool->used + count <= pool->room);
+    pool->gl->CopyNamedBufferSubData(pool->nodes, buffer, (GLintptr)(pooled->first * sizeof(float)),
+                                     (GLintptr)(pool->used * sizeof(float)),
+                                     (GLsizeiptr)(count * sizeof(float)));
+    pooled->first = (uint32_t)pool->used;
     pool->used += count;
 }
 
@@ -33,12 +47,12 @@ static hair_result reserve_nodes(struct hair_sdf_pool* pool, size_t more)
     if (room < MIN_ROOM) room = MIN_ROOM;
     HAIR_TRY(hair_gl_storage(pool->gl, HAIR_GL_NO_CATEGORY, "hair collision meshes", room * sizeof(float),
                              NULL, &buffer));
-    hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
-    pool->nodes = buffer;
     pool->room = room;
     pool->used = 0;
     for (uint32_t i = 0; i < pool->count; ++i)
-        if (pool->pooled[i].mesh) upload_sdf(pool, buffer, &pool->pooled[i]);
+        if (pool->pooled[i].mesh) move_sdf(pool, buffer, &pool->pooled[i]);
+    hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
+    pool->nodes = buffer;
     return HAIR_OK;
 }
 
@@ -62,8 +76,21 @@ static hair_result reserve_place(struct hair_sdf_pool* pool, uint32_t* place)
     return HAIR_OK;
 }
 
+// Drop meshes without users. A body's mesh is kept while another refers to it.
+static void drop_unused(struct hair_sdf_pool* pool)
+{
+    for (uint32_t i = 0; i < pool->count; ++i) {
+        struct hair_pooled_sdf* pooled = &pool->pooled[i];
+        if (!pooled->mesh || pooled->users) continue;
+        if (pooled->mesh->home && hair_collision_mesh_holders(pooled->mesh) > 1) continue;
+        hair_collision_mesh_release(pooled->mesh);
+        pooled->mesh = NULL;
+    }
+}
+
 static void free_if_empty(struct hair_sdf_pool* pool)
 {
+    drop_unused(pool);
     for (uint32_t i = 0; i < pool->count; ++i)
         if (pool->pooled[i].mesh) return;
     hair_gl_free_array(pool->gl, &pool->nodes, &pool->texture);
@@ -79,13 +106,14 @@ void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl)
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
                                   uint32_t* place)
 {
-    HAIR_ASSERT(mesh && mesh->distance);
+    HAIR_ASSERT(mesh && (mesh->distance || mesh->home == pool));
     for (uint32_t i = 0; i < pool->count; ++i)
         if (pool->pooled[i].mesh == mesh) {
             ++pool->pooled[i].users;
             *place = i;
             return HAIR_OK;
         }
+    drop_unused(pool);
     hair_result result = reserve_nodes(pool, count_nodes(mesh));
     if (!result) result = reserve_place(pool, place);
     if (result) {
@@ -94,7 +122,7 @@ hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collisi
     }
     hair_collision_mesh_hold(mesh);
     pool->pooled[*place] = (struct hair_pooled_sdf){.mesh = mesh, .users = 1};
-    upload_sdf(pool, pool->nodes, &pool->pooled[*place]);
+    upload_sdf(pool, &pool->pooled[*place]);
     return HAIR_OK;
 }
 
@@ -103,10 +131,16 @@ void hair_sdf_pool_release(struct hair_sdf_pool* pool, uint32_t place)
     HAIR_ASSERT(place < pool->count);
     struct hair_pooled_sdf* pooled = &pool->pooled[place];
     HAIR_ASSERT(pooled->mesh && pooled->users > 0);
-    if (--pooled->users) return;
-    hair_collision_mesh_release(pooled->mesh);
-    pooled->mesh = NULL;
-    free_if_empty(pool);
+    if (--pooled->users == 0) free_if_empty(pool);
+}
+
+void hair_sdf_pool_free(struct hair_sdf_pool* pool)
+{
+    for (uint32_t i = 0; i < pool->count; ++i) {
+        hair_collision_mesh_release(pool->pooled[i].mesh);
+        pool->pooled[i].mesh = NULL;
+    }
+    if (pool->pooled) free_if_empty(pool);
 }
 
 hair_result hair_sdf_pool_ensure_texture(struct hair_sdf_pool* pool)

@@ -8,7 +8,9 @@
 
 struct hair_pooled_sdf {
     const hair_collision_mesh* mesh; // Referenced mesh. NULL if the place is free.
-    uint32_t users; // Number of colliders that use it.
+    // Number of colliders that use it. The distances of a body stay while anything refers to its
+    // mesh, because they are nowhere else.
+    uint32_t users;
     uint32_t first; // First of its nodes.
 };
 
@@ -23,6 +25,8 @@ struct hair_sdf_pool {
 
 // Set up an empty pool, without memory or OpenGL.
 void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl);
+// Free a pool whose users are gone or do not matter any more.
+void hair_sdf_pool_free(struct hair_sdf_pool* pool);
 
 // Add a user of `collision_mesh`. Its place stays `place` until hair_sdf_pool_release().
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* collision_meshes,

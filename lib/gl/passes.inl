@@ -96,6 +96,12 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 
 PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
 PASS(VOXELISE_MESHES, "field/voxelise_meshes", FIELD, 0, "HAIR_MESHES=1 field/voxelise.comp")
+PASS(BODY_SCATTER, "field/body_scatter", FIELD, 0, "field/body_scatter.comp")
+PASS(BODY_LINE_FIRST, "field/body_line_first", FIELD, 0, "HAIR_AXIS=0 HAIR_FIRST=1 field/body_line.comp")
+PASS(BODY_LINE_X, "field/body_line_x", FIELD, 0, "HAIR_AXIS=0 field/body_line.comp")
+PASS(BODY_LINE_Y, "field/body_line_y", FIELD, 0, "HAIR_AXIS=1 field/body_line.comp")
+PASS(BODY_LINE_Z, "field/body_line_z", FIELD, 0, "HAIR_AXIS=2 field/body_line.comp")
+PASS(BODY_LINE_LAST, "field/body_line_last", FIELD, 0, "HAIR_AXIS=2 HAIR_LAST=1 field/body_line.comp")
 PASS(FLUID_FACE_FRACTIONS, "wind/face_fractions", WIND, 0, "HAIR_FLUID=1 wind/face_fractions.comp")
 PASS(FLUID_COARSEN, "wind/coarsen", WIND, 0, "HAIR_FLUID=1 wind/coarsen.comp")
 PASS(FLUID_CLEAR, "wind/clear", WIND, 0, "HAIR_FLUID=1 sim/hair_grid_clear.comp")

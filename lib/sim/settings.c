@@ -28,6 +28,7 @@ void hair_sim_set_head(struct hair_sim* sim, const struct hair_pose* head)
 hair_result hair_sim_set_colliders(struct hair_sim* sim, const hair_collider* colliders, uint32_t count,
                                    size_t stride)
 {
+    sim->colliders.home = sim->contacts.sdf_pool;
     return hair_colliders_set(&sim->gl->host, &sim->colliders, colliders, count, stride);
 }
 

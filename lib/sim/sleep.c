@@ -103,10 +103,11 @@ static bool has_collider_near(const struct hair_sim* sim)
 {
     const struct hair_colliders* colliders = &sim->colliders;
     const struct hair_collider_list *now = &colliders->current, *before = &colliders->previous;
-    if (!colliders->changed) return false;
+    if (!colliders->changed && !hair_colliders_have_deformed(colliders)) return false;
     for (uint32_t i = 0; i < now->count; ++i) {
         const hair_collider* was = hair_colliders_previous(colliders, i);
-        int is = was != &now->collider[i] && are_same_colliders(was, &now->collider[i]);
+        int is = was != &now->collider[i] && are_same_colliders(was, &now->collider[i]) &&
+                 !hair_colliders_has_deformed(colliders, i);
         if (!is && comes_near(sim, was, &now->collider[i])) return true;
     }
     for (uint32_t i = 0; i < before->count; ++i) {
@@ -126,7 +127,7 @@ bool hair_sleep_is_disturbed(const struct hair_sim* sim)
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return true;
     if (hair_wind_is_unsteady(&sim->wind)) return true;
     // Colliders deflect the wind at any distance.
-    if (sim->colliders.changed && sim->wind_state.params &&
+    if ((sim->colliders.changed || hair_colliders_have_deformed(&sim->colliders)) && sim->wind_state.params &&
         sim->colliders.current.count + sim->colliders.previous.count > 0)
         return true;
     float far = distance_between(&sleep->head, &sim->head, HAIR_SIM_LOOSE * sim->reach);

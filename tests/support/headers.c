@@ -9,14 +9,14 @@
 #define CAPITALS "ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"
 
 static char headers[1 << 18]; // text of all headers
-static struct hair_test_member members[512];
+static struct hair_test_member members[640];
 static size_t member_count;
 
 static void read_files(void)
 {
     static const char* const names[] = {"base",      "groom", "context",  "look", "physics",
                                         "colliders", "wind",  "instance", "view", "diagnostics",
-                                        "buffers",   "asset", "targets"};
+                                        "buffers",   "asset", "targets",  "body"};
     size_t size = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char name[64];

@@ -114,7 +114,7 @@ static hair_vec4 mix(hair_vec4 a, hair_vec4 b, float t)
 static double distance_of(const struct hair_contact* contact, const hair_collider* collider, float fraction,
                           hair_vec3 place)
 {
-    const struct hair_body* body = &contact->body;
+    const struct hair_contact_body* body = &contact->body;
     hair_vec4 at = mix(body->position[0], body->position[1], fraction);
     hair_vec4 r = mix(body->rotation[0], body->rotation[1], fraction);
     hair_quat turn = hair_quat_normalize((hair_quat){r.x, r.y, r.z, r.w});

@@ -80,6 +80,22 @@ FLOAT(hair_collision_mesh_desc, thickness, 0, 0, 1e6, 0, 0.05, LINEAR, "m",
 FLOAT(hair_collision_mesh_desc, padding, 0, 0, 1e6, 0, 0.1, LINEAR, "m",
       "Space around the surface that the grid covers too, for hair_collider.rounding.")
 END
+BEGIN(hair_body_desc)
+POINTER(hair_body_desc, positions, "First vertex positions, xyz each, in the local space of the collider.")
+POINTER(hair_body_desc, triangles,
+      "Three vertex indices per triangle, counter-clockwise seen from outside.")
+UINT(hair_body_desc, vertex_count, 0, 1, 786432, 1, 20000, LOG, "", "Number of vertices.")
+UINT(hair_body_desc, triangle_count, 0, 1, 262144, 1, 20000, LOG, "", "Number of triangles.")
+UINT(hair_body_desc, resolution, 64, 8, 128, 16, 128, LINEAR, "",
+      "Number of voxels along the longest side of the box from `lower` to `upper`.")
+VECTOR(hair_body_desc, lower, 0, 0, 0, -1e6, 1e6, -2, 2, "m",
+      "Lower corner of the box in which all vertices stay.")
+VECTOR(hair_body_desc, upper, 0, 0, 0, -1e6, 1e6, -2, 2, "m",
+      "Upper corner of the box in which all vertices stay, above `lower`.")
+FLOAT(hair_body_desc, thickness, 0, 0, 1e6, 0, 0.05, LINEAR, "m",
+      "Thickness of the shell of an open body, at least two voxels.")
+UINT64(hair_body_desc, key, "Key by which hair_load() finds the body among the colliders.")
+END
 BEGIN(hair_collider)
 ENUM(hair_collider, shape, HAIR_SHAPE_SPHERE,
       "Shape of a collider in its local space, centred at the origin.", "sphere", "capsule", "box",

@@ -1,0 +1,100 @@
+// body_line.comp - one line of nodes of a body along an axis. Each node gets the nearest surface
+// point of the nodes before it and after it, as it is passed on from node to node (Danielsson
+// 1980). After two rounds of all axes, each node knows a point that is nearest or nearly so. One
+// thread per line.
+//
+// HAIR_FIRST begins with the triangles near nodes. It also finds the side of each node: outside the
+// body, the surfaces that a column has entered equal those it has left. HAIR_LAST writes the signed
+// distance.
+#version 450 core
+#include "field/body.glsl"
+layout(local_size_x = HAIR_BODY_THREADS) in;
+
+// xyz: surface point. w: 1 plus the index of its triangle, or UNKNOWN. w is negative inside.
+layout(std430, binding = HAIR_BIND_BODY_POINT) buffer point_buffer { vec4 point[]; };
+#ifdef HAIR_LAST
+layout(std430, binding = HAIR_BIND_NODE) writeonly buffer node_buffer { float node[]; };
+#endif
+
+#define UNKNOWN 0.5 // Size of w of a node that knows no point.
+
+// Return the point of the triangle t that is nearest to p.
+vec3 nearest_of(uint t, vec3 p)
+{
+    return nearest_of_triangle(p, body_vertex(3u * t), body_vertex(3u * t + 1u), body_vertex(3u * t + 2u));
+}
+
+// Return the point that is nearer to p, with a positive w.
+vec4 nearer(vec3 p, vec4 own, vec4 passed_on)
+{
+    vec3  a = own.xyz - p, b = passed_on.xyz - p;
+    float w = abs(own.w);
+    bool  is_own = w > UNKNOWN && (passed_on.w <= UNKNOWN || dot(a, a) <= dot(b, b));
+    return is_own ? vec4(own.xyz, w) : passed_on;
+}
+
+#ifdef HAIR_FIRST
+// Return the point that a node near a triangle knows from the triangle.
+vec4 first_point(uint n, vec3 p)
+{
+    uint key = nearest[n], t = key & ((1u << HAIR_BODY_TRIANGLE_BITS) - 1u);
+    if (key == BODY_NONE) return vec4(vec3(0.0), UNKNOWN);
+    nearest[n] = BODY_NONE; // The next body_scatter.comp begins with this.
+    return vec4(nearest_of(t, p), float(t + 1u));
+}
+#endif
+#ifdef HAIR_LAST
+// Return the distance to the triangle of a point, which may be nearer than the point.
+float distance_of(vec4 known, vec3 p)
+{
+    float far = length(vec3(params.nodes_x, params.nodes_y, params.nodes_z));
+    if (abs(known.w) > UNKNOWN) far = length(p - nearest_of(uint(abs(known.w)) - 1u, p));
+    return params.voxel * (known.w < 0.0 ? -far : far) - params.shell;
+}
+#endif
+
+void main()
+{
+    uvec3 size = uvec3(params.nodes_x, params.nodes_y, params.nodes_z);
+    uint  line = hair_group() * HAIR_BODY_THREADS + gl_LocalInvocationID.x, count = size[HAIR_AXIS];
+#if HAIR_AXIS == 0
+    uvec3 at = uvec3(0u, line % max(size.y, 1u), line / max(size.y, 1u)), way = uvec3(1u, 0u, 0u);
+    if (at.z >= size.z) return;
+#elif HAIR_AXIS == 1
+    uvec3 at = uvec3(line % max(size.x, 1u), 0u, line / max(size.x, 1u)), way = uvec3(0u, 1u, 0u);
+    if (at.z >= size.z) return;
+#else
+    uvec3 at = uvec3(line % max(size.x, 1u), line / max(size.x, 1u), 0u), way = uvec3(0u, 0u, 1u);
+    if (at.y >= size.y) return;
+#endif
+    uint start = at.x + size.x * (at.y + size.y * at.z), stride = way.x + size.x * (way.y + size.y * way.z);
+    vec4 known = vec4(vec3(0.0), UNKNOWN);
+    int  winding = 0;
+    for (uint i = 0u; i < count; ++i) {
+        uint n = start + i * stride;
+        vec3 p = vec3(at + i * way);
+#ifdef HAIR_FIRST
+        vec4 own = first_point(n, p);
+        winding += crossing[n];
+        crossing[n] = 0; // The next body_scatter.comp begins with this.
+        bool is_inside = winding != 0 && params.is_closed != 0u;
+#else
+        vec4 own = point[n];
+        bool is_inside = own.w < 0.0;
+#endif
+        known    = nearer(p, own, known);
+        point[n] = vec4(known.xyz, is_inside ? -known.w : known.w);
+    }
+    known = vec4(vec3(0.0), UNKNOWN);
+    for (uint i = count; i-- > 0u;) {
+        uint n   = start + i * stride;
+        vec3 p   = vec3(at + i * way);
+        vec4 own = point[n];
+        known    = nearer(p, own, known);
+#ifndef HAIR_LAST
+        point[n] = vec4(known.xyz, own.w < 0.0 ? -known.w : known.w);
+#else
+        node[params.first + n] = distance_of(vec4(known.xyz, own.w < 0.0 ? -known.w : known.w), p);
+#endif
+    }
+}

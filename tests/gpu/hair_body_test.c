@@ -1,0 +1,314 @@
+// hair_body_test.c - bodies that deform: the distance on the GPU agrees with the exact mesh, and
+// costs nothing unless there is a body.
+#include "tests/support/deforming.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "lib/api/api.h"
+#include "lib/collide/distance.h"
+
+// Signs are right beyond this distance from the surface, in voxels. A column crosses triangles
+// whose corners are moved across it by up to 1/64.
+#define SNAPPED 0.03
+
+// Maximum error beyond the band, relative to the distance.
+#define MAX_FAR 0.16
+
+struct errors {
+    double near, far; // worst within the band, and beyond it relative to the distance, voxels
+    uint32_t near_count;
+};
+
+static void place_of_node(const hair_collision_mesh* mesh, size_t node, double out[3])
+{
+    const size_t at[3] = {node % mesh->size[0], node / mesh->size[0] % mesh->size[1],
+                          node / mesh->size[0] / mesh->size[1]};
+    for (int k = 0; k < 3; ++k) out[k] = (double)mesh->origin[k] + (double)mesh->voxel * (double)at[k];
+}
+
+// Compare every node of a body with the exact mesh.
+static struct errors compare_nodes(struct hair_test* test, const hair_body* body,
+                                   const struct hair_test_mesh* mesh)
+{
+    const hair_collision_mesh* grid = body->mesh;
+    struct hair_triangles triangles = hair_test_triangles(test, mesh);
+    float* node = hair_test_body_nodes(body);
+    struct errors errors = {0};
+    double voxel = (double)grid->voxel;
+    for (size_t i = 0; i < (size_t)grid->size[0] * grid->size[1] * grid->size[2]; ++i) {
+        double at[3];
+        place_of_node(grid, i, at);
+        double exact = hair_test_exact(&triangles, at) / voxel, own = (double)node[i] / voxel;
+        if (fabs(exact) > SNAPPED && (exact < 0) != (own < 0))
+            fail_msg("node %zu is %g voxels from the surface, said to be %g", i, exact, own);
+        double off = fabs(fabs(own) - fabs(exact));
+        if (fabs(exact) < HAIR_BODY_BAND - 0.1) {
+            errors.near = fmax(errors.near, off);
+            ++errors.near_count;
+        } else {
+            errors.far = fmax(errors.far, off / fabs(exact));
+        }
+    }
+    hair_triangles_free(&test->host.host, &triangles);
+    free(node);
+    print_message("    %u near nodes off by %.4f voxels, others by %.4f of the distance\n", errors.near_count,
+                  errors.near, errors.far);
+    return errors;
+}
+
+static void nodes_hold_the_distance_of_every_shape(void** state)
+{
+    struct hair_test* test = *state;
+    for (int crossed = 0; crossed < 2; ++crossed) {
+        struct hair_test_mesh mesh = hair_test_lump(30, 40, 0, crossed);
+        hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 24);
+        assert_true(body->mesh->info.is_closed);
+        for (int shape = 0; shape < 3; ++shape) {
+            hair_test_mesh_free(&mesh);
+            mesh = hair_test_lump(30, 40, 0.9f * (float)shape, crossed);
+            hair_test_deform(test, body, &mesh);
+            struct errors errors = compare_nodes(test, body, &mesh);
+            assert_true(errors.near_count > 1000);
+            assert_true(errors.near < 0.002 && errors.far < MAX_FAR);
+        }
+        hair_body_destroy(body);
+        hair_test_mesh_free(&mesh);
+    }
+}
+
+// Check a mesh of few triangles, each of which reaches across the grid.
+static void nodes_hold_the_distance_to_large_triangles(void** state)
+{
+    struct hair_test* test = *state;
+    const float half[3] = {0.3f, 0.2f, 0.11f};
+    struct hair_test_mesh mesh = hair_test_box_mesh(half);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.31f, 24);
+    struct errors errors = compare_nodes(test, body, &mesh);
+    assert_true(errors.near_count > 1000 && errors.near < 0.002 && errors.far < MAX_FAR);
+    for (uint32_t i = 0; i < mesh.vertex_count; ++i) {
+        float *p = mesh.positions + 3 * i, x = p[0], y = p[1];
+        p[0] = 0.8f * x - 0.3f * y, p[1] = 0.3f * x + 0.8f * y, p[2] += 0.3f * y;
+    }
+    hair_test_deform(test, body, &mesh);
+    errors = compare_nodes(test, body, &mesh);
+    assert_true(errors.near_count > 1000 && errors.near < 0.002 && errors.far < MAX_FAR);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+static double random_number(uint32_t* seed)
+{
+    *seed = *seed * 1664525 + 1013904223;
+    return (double)(*seed >> 8) / 16777216;
+}
+
+// Check points within a voxel per axis of vertices. Distances are interpolated between nodes there.
+static void distance_near_the_surface_is_within_half_a_voxel(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(40, 60, 0.5f, 0);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 32);
+    hair_collision_mesh grid = *body->mesh;
+    struct hair_triangles triangles = hair_test_triangles(test, &mesh);
+    double max = 0, voxel = (double)grid.voxel;
+    uint32_t seed = 1;
+    grid.distance = hair_test_body_nodes(body);
+    for (uint32_t i = 0; i < 5000; ++i) {
+        const float* vertex = mesh.positions + 3 * (size_t)(random_number(&seed) * mesh.vertex_count);
+        double at[3];
+        for (int k = 0; k < 3; ++k) at[k] = (double)vertex[k] + (2 * random_number(&seed) - 1) * voxel;
+        max =
+            fmax(max, fabs(hair_distance_to_mesh(&grid, at, NULL) - hair_test_exact(&triangles, at)) / voxel);
+    }
+    print_message("    off by at most %.3f voxels\n", max);
+    assert_true(max <= 0.5);
+    free(grid.distance);
+    hair_triangles_free(&test->host.host, &triangles);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+// Check a body whose last triangle is missing. It has no inside, so all distances are from a shell.
+static void open_body_is_a_shell(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0);
+    --mesh.triangle_count;
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 32);
+    const hair_collision_mesh* grid = hair_body_get_mesh(body);
+    struct hair_triangles triangles = hair_test_triangles(test, &mesh);
+    float* node = hair_test_body_nodes(body);
+    assert_false(grid->info.is_closed);
+    assert_true(grid->info.thickness == 2 * grid->voxel);
+    for (size_t i = 0; i < (size_t)grid->size[0] * grid->size[1] * grid->size[2]; i += 7) {
+        double at[3];
+        place_of_node(grid, i, at);
+        double exact = fabs(hair_test_exact(&triangles, at)), voxel = (double)grid->voxel;
+        hair_test_near("node", i, (double)node[i], exact - voxel,
+                       exact < 1.9 * voxel ? 0.01 * voxel : MAX_FAR * exact);
+    }
+    free(node);
+    hair_triangles_free(&test->host.host, &triangles);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+// Bodies and meshes share a buffer, which grows and is compacted.
+static void nodes_survive_growth_of_their_pool(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_sdf_pool* pool = &test->context->sdf_pool;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0), other = hair_test_lump(20, 30, 0, 0);
+    hair_body* bodies[3];
+    for (int i = 0; i < 3; ++i) bodies[i] = hair_test_deforming(test, &mesh, 0.16f, 16 + 4 * (uint32_t)i);
+    hair_test_mesh_free(&other);
+    other = hair_test_lump(20, 30, 1, 0);
+    hair_test_deform(test, bodies[2], &other);
+    GLuint nodes = pool->nodes;
+    hair_body_destroy(bodies[0]);
+    bodies[0] = hair_test_deforming(test, &mesh, 0.16f, 40);
+    assert_int_not_equal(pool->nodes, nodes);
+    compare_nodes(test, bodies[0], &mesh);
+    compare_nodes(test, bodies[1], &mesh);
+    compare_nodes(test, bodies[2], &other);
+    for (int i = 0; i < 3; ++i) hair_body_destroy(bodies[i]);
+    assert_int_equal(pool->nodes, 0);
+    hair_test_mesh_free(&mesh);
+    hair_test_mesh_free(&other);
+}
+
+static void equal_positions_run_no_pass(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 16);
+    const struct hair_gl_program* program = hair_gl_find(&test->context->gl, HAIR_GL_BODY_SCATTER);
+    uint32_t generation = body->mesh->generation;
+    assert_non_null(program);
+    hair_test_deform(test, body, &mesh);
+    assert_int_equal(body->mesh->generation, generation);
+    mesh.positions[0] += 0.001f;
+    hair_test_deform(test, body, &mesh);
+    assert_int_equal(body->mesh->generation, generation + 1);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+// Refuse every allocation in turn.
+static void refused_memory_leaves_nothing(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(12, 16, 0, 0);
+    hair_body_desc desc = hair_test_body_desc(&mesh, 0.16f, 16);
+    hair_body* body = NULL;
+    uint32_t refused = 0, objects = hair_test_count_objects();
+    size_t bytes = test->host.live;
+    for (;; ++refused) {
+        test->host.refuse = test->host.allocations + 1 + refused;
+        hair_result result = hair_body_create(test->context, &desc, &body);
+        test->host.refuse = 0;
+        if (result == HAIR_OK) break;
+        hair_test_refused(test, result, HAIR_ERROR_MEMORY, "out of memory for");
+        assert_null(body);
+        assert_int_equal(test->host.live, bytes);
+        assert_int_equal(hair_test_count_objects(), objects);
+    }
+    assert_true(refused > 5);
+    hair_body_destroy(body);
+    assert_int_equal(hair_test_count_objects(), objects);
+    hair_test_mesh_free(&mesh);
+}
+
+static void refused(struct hair_test* test, const hair_body_desc* desc, const char* words)
+{
+    hair_body* body = NULL;
+    hair_test_refused(test, hair_body_create(test->context, desc, &body), HAIR_ERROR_ARGUMENT, words);
+    assert_null(body);
+}
+
+static void hostile_inputs_are_refused_by_a_sentence(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(12, 16, 0, 0);
+    hair_body_desc good = hair_test_body_desc(&mesh, 0.16f, 16), desc = good;
+    desc.positions = NULL;
+    refused(test, &desc, "hair_body_desc.positions is NULL");
+    desc = good, desc.triangles = NULL;
+    refused(test, &desc, "hair_body_desc.triangles is NULL");
+    desc = good, desc.triangle_count = 262145;
+    refused(test, &desc, "hair_body_desc.triangle_count is 262145, not in [1, 262144]");
+    desc = good, desc.upper[1] = desc.lower[1];
+    refused(test, &desc, "hair_body_desc.upper[1] is -0.16, not above lower[1], which is -0.16");
+    desc = good, desc.lower[0] = 1000, desc.upper[0] = 1000.0001f;
+    desc.lower[1] = desc.lower[2] = 0, desc.upper[1] = desc.upper[2] = 1e-4f;
+    refused(test, &desc, "too small for voxels of");
+    desc = good, desc.upper[2] = 0.02f;
+    refused(test, &desc, "outside the box of its hair_body_desc from (-0.16, -0.16, -0.16) to");
+    uint32_t index = mesh.triangles[4];
+    mesh.triangles[4] = mesh.vertex_count;
+    refused(test, &good, "hair_body_desc.triangles[4] is ");
+    mesh.triangles[4] = index;
+    float was = mesh.positions[7];
+    mesh.positions[7] = NAN;
+    refused(test, &good, "hair_body_desc.positions[7] is ");
+    mesh.positions[7] = was;
+
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 16);
+    struct {
+        const float* positions;
+        uint32_t count;
+        size_t stride;
+        const char* words;
+    } bad[] = {
+        {NULL, mesh.vertex_count, 12, "hair_body: positions is NULL"},
+        {mesh.positions, 3, 12, "hair_body: count is 3, not the "},
+        {mesh.positions, mesh.vertex_count, 13, "hair_body: stride is 13, not a multiple of 4 in [12, 4096]"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i)
+        hair_test_refused(test, hair_body_set_positions(body, bad[i].positions, bad[i].count, bad[i].stride),
+                          HAIR_ERROR_ARGUMENT, bad[i].words);
+    mesh.positions[7] = NAN;
+    hair_test_refused(test, hair_body_set_positions(body, mesh.positions, mesh.vertex_count, 12),
+                      HAIR_ERROR_ARGUMENT, "hair_body: vertex 2 is at (");
+    mesh.positions[7] = was;
+    compare_nodes(test, body, &mesh); // The refused calls changed nothing.
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+// Collapse a body to a line, and then to a point. The nodes stay finite.
+static void degenerate_triangles_give_finite_distances(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(12, 16, 0, 0);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 16);
+    for (int axes = 2; axes >= 0; --axes) {
+        for (uint32_t i = 0; i < mesh.vertex_count; ++i) mesh.positions[3 * i + (uint32_t)axes] = 0.05f;
+        hair_test_deform(test, body, &mesh);
+        float* node = hair_test_body_nodes(body);
+        const uint32_t* size = body->mesh->size;
+        for (uint32_t i = 0; i < size[0] * size[1] * size[2]; ++i)
+            assert_true(node[i] > -1e-3f && node[i] < 1);
+        free(node);
+    }
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(nodes_hold_the_distance_of_every_shape),
+        HAIR_TEST(nodes_hold_the_distance_to_large_triangles),
+        HAIR_TEST(distance_near_the_surface_is_within_half_a_voxel),
+        HAIR_TEST(open_body_is_a_shell),
+        HAIR_TEST(nodes_survive_growth_of_their_pool),
+        HAIR_TEST(equal_positions_run_no_pass),
+        HAIR_TEST(refused_memory_leaves_nothing),
+        HAIR_TEST(hostile_inputs_are_refused_by_a_sentence),
+        HAIR_TEST(degenerate_triangles_give_finite_distances),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
