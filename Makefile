@@ -65,7 +65,8 @@ TESTS += $(if $(filter 0,$(BULLET)),,$(patsubst %.cpp,$(B)/%,$(wildcard tests/un
 # Hosts in C++ need packages that `make hosts` installs. `make test hosts=1` runs them.
 TESTS += $(if $(filter 1,$(hosts)),$(patsubst %.cpp,$(B)/%,$(wildcard tests/hosts/*_test.cpp)))
 TESTS += $(if $(filter 0,$(VIEW)),,$(patsubst %.c,$(B)/%,$(wildcard tests/view/*_test.c)))
-EXAMPLES := $(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c))
+EXAMPLES := $(filter-out %/vulkan_host,$(patsubst tools/%.c,$(B)/%,$(wildcard tools/examples/*.c)))
+EXAMPLES += $(if $(filter 1,$(hosts)),$(B)/examples/vulkan_host)
 EXAMPLES += $(if $(filter 0,$(BULLET)),,$(B)/examples/bullet_world)
 
 NAMES     := hair hair_egl $(if $(filter 0,$(BULLET)),,hair_bullet)
@@ -246,6 +247,15 @@ $(B)/examples/bullet_world: $(B)/tools/examples/bullet_world.cpp.o $(B)/libhair_
 	@mkdir -p $(@D)
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(BULLET_LIBS) $(EXAMPLE_LIBS) -o $@
+# Shaders of the example for Vulkan are compiled into arrays of C.
+$(B)/tools/examples/vulkan_host.c.o: private C += -I$(B)/tools/examples $(patsubst -I%,-isystem %,$(call packages,--cflags,vulkan))
+$(B)/tools/examples/vulkan_host.c.o: $(B)/tools/examples/vulkan_scene.vert.inc $(B)/tools/examples/vulkan_scene.frag.inc
+$(B)/examples/vulkan_host: private EXAMPLE_LIBS += $(call packages,--libs,vulkan)
+$(B)/tools/examples/%.inc: tools/examples/%
+	@mkdir -p $(@D)
+	@pkg-config --exists vulkan || { echo "vulkan_host needs libvulkan-dev; make hosts installs it."; exit 1; }
+	$(call say,$@)
+	$(Q)glslc -mfmt=c $< -o $@
 $(B)/examples/%: $(B)/tools/examples/%.c.o $(B)/libhair_egl.a $(B)/libhair.a
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -273,6 +283,7 @@ QT = Qt6OpenGLWidgets Qt6Widgets Qt6OpenGL Qt6Gui Qt6Core
 $(B)/tests/hosts/qt_test.cpp.o: private HOST_FLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,$(QT)))
 $(B)/tests/hosts/ogre_test.cpp.o: private HOST_FLAGS = $(patsubst -I%,-isystem %,$(call packages,--cflags,OGRE)) \
   -fexceptions -frtti -DHAIR_OGRE_PLUGINS='"$(call packages,--variable=plugindir,OGRE)"'
+$(B)/tests/hosts/vulkan_test.cpp.o: private HOST_FLAGS = -DHAIR_BUILD_DIR='"$(B)"'
 $(B)/tests/hosts/%.cpp.o: tests/hosts/%.cpp
 	@mkdir -p $(@D)
 	$(call say,$@)
@@ -283,6 +294,11 @@ $(B)/tests/hosts/qt_test: $(B)/tests/hosts/qt_test.cpp.o $(B)/libhair.a
 $(B)/tests/hosts/ogre_test: $(B)/tests/hosts/ogre_test.cpp.o $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(call packages,--libs,cmocka OGRE gl) -lm -o $@
+
+# This test runs an example, whose picture it checks.
+$(B)/tests/hosts/vulkan_test: $(B)/tests/hosts/vulkan_test.cpp.o | $(B)/examples/vulkan_host
+	$(call say,$@)
+	$(Q)$(CXX) $(opt.$(config)) $^ $(call packages,--libs,cmocka) -o $@
 
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)

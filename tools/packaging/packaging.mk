@@ -23,7 +23,7 @@ install-libraries: libraries
 	for n in $(NAMES); do $(TEMPLATE) tools/packaging/$$n.pc.in >$(LIBS)/pkgconfig/$$n.pc || exit 1; done
 	for n in hairConfig hairConfigVersion; do $(TEMPLATE) tools/packaging/$$n.cmake.in >$(LIBS)/cmake/hair/$$n.cmake || exit 1; done
 	install -m 644 LICENSE $(DOC)
-	install -m 644 tests/consumer/hello.c $(wildcard tools/examples/*.[ch] tools/examples/*.cpp tools/examples/README.md) $(DOC)/examples
+	install -m 644 tests/consumer/hello.c $(wildcard tools/examples/*.[ch] tools/examples/*.cpp tools/examples/*.vert tools/examples/*.frag tools/examples/README.md) $(DOC)/examples
 	sed 's|](hair|](../../../include/hair/hair|g; s|](../../tests/consumer/|](examples/|; s|](../../tools/|](|' include/hair/README.md >$(DOC)/guide.md
 	sed 's|](README.md|](guide.md|g' include/hair/CHANGELOG.md >$(DOC)/CHANGELOG.md
 
