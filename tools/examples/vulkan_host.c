@@ -7,7 +7,7 @@
 #include <hair/hair_egl.h>
 
 enum { TO_OPENGL, TO_VULKAN }; // Semaphores.
-static const GLenum gl_formats[IMAGES] = {GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT32F};
+static const GLenum gl_formats[IMAGES] = {GL_RGBA16F, GL_DEPTH_COMPONENT32F};
 static const GLenum gl_layouts[IMAGES] = {GL_LAYOUT_GENERAL_EXT, GL_LAYOUT_GENERAL_EXT};
 
 static GLuint memory_objects[IMAGES], textures[IMAGES], semaphores[2];
@@ -136,7 +136,6 @@ static GLuint create_framebuffer(void)
     glViewport(0, 0, (GLsizei)vk.width, (GLsizei)vk.height);
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE); // The first row is the highest one.
     glEnable(GL_DEPTH_TEST);
-    glEnable(GL_FRAMEBUFFER_SRGB);
     return framebuffer;
 }
 

@@ -4,6 +4,7 @@
 #define TOOLS_EXAMPLES_VULKAN_SCENE_H
 
 #include "common.h"
+#include <math.h>
 #include <stdbool.h>
 #include <vulkan/vulkan.h>
 
@@ -16,7 +17,8 @@ static const uint32_t fragment_code[] =
     ;
 
 enum { COLOR, DEPTH, IMAGES };
-static const VkFormat formats[IMAGES] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_D32_SFLOAT};
+// Colours are linear, of 16 bits.
+static const VkFormat formats[IMAGES] = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_D32_SFLOAT};
 static const VkImageAspectFlags aspects[IMAGES] = {VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_ASPECT_DEPTH_BIT};
 // Images are in this layout for the whole frame, in both interfaces.
 static const VkImageLayout layout = VK_IMAGE_LAYOUT_GENERAL;
@@ -186,7 +188,7 @@ static void create_pipeline(void)
 static void create_pixels(void)
 {
     const VkBufferCreateInfo buffer = {VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
-                                       .size = 4 * (VkDeviceSize)vk.width * vk.height,
+                                       .size = 8 * (VkDeviceSize)vk.width * vk.height,
                                        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
     VkMemoryRequirements needs;
     vk_check(vkCreateBuffer(vk.device, &buffer, NULL, &vk.pixels));
@@ -261,15 +263,28 @@ static void copy_pixels(VkCommandBuffer commands)
     vkCmdCopyImageToBuffer(commands, vk.images[COLOR], layout, vk.pixels, 1, &all);
 }
 
+// Return a linear colour of 16 bits as a byte of sRGB.
+static unsigned char encode(uint16_t half)
+{
+    int exponent = half >> 10 & 31;
+    float fraction = (float)(half & 1023) / 1024;
+    float value = exponent ? ldexpf(1 + fraction, exponent - 15) : ldexpf(fraction, -14);
+    if (half >> 15) return 0;
+    if (value > 1) value = 1;
+    value = value <= 0.0031308f ? 12.92f * value : 1.055f * powf(value, 1 / 2.4f) - 0.055f;
+    return (unsigned char)(255 * value + 0.5f);
+}
+
 // Write the pixels into a PPM file. The first row is the highest one in both.
 static void write_pixels(const char* path)
 {
-    const unsigned char* rgba;
+    const uint16_t(*rgba)[4];
     FILE* file = fopen(path, "wb");
     if (!file) fail("The picture cannot be written.");
     vk_check(vkMapMemory(vk.device, vk.pixel_memory, 0, VK_WHOLE_SIZE, 0, (void**)&rgba));
     fprintf(file, "P6\n%u %u\n255\n", vk.width, vk.height);
-    for (size_t i = 0; i < (size_t)vk.width * vk.height; ++i) fwrite(rgba + 4 * i, 1, 3, file);
+    for (size_t i = 0; i < (size_t)vk.width * vk.height; ++i)
+        for (int k = 0; k < 3; ++k) fputc(encode(rgba[i][k]), file);
     if (fclose(file)) fail("The picture cannot be written.");
 }
 
