@@ -3,6 +3,9 @@
 // Outside the grid the distance continues from the point where the grid ends.
 // lib/collide/distance.c has the same function for the CPU. NODE(i) is the i-th node of all
 // collision meshes.
+//
+// The distances of a body, which deforms, are followed by the displacement of the nearest surface
+// since its last shape: three numbers per node.
 struct mesh_grid {
     vec4  place; // xyz: first node, m. w: spacing of nodes, m.
     uvec3 size;  // Nodes along x, y and z.
@@ -31,3 +34,22 @@ float mesh_distance(mesh_grid mesh, vec3 p, out vec3 gradient)
     gradient  = direction_or(away, gradient);
     return length(away);
 }
+
+#ifdef HAIR_DEFORMING
+vec3 motion_at(uint i) { return vec3(NODE(i), NODE(i + 1u), NODE(i + 2u)); }
+
+// Return the displacement of the surface of a body near p, m.
+vec3 mesh_motion(mesh_grid mesh, vec3 p)
+{
+    uvec3 size   = mesh.size;
+    vec3  within = clamp((p - mesh.place.xyz) / mesh.place.w, vec3(0.0), vec3(size - 1u));
+    uvec3 corner = min(uvec3(within), size - 2u);
+    vec3  t      = within - vec3(corner);
+    uint  row = 3u * size.x, layer = row * size.y,
+         i = mesh.first + size.x * size.y * size.z + 3u * (corner.x + size.x * (corner.y + size.y * corner.z));
+    vec3  a = mix(motion_at(i), motion_at(i + 3u), t.x), b = mix(motion_at(i + row), motion_at(i + row + 3u), t.x);
+    i += layer;
+    vec3  c = mix(motion_at(i), motion_at(i + 3u), t.x), d = mix(motion_at(i + row), motion_at(i + row + 3u), t.x);
+    return mix(mix(a, b, t.y), mix(c, d, t.y), t.z);
+}
+#endif

@@ -15,10 +15,12 @@ layout(std430, binding = HAIR_BIND_BODY_NEAREST) buffer nearest_buffer { uint ne
 // and the node.
 layout(std430, binding = HAIR_BIND_BODY_CROSSING) buffer crossing_buffer { int crossing[]; };
 
-vec3 body_vertex(uint k)
+// Return the corners of the triangle t.
+mat3 body_triangle(uint t)
 {
-    uint i = 3u * triangle[k];
-    return vec3(position[i], position[i + 1u], position[i + 2u]);
+    uvec3 i = 3u * uvec3(triangle[3u * t], triangle[3u * t + 1u], triangle[3u * t + 2u]);
+    return mat3(position[i.x], position[i.x + 1u], position[i.x + 2u], position[i.y], position[i.y + 1u],
+                position[i.y + 2u], position[i.z], position[i.z + 1u], position[i.z + 2u]);
 }
 
 float body_fraction(vec3 p, vec3 a, vec3 b)
@@ -26,16 +28,18 @@ float body_fraction(vec3 p, vec3 a, vec3 b)
     return clamp(dot(p - a, b - a) / max(dot(b - a, b - a), 1e-30), 0.0, 1.0);
 }
 
-// Return the point of a triangle that is nearest to p.
-vec3 nearest_of_triangle(vec3 p, vec3 a, vec3 b, vec3 c)
+// Return the weights of the corners of a triangle at the point that is nearest to p.
+vec3 nearest_weights(vec3 p, vec3 a, vec3 b, vec3 c)
 {
     vec3  normal = cross(b - a, c - a);
     float square = dot(normal, normal);
     vec2  weight = vec2(dot(cross(p - a, c - a), normal), dot(cross(b - a, p - a), normal));
     if (square > 1e-20 && min(weight.x, weight.y) >= 0.0 && weight.x + weight.y <= square)
-        return a + (weight.x * (b - a) + weight.y * (c - a)) / square;
-    vec3  ab = mix(a, b, body_fraction(p, a, b)), bc = mix(b, c, body_fraction(p, b, c)),
-          ca = mix(c, a, body_fraction(p, c, a));
-    float x = dot(p - ab, p - ab), y = dot(p - bc, p - bc), z = dot(p - ca, p - ca);
-    return x <= y && x <= z ? ab : y <= z ? bc : ca;
+        return vec3(square - weight.x - weight.y, weight) / square;
+    float ab = body_fraction(p, a, b), bc = body_fraction(p, b, c), ca = body_fraction(p, c, a);
+    vec3  x = mix(a, b, ab) - p, y = mix(b, c, bc) - p, z = mix(c, a, ca) - p;
+    vec3  far = vec3(dot(x, x), dot(y, y), dot(z, z));
+    return far.x <= far.y && far.x <= far.z ? vec3(1.0 - ab, ab, 0.0)
+           : far.y <= far.z                 ? vec3(0.0, 1.0 - bc, bc)
+                                            : vec3(ca, 0.0, 1.0 - ca);
 }

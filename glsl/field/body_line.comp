@@ -5,7 +5,7 @@
 //
 // HAIR_FIRST begins with the triangles near nodes. It also finds the side of each node: outside the
 // body, the surfaces that a column has entered equal those it has left. HAIR_LAST writes the signed
-// distance.
+// distance, and the motion of the surface since the last shape.
 #version 450 core
 #include "field/body.glsl"
 layout(local_size_x = HAIR_BODY_THREADS) in;
@@ -14,15 +14,10 @@ layout(local_size_x = HAIR_BODY_THREADS) in;
 layout(std430, binding = HAIR_BIND_BODY_POINT) buffer point_buffer { vec4 point[]; };
 #ifdef HAIR_LAST
 layout(std430, binding = HAIR_BIND_NODE) writeonly buffer node_buffer { float node[]; };
+layout(std430, binding = HAIR_BIND_BODY_BEFORE) readonly buffer before_buffer { float before[]; };
 #endif
 
 #define UNKNOWN 0.5 // Size of w of a node that knows no point.
-
-// Return the point of the triangle t that is nearest to p.
-vec3 nearest_of(uint t, vec3 p)
-{
-    return nearest_of_triangle(p, body_vertex(3u * t), body_vertex(3u * t + 1u), body_vertex(3u * t + 2u));
-}
 
 // Return the point that is nearer to p, with a positive w.
 vec4 nearer(vec3 p, vec4 own, vec4 passed_on)
@@ -39,17 +34,31 @@ vec4 first_point(uint n, vec3 p)
 {
     uint key = nearest[n], t = key & ((1u << HAIR_BODY_TRIANGLE_BITS) - 1u);
     if (key == BODY_NONE) return vec4(vec3(0.0), UNKNOWN);
-    nearest[n] = BODY_NONE; // The next body_scatter.comp begins with this.
-    return vec4(nearest_of(t, p), float(t + 1u));
+    nearest[n]  = BODY_NONE; // The next body_scatter.comp begins with this.
+    mat3 corner = body_triangle(t);
+    return vec4(corner * nearest_weights(p, corner[0], corner[1], corner[2]), float(t + 1u));
 }
 #endif
 #ifdef HAIR_LAST
-// Return the distance to the triangle of a point, which may be nearer than the point.
-float distance_of(vec4 known, vec3 p)
+// Write the distance of a node from the triangle of its point, and the motion of the surface there.
+// The triangle may be nearer than the point.
+void write_node(uint n, vec3 p, vec4 known)
 {
-    float far = length(vec3(params.nodes_x, params.nodes_y, params.nodes_z));
-    if (abs(known.w) > UNKNOWN) far = length(p - nearest_of(uint(abs(known.w)) - 1u, p));
-    return params.voxel * (known.w < 0.0 ? -far : far) - params.shell;
+    float far   = length(vec3(params.nodes_x, params.nodes_y, params.nodes_z));
+    vec3  moved = vec3(0.0);
+    if (abs(known.w) > UNKNOWN) {
+        uint t      = uint(abs(known.w)) - 1u;
+        mat3 corner = body_triangle(t);
+        vec3 weight = nearest_weights(p, corner[0], corner[1], corner[2]);
+        far         = length(p - corner * weight);
+        for (int k = 0; k < 3; ++k) {
+            uint i = 3u * triangle[3u * t + uint(k)];
+            moved += weight[k] * (corner[k] - vec3(before[i], before[i + 1u], before[i + 2u]));
+        }
+    }
+    node[params.first + n] = params.voxel * (known.w < 0.0 ? -far : far) - params.shell;
+    uint motion = params.first + params.nodes_x * params.nodes_y * params.nodes_z + 3u * n;
+    for (int k = 0; k < 3; ++k) node[motion + uint(k)] = params.voxel * moved[k];
 }
 #endif
 
@@ -94,7 +103,7 @@ void main()
 #ifndef HAIR_LAST
         point[n] = vec4(known.xyz, own.w < 0.0 ? -known.w : known.w);
 #else
-        node[params.first + n] = distance_of(vec4(known.xyz, own.w < 0.0 ? -known.w : known.w), p);
+        write_node(n, p, vec4(known.xyz, own.w < 0.0 ? -known.w : known.w));
 #endif
     }
 }

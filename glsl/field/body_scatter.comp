@@ -63,7 +63,8 @@ void main()
 {
     uint t = hair_group();
     if (t >= params.triangles) return;
-    vec3 a = body_vertex(3u * t), b = body_vertex(3u * t + 1u), c = body_vertex(3u * t + 2u),
+    mat3 corner = body_triangle(t);
+    vec3 a = corner[0], b = corner[1], c = corner[2],
          last = vec3(params.nodes_x, params.nodes_y, params.nodes_z) - 1.0;
     vec3 lower = max(ceil(min(a, min(b, c)) - BAND), vec3(0.0)),
          upper = min(floor(max(a, max(b, c)) + BAND), last), normal = normal_of(a, b, c);
@@ -82,7 +83,7 @@ void main()
         }
         for (float x = way.x; x <= way.y; x += 1.0) {
             vec3  p   = vec3(x, at);
-            float far = length(p - nearest_of_triangle(p, a, b, c));
+            float far = length(p - corner * nearest_weights(p, a, b, c));
             if (far >= BAND) continue;
             uint key = uint(far * float(HAIR_BODY_STEPS)) << HAIR_BODY_TRIANGLE_BITS | t;
             atomicMin(nearest[uint(x) + params.nodes_x * (at.x + params.nodes_y * at.y)], key);

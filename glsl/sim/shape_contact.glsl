@@ -38,18 +38,30 @@ float body_distance(vec4 size, mesh_grid mesh, vec3 at, out vec3 gradient)
     return shape_distance(uint(size.w), size.xyz, at, gradient);
 }
 
+// Return the displacement of the surface near a place over the step by the deformation of a body, in
+// the collider's own space.
+vec3 body_motion(vec4 size, mesh_grid mesh, vec3 at)
+{
+#if defined(HAIR_COLLIDER_GRID) && defined(HAIR_DEFORMING)
+    if (uint(size.w) == SHAPE_MESH && size.y > 0.0) return size.x * mesh_motion(mesh, at / size.x);
+#endif
+    return vec3(0.0);
+}
+
 float depth_of_place(uint k, vec3 place)
 {
     vec3 gradient,
         at = rotate(quat_conjugate(body_turn(k, fraction_now)), place - body_place(k, fraction_now));
-    return BODY_POSITION(k, 0).w + params.collision_margin -
-           body_distance(BODY_SIZE(k), mesh_of(k), at, gradient);
+    vec4 size = BODY_SIZE(k);
+    at += (1.0 - fraction_now) * body_motion(size, mesh_of(k), at);
+    return BODY_POSITION(k, 0).w + params.collision_margin - body_distance(size, mesh_of(k), at, gradient);
 }
 
 // Return the depth as depth_in() does, for a vertex that moves from `start` to `end`. If the vertex
 // may have passed through the collider, sphere tracing in the collider's own space finds the entry.
 // Each step of the tracing is as long as the distance to the surface. The vertex stops at the
-// entry.
+// entry. A body that deforms has its shape at the end of the step. Earlier, a vertex is as far from
+// the surface as it is from this shape after it has moved along with the surface.
 float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted, out vec3 normal,
                     out vec3 surface)
 {
@@ -59,6 +71,10 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
     vec3  b = rotate(quat_conjugate(turn_after), end - place_after), outwards = vec3(0.0, 1.0, 0.0);
     vec4  size = BODY_SIZE(k);
     mesh_grid mesh = mesh_of(k);
+    vec3  moved = body_motion(size, mesh, b), moved_then = (1.0 - fraction_then) * moved,
+         moved_now = (1.0 - fraction_now) * moved;
+    a += moved_then;
+    b += moved_now;
     float around = BODY_POSITION(k, 0).w + params.collision_margin, way = length(b - a), t = 1.0, depth = 0.0,
           was = 0.0;
     for (uint i = 0u; i < BODY_STEPS && t <= 1.0; ++i) {
@@ -87,7 +103,7 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
     }
     vec3 touched = b + depth * outwards;
     normal       = rotate(turn_after, outwards);
-    surface =
-        head_moved + place_after - place_then + rotate(turn_after, touched) - rotate(turn_then, touched);
+    surface      = head_moved + place_after - place_then + rotate(turn_after, touched - moved_now) -
+              rotate(turn_then, touched - moved_then);
     return depth - max(was - granted.y, granted.x);
 }

@@ -62,8 +62,9 @@ HAIR_API void hair_body_destroy(hair_body* body);
 /// OpenGL: not used. Thread of the context.
 HAIR_API const hair_collision_mesh* hair_body_get_mesh(const hair_body* body);
 
-/// Move the vertices of a body. The next hair_step() of each instance collides with the new shape.
-/// Nothing is computed if no vertex has moved.
+/// Move the vertices of a body. Call this once before each hair_step(). Over that step of each
+/// instance the surface moves evenly from the shape before to the new one, and friction carries
+/// hair along. Nothing is computed if no vertex has moved.
 ///
 /// @param positions Vertex positions, xyz each, in the local space of the collider, copied.
 /// @param count Number of vertices, that of the body.

@@ -196,7 +196,8 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
     if (now->shape != HAIR_SHAPE_MESH) return contact;
     const hair_collision_mesh* mesh = now->mesh;
     HAIR_ASSERT(mesh && (mesh->distance || mesh->home));
-    contact.body.size = (hair_vec4){now->scale, 0, 0, HAIR_SHAPE_MESH};
+    float deforms = hair_colliders_has_deformed(colliders, i) ? 1 : 0;
+    contact.body.size = (hair_vec4){now->scale, deforms, 0, HAIR_SHAPE_MESH};
     contact.grid = (hair_vec4){mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel};
     contact.nodes_x = mesh->size[0];
     contact.nodes_y = mesh->size[1];

@@ -21,6 +21,7 @@ static hair_result make_grid_buffers(struct hair_body_grid* grid, const uint32_t
     HAIR_TRY(hair_gl_uniform(gl, none, "hair body", sizeof(struct hair_body_params), &grid->params));
     HAIR_TRY(hair_gl_uniform(gl, none, "hair body upload", positions, &grid->upload));
     HAIR_TRY(hair_gl_storage(gl, none, "hair body positions", positions, NULL, &grid->position));
+    HAIR_TRY(hair_gl_storage(gl, none, "hair body positions", positions, NULL, &grid->before));
     HAIR_TRY(hair_gl_storage(gl, none, "hair body triangles",
                              3 * (size_t)grid->triangle_count * sizeof *triangles, triangles,
                              &grid->triangle));
@@ -54,8 +55,8 @@ void hair_body_grid_destroy(struct hair_body_grid* grid)
     struct hair_gl* gl = grid->gl;
     if (!gl) return;
     if (grid->pool) hair_sdf_pool_release(grid->pool, grid->place);
-    GLuint* buffers[] = {&grid->params,   &grid->upload,  &grid->position, &grid->triangle,
-                         &grid->crossing, &grid->nearest, &grid->point};
+    GLuint* buffers[] = {&grid->params,   &grid->upload,   &grid->position, &grid->before,
+                         &grid->triangle, &grid->crossing, &grid->nearest,  &grid->point};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) hair_gl_free_buffer(gl, buffers[i]);
     *grid = (struct hair_body_grid){0};
 }
@@ -73,11 +74,11 @@ static void bind_grid(struct hair_body_grid* grid)
                                       .voxel = mesh->voxel,
                                       .shell = mesh->info.thickness / 2};
     // In the order of the slots from HAIR_BIND_BODY_POSITION on.
-    const GLuint storage[] = {grid->position,    grid->triangle, grid->nearest,
-                              grid->pool->nodes, grid->crossing, grid->point};
+    const GLuint storage[] = {grid->position, grid->triangle, grid->nearest, grid->pool->nodes,
+                              grid->crossing, grid->point,    grid->before};
     hair_gl_write_uniform(gl, grid->params, sizeof params, &params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_BODY, 1, &grid->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 6, storage);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 7, storage);
 }
 
 static void run_lines(struct hair_gl* gl, hair_gl_pass pass, uint32_t lines)
@@ -92,6 +93,14 @@ void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
     size_t bytes = 3 * (size_t)grid->vertex_count * sizeof *positions;
     // The GPU copies the positions, in order with the dispatches of the last update.
     hair_gl_write_uniform(gl, grid->upload, bytes, positions);
+    if (grid->has_shape) {
+        GLuint last = grid->before;
+        grid->before = grid->position;
+        grid->position = last;
+    } else {
+        gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, (GLsizeiptr)bytes);
+    }
+    grid->has_shape = true;
     gl->CopyNamedBufferSubData(grid->upload, grid->position, 0, 0, (GLsizeiptr)bytes);
     bind_grid(grid);
     hair_gl_run(gl, HAIR_GL_BODY_SCATTER, grid->triangle_count);

@@ -13,7 +13,8 @@ struct hair_body_grid {
     uint32_t vertex_count, triangle_count;
     GLuint params; // Uniform buffer.
     GLuint upload; // Buffer from which the GPU copies the positions.
-    GLuint position, triangle; // See HAIR_BIND_BODY_POSITION and after.
+    GLuint position, before, triangle; // See HAIR_BIND_BODY_POSITION and after.
+    bool has_shape; // True once there are positions.
     GLuint nearest, crossing, point; // Buffers that the passes use among themselves.
 };
 

@@ -6,9 +6,10 @@
 
 #define MIN_ROOM 65536 // Minimum capacity, in nodes.
 
+// Return the number of floats of a mesh. The motion of a body follows its distances.
 static size_t count_nodes(const hair_collision_mesh* mesh)
 {
-    return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
+    return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2] * (mesh->home ? 4 : 1);
 }
 
 // Add the nodes of a mesh. Those of a body are written later.

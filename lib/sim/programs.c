@@ -117,6 +117,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     if (any) features |= HAIR_GL_WITH(COLLIDER_GRID);
     if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW_GUIDES);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
+    if (bodies && sim->colliders.deforming) features |= HAIR_GL_WITH(DEFORMING);
     if (by_thread) features |= HAIR_GL_WITH(THREAD_PER_GUIDE);
     if (hair_grid_is_on(sim)) features |= HAIR_GL_WITH(HAIR_GRID);
     if (sim->pins.count > 0) features |= HAIR_GL_WITH(PINNED);
