@@ -39,7 +39,8 @@ HAIR_SIZE(hair_contact_body)
 // A collider, for scenes with any number of them.
 struct hair_contact {
     HAIR_STRUCT(hair_capsule) around; // The collider, or a sphere around it.
-    HAIR_STRUCT(hair_contact_body) body;      // size.x of a collision mesh is its scale. size.y is 1 if it has deformed.
+    // size.x of a collision mesh is its scale. size.y is 1 if it has deformed over the step.
+    HAIR_STRUCT(hair_contact_body) body;
     hair_vec4 grid; // Grid of a collision mesh. xyz: first node, m. w: spacing of nodes, m.
     hair_uint nodes_x, nodes_y, nodes_z;
     hair_uint first; // Index of its first node.

@@ -38,8 +38,8 @@ float body_distance(vec4 size, mesh_grid mesh, vec3 at, out vec3 gradient)
     return shape_distance(uint(size.w), size.xyz, at, gradient);
 }
 
-// Return the displacement of the surface near a place over the step by the deformation of a body, in
-// the collider's own space.
+// Return the displacement of the surface near a place over the step by the deformation of a body,
+// in the collider's own space.
 vec3 body_motion(vec4 size, mesh_grid mesh, vec3 at)
 {
 #if defined(HAIR_COLLIDER_GRID) && defined(HAIR_DEFORMING)

@@ -97,8 +97,7 @@ static void growing_body_pushes_guides_out(void** state)
     }
 }
 
-// Lay a strand on a plate, or hold it across the way of a plate. The plate moves by its vertices, or
-// by its pose, which does the same.
+// Move a plate under a strand, or against it, by its vertices or by its pose.
 static void move_plate(struct hair_test* test, bool by_vertices, int frames, hair_vec3 step,
                        const float half[3], hair_vec3 start, struct hair_test_living* living)
 {
