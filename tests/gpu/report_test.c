@@ -237,21 +237,35 @@ static void report_does_not_wait_and_is_of_one_instance(void** state)
     hair_test_scene_free(&f.scene);
 }
 
+static double now_ms(void)
+{
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return 1e3 * (double)now.tv_sec + 1e-6 * (double)now.tv_nsec;
+}
+
 // Draws without steps are of one frame. The last of them must not count as parts of a timed one.
+// On a busy machine the draws may take longer than the pause, so their time is measured.
 static void pause_after_many_draws_is_no_time_of_a_stage(void** state)
 {
     struct fixture f = start(state, NULL);
+    double began = now_ms(), pause = 0;
     run_frame(&f);
     hair_test_ok(f.scene.test, hair_step(f.scene.hair, 1.0f / 60));
     for (int i = 0; i < 80; ++i) {
-        if (i == 60) glFinish();
-        if (i == 60) thrd_sleep(&(struct timespec){.tv_nsec = 800 * 1000 * 1000}, NULL);
+        if (i == 60) {
+            glFinish();
+            pause = now_ms();
+            thrd_sleep(&(struct timespec){.tv_nsec = 800 * 1000 * 1000}, NULL);
+            pause = now_ms() - pause;
+        }
         f.scene.view.pass = i % 2 ? HAIR_PASS_DEPTH : HAIR_PASS_COLOR;
         hair_test_ok(f.scene.test, hair_draw(f.scene.hair, &f.scene.view));
     }
     report(&f);
     assert_true(row_of(&f, "color")->runs >= 40);
-    for (uint32_t i = 0; i < f.rows; ++i) assert_true(f.row[i].ms < 700);
+    double busy = now_ms() - began - pause;
+    for (uint32_t i = 0; i < f.rows; ++i) assert_true((double)f.row[i].ms < busy);
     hair_test_scene_free(&f.scene);
 }
 
