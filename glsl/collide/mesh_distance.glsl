@@ -45,11 +45,13 @@ vec3 mesh_motion(mesh_grid mesh, vec3 p)
     vec3  within = clamp((p - mesh.place.xyz) / mesh.place.w, vec3(0.0), vec3(size - 1u));
     uvec3 corner = min(uvec3(within), size - 2u);
     vec3  t      = within - vec3(corner);
-    uint  row = 3u * size.x, layer = row * size.y,
-         i = mesh.first + size.x * size.y * size.z + 3u * (corner.x + size.x * (corner.y + size.y * corner.z));
-    vec3  a = mix(motion_at(i), motion_at(i + 3u), t.x), b = mix(motion_at(i + row), motion_at(i + row + 3u), t.x);
-    i += layer;
-    vec3  c = mix(motion_at(i), motion_at(i + 3u), t.x), d = mix(motion_at(i + row), motion_at(i + row + 3u), t.x);
+    uint  row = 3u * size.x, layer = row * size.y;
+    uint  own = corner.x + size.x * (corner.y + size.y * corner.z);
+    uint  i = mesh.first + size.x * size.y * size.z + 3u * own, k = i + layer;
+    vec3 a = mix(motion_at(i), motion_at(i + 3u), t.x);
+    vec3 b = mix(motion_at(i + row), motion_at(i + row + 3u), t.x);
+    vec3 c = mix(motion_at(k), motion_at(k + 3u), t.x);
+    vec3 d = mix(motion_at(k + row), motion_at(k + row + 3u), t.x);
     return mix(mix(a, b, t.y), mix(c, d, t.y), t.z);
 }
 #endif
