@@ -4,7 +4,7 @@
 // The suite uses the public interface. It sets colliders, hair_get_field() updates the field, and
 // the field's texture is read.
 #include "lib/collide/distance.h"
-#include "tools/bench/bench.h"
+#include "tools/bench/field_body.h"
 #include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
@@ -19,10 +19,10 @@
 #define MIXED 20
 #define MANY 10000
 
-static const char* const columns[] = {"case",      "method",    "shape",      "resolution",   "colliders",
-                                      "ms",        "ms_min",    "ms_max",     "runs",         "max_error",
-                                      "rms_error", "max_limit", "max_centre", "centre_limit", "wrong_sign",
-                                      "ratio",     "limit",     "passes_run", "pass",         NULL};
+static const char* const columns[] = {
+    "case",       "method", "shape",     "resolution", "colliders", "ms",         "ms_min",
+    "ms_max",     "runs",   "max_error", "rms_error",  "max_limit", "max_centre", "centre_limit",
+    "wrong_sign", "ratio",  "limit",     "passes_run", "triangles", "pass",       NULL};
 
 struct subject {
     struct bench* bench;
@@ -431,6 +431,7 @@ static void run_suite(struct bench* bench)
 {
     run_shapes(bench);
     run_scenes(bench);
+    bench_field_bodies(bench);
 }
 
 const struct bench_suite bench_field = {"field", "colliders as a field, against their exact distances",
