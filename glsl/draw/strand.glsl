@@ -33,14 +33,15 @@ layout(binding = HAIR_UNIT_COLOR) uniform sampler2D color_texture;
 layout(binding = HAIR_UNIT_GROOM_COLOR) uniform samplerBuffer groom_color_texture;
 
 // Return the colour before random variation: the look's ramp, blended with the groom's colour,
-// which wetness may darken.
+// which wetness may darken. Alpha is 1 where a group's colour replaces both.
 vec3 color_at(uint number, float t)
 {
     float along = t * float(HAIR_CURVE_INTERVALS);
     int k = min(int(along), HAIR_CURVE_INTERVALS - 1), at = int(number) * (HAIR_CURVE_INTERVALS + 1) + k;
-    vec3 own = mix(texelFetch(groom_color_texture, at).rgb, texelFetch(groom_color_texture, at + 1).rgb,
+    vec4 own = mix(texelFetch(groom_color_texture, at), texelFetch(groom_color_texture, at + 1),
                    along - float(k));
-    return mix(ramp_at(t), pow(max(own, 0.0), vec3(draw.tint.groom_color_power)), draw.tint.groom_color);
+    return mix(ramp_at(t), pow(max(own.rgb, 0.0), vec3(draw.tint.groom_color_power)),
+               mix(draw.tint.groom_color, 1.0, own.a));
 }
 #else
 vec3 color_at(uint number, float t) { return ramp_at(t); }

@@ -246,6 +246,40 @@ HAIR_API hair_result hair_set_look(hair_instance* hair, const hair_look* look);
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_get_look(const hair_instance* hair, hair_look* out);
 
+/// Look of a group of strands, as far as it differs from the look of the instance.
+typedef struct hair_group_look {
+    hair_struct_header header;
+    /// Multiple of the radius of the strands.
+    float radius; ///< [0, 4]. Default 1.
+    /// Colours of the strands.
+    struct {
+        /// Switch of the colours below, which replace those of hair_look and of the groom.
+        /// Variation, streaks, root darkening and wetness of hair_look apply to them.
+        bool enabled; ///< Default false.
+        float
+            root[3]; ///< Linear rgb reflectance at the root. [0, 1]. Default (0.13, 0.055, 0.024).
+        /// Linear rgb reflectance at the tip.
+        float tip[3]; ///< [0, 1]. Default (0.26, 0.13, 0.06).
+    } color;
+} hair_group_look;
+HAIR_DESC(hair_group_look)
+
+/// Set the look of one group of strands, see hair_groom_desc.strand_groups. The next hair_draw()
+/// uses it. The call uploads the followers or their colours again, so it is not for every frame.
+///
+/// @param group Group. [0, 7].
+/// @param look Look of the group. NULL selects the defaults, which cost nothing.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_set_group_look(hair_instance* hair, uint32_t group,
+                                         const hair_group_look* look);
+
+/// Write the look of one group of strands to `out`, which comes from hair_group_look_default().
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Thread of the context.
+HAIR_API hair_result hair_get_group_look(const hair_instance* hair, uint32_t group,
+                                         hair_group_look* out);
+
 // Presets of shape --------------------------------------------------------------------------------
 
 /// Preset of the shape of strands, for hair_look_apply_preset().

@@ -65,7 +65,8 @@ struct hair_instance {
     char label[64];
     double max_dt; // s
     struct hair_creation creation; // settings that cannot change
-    hair_groom* groom; // NULL unless the context is restorable
+    hair_groom* groom; // a reference
+    hair_group_look* group_looks; // of HAIR_MAX_STRAND_GROUPS groups. NULL until one is set.
     int has_slowed; // 1 if dt has exceeded max_dt and the log has said so
     struct hair_rods_softened told; // state of softened guides that was logged last
     uint32_t told_pending; // number of programs that hair_precompile() has last waited for
@@ -87,6 +88,9 @@ struct hair_instance {
 // failure hair_instance_empty() frees what there is. [GL], with the context entered.
 hair_result hair_instance_create_rooms(hair_instance* hair, const hair_groom* groom,
                                        struct hair_sim_desc* sim);
+// Set the looks of all groups. [GL], with the context entered. On failure nothing has changed.
+hair_result hair_instance_set_group_looks(hair_instance* hair,
+                                          const hair_group_look looks[HAIR_MAX_STRAND_GROUPS]);
 // Free everything that an instance owns. Function of hair_context_member.
 void hair_instance_empty(struct hair_context_member* member);
 
@@ -121,6 +125,9 @@ hair_result hair_check_current(hair_context* context);
 hair_result hair_check_lost(hair_context* context, hair_result result);
 // Leave the context, and return like hair_check_lost().
 hair_result hair_leave(hair_context* context, hair_result result);
+
+// Check the number of a group of strands.
+hair_result hair_check_group(const hair_instance* hair, uint32_t group);
 
 // Check that a transform is rigid and not too far from the origin. Convert it to a pose.
 hair_result hair_check_transform(const hair_instance* hair, const char* name, const float* transform,

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static hair_result check_group(const hair_instance* hair, uint32_t group)
+hair_result hair_check_group(const hair_instance* hair, uint32_t group)
 {
     if (group < HAIR_MAX_STRAND_GROUPS) return HAIR_OK;
     return hair_fail(&hair->context->host, HAIR_ERROR_ARGUMENT, "%s: group is %u, not in [0, %d]",
@@ -42,7 +42,7 @@ hair_result hair_set_group_physics(hair_instance* hair, uint32_t group, const ha
     HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
     hair_physics own;
-    HAIR_TRY(check_group(hair, group));
+    HAIR_TRY(hair_check_group(hair, group));
     if (physics) HAIR_TRY(HAIR_COPY_IN(host, hair_physics, physics, &own));
     if (!hair->sim.rods)
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
@@ -54,7 +54,7 @@ hair_result hair_set_group_physics(hair_instance* hair, uint32_t group, const ha
 hair_result hair_get_group_physics(const hair_instance* hair, uint32_t group, hair_physics* out)
 {
     HAIR_TRY(hair_check_instance(hair));
-    HAIR_TRY(check_group(hair, group));
+    HAIR_TRY(hair_check_group(hair, group));
     const hair_physics* groups = hair_sim_groups(&hair->sim);
     const hair_physics* own = groups ? &groups[group] : &hair->sim.physics;
     return HAIR_COPY_OUT(&hair->context->host, hair_physics, own, out);

@@ -107,7 +107,7 @@ static hair_result fill_instance(hair_instance* hair, hair_context* context, con
     if (desc->thread_mapping == HAIR_THREAD_MAPPING_FEEDBACK)
         HAIR_TRY(hair_gl_check_capture(&context->gl, hair->label));
     hair_enter_unprofiled(hair);
-    if (context->desc.restorable) hair->groom = hair_groom_retain((hair_groom*)groom);
+    hair->groom = hair_groom_retain((hair_groom*)groom);
     return hair_leave(context, hair_instance_create_rooms(hair, groom, &sim));
 }
 
@@ -122,6 +122,8 @@ void hair_instance_empty(struct hair_context_member* member)
     hair_sim_destroy(&hair->sim);
     hair_groom_release(hair->groom);
     hair->groom = NULL;
+    hair_free(&hair->context->host, hair->group_looks);
+    hair->group_looks = NULL;
     for (int i = 0; i < HAIR_GL_CATEGORIES; ++i) HAIR_ASSERT(hair->memory.bytes[i] == 0);
 }
 

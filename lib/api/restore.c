@@ -58,6 +58,7 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
     for (uint32_t g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g)
         if (lost->sim.groups.own >> g & 1)
             HAIR_TRY(hair_sim_set_group_physics(&hair->sim, g, &lost->sim.groups.physics[g]));
+    if (lost->group_looks) HAIR_TRY(hair_instance_set_group_looks(hair, lost->group_looks));
     HAIR_TRY(hair_targets_set_blend(&hair->sim, &lost->sim.targets.blend, lost->sim.targets.guide_weights));
     // The state is checked as bytes of a file are. A state that is refused leaves the hair at rest.
     hair_result result = hair_snapshots_load(&hair->sim, &lost->sim.snapshots);

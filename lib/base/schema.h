@@ -31,6 +31,7 @@
     DESC(hair_style_desc)                                                                                    \
     DESC(hair_target_blend)                                                                                  \
     DESC(hair_body_desc)                                                                                     \
+    DESC(hair_group_look)                                                                                    \
     INFO(hair_groom_info)                                                                                    \
     INFO(hair_collision_mesh_info)                                                                           \
     INFO(hair_memory)                                                                                        \

@@ -32,7 +32,7 @@ static hair_result ensure_reflectance(struct hair_renderer* renderer)
     struct hair_host_buffers* own = &renderer->host;
     struct hair_draw_params params;
     size_t vertices = hair_geometry_count_vertices(geometry);
-    bool is_painted = lighting->groom_color && geometry->look.color.groom_colors > 0;
+    bool is_painted = hair_lighting_has_strand_colors(lighting, &geometry->look);
     hair_gl_pass pass = HAIR_GL_REFLECTANCE | (is_painted ? HAIR_GL_WITH(GROOM_COLORS) : 0);
     mark_used(renderer, HAIR_RESOURCE_REFLECTANCE);
     if (has_reflectance(renderer, vertices)) return HAIR_OK;

@@ -184,7 +184,7 @@ void hair_draw_make_plan(const struct hair_renderer* renderer, const hair_view* 
     out->has_sides = method == VIEW;
     out->has_strand_list = method != TESS;
     out->is_textured = is_colored && view->color_texture && has_uvs;
-    out->is_painted = is_colored && renderer->lighting->groom_color && geometry->look.color.groom_colors > 0;
+    out->is_painted = is_colored && hair_lighting_has_strand_colors(renderer->lighting, &geometry->look);
     out->has_root_uvs = out->is_textured || (out->shader && has_uvs);
     out->has_motion_output = is_colored && view->motion_output;
     out->light_values = hair_lighting_value_count(&geometry->look, view);

@@ -4,13 +4,36 @@
 hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl* gl,
                                  const struct hair_groom* groom)
 {
+    GLuint made[2] = {0};
     lighting->gl = gl;
+    lighting->has_groom_colors = groom->colors != NULL;
     if (!groom->colors) return HAIR_OK;
-    size_t count = (size_t)groom->info.follower_count * (HAIR_CURVE_INTERVALS + 1) * 4;
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair colours", count * sizeof *groom->colors,
-                            groom->colors, &lighting->groom_color));
-    return hair_gl_buffer_texture(gl, "hair colours", GL_RGBA16, lighting->groom_color,
-                                  &lighting->groom_color_texture);
+    HAIR_TRY(hair_lighting_make_colors(lighting, groom->info.follower_count, groom->colors, made));
+    hair_lighting_swap_colors(lighting, made, false);
+    return HAIR_OK;
+}
+
+hair_result hair_lighting_make_colors(const struct hair_lighting* lighting, uint32_t followers,
+                                      const uint16_t* colors, GLuint out[2])
+{
+    size_t size = (size_t)followers * (HAIR_CURVE_INTERVALS + 1) * 4 * sizeof *colors;
+    HAIR_TRY(hair_gl_buffer(lighting->gl, HAIR_GL_CATEGORY_COLOR, "hair colours", size, colors, &out[0]));
+    hair_result result = hair_gl_buffer_texture(lighting->gl, "hair colours", GL_RGBA16, out[0], &out[1]);
+    if (result) hair_gl_free_array(lighting->gl, &out[0], &out[1]);
+    return result;
+}
+
+void hair_lighting_swap_colors(struct hair_lighting* lighting, GLuint colors[2], bool has_group_colors)
+{
+    GLuint was[2] = {lighting->groom_color, lighting->groom_color_texture};
+    lighting->groom_color = colors[0], lighting->groom_color_texture = colors[1];
+    lighting->has_group_colors = has_group_colors;
+    colors[0] = was[0], colors[1] = was[1];
+}
+
+bool hair_lighting_has_strand_colors(const struct hair_lighting* lighting, const hair_look* look)
+{
+    return lighting->groom_color && (lighting->has_group_colors || look->color.groom_colors > 0);
 }
 
 void hair_lighting_destroy(struct hair_lighting* lighting)
@@ -40,6 +63,7 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
                                 look->shading.gloss[1]};
     write_fibre(look, &out->fibre);
     hair_look_write_tint(look, &out->tint);
+    if (!lighting->has_groom_colors) out->tint.groom_color = 0;
     if (!view) return;
     out->colored = view->pass == HAIR_PASS_COLOR;
     out->encode = (hair_uint)view->encode;

@@ -18,7 +18,9 @@ struct hair_lighting {
     struct hair_gl* gl;
     struct hair_fibres fibres;
     struct hair_self_shadow_state self_shadow;
-    GLuint groom_color, groom_color_texture; // Colours of the groom. 0 if there are none.
+    // Colours of the groom and of groups. 0 if there are none.
+    GLuint groom_color, groom_color_texture;
+    bool has_groom_colors, has_group_colors;
     // 2D views of layers of the application's shadow maps, until hair_lighting_unbind().
     GLuint map_view[2 * HAIR_SHADOW_MAPS];
     GLsizei map_views;
@@ -27,6 +29,14 @@ struct hair_lighting {
 hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl* gl,
                                  const struct hair_groom* groom);
 void hair_lighting_destroy(struct hair_lighting* lighting);
+// Make a buffer of colours, with its texture, as of hair_groom.colors. Alpha is 65535 for the
+// colours of a group, and otherwise 0.
+hair_result hair_lighting_make_colors(const struct hair_lighting* lighting, uint32_t followers,
+                                      const uint16_t* colors, GLuint out[2]);
+// Exchange the buffer of colours and its texture. `has_group_colors` is true if groups have some.
+void hair_lighting_swap_colors(struct hair_lighting* lighting, GLuint colors[2], bool has_group_colors);
+// Return whether strands have colours of the groom or of groups with a look.
+bool hair_lighting_has_strand_colors(const struct hair_lighting* lighting, const hair_look* look);
 // Write the parameters of shading. NULL `view` writes only those of the look.
 void hair_lighting_write_params(const struct hair_lighting* lighting, const hair_look* look,
                                 const struct hair_pose* head, const hair_view* view,

@@ -23,14 +23,14 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT(0 < geometry->max_isolines);
     HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", hair_groom_follower_bytes(groom),
-                            groom->followers, &geometry->follower));
+    GLuint made[2] = {0};
+    HAIR_TRY(
+        hair_geometry_make_followers(geometry, hair_groom_follower_bytes(groom), groom->followers, made));
+    hair_geometry_swap_followers(geometry, made);
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
                              &geometry->params));
-    HAIR_TRY(hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, geometry->follower,
-                                    &geometry->follower_texture));
     return hair_gl_buffer_texture(gl, "hair patches", GL_RGBA32UI, geometry->patch, &geometry->patch_texture);
 }
 
@@ -48,6 +48,24 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
+}
+
+hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
+                                         const struct hair_follower* followers, GLuint out[2])
+{
+    struct hair_gl* gl = geometry->gl;
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", size, followers, &out[0]));
+    hair_result result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, out[0], &out[1]);
+    if (result) hair_gl_free_array(gl, &out[0], &out[1]);
+    return result;
+}
+
+void hair_geometry_swap_followers(struct hair_geometry* geometry, GLuint followers[2])
+{
+    GLuint was[2] = {geometry->follower, geometry->follower_texture};
+    geometry->follower = followers[0], geometry->follower_texture = followers[1];
+    followers[0] = was[0], followers[1] = was[1];
+    geometry->bound_run = geometry->smooth.runs - 1; // Their roots have not moved with the scalp.
 }
 
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look)

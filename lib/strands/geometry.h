@@ -44,6 +44,11 @@ void hair_geometry_destroy(struct hair_geometry* geometry);
 // Set the look, after hair_look_apply_wetness(). A different look outdates follower collision and
 // the vertex cache.
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look);
+// Make a buffer of followers and their shapes, with its texture, as of the groom.
+hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
+                                         const struct hair_follower* followers, GLuint out[2]);
+// Exchange the buffer of followers and its texture.
+void hair_geometry_swap_followers(struct hair_geometry* geometry, GLuint followers[2]);
 // Record that the guides have moved. They are smoothed again before the next draw.
 void hair_geometry_invalidate_guides(struct hair_geometry* geometry);
 // Smooth the guides, and move the roots of followers with a skinned scalp, unless both are up to

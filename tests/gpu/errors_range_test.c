@@ -113,6 +113,26 @@ static hair_result use_hair_collision_mesh_desc(struct hair_test_scene* user, vo
     hair_collision_mesh_destroy(mesh);
     return result;
 }
+static hair_result use_hair_body_desc(struct hair_test_scene* user, void* given)
+{
+    hair_body_desc* desc = given;
+    static const uint32_t triangle[3] = {0, 1, 2};
+    float positions[9];
+    hair_body* body = NULL;
+    for (int k = 0; k < 3 && desc->header.version; ++k) {
+        // No box has the highest number as its lower corner, or the lowest as its upper corner.
+        if (desc->lower[k] == 1e6f) desc->lower[k] = 0;
+        if (desc->upper[k] == 0 || desc->upper[k] == -1e6f) desc->upper[k] = 1;
+        for (int i = 0; i < 3; ++i) positions[3 * i + k] = (desc->lower[k] + desc->upper[k]) / 2;
+    }
+    desc->positions = positions;
+    desc->triangles = triangle;
+    if (desc->vertex_count == 0 && desc->header.version) desc->vertex_count = 3;
+    if (desc->triangle_count == 0 && desc->header.version) desc->triangle_count = 1;
+    hair_result result = hair_body_create(user->test->context, desc, &body);
+    hair_body_destroy(body);
+    return result;
+}
 static hair_result use_hair_collider(struct hair_test_scene* user, void* given)
 {
     hair_collider* collider = given;
@@ -138,6 +158,10 @@ static hair_result use_hair_target_blend(struct hair_test_scene* user, void* giv
     if (blend->guide_count == 0) return hair_set_target_blend(user->hair, blend);
     blend->guide_weights = weights;
     return hair_set_target_blend(user->hair, blend);
+}
+static hair_result use_hair_group_look(struct hair_test_scene* user, void* desc)
+{
+    return hair_set_group_look(user->hair, 0, desc);
 }
 static hair_result use_hair_wind(struct hair_test_scene* user, void* given)
 {
@@ -203,6 +227,7 @@ INIT(hair_context_desc)
 INIT(hair_desc)
 INIT(hair_physics)
 INIT(hair_collision_mesh_desc)
+INIT(hair_body_desc)
 INIT(hair_collider)
 INIT(hair_pin)
 INIT(hair_wind_source)
@@ -215,6 +240,7 @@ INIT(hair_view)
 INIT(hair_buffers)
 INIT(hair_style_desc)
 INIT(hair_target_blend)
+INIT(hair_group_look)
 #define SUBJECT(KIND, S)                                                                                     \
     {                                                                                                        \
         HAIR_STRUCT_##KIND, #S, use_##S, init_##S, true                                                      \
@@ -232,6 +258,7 @@ static const struct subject subjects[] = {
     SUBJECT(DESC, hair_desc),
     SUBJECT(PHYSICS, hair_physics),
     SUBJECT(COLLISION_MESH_DESC, hair_collision_mesh_desc),
+    SUBJECT(BODY_DESC, hair_body_desc),
     PLAIN(COLLIDER, hair_collider, "colliders[0]"),
     PLAIN(PIN, hair_pin, "pins[0]"),
     PLAIN(WIND_SOURCE, hair_wind_source, "hair_wind.sources[0]"),
@@ -244,6 +271,7 @@ static const struct subject subjects[] = {
     SUBJECT(BUFFERS, hair_buffers),
     SUBJECT(STYLE_DESC, hair_style_desc),
     SUBJECT(TARGET_BLEND, hair_target_blend),
+    SUBJECT(GROUP_LOOK, hair_group_look),
 };
 _Static_assert(sizeof subjects / sizeof *subjects == HAIR_STRUCT_COUNT - 1, "a struct is missing");
 
@@ -251,7 +279,8 @@ _Static_assert(sizeof subjects / sizeof *subjects == HAIR_STRUCT_COUNT - 1, "a s
 static bool is_filled_in(const struct subject* subject, const hair_member* member)
 {
     return (subject->kind == HAIR_STRUCT_GROOM_DESC && strcmp(member->name, "strand_count") == 0) ||
-           (subject->kind == HAIR_STRUCT_COLLISION_MESH_DESC && member->min == 1);
+           ((subject->kind == HAIR_STRUCT_COLLISION_MESH_DESC || subject->kind == HAIR_STRUCT_BODY_DESC) &&
+            member->min == 1);
 }
 
 static void write_value(unsigned char* desc, const hair_member* member, uint32_t i, double value)

@@ -130,3 +130,15 @@ ENUM(hair_look, followers.collision, HAIR_FOLLOWER_COLLISION_PUSH_OUT,
 FLOAT(hair_look, wetness, 0, 0, 1, 0, 1, LINEAR, "",
       "Wetness, which darkens and smooths hair, draws strands together and flattens strays.")
 END
+BEGIN(hair_group_look)
+FLOAT(hair_group_look, radius, 1, 0, 4, 0, 4, LINEAR, "", "Multiple of the radius of the strands.")
+#undef GROUP
+#define GROUP "color"
+BOOL(hair_group_look, color.enabled, false,
+      "Switch of the colours below, which replace those of hair_look and of the groom.")
+COLOR(hair_group_look, color.root, 0.13, 0.055, 0.024, 0, 1, 0, 1, "",
+      "Linear rgb reflectance at the root.")
+COLOR(hair_group_look, color.tip, 0.26, 0.13, 0.06, 0, 1, 0, 1, "", "Linear rgb reflectance at the tip.")
+#undef GROUP
+#define GROUP ""
+END

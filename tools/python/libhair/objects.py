@@ -196,6 +196,16 @@ class Hair:
     def physics(self, physics):
         self._call(hair.hair_set_physics, physics._c)
 
+    def group_look(self, group):
+        """Return a copy of the look of a group of strands."""
+        out = CLASSES["GroupLook"]()
+        self._call(hair.hair_get_group_look, group, out._c)
+        return out
+
+    def set_group_look(self, group, look):
+        """Set the look of a group of strands. None selects the defaults."""
+        self._call(hair.hair_set_group_look, group, ffi.NULL if look is None else look._c)
+
     def group_physics(self, group):
         """Return a copy of the physics of a group of strands."""
         out = CLASSES["Physics"]()

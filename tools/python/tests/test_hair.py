@@ -129,6 +129,10 @@ class HairTest(unittest.TestCase):
         hair.set_group_physics(3, None)
         self.assertEqual(hair.group_physics(3).shape.stiffness_tip, 1)
         physics.damping = 5
+        look = libhair.GroupLook(radius=2)
+        look.color.root = (1, 0, 0)
+        hair.set_group_look(1, look)
+        self.assertEqual(hair.group_look(1).radius, 2)
         with self.assertRaisesRegex(libhair.HairArgumentError, "damping is 5 for group 3 but 4 for the instance"):
             hair.set_group_physics(3, physics)
 
