@@ -56,6 +56,12 @@ struct hair_body_params {
     hair_uint is_closed; // 1 if the body has an inside.
     float     voxel; // Distance between nodes, m.
     float     shell; // Half the thickness of a body without an inside, m.
+    hair_vec4 origin;       // xyz: first node, m.
+    hair_vec4 lower, upper; // xyz: corners of the box of the vertices, voxels from the first node.
+    hair_uint vertices;
+    // Index of the first number in the application's buffer, and numbers from vertex to vertex.
+    hair_uint given_first, given_stride;
+    hair_uint unused0;
 };
 HAIR_SIZE(hair_body_params)
 

@@ -75,4 +75,18 @@ HAIR_API const hair_collision_mesh* hair_body_get_mesh(const hair_body* body);
 HAIR_API hair_result hair_body_set_positions(hair_body* body, const float* positions,
                                              uint32_t count, size_t stride);
 
+/// Move the vertices of a body to positions in an OpenGL buffer, as hair_body_set_positions() does
+/// for an array. The buffer is read by the GPU, in order with other commands, and may be written
+/// again afterwards. The distances are computed also if no vertex has moved.
+///
+/// A vertex outside the box is moved to the box. A vertex that is not finite stays where it was.
+///
+/// @param gl_buffer Buffer with xyz of each vertex, three floats, m.
+/// @param offset Offset of the first vertex, bytes. A multiple of 4.
+/// @param stride Distance from vertex to vertex, bytes. A multiple of 4 in [12, 4096].
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_OPENGL, HAIR_ERROR_CONTEXT_LOST.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_body_set_position_buffer(hair_body* body, uint32_t gl_buffer,
+                                                   size_t offset, size_t stride);
+
 #endif

@@ -32,7 +32,8 @@ struct hair_body {
     hair_body_desc desc; // of the creation, without arrays
     hair_collision_mesh* mesh;
     uint32_t* triangles;
-    float *position, *next; // voxels from the first node, now, and memory for the next
+    float *position, *next; // last array in voxels from the first node, and memory for the next
+    bool is_from_buffer; // true if a buffer has been given since
     struct hair_body_grid grid;
 };
 
@@ -142,9 +143,9 @@ float* hair_copy_positions(const hair_instance* hair, const char* what, const fl
                            uint32_t count, size_t stride, hair_result* result);
 // Check a buffer of `count` positions. `from` receives the aligned offset at which it is bound, and
 // `size` the bytes from there.
-hair_result hair_check_position_buffer(const hair_instance* hair, const char* what, uint32_t buffer,
-                                       size_t offset, size_t stride, uint32_t count, size_t* from,
-                                       size_t* size);
+hair_result hair_check_position_buffer(const hair_context* context, const char* label, const char* what,
+                                       uint32_t buffer, size_t offset, size_t stride, uint32_t count,
+                                       size_t* from, size_t* size);
 
 // Check the textures that the application passes to a view, as far as a draw of `view` reads them.
 hair_result hair_check_view_textures(const hair_instance* hair, const hair_view* view);

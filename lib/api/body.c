@@ -95,6 +95,14 @@ static hair_result check_body(const hair_body* body)
                      "hair_body: its context is destroyed or abandoned");
 }
 
+static hair_result check_stride(hair_context* context, size_t stride)
+{
+    if (stride < 12 || stride > LONGEST_STRIDE || stride % 4)
+        return hair_fail(&context->host, HAIR_ERROR_ARGUMENT,
+                         "hair_body: stride is %zu, not a multiple of 4 in [12, %u]", stride, LONGEST_STRIDE);
+    return hair_check_current(context);
+}
+
 hair_result hair_body_set_positions(hair_body* body, const float* positions, uint32_t count, size_t stride)
 {
     HAIR_TRY(check_body(body));
@@ -105,16 +113,41 @@ hair_result hair_body_set_positions(hair_body* body, const float* positions, uin
     if (count != body->desc.vertex_count)
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_body: count is %u, not the %u of the body", count,
                          body->desc.vertex_count);
-    if (stride < 12 || stride > LONGEST_STRIDE || stride % 4)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "hair_body: stride is %zu, not a multiple of 4 in [12, %u]", stride, LONGEST_STRIDE);
-    HAIR_TRY(hair_check_current(context));
+    HAIR_TRY(check_stride(context, stride));
     HAIR_TRY(hair_body_mesh_place(body->mesh, &body->desc, positions, stride, body->next, lower, upper));
-    if (memcmp(body->next, last, 3 * (size_t)count * sizeof *last) == 0) return HAIR_OK;
+    bool is_same = memcmp(body->next, last, 3 * (size_t)count * sizeof *last) == 0;
+    if (is_same && !body->is_from_buffer) return HAIR_OK;
+    body->is_from_buffer = false;
     body->position = body->next;
     body->next = last;
     hair_gl_enter(&context->gl);
     hair_body_grid_update(&body->grid, body->position);
     hair_body_mesh_change(body->mesh, lower, upper);
     return hair_leave(context, HAIR_OK);
+}
+
+hair_result hair_body_set_position_buffer(hair_body* body, uint32_t gl_buffer, size_t offset, size_t stride)
+{
+    HAIR_TRY(check_body(body));
+    hair_context* context = body->context;
+    const hair_body_desc* desc = &body->desc;
+    size_t from = 0, size = 0;
+    HAIR_TRY(check_stride(context, stride));
+    hair_result result = hair_check_position_buffer(context, "hair_body", "vertices", gl_buffer, offset,
+                                                    stride, desc->vertex_count, &from, &size);
+    if (result) return hair_check_lost(context, result);
+    struct hair_body_input input = {.buffer = gl_buffer,
+                                    .offset = from,
+                                    .size = size,
+                                    .first = (uint32_t)((offset - from) / 4),
+                                    .stride = (uint32_t)(stride / 4),
+                                    .lower = desc->lower,
+                                    .upper = desc->upper};
+    hair_gl_enter(&context->gl);
+    result = hair_body_grid_update_from(&body->grid, &input);
+    if (!result) {
+        body->is_from_buffer = true;
+        hair_body_mesh_change(body->mesh, desc->lower, desc->upper);
+    }
+    return hair_leave(context, result);
 }

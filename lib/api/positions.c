@@ -37,36 +37,35 @@ float* hair_copy_positions(const hair_instance* hair, const char* what, const fl
     return NULL;
 }
 
-hair_result hair_check_position_buffer(const hair_instance* hair, const char* what, uint32_t buffer,
-                                       size_t offset, size_t stride, uint32_t count, size_t* from,
-                                       size_t* size)
+hair_result hair_check_position_buffer(const hair_context* context, const char* label, const char* what,
+                                       uint32_t buffer, size_t offset, size_t stride, uint32_t count,
+                                       size_t* from, size_t* size)
 {
-    const struct hair_gl* gl = &hair->context->gl;
+    const struct hair_gl* gl = &context->gl;
     GLint64 has = 0, mapped = 0, access = 0;
     GLint align = 1;
     // Queries of another object would raise the application's error flag.
     if (!buffer || !gl->IsBuffer(buffer))
-        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", hair->label,
-                         buffer);
+        return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer is %u, not a buffer", label, buffer);
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &has);
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_MAPPED, &mapped);
     gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_ACCESS_FLAGS, &access);
     if (mapped && !(access & GL_MAP_PERSISTENT_BIT))
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT, "%s: gl_buffer %u is mapped, and not persistently",
-                         hair->label, buffer);
+                         label, buffer);
     uint64_t needed = (uint64_t)stride * (count - 1) + 12, there = (uint64_t)has;
     if (offset % 4 || offset > there || needed > there - offset)
         return hair_fail(&gl->host, HAIR_ERROR_ARGUMENT,
                          "%s: offset is %zu, not a multiple of 4 from which on gl_buffer's %llu bytes hold "
                          "the %llu of the %s",
-                         hair->label, offset, (unsigned long long)there, (unsigned long long)needed, what);
+                         label, offset, (unsigned long long)there, (unsigned long long)needed, what);
     gl->GetIntegerv(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT, &align);
     *from = offset - offset % (size_t)align;
     *size = (size_t)needed + (offset - *from);
     HAIR_ASSERT(*from <= offset && (offset - *from) % 4 == 0);
     if (*size > (size_t)gl->max_storage_bytes)
         return hair_fail(&gl->host, HAIR_ERROR_OPENGL,
-                         "%s: the %s takes %zu bytes, more than the driver's %d", hair->label, what, *size,
+                         "%s: the %s takes %zu bytes, more than the driver's %d", label, what, *size,
                          gl->max_storage_bytes);
     return HAIR_OK;
 }

@@ -52,8 +52,9 @@ hair_result hair_set_scalp_buffer(hair_instance* hair, uint32_t gl_buffer, size_
     struct hair_pose space;
     size_t from = 0, size = 0;
     HAIR_TRY(check_scalp(hair, stride, to_world, &space));
-    hair_result result = hair_check_position_buffer(hair, "scalp", gl_buffer, offset, stride,
-                                                    hair_scalp_motion_vertex_count(&hair->sim), &from, &size);
+    hair_result result =
+        hair_check_position_buffer(hair->context, hair->label, "scalp", gl_buffer, offset, stride,
+                                   hair_scalp_motion_vertex_count(&hair->sim), &from, &size);
     if (result) return hair_check_lost(hair->context, result);
     hair_enter(hair);
     result = hair_geometry_create_scalp_roots(&hair->geometry, &hair->sim);

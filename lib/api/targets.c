@@ -41,8 +41,8 @@ hair_result hair_set_targets_buffer(hair_instance* hair, uint32_t gl_buffer, siz
     struct hair_pose space;
     size_t from = 0, size = 0;
     HAIR_TRY(hair_check_positions(hair, stride, to_world, &space));
-    hair_result result = hair_check_position_buffer(hair, "targets", gl_buffer, offset, stride,
-                                                    hair->sim.guide_vertices, &from, &size);
+    hair_result result = hair_check_position_buffer(hair->context, hair->label, "targets", gl_buffer, offset,
+                                                    stride, hair->sim.guide_vertices, &from, &size);
     if (result) return hair_check_lost(hair->context, result);
     hair_enter(hair);
     result = hair_targets_create(&hair->sim);

@@ -61,22 +61,28 @@ void hair_body_grid_destroy(struct hair_body_grid* grid)
     *grid = (struct hair_body_grid){0};
 }
 
-static void bind_grid(struct hair_body_grid* grid)
+static struct hair_body_params params_of(const struct hair_body_grid* grid)
+{
+    const hair_collision_mesh* mesh = grid->mesh;
+    return (struct hair_body_params){.nodes_x = mesh->size[0],
+                                     .nodes_y = mesh->size[1],
+                                     .nodes_z = mesh->size[2],
+                                     .first = grid->pool->pooled[grid->place].first,
+                                     .triangles = grid->triangle_count,
+                                     .is_closed = mesh->info.is_closed,
+                                     .voxel = mesh->voxel,
+                                     .shell = mesh->info.thickness / 2,
+                                     .origin = {mesh->origin[0], mesh->origin[1], mesh->origin[2], 0},
+                                     .vertices = grid->vertex_count};
+}
+
+static void bind_grid(struct hair_body_grid* grid, const struct hair_body_params* params)
 {
     struct hair_gl* gl = grid->gl;
-    const hair_collision_mesh* mesh = grid->mesh;
-    struct hair_body_params params = {.nodes_x = mesh->size[0],
-                                      .nodes_y = mesh->size[1],
-                                      .nodes_z = mesh->size[2],
-                                      .first = grid->pool->pooled[grid->place].first,
-                                      .triangles = grid->triangle_count,
-                                      .is_closed = mesh->info.is_closed,
-                                      .voxel = mesh->voxel,
-                                      .shell = mesh->info.thickness / 2};
     // In the order of the slots from HAIR_BIND_BODY_POSITION on.
     const GLuint storage[] = {grid->position, grid->triangle, grid->nearest, grid->pool->nodes,
                               grid->crossing, grid->point,    grid->before};
-    hair_gl_write_uniform(gl, grid->params, sizeof params, &params);
+    hair_gl_write_uniform(gl, grid->params, sizeof *params, params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_BODY, 1, &grid->params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 7, storage);
 }
@@ -86,23 +92,13 @@ static void run_lines(struct hair_gl* gl, hair_gl_pass pass, uint32_t lines)
     hair_gl_run(gl, pass, (lines + HAIR_BODY_THREADS - 1) / HAIR_BODY_THREADS);
 }
 
-void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
+// Compute the distances to the current positions.
+static void compute_nodes(struct hair_body_grid* grid)
 {
     struct hair_gl* gl = grid->gl;
     const uint32_t* size = grid->mesh->size;
-    size_t bytes = 3 * (size_t)grid->vertex_count * sizeof *positions;
-    // The GPU copies the positions, in order with the dispatches of the last update.
-    hair_gl_write_uniform(gl, grid->upload, bytes, positions);
-    if (grid->has_shape) {
-        GLuint last = grid->before;
-        grid->before = grid->position;
-        grid->position = last;
-    } else {
-        gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, (GLsizeiptr)bytes);
-    }
-    grid->has_shape = true;
-    gl->CopyNamedBufferSubData(grid->upload, grid->position, 0, 0, (GLsizeiptr)bytes);
-    bind_grid(grid);
+    struct hair_body_params params = params_of(grid);
+    bind_grid(grid, &params);
     hair_gl_run(gl, HAIR_GL_BODY_SCATTER, grid->triangle_count);
     run_lines(gl, HAIR_GL_BODY_LINE_FIRST, size[1] * size[2]);
     run_lines(gl, HAIR_GL_BODY_LINE_Y, size[0] * size[2]);
@@ -110,4 +106,50 @@ void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
     run_lines(gl, HAIR_GL_BODY_LINE_X, size[1] * size[2]);
     run_lines(gl, HAIR_GL_BODY_LINE_Y, size[0] * size[2]);
     run_lines(gl, HAIR_GL_BODY_LINE_LAST, size[0] * size[1]);
+}
+
+static void keep_last_shape(struct hair_body_grid* grid)
+{
+    GLuint last = grid->before;
+    grid->before = grid->position;
+    grid->position = last;
+}
+
+void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
+{
+    struct hair_gl* gl = grid->gl;
+    GLsizeiptr bytes = (GLsizeiptr)(3 * (size_t)grid->vertex_count * sizeof *positions);
+    // The GPU copies the positions, in order with the dispatches of the last update.
+    hair_gl_write_uniform(gl, grid->upload, (size_t)bytes, positions);
+    if (grid->has_shape) keep_last_shape(grid);
+    if (!grid->has_shape) gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, bytes);
+    grid->has_shape = true;
+    gl->CopyNamedBufferSubData(grid->upload, grid->position, 0, 0, bytes);
+    compute_nodes(grid);
+}
+
+hair_result hair_body_grid_update_from(struct hair_body_grid* grid, const struct hair_body_input* input)
+{
+    struct hair_gl* gl = grid->gl;
+    const float *first = grid->mesh->origin, voxel = grid->mesh->voxel;
+    const GLintptr at = (GLintptr)input->offset;
+    const GLsizeiptr size = (GLsizeiptr)input->size;
+    HAIR_ASSERT(grid->has_shape && input->stride >= 3);
+    HAIR_TRY(hair_gl_ensure_program(gl, HAIR_GL_BODY_UNPACK));
+    struct hair_body_params params = params_of(grid);
+    const float *lower = input->lower, *upper = input->upper;
+    params.lower = (hair_vec4){(lower[0] - first[0]) / voxel, (lower[1] - first[1]) / voxel,
+                               (lower[2] - first[2]) / voxel, 0};
+    params.upper = (hair_vec4){(upper[0] - first[0]) / voxel, (upper[1] - first[1]) / voxel,
+                               (upper[2] - first[2]) / voxel, 0};
+    params.given_first = input->first;
+    params.given_stride = input->stride;
+    keep_last_shape(grid);
+    bind_grid(grid, &params);
+    gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &input->buffer, &at, &size);
+    // Shaders of the application may have written the buffer.
+    gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    hair_gl_run(gl, HAIR_GL_BODY_UNPACK, (grid->vertex_count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
+    compute_nodes(grid);
+    return HAIR_OK;
 }

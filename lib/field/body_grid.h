@@ -29,4 +29,14 @@ void hair_body_grid_destroy(struct hair_body_grid* grid);
 // node.
 void hair_body_grid_update(struct hair_body_grid* grid, const float* positions);
 
+// Positions in a buffer of the application, in m.
+struct hair_body_input {
+    GLuint buffer;
+    size_t offset, size; // bytes that are bound
+    uint32_t first, stride; // first number among those, and numbers from vertex to vertex
+    const float *lower, *upper; // box of the body, m
+};
+// Compute the distances to the triangles with vertices in a buffer.
+hair_result hair_body_grid_update_from(struct hair_body_grid* grid, const struct hair_body_input* input);
+
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "lib/api/api.h"
 #include "lib/collide/distance.h"
@@ -296,6 +297,47 @@ static void degenerate_triangles_give_finite_distances(void** state)
     hair_test_mesh_free(&mesh);
 }
 
+// Give positions in a buffer, of which some are outside the box or not finite.
+static void positions_in_a_buffer_equal_an_array(void** state)
+{
+    enum { STRIDE = 20, FIRST = 8 };
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0), next = hair_test_lump(20, 30, 1, 0);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 24);
+    size_t size = FIRST + STRIDE * (size_t)next.vertex_count;
+    unsigned char* bytes = malloc(size);
+    GLuint buffer;
+    memset(bytes, 0xff, size); // Numbers between positions are NaN.
+    for (uint32_t i = 0; i < next.vertex_count; ++i)
+        memcpy(bytes + FIRST + STRIDE * (size_t)i, next.positions + 3 * i, 12);
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, (GLsizeiptr)size, bytes, GL_DYNAMIC_STORAGE_BIT);
+    hair_test_ok(test, hair_body_set_position_buffer(body, buffer, FIRST, STRIDE));
+    compare_nodes(test, body, &next);
+    assert_int_equal(body->mesh->generation, 2);
+
+    const float away[3] = {0.01f, 5, 0.02f}, wrong[3] = {NAN, 0, 0};
+    glNamedBufferSubData(buffer, FIRST, 12, away);
+    glNamedBufferSubData(buffer, FIRST + 7 * STRIDE, 12, wrong);
+    hair_test_ok(test, hair_body_set_position_buffer(body, buffer, FIRST, STRIDE));
+    memcpy(next.positions, away, sizeof away);
+    next.positions[1] = 0.16f;
+    compare_nodes(test, body, &next);
+
+    hair_test_deform(test, body, &mesh); // The array equals the last one, but the body has moved.
+    compare_nodes(test, body, &mesh);
+    hair_test_refused(test, hair_body_set_position_buffer(body, buffer, FIRST + 24, STRIDE),
+                      HAIR_ERROR_ARGUMENT,
+                      "hair_body: offset is 32, not a multiple of 4 from which on gl_buffer's");
+    hair_test_refused(test, hair_body_set_position_buffer(body, 0, 0, 12), HAIR_ERROR_ARGUMENT,
+                      "hair_body: gl_buffer is 0, not a buffer");
+    glDeleteBuffers(1, &buffer);
+    free(bytes);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+    hair_test_mesh_free(&next);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -309,6 +351,7 @@ int main(void)
         HAIR_TEST(refused_memory_leaves_nothing),
         HAIR_TEST(hostile_inputs_are_refused_by_a_sentence),
         HAIR_TEST(degenerate_triangles_give_finite_distances),
+        HAIR_TEST(positions_in_a_buffer_equal_an_array),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
