@@ -17,7 +17,7 @@ void main()
     if (i >= params.vertices) return;
     vec3 at;
     for (uint k = 0u; k < 3u; ++k) at[k] = given[params.given_first + i * params.given_stride + k];
-    bvec3 is_wrong = bvec3(isnan(at.x) || isinf(at.x), isnan(at.y) || isinf(at.y), isnan(at.z) || isinf(at.z));
+    bool is_wrong = any(isnan(at)) || any(isinf(at));
     at = clamp((at - params.origin.xyz) / params.voxel, params.lower.xyz, params.upper.xyz);
-    for (uint k = 0u; k < 3u; ++k) position[3u * i + k] = any(is_wrong) ? before[3u * i + k] : at[k];
+    for (uint k = 0u; k < 3u; ++k) position[3u * i + k] = is_wrong ? before[3u * i + k] : at[k];
 }

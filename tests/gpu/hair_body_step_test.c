@@ -266,6 +266,42 @@ static void body_of_another_context_is_refused(void** state)
     end(&f);
 }
 
+// Save and load hair between two bodies of equal triangles. Their keys tell them apart.
+static void loaded_hair_finds_its_bodies_by_key(void** state)
+{
+    struct fixture f;
+    begin(*state, HAIR_SOLVER_DIRECT, 0.04f, &f);
+    hair_body_desc desc = hair_test_body_desc(&f.mesh, 0.16f, 16);
+    hair_body* bodies[2] = {NULL, NULL};
+    hair_collider colliders[2] = {f.collider, f.collider};
+    unsigned char* bytes;
+    size_t size = 0;
+    for (uint64_t i = 0; i < 2; ++i) {
+        desc.key = 7 + i;
+        hair_test_ok(f.test, hair_body_create(f.test->context, &desc, &bodies[i]));
+        colliders[i].mesh = hair_body_get_mesh(bodies[i]);
+        colliders[i].position[0] = 0.1f + 0.1f * (float)i;
+    }
+    hair_test_set_colliders(&f.living, colliders, 2);
+    hair_test_wait(&f.living, 3);
+    hair_test_ok(f.test, hair_save(f.living.hair, NULL, 0, &size));
+    bytes = malloc(size);
+    hair_test_ok(f.test, hair_save(f.living.hair, bytes, size, &size));
+    const hair_collision_mesh* first = colliders[0].mesh;
+    colliders[0].mesh = colliders[1].mesh, colliders[1].mesh = first;
+    hair_test_set_colliders(&f.living, colliders, 2);
+    hair_test_wait(&f.living, 3);
+    hair_test_ok(f.test, hair_load(f.living.hair, bytes, size));
+    const struct hair_collider_list* list = hair_sim_colliders(&f.living.hair->sim);
+    for (uint32_t i = 0; i < 2; ++i) assert_ptr_equal(list->collider[i].mesh, hair_body_get_mesh(bodies[i]));
+    hair_test_wait(&f.living, 3);
+    free(bytes);
+    hair_test_set_colliders(&f.living, NULL, 0);
+    hair_test_wait(&f.living, 2); // The instance refers to the meshes of its last step too.
+    for (int i = 0; i < 2; ++i) hair_body_destroy(bodies[i]);
+    end(&f);
+}
+
 // Restore a context in another OpenGL context, of which nothing has the distances.
 static void restored_body_has_its_last_shape(void** state)
 {
@@ -338,6 +374,7 @@ int main(void)
         HAIR_TEST(field_follows_the_shape),
         HAIR_TEST(destroyed_body_keeps_its_shape_while_a_collider_uses_it),
         HAIR_TEST(body_of_another_context_is_refused),
+        HAIR_TEST(loaded_hair_finds_its_bodies_by_key),
         HAIR_TEST(restored_body_has_its_last_shape),
         HAIR_TEST(context_without_a_body_has_no_pass_of_bodies),
     };
