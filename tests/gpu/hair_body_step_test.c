@@ -22,20 +22,6 @@ static hair_collider collider_of(const hair_body* body)
     return collider;
 }
 
-// Return the maximum depth of a vertex in the exact mesh of a collider, m.
-static double depth_in(const struct hair_test_living* living, struct hair_triangles* triangles,
-                       const hair_collider* collider)
-{
-    double deepest = -INFINITY;
-    for (uint32_t i = 1; i < living->vertices; ++i) {
-        double at[3];
-        for (int k = 0; k < 3; ++k)
-            at[k] = (double)living->positions[3 * i + (uint32_t)k] - (double)collider->position[k];
-        deepest = fmax(deepest, -hair_test_exact(triangles, at));
-    }
-    return deepest;
-}
-
 struct fixture {
     struct hair_test* test;
     struct hair_test_mesh unit, mesh;
@@ -85,7 +71,7 @@ static void growing_body_pushes_guides_out(void** state)
             hair_test_wait(&f.living, 1);
             hair_test_read_guides(&f.living);
             struct hair_triangles triangles = hair_test_triangles(f.test, &f.mesh);
-            deepest = fmax(deepest, depth_in(&f.living, &triangles, &f.collider));
+            deepest = fmax(deepest, hair_test_depth_in_body(&f.living, &triangles, &f.collider));
             hair_triangles_free(&f.test->host.host, &triangles);
         }
         hair_vec3 tip = hair_test_tip(&f.living, 0);
@@ -95,82 +81,6 @@ static void growing_body_pushes_guides_out(void** state)
         assert_true(deepest < 1e-3 && tip.x < -0.02f);
         end(&f);
     }
-}
-
-// Move a plate under a strand, or against it, by its vertices or by its pose.
-static void move_plate(struct hair_test* test, bool by_vertices, int frames, hair_vec3 step,
-                       const float half[3], hair_vec3 start, struct hair_test_living* living)
-{
-    struct hair_test_mesh rest = hair_test_box_mesh(half), mesh = hair_test_box_mesh(half);
-    hair_body* body = hair_test_deforming(test, &rest, 0.32f, 64);
-    hair_collider collider = hair_test_body(HAIR_SHAPE_MESH, start.x, start.y, start.z);
-    collider.mesh = hair_body_get_mesh(body);
-    for (int frame = 0; frame <= frames; ++frame) {
-        hair_vec3 moved = hair_scale(step, (float)frame);
-        for (uint32_t i = 0; i < 3 * rest.vertex_count; ++i)
-            mesh.positions[i] = rest.positions[i] + (i % 3 == 0 ? moved.x : i % 3 == 1 ? moved.y : moved.z);
-        if (by_vertices) {
-            hair_test_deform(test, body, &mesh);
-        } else {
-            collider.position[0] = start.x + moved.x;
-            collider.position[1] = start.y + moved.y;
-            collider.position[2] = start.z + moved.z;
-        }
-        hair_test_set_colliders(living, &collider, 1);
-        hair_test_wait(living, frame ? 1 : 60);
-    }
-    hair_test_read_guides(living);
-    hair_body_destroy(body);
-    hair_test_mesh_free(&rest);
-    hair_test_mesh_free(&mesh);
-}
-
-// Compare hair on a plate that moves by its vertices with hair on a plate that moves by its pose.
-// Return the maximum distance between vertices, m. `moved` receives the motion of the tip.
-static double compare_plates(struct hair_test* test, hair_solver solver, float friction, hair_vec3 way,
-                             int frames, hair_vec3 step, const float half[3], hair_vec3 start,
-                             hair_vec3* moved)
-{
-    hair_physics physics = hair_test_loose(friction);
-    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
-    struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), way, 0.3f);
-    struct hair_test_living livings[2];
-    double far = 0;
-    for (int k = 0; k < 2; ++k) {
-        hair_test_live(test, &strands, &desc, &livings[k]);
-        move_plate(test, k == 0, frames, step, half, start, &livings[k]);
-    }
-    for (uint32_t i = 0; i < livings[0].vertices; ++i)
-        far = fmax(far, (double)hair_distance(hair_load3(livings[0].positions + 3 * i),
-                                              hair_load3(livings[1].positions + 3 * i)));
-    *moved = hair_test_tip(&livings[0], 0);
-    for (int k = 0; k < 2; ++k) hair_test_die(&livings[k]);
-    hair_test_strands_free(&strands);
-    return far;
-}
-
-// Check a plate under a strand that moves sideways by 2 mm a frame. Friction carries the strand.
-static void surface_that_deforms_carries_hair_by_friction(void** state)
-{
-    const float half[3] = {0.2f, 0.02f, 0.2f};
-    hair_vec3 tip;
-    double far = compare_plates(*state, HAIR_SOLVER_DIRECT, 1, hair_v3(1, 0, 0.05f), 30,
-                                hair_v3(0, 0, 0.002f), half, hair_v3(0.2f, -0.05f, 0), &tip);
-    print_message("    the tip ends at z = %.4f m, %.2g m from hair on a plate that moves rigidly\n",
-                  (double)tip.z, far);
-    assert_true(tip.z > 0.04f && far < 2e-3);
-}
-
-// Check a plate of 30 mm, three segments of the strand, that moves 80 mm in a frame.
-static void plate_that_deforms_far_in_a_frame_takes_hair_along(void** state)
-{
-    const float half[3] = {0.015f, 0.1f, 0.1f};
-    hair_vec3 tip;
-    double far = compare_plates(*state, HAIR_SOLVER_DIRECT, 0.3f, hair_v3(0, -1, 0), 2, hair_v3(0.08f, 0, 0),
-                                half, hair_v3(-0.06f, -0.25f, 0), &tip);
-    print_message("    the tip ends at x = %.4f m, %.2g m from hair before a plate that moves rigidly\n",
-                  (double)tip.x, far);
-    assert_true(tip.x > 0.1f && far < 5e-3);
 }
 
 static void sleeping_hair_wakes_when_a_body_near_it_deforms(void** state)
@@ -240,7 +150,7 @@ static void destroyed_body_keeps_its_shape_while_a_collider_uses_it(void** state
     for (int frame = 0; frame < 60; ++frame) hair_test_wait(&f.living, 1);
     hair_test_read_guides(&f.living);
     struct hair_triangles triangles = hair_test_triangles(f.test, &f.mesh);
-    double deepest = depth_in(&f.living, &triangles, &f.collider);
+    double deepest = hair_test_depth_in_body(&f.living, &triangles, &f.collider);
     hair_triangles_free(&f.test->host.host, &triangles);
     print_message("    %.2g m deep\n", deepest);
     assert_true(deepest < 1e-3 && deepest > -0.005);
@@ -368,8 +278,6 @@ int main(void)
     if (hair_test_skips()) return 0;
     const struct CMUnitTest tests[] = {
         HAIR_TEST(growing_body_pushes_guides_out),
-        HAIR_TEST(surface_that_deforms_carries_hair_by_friction),
-        HAIR_TEST(plate_that_deforms_far_in_a_frame_takes_hair_along),
         HAIR_TEST(sleeping_hair_wakes_when_a_body_near_it_deforms),
         HAIR_TEST(field_follows_the_shape),
         HAIR_TEST(destroyed_body_keeps_its_shape_while_a_collider_uses_it),

@@ -1,6 +1,7 @@
 // hair_body_test.c - bodies that deform: the distance on the GPU agrees with the exact mesh, and
 // costs nothing unless there is a body.
 #include "tests/support/deforming.h"
+#include "tests/support/glstate.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -179,6 +180,41 @@ static void nodes_survive_growth_of_their_pool(void** state)
     hair_test_mesh_free(&other);
 }
 
+static void state_of_the_application_is_kept(void** state)
+{
+    static struct hair_test_glstate before, after;
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(12, 16, 0, 0), next = hair_test_lump(12, 16, 1, 0);
+    GLuint buffer;
+    hair_egl* egl = NULL;
+    hair_context *context = NULL, *own = test->context;
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &egl));
+    hair_test_ok(test, hair_context_create(&desc, &context));
+    test->context = context;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, (GLsizeiptr)(12 * (size_t)next.vertex_count), next.positions, 0);
+    hair_test_glstate_disturb();
+    while (glGetError()) {}
+    hair_test_glstate_read(&before);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 16);
+    hair_test_deform(test, body, &next);
+    hair_test_ok(test, hair_body_set_position_buffer(body, buffer, 0, 12));
+    hair_body_destroy(body);
+    hair_test_glstate_read(&after);
+    size_t wrong = hair_test_glstate_differ(&before, &after, 0);
+    if (wrong < before.count) fail_msg("%s has changed", before.values[wrong].name);
+    assert_int_equal(glGetError(), GL_NO_ERROR);
+    hair_context_destroy(context);
+    hair_egl_destroy(egl);
+    hair_egl_make_current(test->egl);
+    test->context = own;
+    hair_test_mesh_free(&mesh);
+    hair_test_mesh_free(&next);
+}
+
 static void equal_positions_run_no_pass(void** state)
 {
     struct hair_test* test = *state;
@@ -347,6 +383,7 @@ int main(void)
         HAIR_TEST(distance_near_the_surface_is_within_half_a_voxel),
         HAIR_TEST(open_body_is_a_shell),
         HAIR_TEST(nodes_survive_growth_of_their_pool),
+        HAIR_TEST(state_of_the_application_is_kept),
         HAIR_TEST(equal_positions_run_no_pass),
         HAIR_TEST(refused_memory_leaves_nothing),
         HAIR_TEST(hostile_inputs_are_refused_by_a_sentence),

@@ -77,7 +77,7 @@ MUTATIONS = [
     {"name": "motion_of_a_body_lost", "file": "lib/collide/contacts.c",
      "old": "hair_colliders_has_deformed(colliders, i) ? 1 : 0;",
      "new": "0;",
-     "tests": ["gpu/hair_body_step"]},
+     "tests": ["gpu/hair_body_motion"]},
     {"name": "sleep_through_a_body_that_deforms", "file": "lib/sim/sleep.c",
      "old": "!colliders->changed && !hair_colliders_have_deformed(colliders)",
      "new": "!colliders->changed",

@@ -75,3 +75,16 @@ double hair_test_exact(struct hair_triangles* triangles, const double point[3])
     hair_triangles_find(triangles, at, &distance, &nearest);
     return fabsf(hair_triangles_winding(triangles, at)) > 0.5f ? -(double)distance : (double)distance;
 }
+
+double hair_test_depth_in_body(const struct hair_test_living* living, struct hair_triangles* triangles,
+                               const hair_collider* collider)
+{
+    double deepest = -INFINITY;
+    for (uint32_t i = 1; i < living->vertices; ++i) {
+        double at[3];
+        for (int k = 0; k < 3; ++k)
+            at[k] = (double)living->positions[3 * i + (uint32_t)k] - (double)collider->position[k];
+        deepest = fmax(deepest, -hair_test_exact(triangles, at));
+    }
+    return deepest;
+}

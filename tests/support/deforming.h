@@ -2,8 +2,8 @@
 #ifndef HAIR_TESTS_SUPPORT_DEFORMING_H
 #define HAIR_TESTS_SUPPORT_DEFORMING_H
 
+#include "tests/support/live_hair.h"
 #include "tests/support/meshes.h"
-#include "tests/support/support.h"
 
 #include "lib/collide/triangles.h"
 
@@ -24,5 +24,8 @@ float* hair_test_body_nodes(const hair_body* body);
 struct hair_triangles hair_test_triangles(struct hair_test* test, const struct hair_test_mesh* mesh);
 // Return the exact signed distance of a point.
 double hair_test_exact(struct hair_triangles* triangles, const double point[3]);
+// Return the maximum depth of a vertex in the exact mesh of a collider without rotation, m.
+double hair_test_depth_in_body(const struct hair_test_living* living, struct hair_triangles* triangles,
+                               const hair_collider* collider);
 
 #endif
