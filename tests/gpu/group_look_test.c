@@ -188,6 +188,38 @@ static void colors_of_groups_are_in_buffers_and_cost_nothing_unused(void** state
     hair_test_scene_free(&scene);
 }
 
+// Check that the roots of followers on a skinned scalp stay where the scalp has moved them.
+static void followers_on_a_skinned_scalp_stay_with_it(void** state)
+{
+    static struct hair_test_points before, after;
+    struct hair_test* test = *state;
+    struct hair_test_strands strands = hair_test_fur(20);
+    struct hair_test_scalp scalp = hair_test_scalp_make(1, 1);
+    struct hair_test_scene scene = hair_test_scene_make(test, NULL);
+    hair_groom_desc desc = hair_test_groom_desc(&test->host, &strands);
+    hair_desc of = hair_desc_default();
+    hair_look look = plain_look();
+    uint8_t groups[20];
+    for (int i = 0; i < 20; ++i) groups[i] = (uint8_t)(i % 2);
+    hair_test_set_scalp(&desc, &scalp);
+    desc.follower_count = 100, desc.strand_groups = groups;
+    scene.groom = hair_test_groom_of(&desc);
+    of.look = &look;
+    hair_test_ok(test, hair_create(test->context, scene.groom, &of, &scene.hair));
+    float skinned[12];
+    for (int i = 0; i < 12; ++i) skinned[i] = scalp.positions[i] * (i % 3 ? 1 : 1.3f);
+    hair_test_ok(test, hair_set_scalp(scene.hair, skinned, 4, 12, NULL));
+    hair_test_ok(test, hair_step(scene.hair, 1.0f / 60));
+    hair_test_read_points(test, scene.hair, HAIR_READ_FOLLOWERS, &before);
+    set_radius(&scene, 1, 2);
+    hair_test_read_points(test, scene.hair, HAIR_READ_FOLLOWERS, &after);
+    assert_int_equal(after.count, before.count);
+    assert_true(hair_test_points_distance(&before, &after) < 1e-6);
+    hair_test_scene_free(&scene);
+    hair_test_scalp_free(&scalp);
+    hair_test_strands_free(&strands);
+}
+
 static void wrong_looks_of_groups_are_refused(void** state)
 {
     hair_look look = plain_look();
@@ -210,6 +242,15 @@ static void wrong_looks_of_groups_are_refused(void** state)
                       "group is 9, not in [0, 7]");
     hair_test_ok(test, hair_get_group_look(scene.hair, 5, &got));
     assert_true(got.radius == 2 && got.color.enabled);
+    // Without memory for the colours, the followers made for the radius are given up too.
+    uint64_t bytes = gpu_bytes(test), followers = 96 * GROUPS + 16 * HAIR_SHAPE_TEXELS(4) * GROUPS;
+    own.radius = 3, own.color.tip[2] = 1;
+    hair_test_ok(test, hair_set_memory_limit(test->context, bytes + followers));
+    hair_test_refused(test, hair_set_group_look(scene.hair, 1, &own), HAIR_ERROR_MEMORY, "hair colours");
+    hair_test_ok(test, hair_set_memory_limit(test->context, 0));
+    hair_test_ok(test, hair_get_group_look(scene.hair, 1, &got));
+    assert_true(got.radius == 1 && !got.color.enabled);
+    assert_int_equal(gpu_bytes(test), bytes);
     assert_int_equal(hair_set_group_look(NULL, 0, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_get_group_look(NULL, 0, &got), HAIR_ERROR_ARGUMENT);
     hair_test_scene_free(&scene);
@@ -221,6 +262,7 @@ int main(void)
         HAIR_TEST(radius_of_a_group_is_a_factor_in_pixels),
         HAIR_TEST(color_of_a_group_replaces_those_of_groom_and_look),
         HAIR_TEST(colors_of_groups_are_in_buffers_and_cost_nothing_unused),
+        HAIR_TEST(followers_on_a_skinned_scalp_stay_with_it),
         HAIR_TEST(wrong_looks_of_groups_are_refused),
     };
     if (hair_test_skips()) return 0;
