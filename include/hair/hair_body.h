@@ -53,6 +53,7 @@ HAIR_API hair_result hair_body_create(hair_context* context, const hair_body_des
                                       hair_body** out);
 
 /// Destroy a body. Colliders may still use its mesh, which keeps its last shape. NULL does nothing.
+/// After hair_context_restore() the mesh of a destroyed body touches nothing.
 /// OpenGL: required, but not for an orphan. Does not wait for the GPU.
 HAIR_API void hair_body_destroy(hair_body* body);
 
@@ -80,11 +81,12 @@ HAIR_API hair_result hair_body_set_positions(hair_body* body, const float* posit
 /// again afterwards. The distances are computed also if no vertex has moved.
 ///
 /// A vertex outside the box is moved to the box. A vertex that is not finite stays where it was.
+/// After hair_context_restore() the body has the positions of its last array.
 ///
 /// @param gl_buffer Buffer with xyz of each vertex, three floats, m.
 /// @param offset Offset of the first vertex, bytes. A multiple of 4.
 /// @param stride Distance from vertex to vertex, bytes. A multiple of 4 in [12, 4096].
-/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_OPENGL, HAIR_ERROR_CONTEXT_LOST.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY, HAIR_ERROR_OPENGL, HAIR_ERROR_CONTEXT_LOST.
 /// OpenGL: required. Does not wait for the GPU.
 HAIR_API hair_result hair_body_set_position_buffer(hair_body* body, uint32_t gl_buffer,
                                                    size_t offset, size_t stride);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #define MIN_ROOM 65536 // Minimum capacity, in nodes.
+#define NOWHERE 1e9f // Distance at which no scale lets anything meet a mesh, m.
 
 // Return the number of floats of a mesh. The motion of a body follows its distances.
 static size_t count_nodes(const hair_collision_mesh* mesh)
@@ -12,16 +13,34 @@ static size_t count_nodes(const hair_collision_mesh* mesh)
     return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2] * (mesh->home ? 4 : 1);
 }
 
-// Add the nodes of a mesh. Those of a body are written later.
-static void upload_sdf(struct hair_sdf_pool* pool, struct hair_pooled_sdf* pooled)
+// Write the nodes of a body so far away that nothing meets the body. The body writes its nodes
+// later. A body that was destroyed before its OpenGL context was lost has nobody who does.
+static hair_result upload_nowhere(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh)
+{
+    const hair_host* host = &pool->gl->host;
+    size_t count = (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
+    float* distance = hair_alloc(host, count, sizeof *distance);
+    if (!distance) return hair_fail_memory(host, "a body");
+    for (size_t i = 0; i < count; ++i) distance[i] = NOWHERE;
+    pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pool->used * sizeof *distance),
+                                 (GLsizeiptr)(count * sizeof *distance), distance);
+    hair_free(host, distance);
+    return HAIR_OK;
+}
+
+// Add the nodes of a mesh.
+static hair_result upload_sdf(struct hair_sdf_pool* pool, struct hair_pooled_sdf* pooled)
 {
     size_t count = count_nodes(pooled->mesh);
     HAIR_ASSERT(pool->used + count <= pool->room);
-    pooled->first = (uint32_t)pool->used;
     if (pooled->mesh->distance)
         pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pool->used * sizeof(float)),
                                      (GLsizeiptr)(count * sizeof(float)), pooled->mesh->distance);
+    else
+        HAIR_TRY(upload_nowhere(pool, pooled->mesh));
+    pooled->first = (uint32_t)pool->used;
     pool->used += count;
+    return HAIR_OK;
 }
 
 // Copy the nodes of a mesh to a larger buffer. The nodes of a body are on the GPU only.
@@ -117,13 +136,14 @@ hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collisi
     drop_unused(pool);
     hair_result result = reserve_nodes(pool, count_nodes(mesh));
     if (!result) result = reserve_place(pool, place);
+    struct hair_pooled_sdf pooled = {.mesh = mesh, .users = 1};
+    if (!result) result = upload_sdf(pool, &pooled);
     if (result) {
         free_if_empty(pool);
         return result;
     }
     hair_collision_mesh_hold(mesh);
-    pool->pooled[*place] = (struct hair_pooled_sdf){.mesh = mesh, .users = 1};
-    upload_sdf(pool, &pool->pooled[*place]);
+    pool->pooled[*place] = pooled;
     return HAIR_OK;
 }
 

@@ -1,0 +1,131 @@
+// hair_body_loss_test.c - a context with bodies is restored after its OpenGL context is lost:
+// bodies that live, bodies that are destroyed, and memory that runs out meanwhile.
+#include "tests/support/deforming.h"
+#include "tests/support/live_hair.h"
+
+#include <math.h>
+
+#include "lib/api/api.h"
+
+struct fixture {
+    struct hair_test* test;
+    hair_context* own; // context of the test
+    hair_egl* egl; // OpenGL context that is lost
+    struct hair_test_mesh mesh;
+    struct hair_test_strands strands;
+    struct hair_test_living living;
+    hair_body* body;
+};
+
+// Hang a strand of 0.3 m beside a ball of 0.06 m.
+static void begin(struct hair_test* test, struct fixture* f)
+{
+    hair_physics physics = hair_test_loose(0.3f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
+    hair_context_desc context = hair_context_desc_default();
+    hair_context* made = NULL;
+    *f = (struct fixture){.test = test, .own = test->context, .mesh = hair_test_ball_mesh(0.06f, 16, 24)};
+    context.host = &test->host.host;
+    context.get_proc = hair_egl_get_proc;
+    context.restorable = true;
+    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
+    hair_test_ok(test, hair_context_create(&context, &made));
+    test->context = made;
+    f->strands = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
+    hair_test_live(test, &f->strands, &desc, &f->living);
+    f->body = hair_test_deforming(test, &f->mesh, 0.16f, 16);
+    hair_collider collider = hair_test_body(HAIR_SHAPE_MESH, 0.05f, -0.2f, 0.01f);
+    collider.mesh = hair_body_get_mesh(f->body);
+    hair_test_set_colliders(&f->living, &collider, 1);
+    hair_test_wait(&f->living, 2);
+}
+
+static void lose(struct fixture* f)
+{
+    hair_egl_destroy(f->egl);
+    hair_test_ok(f->test, hair_egl_create(&f->test->host.host, -1, &f->egl));
+}
+
+static void end(struct fixture* f)
+{
+    hair_body_destroy(f->body);
+    hair_test_die(&f->living);
+    hair_test_strands_free(&f->strands);
+    assert_int_equal(f->test->context->sdf_pool.nodes, 0);
+    hair_context_destroy(f->test->context);
+    hair_egl_destroy(f->egl);
+    hair_egl_make_current(f->test->egl);
+    f->test->context = f->own;
+    hair_test_mesh_free(&f->mesh);
+}
+
+// Move the collider through the strand. Return the maximum distance of the tip from the line on
+// which the strand hangs, m.
+static double sweep(struct fixture* f)
+{
+    hair_collider collider = hair_sim_colliders(&f->living.hair->sim)->collider[0];
+    double max = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        collider.position[0] = 0.2f - 0.01f * (float)frame;
+        hair_test_set_colliders(&f->living, &collider, 1);
+        hair_test_wait(&f->living, 1);
+        hair_test_read_guides(&f->living);
+        hair_vec3 tip = hair_test_tip(&f->living, 0);
+        max = fmax(max, (double)hypotf(tip.x, tip.z));
+    }
+    print_message("    the tip is up to %.3f m away\n", max);
+    return max;
+}
+
+static void restored_body_pushes_hair_away(void** state)
+{
+    struct fixture f;
+    begin(*state, &f);
+    lose(&f);
+    hair_test_ok(f.test, hair_context_restore(f.test->context));
+    assert_true(sweep(&f) > 0.03);
+    end(&f);
+}
+
+// Lose the distances to a body that is destroyed. Nobody can compute them again.
+static void lost_shape_of_a_destroyed_body_touches_nothing(void** state)
+{
+    struct fixture f;
+    begin(*state, &f);
+    hair_body_destroy(f.body);
+    f.body = NULL;
+    lose(&f);
+    hair_test_ok(f.test, hair_context_restore(f.test->context));
+    assert_true(sweep(&f) < 1e-4);
+    end(&f);
+}
+
+// Refuse every allocation of a restoration in turn.
+static void refused_memory_keeps_bodies_for_the_next_attempt(void** state)
+{
+    struct fixture f;
+    uint32_t refused = 0;
+    begin(*state, &f);
+    lose(&f);
+    for (;; ++refused) {
+        f.test->host.refuse = f.test->host.allocations + 1 + refused;
+        hair_result result = hair_context_restore(f.test->context);
+        f.test->host.refuse = 0;
+        if (result == HAIR_OK) break;
+        hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
+    }
+    assert_true(refused > 20);
+    assert_true(sweep(&f) > 0.03);
+    end(&f);
+}
+
+int main(void)
+{
+    if (hair_test_skips()) return 0;
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(restored_body_pushes_hair_away),
+        HAIR_TEST(lost_shape_of_a_destroyed_body_touches_nothing),
+        HAIR_TEST(refused_memory_keeps_bodies_for_the_next_attempt),
+    };
+    return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
