@@ -48,7 +48,6 @@ static uint32_t count_members(const hair_context* context, void (*empty)(struct 
 // Apply what the application has set since the creation of an instance that is lost.
 static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
 {
-    const struct hair_collider_list* colliders = hair_sim_colliders(&lost->sim);
     const struct hair_pins* pins = &lost->sim.pins;
     struct hair_resolved_pin* own = NULL;
     hair_wind wind = lost->sim.wind;
@@ -63,8 +62,7 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
     // The state is checked as bytes of a file are. A state that is refused leaves the hair at rest.
     hair_result result = hair_snapshots_load(&hair->sim, &lost->sim.snapshots);
     if (result && result != HAIR_ERROR_FILE) return result;
-    HAIR_TRY(hair_sim_set_colliders(&hair->sim, colliders->collider, colliders->count,
-                                    sizeof *colliders->collider));
+    HAIR_TRY(hair_colliders_copy(&hair->context->host, &hair->sim.colliders, &lost->sim.colliders));
     hair_sim_set_head(&hair->sim, &lost->sim.head);
     if (pins->count) {
         own = hair_alloc(&hair->context->host, pins->count, sizeof *own);

@@ -161,10 +161,9 @@ static int are_there(const struct hair_collider_list* list, const hair_collider*
     return same;
 }
 
-hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
-                               const hair_collider* from, uint32_t count, size_t stride)
+static hair_result check_meshes(const hair_host* host, const struct hair_colliders* colliders,
+                                const hair_collider* from, uint32_t count, size_t stride)
 {
-    HAIR_TRY(check_list(host, from, count, stride));
     for (uint32_t i = 0; i < count; ++i) {
         hair_collider collider = collider_at(from, i, stride);
         if (collider.shape == HAIR_SHAPE_MESH && !collider.mesh)
@@ -176,6 +175,13 @@ hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* col
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
                              "colliders[%u].mesh is that of a hair_body of another context", i);
     }
+    return HAIR_OK;
+}
+
+// Set colliders that are checked.
+static hair_result set_current(const hair_host* host, struct hair_colliders* colliders,
+                               const hair_collider* from, uint32_t count, size_t stride)
+{
     if (are_there(&colliders->current, from, count, stride)) return HAIR_OK;
     HAIR_TRY(reserve_all(host, colliders, count, colliders->previous.count));
     HAIR_TRY(hair_match_colliders(host, from, count, stride, colliders->previous.collider,
@@ -184,6 +190,21 @@ hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* col
     count_contacts(colliders);
     colliders->changed = 1;
     return HAIR_OK;
+}
+
+hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
+                               const hair_collider* from, uint32_t count, size_t stride)
+{
+    HAIR_TRY(check_list(host, from, count, stride));
+    HAIR_TRY(check_meshes(host, colliders, from, count, stride));
+    return set_current(host, colliders, from, count, stride);
+}
+
+hair_result hair_colliders_copy(const hair_host* host, struct hair_colliders* colliders,
+                                const struct hair_colliders* from)
+{
+    const struct hair_collider_list* list = &from->current;
+    return set_current(host, colliders, list->collider, list->count, sizeof *list->collider);
 }
 
 hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders* colliders,

@@ -40,6 +40,11 @@ struct hair_colliders {
 hair_result hair_colliders_set(const hair_host* host, struct hair_colliders* colliders,
                                const hair_collider* from, uint32_t count, size_t stride);
 
+// Set the current list to that of `from`. A collision mesh may be missing, because hair_load() did
+// not find the mesh. On failure nothing has changed.
+hair_result hair_colliders_copy(const hair_host* host, struct hair_colliders* colliders,
+                                const struct hair_colliders* from);
+
 // Set both lists to saved colliders. A collision mesh may be missing, and its collider then touches
 // nothing.
 hair_result hair_colliders_restore(const hair_host* host, struct hair_colliders* colliders,

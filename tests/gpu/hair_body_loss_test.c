@@ -4,6 +4,7 @@
 #include "tests/support/live_hair.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "lib/api/api.h"
 
@@ -100,6 +101,28 @@ static void lost_shape_of_a_destroyed_body_touches_nothing(void** state)
     end(&f);
 }
 
+// Load hair whose body is not among the colliders, so that a collider has no mesh.
+static void hair_that_misses_a_body_is_restored(void** state)
+{
+    struct fixture f;
+    size_t size = 0;
+    begin(*state, &f);
+    hair_test_ok(f.test, hair_save(f.living.hair, NULL, 0, &size));
+    unsigned char* bytes = malloc(size);
+    hair_test_ok(f.test, hair_save(f.living.hair, bytes, size, &size));
+    hair_test_set_colliders(&f.living, NULL, 0);
+    hair_test_wait(&f.living, 2);
+    hair_test_ok(f.test, hair_load(f.living.hair, bytes, size));
+    free(bytes);
+    lose(&f);
+    hair_test_ok(f.test, hair_context_restore(f.test->context));
+    const struct hair_collider_list* list = hair_sim_colliders(&f.living.hair->sim);
+    assert_int_equal(list->count, 1);
+    assert_null(list->collider[0].mesh);
+    hair_test_wait(&f.living, 2);
+    end(&f);
+}
+
 // Refuse every allocation of a restoration in turn.
 static void refused_memory_keeps_bodies_for_the_next_attempt(void** state)
 {
@@ -125,6 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(restored_body_pushes_hair_away),
         HAIR_TEST(lost_shape_of_a_destroyed_body_touches_nothing),
+        HAIR_TEST(hair_that_misses_a_body_is_restored),
         HAIR_TEST(refused_memory_keeps_bodies_for_the_next_attempt),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
