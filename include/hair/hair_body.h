@@ -59,7 +59,7 @@ HAIR_API void hair_body_destroy(hair_body* body);
 
 /// Return the mesh of a body, for hair_collider.mesh of instances of the same context. The mesh
 /// lives as long as the body and the colliders that use it. hair_collision_mesh_info.lower and
-/// upper are bounds of the last two shapes. Return NULL for NULL.
+/// upper are bounds of the last two shapes. Return NULL for NULL, and for an orphan.
 /// OpenGL: not used. Thread of the context.
 HAIR_API const hair_collision_mesh* hair_body_get_mesh(const hair_body* body);
 
