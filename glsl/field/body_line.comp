@@ -18,6 +18,7 @@ layout(std430, binding = HAIR_BIND_BODY_BEFORE) readonly buffer before_buffer { 
 #endif
 
 #define UNKNOWN 0.5 // Size of w of a node that knows no point.
+#define AHEAD 8u // Number of nodes that are read at once, so that a thread waits for memory less often.
 
 // Return the point that is nearer to p, with a positive w.
 vec4 nearer(vec3 p, vec4 own, vec4 passed_on)
@@ -34,7 +35,6 @@ vec4 first_point(uint n, vec3 p)
 {
     uint key = nearest[n], t = key & ((1u << HAIR_BODY_TRIANGLE_BITS) - 1u);
     if (key == BODY_NONE) return vec4(vec3(0.0), UNKNOWN);
-    nearest[n]  = BODY_NONE; // The next body_scatter.comp begins with this.
     mat3 corner = body_triangle(t);
     return vec4(corner * nearest_weights(p, corner[0], corner[1], corner[2]), float(t + 1u));
 }
@@ -77,33 +77,51 @@ void main()
     if (at.y >= size.y) return;
 #endif
     uint start = at.x + size.x * (at.y + size.y * at.z), stride = way.x + size.x * (way.y + size.y * way.z);
-    vec4 known = vec4(vec3(0.0), UNKNOWN);
+    vec4 known = vec4(vec3(0.0), UNKNOWN), own[AHEAD];
     int  winding = 0;
-    for (uint i = 0u; i < count; ++i) {
-        uint n = start + i * stride;
-        vec3 p = vec3(at + i * way);
+    for (uint first = 0u; first < count; first += AHEAD) {
 #ifdef HAIR_FIRST
-        vec4 own = first_point(n, p);
-        winding += crossing[n];
-        crossing[n] = 0; // The next body_scatter.comp begins with this.
-        bool is_inside = winding != 0 && params.is_closed != 0u;
-#else
-        vec4 own = point[n];
-        bool is_inside = own.w < 0.0;
+        int crossed[AHEAD];
 #endif
-        known    = nearer(p, own, known);
-        point[n] = vec4(known.xyz, is_inside ? -known.w : known.w);
+        for (uint k = 0u; k < AHEAD; ++k) {
+            uint i = min(first + k, count - 1u), n = start + i * stride;
+#ifdef HAIR_FIRST
+            own[k]     = first_point(n, vec3(at + i * way));
+            crossed[k] = crossing[n];
+#else
+            own[k] = point[n];
+#endif
+        }
+        for (uint k = 0u; k < AHEAD && first + k < count; ++k) {
+            uint i = first + k, n = start + i * stride;
+#ifdef HAIR_FIRST
+            winding += crossed[k];
+            nearest[n]  = BODY_NONE; // The next body_scatter.comp begins with these.
+            crossing[n] = 0;
+            bool is_inside = winding != 0 && params.is_closed != 0u;
+#else
+            bool is_inside = own[k].w < 0.0;
+#endif
+            known    = nearer(vec3(at + i * way), own[k], known);
+            point[n] = vec4(known.xyz, is_inside ? -known.w : known.w);
+        }
     }
     known = vec4(vec3(0.0), UNKNOWN);
-    for (uint i = count; i-- > 0u;) {
-        uint n   = start + i * stride;
-        vec3 p   = vec3(at + i * way);
-        vec4 own = point[n];
-        known    = nearer(p, own, known);
+    for (uint left = count; left > 0u; left -= min(left, AHEAD)) {
+        for (uint k = 0u; k < AHEAD; ++k) own[k] = point[start + (max(left, k + 1u) - k - 1u) * stride];
+        for (uint k = 0u; k < AHEAD && k < left; ++k) {
+            uint i = left - k - 1u;
+            known  = nearer(vec3(at + i * way), own[k], known);
+            own[k] = vec4(known.xyz, own[k].w < 0.0 ? -known.w : known.w);
 #ifndef HAIR_LAST
-        point[n] = vec4(known.xyz, own.w < 0.0 ? -known.w : known.w);
-#else
-        write_node(n, p, vec4(known.xyz, own.w < 0.0 ? -known.w : known.w));
+            point[start + i * stride] = own[k];
+#endif
+        }
+#ifdef HAIR_LAST
+        for (uint k = 0u; k < AHEAD && k < left; ++k) {
+            uint i = left - k - 1u;
+            write_node(start + i * stride, vec3(at + i * way), own[k]);
+        }
 #endif
     }
 }
