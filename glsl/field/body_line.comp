@@ -18,7 +18,8 @@ layout(std430, binding = HAIR_BIND_BODY_BEFORE) readonly buffer before_buffer { 
 #endif
 
 #define UNKNOWN 0.5 // Size of w of a node that knows no point.
-#define AHEAD 8u // Number of nodes that are read at once, so that a thread waits for memory less often.
+// Number of nodes that are read at once, so that a thread waits for memory less often.
+#define AHEAD 8u
 
 // Return the point that is nearer to p, with a positive w.
 vec4 nearer(vec3 p, vec4 own, vec4 passed_on)
