@@ -14,6 +14,7 @@
 #include "tools/common/frame_writer.h"
 #include "tools/common/stats.h"
 #include "tools/common/groom_source.h"
+#include "tools/common/groups.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -70,6 +71,8 @@ static int make_groom(struct capture* capture)
     hair_groom_info* info = &capture->stats.groom;
     *info = hair_groom_info_default();
     hair_groom_describe(capture->groom, info);
+    if (!hair_groups_check(TOOL, &scene->settings, info->group_count))
+        return exit_for_settings(capture, HAIR_EXIT_USAGE);
 
     struct hair_bounds bounds = {{info->lower[0], info->lower[1], info->lower[2]},
                                  {info->upper[0], info->upper[1], info->upper[2]}};
@@ -181,6 +184,7 @@ static int make_hair(struct capture* capture)
     desc.look = &scene->settings.look;
     hair_motion_at(&scene->motion, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
+    if (!result) result = hair_groups_apply(capture->hair, &scene->settings, NULL);
     if (!result) result = hair_set_wind(capture->hair, &wind);
     if (!result) result = set_colliders(capture, 0, desc.transform);
     if (!result) result = hair_playback_play(&capture->cache, capture->hair, 0);

@@ -36,8 +36,9 @@ static void add_settings(uint64_t* hash, const struct hair_scene* scene)
         uint32_t count = 0;
         HAIR_FUZZ_CHECK(size <= sizeof numbers);
         memcpy(numbers, value, size);
-        // The scale may be unset, which is the only infinite value.
-        bool is_unset = !strcmp(setting.key, "scale") && numbers[0] == HAIR_SCALE_GUESSED;
+        // The scale and the physics of groups may be unset. No other value is infinite.
+        bool is_unset = (!strcmp(setting.key, "scale") && numbers[0] == HAIR_SCALE_GUESSED) ||
+                        (setting.group >= 0 && numbers[0] == HAIR_GROUP_INHERITED);
         if (setting.member.type == HAIR_MEMBER_FLOAT) {
             if (!is_unset) add_floats(hash, numbers, size / sizeof *numbers);
         } else {

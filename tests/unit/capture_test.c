@@ -56,6 +56,12 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set root=held", "not one of: clamped, hinged, free"},
         {"-o $D/a.png --set thread_mapping=",
          "thread_mapping is empty, not one of: auto, workgroup_per_guide, thread_per_guide"},
+        {"-o $D/a.png --set groups.8.radius=1", "no setting groups.8.radius; groups are 0 to 7"},
+        {"-o $D/a.png --set groups.1.damping=1", "no setting groups.1.damping"},
+        {"-o $D/a.png --set groups.1.radius=5",
+         "groups.1.radius: hair_group_look.radius is 5, not in [0, 4]"},
+        {"-o $D/a.png --set groups.1.radius=2",
+         "groups.1.radius is set, but the groups of the haircut are [0, 0]"},
         {"-o $D/a.png --set preset=dry", "not one of: natural, fine, thick, wet, frizzy"},
         {"-o $D/a.png --set look=dry", "not one of: natural, straight, wavy, curly, coily, frizzy, short"},
         {"-o $D/a.png --set color=plaid", "not one of: brown, dark_brown, black, blond,"},
@@ -320,6 +326,27 @@ static void scene_files_and_options_are_equivalent(void** state)
         "");
 }
 
+static void settings_of_a_group_apply_to_its_strands(void** state)
+{
+    (void)state;
+    static const char* const sets[] = {"", "--set tip_mass=2", "--set groups.0.tip_mass=2",
+                                       "--set groups.0.radius=3",
+                                       "--set groups.0.color.enabled=on --set groups.0.color.tip.b=1"};
+    expect(0,
+           "echo '{\"style\": \"bob\", \"settings\": {\"groups.0.tip_mass\": 2}}' >$D/s.json && "
+           "echo '{\"style\": \"bob\"}' >$D/t.json",
+           "");
+    for (int i = 0; i < 5; ++i) {
+        char command[256];
+        snprintf(command, sizeof command, "$T $D/t.json " FEW " --frames 1:2 --hash %s >$D/h%d", sets[i], i);
+        expect(0, command, "");
+    }
+    expect(0, "cmp $D/h1 $D/h2 && $T $D/s.json " FEW " --frames 1:2 --hash | cmp - $D/h1", "");
+    expect(0, "cat $D/h0 $D/h1 $D/h3 $D/h4 | grep pixels | sort -u | wc -l", "4");
+    expect(4, "$T " SMALL " --frames 0:1 --hash --solver redblack --set groups.0.tip_mass=2",
+           "physics of groups cannot differ with the solver redblack");
+}
+
 static void haircut_files_are_found_beside_their_scene_and_framed(void** state)
 {
     (void)state;
@@ -375,6 +402,7 @@ int main(void)
         cmocka_unit_test(colliders_follow_their_keyframes),
         cmocka_unit_test(each_solver_can_be_selected),
         cmocka_unit_test(scene_files_and_options_are_equivalent),
+        cmocka_unit_test(settings_of_a_group_apply_to_its_strands),
         cmocka_unit_test(haircut_files_are_found_beside_their_scene_and_framed),
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),

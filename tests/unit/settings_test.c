@@ -13,6 +13,8 @@
 #undef COUNT
 #include "tools/common/settings.c"
 
+#include "lib/sim/sim.h"
+
 static void every_choice_has_a_name_that_sets_it(void** state)
 {
     (void)state;
@@ -94,6 +96,44 @@ static void settings_of_the_tools_have_their_own_values(void** state)
     assert_false(hair_settings_set("test", &settings, "", "1"));
 }
 
+static void settings_of_a_group_leave_other_groups_inherited(void** state)
+{
+    (void)state;
+    struct hair_settings settings = hair_settings_default();
+    assert_true(hair_settings_set("test", &settings, "groups.3.tip_mass", "0.5"));
+    assert_true(hair_settings_set("test", &settings, "groups.7.color.enabled", "on"));
+    assert_true(hair_settings_set("test", &settings, "groups.0.color.tip.b", "0.25"));
+    assert_true(settings.groups[3].physics.tip_mass == 0.5f);
+    assert_true(settings.groups[3].physics.shape.stiffness_tip == HAIR_GROUP_INHERITED);
+    assert_true(settings.groups[2].physics.tip_mass == HAIR_GROUP_INHERITED);
+    assert_true(settings.physics.tip_mass == 0);
+    assert_true(settings.groups[7].look.color.enabled && !settings.groups[0].look.color.enabled);
+    assert_true(settings.groups[0].look.color.tip[2] == 0.25f);
+    assert_false(hair_settings_set("test", &settings, "groups.3.tip_mass", "inf"));
+    assert_false(hair_settings_set("test", &settings, "groups.3.radius", "5"));
+    assert_false(hair_settings_set("test", &settings, "groups.8.radius", "1"));
+    assert_false(hair_settings_set("test", &settings, "groups.3.damping", "1"));
+    assert_true(settings.groups[3].physics.tip_mass == 0.5f);
+}
+
+// Compare the keys of groups with the members that the library copies for each group.
+static void groups_have_keys_of_the_members_that_can_differ(void** state)
+{
+    (void)state;
+    hair_member members[MAX_MEMBERS];
+    uint32_t count = hair_describe(HAIR_STRUCT_PHYSICS, members, MAX_MEMBERS, sizeof *members), own = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        hair_physics from, to;
+        memset(&from, 1, sizeof from);
+        memset(&to, 2, sizeof to);
+        hair_sim_copy_group_members(&from, &to);
+        bool is_copied = *((const char*)&to + members[i].offset) == 1;
+        if (can_differ_by_group(&members[i]) != is_copied) fail_msg("%s", members[i].name);
+        own += is_copied;
+    }
+    assert_in_range(own, 7, count - 1);
+}
+
 // Check rows that outlive their member when the member is renamed or removed.
 static void every_row_of_settings_is_about_a_member(void** state)
 {
@@ -108,7 +148,7 @@ static void every_row_of_settings_is_about_a_member(void** state)
     }
     for (size_t at = 0; hair_setting_next(&at, &setting); ++keys)
         if (find_extra(setting.key)) fail_msg("%s is a setting twice", setting.key);
-    assert_in_range(keys, 150, MAX_SETTINGS);
+    assert_in_range(keys, 250, MAX_SETTINGS);
 }
 
 int main(void)
@@ -119,6 +159,8 @@ int main(void)
         cmocka_unit_test(values_that_one_struct_accepts_are_set_and_others_refused),
         cmocka_unit_test(curves_have_evenly_spaced_points_of_their_text),
         cmocka_unit_test(settings_of_the_tools_have_their_own_values),
+        cmocka_unit_test(settings_of_a_group_leave_other_groups_inherited),
+        cmocka_unit_test(groups_have_keys_of_the_members_that_can_differ),
         cmocka_unit_test(every_row_of_settings_is_about_a_member),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

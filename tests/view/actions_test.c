@@ -180,6 +180,26 @@ static void panels_find_change_and_reset_settings(void** state)
     expect(0, "grep -q '\"style\": \"bob\"' $D/3.json", "");
 }
 
+// The panel shows the groups of the haircut only. The button of an inherited value sets the value.
+static void panels_show_settings_of_groups(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    snprintf(script, sizeof script,
+             "key P\nsave %s/0.json\nclick Search\ntext groups.0\nwait 2\nclick groups.0.tip_mass\n"
+             "drag groups.0.radius 30 0\nsave %s/1.json\nclick Reset groups.0.tip_mass\n"
+             "click Reset groups.0.radius\nsave %s/2.json\n",
+             folder, folder, folder);
+    write_file("s", script);
+    expect(0, RUN "80", "");
+    expect(0, "grep -q '\"groups.0.tip_mass\": \"0\"' $D/1.json && grep -q '\"groups.0.radius\"' $D/1.json",
+           "");
+    expect(0, "cmp $D/0.json $D/2.json", "");
+    write_file("s", "key P\nclick Search\ntext groups.1\nwait 2\nclick groups.1.tip_mass\n");
+    expect(4, RUN "80", "groups.1.tip_mass");
+}
+
 // The held vertex must start near the cursor and follow it.
 static void grabbed_hair_follows_the_cursor(void** state)
 {
@@ -310,6 +330,7 @@ int main(void)
         cmocka_unit_test(dropped_mesh_becomes_a_collider),
 #endif
         cmocka_unit_test(panels_find_change_and_reset_settings),
+        cmocka_unit_test(panels_show_settings_of_groups),
     };
     return cmocka_run_group_tests(tests, start, hair_test_shell_finish);
 }

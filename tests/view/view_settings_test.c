@@ -16,7 +16,8 @@
 static char keys[MAX_KEYS][64];
 
 // Read the keys of the rows from --help. Elements of a vector or colour have one row. A scale that
-// is guessed is a button, and many guides or followers would take too long.
+// is guessed is a button, and many guides or followers would take too long. Settings of groups
+// have a row for each group instead.
 static int read_keys(void)
 {
     char path[256];
@@ -24,7 +25,7 @@ static int read_keys(void)
         0,
         "$T --help | sed -n '/^Settings for/,$p' | grep '\\[' | grep -v 'One of' | "
         "awk '{print $1}' | sed -E 's/\\.([xyzrgb]|white|tinted|along|across|round)$//' | sort -u | "
-        "grep -vxE 'scale|guides|followers|guide_vertices|vertices' >$D/keys",
+        "grep -vxE 'scale|guides|followers|guide_vertices|vertices|groups\\.N\\..*' >$D/keys",
         "");
     snprintf(path, sizeof path, "%s/keys", hair_test_folder());
     FILE* file = fopen(path, "r");

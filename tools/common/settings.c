@@ -8,6 +8,7 @@
 
 #define MAX_EXAMPLE ((size_t)16 << 20) // bytes
 #define COUNT(rows) (sizeof(rows) / sizeof *(rows))
+#define GROUPS "groups." // beginning of the keys of groups of strands
 
 struct hair_settings hair_settings_default(void)
 {
@@ -22,6 +23,13 @@ struct hair_settings hair_settings_default(void)
                                      .light = hair_light_default(),
                                      .lod = hair_lod_default()};
     settings.import.scale = HAIR_SCALE_GUESSED;
+    for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g)
+        settings.groups[g] = (struct hair_group_settings){hair_physics_default(), hair_group_look_default()};
+    const float inherited = HAIR_GROUP_INHERITED;
+    struct hair_setting setting;
+    for (size_t at = 0, size; hair_setting_next(&at, &setting);)
+        if (setting.group >= 0 && setting.kind == HAIR_STRUCT_PHYSICS)
+            memcpy(hair_setting_bytes(&setting, &settings, &size), &inherited, sizeof inherited);
     return settings;
 }
 
@@ -156,8 +164,13 @@ bool hair_settings_set(const char* tool, struct hair_settings* settings, const c
         spread(settings, &setting);
         return true;
     }
-    if (*sentence)
+    if (*sentence && !strncmp(key, GROUPS, strlen(GROUPS)))
+        hair_complain(tool, "%s: %s", key, sentence);
+    else if (*sentence)
         hair_complain(tool, "%s", sentence);
+    else if (!strncmp(key, GROUPS, strlen(GROUPS)))
+        hair_complain(tool, "there is no setting %s; groups are 0 to %d, and --help lists their settings",
+                      key, HAIR_MAX_STRAND_GROUPS - 1);
     else
         hair_complain(tool, "there is no setting %s; --help lists them", *key ? key : "without a name");
     return false;
@@ -203,7 +216,9 @@ void hair_settings_print(FILE* file)
                 extras[i].preset || extras[i].switch_at ? choices : "");
     }
     for (size_t at = 0; hair_setting_next(&at, &setting);) {
-        if (is_repeated(setting.key, at)) continue;
+        if (setting.group > 0 || is_repeated(setting.key, at)) continue;
+        // One line stands for the settings of all groups.
+        if (setting.group == 0) setting.key[strlen(GROUPS)] = 'N';
         hair_setting_read(&setting, &settings, text);
         if (setting.member.type == HAIR_MEMBER_BOOL)
             snprintf(text, sizeof text, "%s", strcmp(text, "true") ? "off" : "on");

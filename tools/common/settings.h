@@ -11,6 +11,13 @@
 #include <hair/hair_asset.h>
 
 #define HAIR_SCALE_GUESSED INFINITY // value of import.scale if none is given
+#define HAIR_GROUP_INHERITED INFINITY // value of a member of a group's physics if none is given
+
+// Settings of a group of strands.
+struct hair_group_settings {
+    hair_physics physics; // Only members that can differ by group are used.
+    hair_group_look look;
+};
 
 struct hair_settings {
     hair_import import;
@@ -23,6 +30,7 @@ struct hair_settings {
     hair_view view;
     hair_light light; // first light of the view
     hair_lod lod;
+    struct hair_group_settings groups[HAIR_MAX_STRAND_GROUPS];
     bool has_lod; // enables level of detail in views
     bool hides; // enables occlusion culling by the head, which is drawn before the hair
 };

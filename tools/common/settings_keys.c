@@ -8,7 +8,7 @@
 #define COUNT(rows) (sizeof(rows) / sizeof *(rows))
 #define AT(member) offsetof(struct hair_settings, member)
 #define MAX_MEMBERS 64 // of a struct
-#define MAX_SETTINGS 256
+#define MAX_SETTINGS 512
 
 // Structs in hair_settings in the order of --help, and the beginning of the keys of their members.
 static const struct {
@@ -85,9 +85,9 @@ static void write_name(char out[64], const char* prefix, const char* name, const
              is_element ? setting->member.elements[setting->element] : "");
 }
 
-static void write_names(size_t owner, struct hair_setting* setting)
+static void write_names(const char* prefix, struct hair_setting* setting)
 {
-    const char *prefix = owners[owner].prefix, *key = setting->member.name;
+    const char* key = setting->member.name;
     for (size_t i = 0; i < COUNT(renamed); ++i)
         if (renamed[i].kind == setting->kind && !strcmp(renamed[i].member, key)) {
             prefix = "";
@@ -98,22 +98,49 @@ static void write_names(size_t owner, struct hair_setting* setting)
     write_name(setting->name, "", setting->member.name, setting);
 }
 
-static size_t make_settings(struct hair_setting out[MAX_SETTINGS])
+// Return whether hair_set_group_physics() accepts a member of hair_physics that differs by group.
+static bool can_differ_by_group(const hair_member* member)
+{
+    return !strcmp(member->group, "shape") || !strcmp(member->name, "fiber.youngs_modulus") ||
+           !strcmp(member->name, "tip_mass");
+}
+
+// Append the settings of a struct at the offset and of the group of `like`.
+static size_t add_settings(const struct hair_setting* like, const char* prefix, struct hair_setting* out)
 {
     hair_member members[MAX_MEMBERS];
+    uint32_t count = hair_describe(like->kind, members, MAX_MEMBERS, sizeof *members);
+    bool is_physics_of_group = like->group >= 0 && like->kind == HAIR_STRUCT_PHYSICS;
     size_t made = 0;
-    for (size_t owner = 0; owner < COUNT(owners); ++owner) {
-        hair_struct kind = owners[owner].kind;
-        uint32_t count = hair_describe(kind, members, MAX_MEMBERS, sizeof *members);
-        for (uint32_t i = 0; i < count; ++i) {
-            if (!has_key(kind, &members[i])) continue;
-            uint32_t elements = members[i].elements ? members[i].count : 1;
-            for (uint32_t k = 0; k < elements; ++k) {
-                out[made] = (struct hair_setting){
-                    .kind = kind, .desc = owners[owner].desc, .member = members[i], .element = k};
-                write_names(owner, &out[made++]);
-            }
+    for (uint32_t i = 0; i < count; ++i) {
+        if (!has_key(like->kind, &members[i])) continue;
+        if (is_physics_of_group && !can_differ_by_group(&members[i])) continue;
+        uint32_t elements = members[i].elements ? members[i].count : 1;
+        for (uint32_t k = 0; k < elements; ++k) {
+            out[made] = *like;
+            out[made].member = members[i];
+            out[made].element = k;
+            write_names(prefix, &out[made++]);
         }
+    }
+    return made;
+}
+
+static size_t make_settings(struct hair_setting out[MAX_SETTINGS])
+{
+    size_t made = 0;
+    for (size_t i = 0; i < COUNT(owners); ++i) {
+        struct hair_setting like = {.kind = owners[i].kind, .desc = owners[i].desc, .group = -1};
+        made += add_settings(&like, owners[i].prefix, out + made);
+    }
+    for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g) {
+        char prefix[16];
+        snprintf(prefix, sizeof prefix, "groups.%d.", g);
+        struct hair_setting like = {.kind = HAIR_STRUCT_PHYSICS, .desc = AT(groups[g].physics), .group = g};
+        made += add_settings(&like, prefix, out + made);
+        like.kind = HAIR_STRUCT_GROUP_LOOK;
+        like.desc = AT(groups[g].look);
+        made += add_settings(&like, prefix, out + made);
     }
     return made;
 }
@@ -147,7 +174,8 @@ void hair_setting_read(const struct hair_setting* setting, const struct hair_set
 {
     hair_result result = hair_get_member(NULL, setting->kind, (const char*)settings + setting->desc,
                                          hair_struct_size(setting->kind), setting->name, text, 256, NULL);
-    if (result) snprintf(text, 256, "guessed"); // Only HAIR_SCALE_GUESSED is out of range.
+    // Only HAIR_SCALE_GUESSED and HAIR_GROUP_INHERITED are out of range.
+    if (result) snprintf(text, 256, setting->group < 0 ? "guessed" : "inherited");
 }
 
 bool hair_setting_is_in_range(const struct hair_settings* settings, const char* key)

@@ -12,6 +12,7 @@ struct hair_setting {
     hair_member member;
     uint32_t element; // 0 for a whole member
     char name[64]; // for hair_set_member()
+    int group; // group of strands, or -1 for the whole haircut
 };
 
 // Return the next setting from position *at on, or false at the end. *at starts with 0. Several
@@ -25,7 +26,7 @@ void* hair_setting_bytes(const struct hair_setting* setting, struct hair_setting
 bool hair_setting_write(const hair_host* host, const struct hair_setting* setting,
                         struct hair_settings* settings, const char* text);
 
-// Write the text of a setting.
+// Write the text of a setting. It is "guessed" or "inherited" for a setting without a value.
 void hair_setting_read(const struct hair_setting* setting, const struct hair_settings* settings,
                        char text[256]);
 

@@ -11,6 +11,7 @@ extern "C" {
 #include "tools/common/file.h"
 #include "tools/common/frame_writer.h"
 #include "tools/common/groom_source.h"
+#include "tools/common/groups.h"
 #include "tools/common/render.h"
 #include "tools/common/scene.h"
 #include "tools/common/scene_write.h"

@@ -77,6 +77,7 @@ hair_result create_hair(view_session& session, const hair_scene& scene, hair_gro
     desc.look = &scene.settings.look;
     hair_motion_at(&scene.motion, (float)session.time, desc.transform);
     hair_result result = hair_create(session.context, groom, &desc, out);
+    if (!result) result = hair_groups_apply(*out, &scene.settings, nullptr);
     if (!result) result = hair_set_wind(*out, &wind);
     return result;
 }
@@ -122,6 +123,8 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
     if (!result && differs(old.settings.look, scene.settings.look))
         result = hair_set_look(session.hair, &scene.settings.look);
     session.look = scene.settings.look;
+    if (!result) result = hair_groups_apply(session.hair, &scene.settings, &old.settings);
+    if (!result && session.twin) result = hair_groups_apply(session.twin, &scene.settings, &old.settings);
     if (!result && (differs(old.settings.wind, scene.settings.wind) || differs(old.wind, scene.wind))) {
         hair_wind wind = hair_scene_wind_of(&scene.settings, &scene.wind);
         result = hair_set_wind(session.hair, &wind);
@@ -130,13 +133,14 @@ hair_result change_hair(view_session& session, const hair_scene& scene)
     return result;
 }
 
-// Restore the settings of the instance after a refusal.
-void restore(view_session& session)
+// Restore the settings of the instance after a refusal of the settings of `scene`.
+void restore(view_session& session, const hair_scene& scene)
 {
     hair_wind wind = hair_scene_wind_of(&session.applied->settings, &session.applied->wind);
     hair_set_physics(session.hair, &session.applied->settings.physics);
     hair_set_look(session.hair, &session.applied->settings.look);
     session.look = session.applied->settings.look;
+    hair_groups_apply(session.hair, &session.applied->settings, &scene.settings);
     hair_set_wind(session.hair, &wind);
 }
 
@@ -202,7 +206,7 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
         code = remake(session, scene, with_groom);
     } else {
         code = hair_exit_for(change_hair(session, scene));
-        if (code) restore(session);
+        if (code) restore(session, scene);
     }
     if (code) return code;
     bool has_other_mesh =

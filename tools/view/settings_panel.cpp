@@ -26,9 +26,10 @@ struct row {
     int elements; // 1 for a row of one setting
 };
 
-const char* heading_of(hair_struct kind)
+const char* heading_of(const hair_setting& setting)
 {
-    switch (kind) {
+    if (setting.group >= 0) return "Groups";
+    switch (setting.kind) {
     case HAIR_STRUCT_IMPORT:
     case HAIR_STRUCT_STYLE_DESC:
     case HAIR_STRUCT_GROOM_DESC: return "Cut";
@@ -94,6 +95,17 @@ bool show_slider(const hair_member& member, float* value)
     return ImGui::SliderFloat("##value", value, low, high, format.c_str(), flags);
 }
 
+// Show a button in place of a value that is guessed or inherited. The button sets the value.
+bool show_button(viewer& viewer, const row& row, float* value)
+{
+    const hair_setting& setting = row.setting;
+    *value = 1;
+    if (setting.group < 0) return ImGui::Button("guessed; set to 1");
+    memcpy(value, (const char*)&viewer.document.scene->settings.physics + setting.member.offset,
+           sizeof *value);
+    return ImGui::Button("inherited; set");
+}
+
 bool show_curve(float* values, uint32_t count, const hair_member& member)
 {
     bool is_changed = false;
@@ -149,8 +161,7 @@ void show_floats(viewer& viewer, const row& row)
         if (ImGui::DragScalarN("##value", ImGuiDataType_Float, values, row.elements, speed, &low, &high,
                                "%.3g", ImGuiSliderFlags_AlwaysClamp))
             set(viewer, row, values, row.elements);
-    } else if (isfinite(values[0]) ? show_slider(member, values) : ImGui::Button("guessed; set to 1")) {
-        if (!isfinite(values[0])) values[0] = 1;
+    } else if (isfinite(values[0]) ? show_slider(member, values) : show_button(viewer, row, values)) {
         set(viewer, row, values, 1);
     }
 }
@@ -234,12 +245,14 @@ void reset(viewer& viewer, const row& row)
     }
 }
 
-// Return the key without the name of its group, which is shown above.
+// Return the key without the names of its groups, which are shown above.
 const char* short_key(const row& row)
 {
     size_t length = strlen(row.setting.member.group);
-    const char* at = length ? strstr(row.key.c_str(), row.setting.member.group) : nullptr;
-    return at && at[length] == '.' ? at + length + 1 : row.key.c_str();
+    const char* key = row.key.c_str();
+    if (row.setting.group >= 0) key += strlen("groups.N.");
+    const char* at = length ? strstr(key, row.setting.member.group) : nullptr;
+    return at && at[length] == '.' ? at + length + 1 : key;
 }
 
 void show_row(viewer& viewer, const row& row)
@@ -261,17 +274,27 @@ void show_row(viewer& viewer, const row& row)
     ImGui::PopID();
 }
 
-void show_group(const row& row)
+// Return the group of members of a row, after its group of strands if it has one.
+std::string group_of(const row& row)
 {
-    if (!*row.setting.member.group) return;
+    std::string group = row.setting.member.group;
+    if (row.setting.group < 0) return group;
+    return "group " + std::to_string(row.setting.group) + (group.empty() ? "" : ", " + group);
+}
+
+void show_group(const std::string& group)
+{
+    if (group.empty()) return;
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    ImGui::TextDisabled("%s", row.setting.member.group);
+    ImGui::TextDisabled("%s", group.c_str());
     ImGui::TableNextRow();
 }
 
 bool is_shown(viewer& viewer, const row& row)
 {
+    // Groups that the haircut does not have are hidden.
+    if (row.setting.group >= (int)viewer.session.info.group_count) return false;
     bool is_found =
         contains(row.key.c_str(), viewer.filter) || contains(row.setting.member.about, viewer.filter);
     return is_found && (!viewer.only_changed || is_changed(viewer, row));
@@ -287,9 +310,9 @@ void show_rows(viewer& viewer, const char* heading)
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * ImGui::GetFontSize());
     std::string group;
     for (const row& row : rows()) {
-        if (strcmp(heading_of(row.setting.kind), heading) || !is_shown(viewer, row)) continue;
-        if (group != row.setting.member.group) show_group(row);
-        group = row.setting.member.group;
+        if (strcmp(heading_of(row.setting), heading) || !is_shown(viewer, row)) continue;
+        if (group != group_of(row)) show_group(group_of(row));
+        group = group_of(row);
         show_row(viewer, row);
     }
     ImGui::EndTable();
@@ -300,7 +323,7 @@ void show_found(viewer& viewer, const char* heading)
 {
     bool has_rows = false;
     for (const row& row : rows())
-        has_rows |= !strcmp(heading_of(row.setting.kind), heading) && is_shown(viewer, row);
+        has_rows |= !strcmp(heading_of(row.setting), heading) && is_shown(viewer, row);
     if (!has_rows) return;
     ImGui::TextDisabled("%s", heading);
     ImGui::Separator();
@@ -337,7 +360,7 @@ void update_usual(viewer& viewer)
 
 void view_settings_panel(viewer& viewer)
 {
-    static const char* const headings[] = {"Physics", "Look", "Flow", "View", "LOD", "Cut"};
+    static const char* const headings[] = {"Physics", "Look", "Flow", "View", "LOD", "Cut", "Groups"};
     update_usual(viewer);
     ImGui::SetNextItemWidth(-9 * ImGui::GetFontSize());
     ImGui::InputTextWithHint("##search", "search settings", &viewer.filter);
@@ -351,7 +374,9 @@ void view_settings_panel(viewer& viewer)
         for (const char* heading : headings) show_found(viewer, heading);
         ImGui::EndChild();
     } else if (ImGui::BeginTabBar("headings")) {
-        for (const char* heading : headings) show_tab(viewer, heading);
+        // A haircut of one group has no tab for groups, but the search finds the group.
+        for (const char* heading : headings)
+            if (strcmp(heading, "Groups") || viewer.session.info.group_count > 1) show_tab(viewer, heading);
         ImGui::EndTabBar();
     }
 }
