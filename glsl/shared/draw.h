@@ -131,7 +131,7 @@ struct hair_draw_params {
     hair_uint guides;         // Number of guides.
     hair_uint shape_vertices; // Vertices of a follower's shape. 0 if followers have none.
     hair_uint encode; // hair_encoding.
-    hair_uint unused0;
+    float     max_radius; // Maximum radius of a drawn strand, m.
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

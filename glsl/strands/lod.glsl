@@ -4,7 +4,6 @@
 
 #define MIN_SEGMENTS 2.0
 #define GIVE 1.1     // Factor that allows for stretch and for followers that leave their guides.
-#define WIDEST 16.0   // Maximum factor of the width by taper and maps.
 #define OCCLUDED_BY 0.3 // Depth of the line of sight in the skull, in radii.
 
 struct hair_detail {
@@ -61,7 +60,7 @@ hair_detail find_detail(uint guide, vec4 patch_)
     if (draw.culls == 0u && draw.pixels_per_unit == 0.0)
         return hair_detail(fraction, segments, pow(max(fraction, 1e-6), -draw.width_power));
     vec3  root  = guide_at(guide, 0u);
-    float reach = WIDEST * draw.radius + GIVE * draw.strand.max_width * patch_.x +
+    float reach = draw.max_radius + GIVE * draw.strand.max_width * patch_.x +
                   draw.strand.max_stray * patch_.y + draw.strand.max_offset;
     if (draw.culls > 0u && !is_in_view(root, reach)) return hair_detail(0.0, 1.0, 1.0);
     if (draw.pixels_per_unit > 0.0) {

@@ -4,9 +4,10 @@
 
 #include <string.h>
 
-// Buffers that depend on the looks of groups, with their textures. 0 keeps the present ones.
+// Buffers that depend on the looks of groups. 0 keeps the present ones.
 struct group_buffers {
-    GLuint followers[2], colors[2];
+    struct hair_follower_buffer followers;
+    GLuint colors[2]; // Buffer and its texture.
 };
 
 static uint32_t group_of(const hair_groom* groom, uint32_t follower)
@@ -15,7 +16,7 @@ static uint32_t group_of(const hair_groom* groom, uint32_t follower)
 }
 
 static hair_result make_group_followers(const hair_instance* hair, const hair_group_look* looks,
-                                        GLuint out[2])
+                                        struct hair_follower_buffer* out)
 {
     const hair_groom* groom = hair->groom;
     const hair_host* host = &hair->context->host;
@@ -88,9 +89,9 @@ static void use_buffers(hair_instance* hair, struct group_buffers* made, const h
                         bool changes_colors)
 {
     struct hair_gl* gl = &hair->context->gl;
-    if (made->followers[0]) hair_geometry_swap_followers(&hair->geometry, made->followers);
+    if (made->followers.buffer) hair_geometry_swap_followers(&hair->geometry, &made->followers);
     if (changes_colors) hair_lighting_swap_colors(&hair->lighting, made->colors, has_colors(looks));
-    hair_gl_free_array(gl, &made->followers[0], &made->followers[1]);
+    hair_geometry_free_followers(gl, &made->followers);
     hair_gl_free_array(gl, &made->colors[0], &made->colors[1]);
     hair_geometry_invalidate(&hair->geometry);
     hair_draw_free_reflectance(&hair->renderer);
@@ -111,14 +112,14 @@ hair_result hair_instance_set_group_looks(hair_instance* hair,
     bool changes_colors = !have_equal_colors(looks, hair->group_looks);
     hair_result result = HAIR_OK;
     if (!have_equal_radii(looks, hair->group_looks))
-        result = make_group_followers(hair, looks, made.followers);
+        result = make_group_followers(hair, looks, &made.followers);
     if (!result && changes_colors) result = make_group_colors(hair, looks, made.colors);
     if (result) {
-        hair_gl_free_array(gl, &made.followers[0], &made.followers[1]);
+        hair_geometry_free_followers(gl, &made.followers);
         return result;
     }
     memcpy(hair->group_looks, looks, size);
-    if (made.followers[0] || changes_colors) use_buffers(hair, &made, looks, changes_colors);
+    if (made.followers.buffer || changes_colors) use_buffers(hair, &made, looks, changes_colors);
     return HAIR_OK;
 }
 

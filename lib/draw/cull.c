@@ -4,7 +4,6 @@
 #include <string.h>
 
 #define GIVE 1.1f // Allowance for stretched hair, as in glsl/strands/lod.glsl.
-#define WIDEST 16.0 // Maximum factor by which maps and the groom widen a strand.
 #define EDGE 8.0 // Margin in pixels, because ribbons are widened to the pixels that they touch.
 
 double hair_draw_edge(float pixels, float jitter)
@@ -31,14 +30,23 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
     }
 }
 
-double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* lod)
+// Return the maximum factor by which a level of detail widens strands.
+static double max_widening(const hair_lod* lod)
 {
-    double width = (double)(renderer->geometry->look.strand.radius *
-                            hair_curve_max(&renderer->geometry->look.strand.taper));
-    if (!lod) return width;
-    return width *
-           pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
+    if (!lod) return 1;
+    return pow(fmax((double)(lod->strand_fraction * (lod->per_patch ? lod->min_strand_fraction : 1)), 1e-6),
                -(double)lod->width_exponent);
+}
+
+double hair_draw_max_radius(const struct hair_renderer* renderer, const hair_lod* lod)
+{
+    return hair_geometry_max_radius(renderer->geometry) * max_widening(lod);
+}
+
+double hair_draw_max_look_radius(const struct hair_renderer* renderer, const hair_lod* lod)
+{
+    const hair_look* look = &renderer->geometry->look;
+    return (double)(look->strand.radius * hair_curve_max(&look->strand.taper)) * max_widening(lod);
 }
 
 // Return how far hair reaches beyond the box of roots, in metres.
@@ -48,7 +56,7 @@ static double hair_reach_beyond(const struct hair_renderer* renderer, const hair
     double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump.width), 1) * renderer->extent.reach);
     return reach +
            (double)(hair_look_max_stray(look) * renderer->extent.length + hair_look_max_offset(look)) +
-           WIDEST * hair_draw_thickest(renderer, lod);
+           hair_draw_max_radius(renderer, lod);
 }
 
 static hair_vec3 corner_of(const struct hair_extent* e, double reach, int i)

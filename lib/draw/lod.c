@@ -99,6 +99,7 @@ void hair_draw_write_lod(const struct hair_renderer* renderer, const struct hair
                          const hair_view* view, struct hair_draw_params* out)
 {
     const hair_lod* lod = view->lod;
+    out->max_radius = (float)hair_draw_max_radius(renderer, lod);
     if (!lod) return;
     out->chunks = hair_geometry_chunk_count(renderer->geometry, find_fraction(renderer, lod));
     out->strand_fraction = lod->strand_fraction;

@@ -109,7 +109,7 @@ bool hair_draw_find_occlusion(const struct hair_renderer* renderer, const struct
     for (int i = 2; i < 16; i += 4) matrix[i] *= out->sign;
     memcpy(&out->to_texture, matrix, sizeof matrix);
     out->max_size = fmaxf(out->sign * range[0], out->sign * range[1]);
-    out->thick = (float)hair_draw_thickest(renderer, view->lod);
+    out->thick = (float)hair_draw_max_look_radius(renderer, view->lod);
     out->beside_x = BESIDE / fmaxf(viewport[2], 1) + 1 / (float)out->width;
     out->beside_y = BESIDE / fmaxf(viewport[3], 1) + 1 / (float)out->height;
     out->clips = !is_given(view->occluder_matrix);

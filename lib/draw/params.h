@@ -42,8 +42,10 @@ void hair_draw_write_slice(const struct hair_field_box* box, hair_slice slice, f
 // Return the edge of a picture of `pixels` as a multiple of w, with a margin for strands that reach
 // into it. Defined in cull.c.
 double hair_draw_edge(float pixels, float jitter);
-// Return the maximum width of strands in metres, before maps and the groom widen some of them.
-double hair_draw_thickest(const struct hair_renderer* renderer, const hair_lod* lod);
+// Return the maximum radius of drawn strands in metres.
+double hair_draw_max_radius(const struct hair_renderer* renderer, const hair_lod* lod);
+// Return the maximum radius in metres before the groom and groups widen some strands.
+double hair_draw_max_look_radius(const struct hair_renderer* renderer, const hair_lod* lod);
 // Shrink `window` to the part that hair can be in while its roots are attached. `window` holds the
 // lower and the upper corner in texture coordinates.
 void hair_draw_find_window(const struct hair_renderer* renderer, const struct hair_pose* head,

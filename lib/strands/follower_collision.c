@@ -83,7 +83,8 @@ static void run_collision(struct hair_geometry* geometry, const struct hair_coll
     uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
     if (by_group) {
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, geometry->smooth.buffer);
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1, &geometry->follower);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1,
+                            &geometry->follower.buffer);
     }
     hair_gl_run(gl, pass_of(geometry), (geometry->followers + each - 1) / each);
     // Work groups beyond the end of the list return at once.

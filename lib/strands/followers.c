@@ -21,6 +21,12 @@ uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double 
     return 1 + (uint32_t)fmax(mean, max);
 }
 
+double hair_geometry_max_radius(const struct hair_geometry* geometry)
+{
+    const hair_look* look = &geometry->look;
+    return (double)(look->strand.radius * hair_curve_max(&look->strand.taper) * geometry->follower.max_width);
+}
+
 // Return the weights of the map sets. A fractional `set` blends between two neighbours.
 static hair_vec4 weigh_sets(float set, uint32_t sets)
 {
@@ -60,7 +66,7 @@ void hair_geometry_bind(struct hair_geometry* geometry)
     GLuint textures[] = {geometry->smooth.texture[0],
                          geometry->smooth.texture[1],
                          geometry->smooth.texture[2],
-                         geometry->follower_texture,
+                         geometry->follower.texture,
                          geometry->patch_texture,
                          0,
                          geometry->follower_collision.hit_texture,

@@ -23,10 +23,10 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
     HAIR_ASSERT(0 < geometry->max_isolines);
     HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
-    GLuint made[2] = {0};
+    struct hair_follower_buffer made = {0};
     HAIR_TRY(
-        hair_geometry_make_followers(geometry, hair_groom_follower_bytes(groom), groom->followers, made));
-    hair_geometry_swap_followers(geometry, made);
+        hair_geometry_make_followers(geometry, hair_groom_follower_bytes(groom), groom->followers, &made));
+    hair_geometry_swap_followers(geometry, &made);
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
@@ -44,28 +44,45 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_geometry_free_uvs(geometry);
     hair_root_bindings_release(geometry->root_bindings);
     geometry->root_bindings = NULL;
-    hair_gl_free_array(gl, &geometry->follower, &geometry->follower_texture);
+    hair_geometry_free_followers(gl, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
 }
 
+static float find_max_width(uint32_t count, const struct hair_follower* followers)
+{
+    float width = 0;
+    for (uint32_t i = 0; i < count; ++i) width = fmaxf(width, followers[i].offset[0].w);
+    return width;
+}
+
 hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
-                                         const struct hair_follower* followers, GLuint out[2])
+                                         const struct hair_follower* followers,
+                                         struct hair_follower_buffer* out)
 {
     struct hair_gl* gl = geometry->gl;
-    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", size, followers, &out[0]));
-    hair_result result = hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, out[0], &out[1]);
-    if (result) hair_gl_free_array(gl, &out[0], &out[1]);
+    struct hair_follower_buffer made = {.max_width = find_max_width(geometry->followers, followers)};
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair followers", size, followers, &made.buffer));
+    hair_result result =
+        hair_gl_buffer_texture(gl, "hair followers", GL_RGBA32UI, made.buffer, &made.texture);
+    if (result)
+        hair_geometry_free_followers(gl, &made);
+    else
+        *out = made;
     return result;
 }
 
-void hair_geometry_swap_followers(struct hair_geometry* geometry, GLuint followers[2])
+void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers)
 {
-    GLuint was[2] = {geometry->follower, geometry->follower_texture};
-    geometry->follower = followers[0], geometry->follower_texture = followers[1];
-    followers[0] = was[0], followers[1] = was[1];
+    struct hair_follower_buffer was = geometry->follower;
+    geometry->follower = *followers, *followers = was;
     geometry->bound_run = geometry->smooth.runs - 1; // Their roots have not moved with the scalp.
+}
+
+void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers)
+{
+    hair_gl_free_array(gl, &followers->buffer, &followers->texture);
 }
 
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look)

@@ -10,13 +10,19 @@
 
 #include <stdbool.h>
 
+// Buffer of followers and of their shapes.
+struct hair_follower_buffer {
+    GLuint buffer;
+    GLuint texture; // Buffer texture of `buffer`, for stages without storage buffers.
+    float max_width; // Maximum factor of the look's radius by the groom and by groups.
+};
+
 struct hair_geometry {
     struct hair_gl* gl;
     struct hair_smooth smooth; // Smoothed guides.
     hair_look look; // Look after hair_look_apply_wetness().
-    GLuint follower, patch; // Buffers of followers and of patches.
-    // Buffer textures of `follower` and `patch`, for stages without storage buffers.
-    GLuint follower_texture, patch_texture;
+    struct hair_follower_buffer follower;
+    GLuint patch, patch_texture; // Buffer of patches, and its buffer texture.
     GLuint params; // Uniform buffer of hair_draw_params, which each user writes before its passes.
     uint32_t followers, patches, smooth_vertices, guides, shape_vertices;
     uint32_t max_isolines; // Maximum number of isolines in a patch.
@@ -44,11 +50,13 @@ void hair_geometry_destroy(struct hair_geometry* geometry);
 // Set the look, after hair_look_apply_wetness(). A different look outdates follower collision and
 // the vertex cache.
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look);
-// Make a buffer of followers and their shapes, with its texture, as of the groom.
+// Make a buffer of followers and their shapes as in the groom.
 hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, size_t size,
-                                         const struct hair_follower* followers, GLuint out[2]);
-// Exchange the buffer of followers and its texture.
-void hair_geometry_swap_followers(struct hair_geometry* geometry, GLuint followers[2]);
+                                         const struct hair_follower* followers,
+                                         struct hair_follower_buffer* out);
+// Exchange the buffer of followers.
+void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
+void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers);
 // Record that the guides have moved. They are smoothed again before the next draw.
 void hair_geometry_invalidate_guides(struct hair_geometry* geometry);
 // Smooth the guides, and move the roots of followers with a skinned scalp, unless both are up to
@@ -70,6 +78,8 @@ size_t hair_geometry_count_vertices(const struct hair_geometry* geometry);
 uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double fraction);
 // Write the parameters that place all followers in full detail. All other parameters are 0.
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);
+// Return the maximum radius of strands in metres, before a level of detail widens them.
+double hair_geometry_max_radius(const struct hair_geometry* geometry);
 // Bind the buffers, textures and parameters that the vertices of followers are computed from.
 void hair_geometry_bind(struct hair_geometry* geometry);
 // Return `pass` with the styling features that the look needs.

@@ -31,18 +31,19 @@ static hair_look plain_look(void)
     return look;
 }
 
-// Add one strand of each group. Green colours of the groom are optional.
-static struct hair_test_scene start(struct hair_test* test, const hair_look* look, bool is_green)
+// Add one strand of each group with a radius. All distances are multiplied by `size`. Green colours
+// of the groom are optional.
+static struct hair_test_scene start_with(struct hair_test* test, const hair_look* look, float size,
+                                         const float radii[GROUPS], bool is_green)
 {
     static const uint8_t groups[GROUPS] = {0, 1, 2};
-    static const float radii[GROUPS] = {1, 1, 1};
     static const float green[3 * GROUPS] = {0, 1, 0, 0, 1, 0, 0, 1, 0};
     struct hair_test_scene scene = hair_test_scene_make(test, NULL);
     struct hair_test_strands strands = hair_test_strands_make(GROUPS, 4);
     for (int g = 0; g < GROUPS; ++g)
         for (int k = 0; k < 4; ++k)
             hair_store3(strands.positions + 3 * strands.vertex_count++,
-                        hair_v3(0.06f * (float)(g - 1), 0.1f - 0.06f * (float)k, 0));
+                        hair_v3(0.06f * size * (float)(g - 1), size * (0.1f - 0.06f * (float)k), 0));
     for (int g = 0; g < GROUPS; ++g) strands.vertices[strands.count++] = 4;
     strands.groups = groups;
     hair_groom_desc desc = hair_test_groom_desc(&test->host, &strands);
@@ -54,6 +55,12 @@ static struct hair_test_scene start(struct hair_test* test, const hair_look* loo
     hair_test_ok(test, hair_create(test->context, scene.groom, &of, &scene.hair));
     hair_test_strands_free(&strands);
     return scene;
+}
+
+static struct hair_test_scene start(struct hair_test* test, const hair_look* look, bool is_green)
+{
+    static const float radii[GROUPS] = {1, 1, 1};
+    return start_with(test, look, 1, radii, is_green);
 }
 
 static void set_radius(const struct hair_test_scene* scene, uint32_t group, float radius)
@@ -101,6 +108,44 @@ static void radius_of_a_group_is_a_factor_in_pixels(void** state)
     hair_test_ok(scene.test, hair_set_group_look(scene.hair, 1, NULL));
     measure_widths(&scene, width);
     assert_in_range(width[1], own - 1, own + 1);
+    hair_test_scene_free(&scene);
+}
+
+// Count the pixels of a picture by a view whose middle is `beside` metres from the middle strand.
+static int count_pixels(const struct hair_test_scene* scene, hair_render_path path, const hair_lod* lod,
+                        float beside)
+{
+    static float pixels[4 * SIDE * SIDE];
+    hair_view view = front(path);
+    view.view[12] = -beside, view.lod = lod;
+    hair_test_draw(scene, &view, SIDE, SIDE, 0, pixels, NULL);
+    int count = 0;
+    for (int i = 0; i < SIDE * SIDE; ++i) count += pixels[4 * i + 3] > 0;
+    return count;
+}
+
+// Draw a short strand beside the view that reaches into it, because taper, groom and group each
+// widen it. The strand covers the left tenth of the view's width.
+static void wide_groups_beside_the_view_are_drawn(void** state)
+{
+    static const float radii[GROUPS] = {0.1f, 0.1f, 2.8f};
+    const float size = 0.1f, by_taper = 4, by_group = 4, by_groom = 2.8f;
+    hair_look look = plain_look();
+    look.strand.radius = 0.01f;
+    look.strand.taper = hair_curve_line(by_taper, by_taper);
+    struct hair_test_scene scene = start_with(*state, &look, size, radii, false);
+    const float radius = by_taper * by_group * by_groom * look.strand.radius;
+    hair_lod lod = hair_lod_default();
+    lod.min_strand_fraction = 1;
+    for (int path = 0; path < HAIR_TEST_PATHS; ++path)
+        for (int detail = 0; detail < 2; ++detail) {
+            const hair_lod* own = detail ? &lod : NULL;
+            float beside = 0.06f * size + radius + 0.08f;
+            set_radius(&scene, 2, 1);
+            assert_int_equal(count_pixels(&scene, hair_test_paths[path], own, beside), 0);
+            set_radius(&scene, 2, by_group);
+            assert_true(count_pixels(&scene, hair_test_paths[path], own, beside) > 300);
+        }
     hair_test_scene_free(&scene);
 }
 
@@ -260,6 +305,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         HAIR_TEST(radius_of_a_group_is_a_factor_in_pixels),
+        HAIR_TEST(wide_groups_beside_the_view_are_drawn),
         HAIR_TEST(color_of_a_group_replaces_those_of_groom_and_look),
         HAIR_TEST(colors_of_groups_are_in_buffers_and_cost_nothing_unused),
         HAIR_TEST(followers_on_a_skinned_scalp_stay_with_it),
