@@ -17,6 +17,18 @@ static inline uint64_t hair_hash_bytes(uint64_t hash, const void* bytes, size_t 
     return hash;
 }
 
+// Continue the hash with `count` words of 32 bits, as the machine stores them, one word at a time.
+static inline uint64_t hair_hash_words(uint64_t hash, const void* words, size_t count)
+{
+    const unsigned char* at = (const unsigned char*)words;
+    for (size_t i = 0; i < count; ++i) {
+        uint32_t word;
+        memcpy(&word, at + 4 * i, sizeof word);
+        hash = (hash ^ word) * 0x100000001b3u;
+    }
+    return hash;
+}
+
 static inline uint32_t hair_read_u16(const unsigned char* at)
 {
     return at[0] | (uint32_t)at[1] << 8;

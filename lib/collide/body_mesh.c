@@ -2,7 +2,7 @@
 #include "lib/collide/body_mesh.h"
 #include "lib/collide/triangles.h"
 
-#include <string.h>
+#include "lib/base/bytes.h"
 
 #define SHORTEST 1e-5f // Minimum of the longest side of the box, m.
 // Minimum size of a voxel as a fraction of the coordinates, of which floats resolve 6e-8.
@@ -67,20 +67,20 @@ static void lay_grid(const hair_body_desc* desc, hair_collision_mesh* mesh)
     mesh->info.bytes = sizeof *mesh;
 }
 
-// Return a hash of what the application describes a body with, except its vertices.
+// Return a hash of what the application describes a body with, except its vertices. The key stands
+// for everything else.
 static uint64_t hash_desc(const hair_body_desc* desc)
 {
-    const void* parts[] = {desc->triangles, &desc->vertex_count, &desc->resolution, desc->lower,
-                           desc->upper,     &desc->thickness,    &desc->key};
-    size_t words[] = {3 * (size_t)desc->triangle_count, 1, 1, 3, 3, 1, 2};
-    uint64_t hash = 0xcbf29ce484222325u; // FNV-1a, one word at a time
-    // The key stands for everything else.
-    for (int k = desc->key ? 6 : 0; k < 7; ++k)
-        for (size_t i = 0; i < words[k]; ++i) {
-            uint32_t word;
-            memcpy(&word, (const unsigned char*)parts[k] + 4 * i, sizeof word);
-            hash = (hash ^ word) * 0x100000001b3u;
-        }
+    uint64_t hash = HAIR_HASH_BEGIN;
+    if (!desc->key) {
+        hash = hair_hash_words(hash, desc->triangles, 3 * (size_t)desc->triangle_count);
+        hash = hair_hash_words(hash, &desc->vertex_count, 1);
+        hash = hair_hash_words(hash, &desc->resolution, 1);
+        hash = hair_hash_words(hash, desc->lower, 3);
+        hash = hair_hash_words(hash, desc->upper, 3);
+        hash = hair_hash_words(hash, &desc->thickness, 1);
+    }
+    hash = hair_hash_words(hash, &desc->key, 2);
     return hash ? hash : 1;
 }
 

@@ -7,7 +7,7 @@
 #include "lib/collide/collision_mesh.h"
 #include "lib/collide/triangles.h"
 
-#include <string.h>
+#include "lib/base/bytes.h"
 
 #define MIN_SIZE 1e-6f // Minimum size of a mesh, m.
 // Minimum size of a voxel as a fraction of the coordinates, of which floats resolve 6e-8.
@@ -266,18 +266,11 @@ static void thicken(hair_collision_mesh* mesh)
 
 static uint64_t hash_content(const hair_collision_mesh* mesh)
 {
-    const unsigned char* parts[] = {(const unsigned char*)mesh->size, (const unsigned char*)mesh->origin,
-                                    (const unsigned char*)&mesh->voxel, (const unsigned char*)mesh->distance};
-    size_t nodes = (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
-    size_t words[] = {3, 3, 1, nodes};
-    uint64_t mark = 0xcbf29ce484222325u; // FNV-1a, one word at a time
-    for (int k = 0; k < 4; ++k)
-        for (size_t i = 0; i < words[k]; ++i) {
-            uint32_t word;
-            memcpy(&word, parts[k] + 4 * i, sizeof word);
-            mark = (mark ^ word) * 0x100000001b3u;
-        }
-    return mark ? mark : 1;
+    uint64_t hash = hair_hash_words(HAIR_HASH_BEGIN, mesh->size, 3);
+    hash = hair_hash_words(hash, mesh->origin, 3);
+    hash = hair_hash_words(hash, &mesh->voxel, 1);
+    hash = hair_hash_words(hash, mesh->distance, (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2]);
+    return hash ? hash : 1;
 }
 
 static hair_result fill_mesh(const hair_collision_mesh_desc* desc, struct hair_triangles* t,
