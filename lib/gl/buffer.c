@@ -47,12 +47,13 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
     HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)want));
     // The zeros are uploaded. The driver of an H100 lost data that glNamedBufferSubData wrote after
     // glClearNamedBufferData.
-    void* zeros = data && size >= 16 ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
-    if (!zeros && !(data && size >= 16)) return hair_fail_memory(&gl->host, label);
-    if (zeros && data) memcpy(zeros, data, size);
+    bool is_filled = data && size >= 16; // By the data alone.
+    void* zeros = is_filled ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
+    if (!is_filled && !zeros) return hair_fail_memory(&gl->host, label);
+    if (!is_filled && data) memcpy(zeros, data, size);
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
-        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, zeros ? zeros : data, GL_DYNAMIC_STORAGE_BIT);
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, is_filled ? data : zeros, GL_DYNAMIC_STORAGE_BIT);
         gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
     }
     hair_free(&gl->host, zeros);
