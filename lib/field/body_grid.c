@@ -45,7 +45,7 @@ hair_result hair_body_grid_create(struct hair_body_grid* grid, struct hair_sdf_p
         .gl = pool->gl, .mesh = mesh, .vertex_count = vertex_count, .triangle_count = triangle_count};
     HAIR_TRY(hair_gl_ensure_programs(grid->gl, HAIR_GL_BODY_SCATTER, HAIR_GL_BODY_LINE_LAST, 0));
     HAIR_TRY(make_grid_buffers(grid, triangles));
-    HAIR_TRY(hair_sdf_pool_acquire(pool, mesh, &grid->place));
+    HAIR_TRY(hair_sdf_pool_acquire_body(pool, mesh, &grid->place));
     grid->pool = pool;
     return HAIR_OK;
 }

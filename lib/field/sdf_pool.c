@@ -13,33 +13,29 @@ static size_t count_nodes(const hair_collision_mesh* mesh)
     return (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2] * (mesh->home ? 4 : 1);
 }
 
-// Write the nodes of a body so far away that nothing meets the body. The body writes its nodes
-// later. A body that was destroyed before its OpenGL context was lost has nobody who does.
-static hair_result upload_nowhere(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh)
+// Write the nodes of a destroyed body so far away that nothing meets the body. Its distances were
+// lost with the OpenGL context, and nobody computes them again.
+static hair_result upload_nowhere(struct hair_sdf_pool* pool, const struct hair_pooled_sdf* pooled)
 {
+    const hair_collision_mesh* mesh = pooled->mesh;
     const hair_host* host = &pool->gl->host;
     size_t count = (size_t)mesh->size[0] * mesh->size[1] * mesh->size[2];
     float* distance = hair_alloc(host, count, sizeof *distance);
     if (!distance) return hair_fail_memory(host, "a body");
     for (size_t i = 0; i < count; ++i) distance[i] = NOWHERE;
-    pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pool->used * sizeof *distance),
+    pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pooled->first * sizeof *distance),
                                  (GLsizeiptr)(count * sizeof *distance), distance);
     hair_free(host, distance);
     return HAIR_OK;
 }
 
-// Add the nodes of a mesh.
-static hair_result upload_sdf(struct hair_sdf_pool* pool, struct hair_pooled_sdf* pooled)
+// Write the nodes of a mesh that has `pooled->first`.
+static hair_result upload_sdf(struct hair_sdf_pool* pool, const struct hair_pooled_sdf* pooled)
 {
-    size_t count = count_nodes(pooled->mesh);
-    HAIR_ASSERT(pool->used + count <= pool->room);
-    if (pooled->mesh->distance)
-        pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pool->used * sizeof(float)),
-                                     (GLsizeiptr)(count * sizeof(float)), pooled->mesh->distance);
-    else
-        HAIR_TRY(upload_nowhere(pool, pooled->mesh));
-    pooled->first = (uint32_t)pool->used;
-    pool->used += count;
+    if (!pooled->mesh->distance) return upload_nowhere(pool, pooled);
+    pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pooled->first * sizeof(float)),
+                                 (GLsizeiptr)(count_nodes(pooled->mesh) * sizeof(float)),
+                                 pooled->mesh->distance);
     return HAIR_OK;
 }
 
@@ -123,10 +119,10 @@ void hair_sdf_pool_init(struct hair_sdf_pool* pool, struct hair_gl* gl)
     *pool = (struct hair_sdf_pool){.gl = gl};
 }
 
-hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
-                                  uint32_t* place)
+// Add a user of a mesh. Without `is_written_later`, write the nodes of a mesh that is new.
+static hair_result acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh, bool is_written_later,
+                           uint32_t* place)
 {
-    HAIR_ASSERT(mesh && (mesh->distance || mesh->home == pool));
     for (uint32_t i = 0; i < pool->count; ++i)
         if (pool->pooled[i].mesh == mesh) {
             ++pool->pooled[i].users;
@@ -136,15 +132,31 @@ hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collisi
     drop_unused(pool);
     hair_result result = reserve_nodes(pool, count_nodes(mesh));
     if (!result) result = reserve_place(pool, place);
-    struct hair_pooled_sdf pooled = {.mesh = mesh, .users = 1};
-    if (!result) result = upload_sdf(pool, &pooled);
+    struct hair_pooled_sdf pooled = {.mesh = mesh, .users = 1, .first = (uint32_t)pool->used};
+    HAIR_ASSERT(result || pool->used + count_nodes(mesh) <= pool->room);
+    if (!result && !is_written_later) result = upload_sdf(pool, &pooled);
     if (result) {
         free_if_empty(pool);
         return result;
     }
+    pool->used += count_nodes(mesh);
     hair_collision_mesh_hold(mesh);
     pool->pooled[*place] = pooled;
     return HAIR_OK;
+}
+
+hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
+                                  uint32_t* place)
+{
+    HAIR_ASSERT(mesh && (mesh->distance || mesh->home == pool));
+    return acquire(pool, mesh, false, place);
+}
+
+hair_result hair_sdf_pool_acquire_body(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
+                                       uint32_t* place)
+{
+    HAIR_ASSERT(mesh && mesh->home == pool);
+    return acquire(pool, mesh, true, place);
 }
 
 void hair_sdf_pool_release(struct hair_sdf_pool* pool, uint32_t place)

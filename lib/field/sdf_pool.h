@@ -31,6 +31,9 @@ void hair_sdf_pool_free(struct hair_sdf_pool* pool);
 // Add a user of `collision_mesh`. Its place stays `place` until hair_sdf_pool_release().
 hair_result hair_sdf_pool_acquire(struct hair_sdf_pool* collision_meshes,
                                   const hair_collision_mesh* collision_mesh, uint32_t* place);
+// Add a body as a user of its mesh. The body must write the nodes before anything reads them.
+hair_result hair_sdf_pool_acquire_body(struct hair_sdf_pool* pool, const hair_collision_mesh* mesh,
+                                       uint32_t* place);
 // Remove a user.
 void hair_sdf_pool_release(struct hair_sdf_pool* collision_meshes, uint32_t place);
 
