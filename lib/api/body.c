@@ -30,7 +30,7 @@ static hair_result fill_body(hair_body* body, const hair_body_desc* desc)
 {
     const hair_host* host = &body->context->host;
     float lower[3], upper[3];
-    HAIR_TRY(hair_body_mesh_build(host, desc, &body->mesh));
+    HAIR_TRY(hair_body_mesh_build(host, desc, lower, upper, &body->mesh));
     body->mesh->home = &body->context->sdf_pool;
     size_t indices = 3 * (size_t)desc->triangle_count;
     body->triangles = hair_alloc(host, indices, sizeof *body->triangles);
@@ -38,7 +38,7 @@ static hair_result fill_body(hair_body* body, const hair_body_desc* desc)
     body->next = hair_alloc(host, desc->vertex_count, 3 * sizeof *body->next);
     if (!body->triangles || !body->position || !body->next) return hair_fail_memory(host, "a body");
     memcpy(body->triangles, desc->triangles, indices * sizeof *body->triangles);
-    HAIR_TRY(hair_body_mesh_place(body->mesh, desc, desc->positions, 12, body->position, lower, upper));
+    hair_body_mesh_place(body->mesh, desc->positions, desc->vertex_count, 12, body->position);
     HAIR_TRY(hair_body_create_grid(body));
     hair_body_mesh_change(body->mesh, lower, upper);
     return HAIR_OK;
@@ -114,7 +114,8 @@ hair_result hair_body_set_positions(hair_body* body, const float* positions, uin
         return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_body: count is %u, not the %u of the body", count,
                          body->desc.vertex_count);
     HAIR_TRY(check_stride(context, stride));
-    HAIR_TRY(hair_body_mesh_place(body->mesh, &body->desc, positions, stride, body->next, lower, upper));
+    HAIR_TRY(hair_body_mesh_measure(host, &body->desc, positions, stride, lower, upper));
+    hair_body_mesh_place(body->mesh, positions, count, stride, body->next);
     bool is_same = memcmp(body->next, last, 3 * (size_t)count * sizeof *last) == 0;
     if (is_same && !body->is_from_buffer) return HAIR_OK;
     body->is_from_buffer = false;

@@ -1,8 +1,7 @@
 // body_mesh.c - the collision mesh of a body, on the CPU.
 #include "lib/collide/body_mesh.h"
-#include "lib/collide/triangles.h"
-
 #include "lib/base/bytes.h"
+#include "lib/collide/triangles.h"
 
 #define SHORTEST 1e-5f // Minimum of the longest side of the box, m.
 // Minimum size of a voxel as a fraction of the coordinates, of which floats resolve 6e-8.
@@ -95,17 +94,36 @@ static hair_result find_closed(const hair_host* host, const hair_body_desc* desc
     return HAIR_OK;
 }
 
-hair_result hair_body_mesh_build(const hair_host* host, const hair_body_desc* desc, hair_collision_mesh** out)
+hair_result hair_body_mesh_measure(const hair_host* host, const hair_body_desc* desc, const float* positions,
+                                   size_t stride, float lower[3], float upper[3])
+{
+    HAIR_ASSERT(stride >= 12 && stride % sizeof *positions == 0);
+    for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
+    for (uint32_t i = 0; i < desc->vertex_count; ++i) {
+        const float* p = positions + i * (stride / sizeof *positions);
+        for (int k = 0; k < 3; ++k) {
+            if (!(desc->lower[k] <= p[k] && p[k] <= desc->upper[k])) // NaN fails too.
+                return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                                 "hair_body: vertex %u is at (%g, %g, %g), outside the box of its "
+                                 "hair_body_desc from (%g, %g, %g) to (%g, %g, %g)",
+                                 i, (double)p[0], (double)p[1], (double)p[2], (double)desc->lower[0],
+                                 (double)desc->lower[1], (double)desc->lower[2], (double)desc->upper[0],
+                                 (double)desc->upper[1], (double)desc->upper[2]);
+            lower[k] = fminf(lower[k], p[k]);
+            upper[k] = fmaxf(upper[k], p[k]);
+        }
+    }
+    return HAIR_OK;
+}
+
+hair_result hair_body_mesh_build(const hair_host* host, const hair_body_desc* desc, float lower[3],
+                                 float upper[3], hair_collision_mesh** out)
 {
     hair_collision_mesh_info info = hair_collision_mesh_info_default();
     float longest;
     HAIR_TRY(check_box(host, desc, &longest));
     HAIR_TRY(check_body_triangles(host, desc));
-    for (size_t i = 0; i < 3 * (size_t)desc->vertex_count; ++i)
-        if (!(fabsf(desc->positions[i]) <= 1e6f))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_body_desc.positions[%zu] is %g, not in [-1e6, 1e6]", i,
-                             (double)desc->positions[i]);
+    HAIR_TRY(hair_body_mesh_measure(host, desc, desc->positions, 3 * sizeof(float), lower, upper));
     HAIR_TRY(find_closed(host, desc, &info));
     hair_collision_mesh* mesh = hair_alloc(host, 1, sizeof *mesh);
     if (!mesh) return hair_fail_memory(host, "a body");
@@ -122,29 +140,14 @@ hair_result hair_body_mesh_build(const hair_host* host, const hair_body_desc* de
     return HAIR_OK;
 }
 
-hair_result hair_body_mesh_place(const hair_collision_mesh* mesh, const hair_body_desc* desc,
-                                 const float* positions, size_t stride, float* out, float lower[3],
-                                 float upper[3])
+void hair_body_mesh_place(const hair_collision_mesh* mesh, const float* positions, uint32_t count,
+                          size_t stride, float* out)
 {
-    HAIR_ASSERT(stride >= 12 && stride % sizeof *positions == 0);
-    for (int k = 0; k < 3; ++k) lower[k] = INFINITY, upper[k] = -INFINITY;
-    for (uint32_t i = 0; i < desc->vertex_count; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
         const float* p = positions + i * (stride / sizeof *positions);
-        for (int k = 0; k < 3; ++k) {
-            if (!(desc->lower[k] <= p[k] && p[k] <= desc->upper[k])) // NaN fails too.
-                return hair_fail(&mesh->host, HAIR_ERROR_ARGUMENT,
-                                 "hair_body: vertex %u is at (%g, %g, %g), outside the box of its "
-                                 "hair_body_desc from (%g, %g, %g) to (%g, %g, %g)",
-                                 i, (double)p[0], (double)p[1], (double)p[2], (double)desc->lower[0],
-                                 (double)desc->lower[1], (double)desc->lower[2], (double)desc->upper[0],
-                                 (double)desc->upper[1], (double)desc->upper[2]);
-            double voxels = ((double)p[k] - (double)mesh->origin[k]) / (double)mesh->voxel;
-            out[3 * (size_t)i + (size_t)k] = (float)voxels;
-            lower[k] = fminf(lower[k], p[k]);
-            upper[k] = fmaxf(upper[k], p[k]);
-        }
+        for (int k = 0; k < 3; ++k)
+            *out++ = (float)(((double)p[k] - (double)mesh->origin[k]) / (double)mesh->voxel);
     }
-    return HAIR_OK;
 }
 
 void hair_body_mesh_change(hair_collision_mesh* mesh, const float lower[3], const float upper[3])

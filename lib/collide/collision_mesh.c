@@ -5,9 +5,8 @@
 // add up to more than the distance between them, because no surface fits between. Nodes thus fall
 // into few sets of one sign each. One winding number per set is enough (Jacobson et al. 2013).
 #include "lib/collide/collision_mesh.h"
-#include "lib/collide/triangles.h"
-
 #include "lib/base/bytes.h"
+#include "lib/collide/triangles.h"
 
 #define MIN_SIZE 1e-6f // Minimum size of a mesh, m.
 // Minimum size of a voxel as a fraction of the coordinates, of which floats resolve 6e-8.

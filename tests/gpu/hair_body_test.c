@@ -288,7 +288,7 @@ static void hostile_inputs_are_refused_by_a_sentence(void** state)
     mesh.triangles[4] = index;
     float was = mesh.positions[7];
     mesh.positions[7] = NAN;
-    refused(test, &good, "hair_body_desc.positions[7] is ");
+    refused(test, &good, "hair_body: vertex 2 is at (");
     mesh.positions[7] = was;
 
     hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 16);
