@@ -26,7 +26,13 @@ static void write_transform(const struct hair_field_box* box, const struct hair_
 hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head)
 {
     const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
-    return hair_field_update(&hair->field, colliders->collider, colliders->count, head);
+    hair_result result = hair_field_update(&hair->field, colliders->collider, colliders->count, head);
+    if (result) {
+        // A failure clears the field, so strands that met it and light that it blocked are outdated.
+        hair_geometry_set_blockers(&hair->geometry, NULL);
+        hair_geometry_invalidate(&hair->geometry);
+    }
+    return result;
 }
 
 hair_result hair_update_field(hair_instance* hair)

@@ -118,8 +118,9 @@ void hair_instance_empty(struct hair_context_member* member)
     hair_renderer_destroy(&hair->renderer);
     hair_lighting_destroy(&hair->lighting);
     hair_geometry_destroy(&hair->geometry);
-    hair_field_destroy(&hair->field);
     hair_sim_destroy(&hair->sim);
+    // Last, because the pool drops the distances to a destroyed body once no collider has its mesh.
+    hair_field_destroy(&hair->field);
     hair_groom_release(hair->groom);
     hair->groom = NULL;
     hair_free(&hair->context->host, hair->group_looks);
