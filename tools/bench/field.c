@@ -3,8 +3,9 @@
 //
 // The suite uses the public interface. It sets colliders, hair_get_field() updates the field, and
 // the field's texture is read.
-#include "lib/collide/distance.h"
 #include "tools/bench/field_body.h"
+#include "tools/bench/field_error.h"
+#include "tools/bench/pass_time.h"
 #include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
@@ -13,8 +14,6 @@
 #include <string.h>
 
 #define SIDE 0.6 // side of the field's box, m
-// Voxels on either side of a surface where an interpolated value has all its neighbours.
-#define BAND 3
 #define MAX_RUNS 41
 #define MIXED 20
 #define MANY 10000
@@ -81,21 +80,6 @@ static bool update(struct subject* subject, const hair_collider* colliders, uint
            !hair_get_field(subject->hair, &subject->info);
 }
 
-// Return the GPU time of the passes that write the field. `runs` receives how often they ran.
-static double sum_passes(struct bench* bench, uint32_t* runs)
-{
-    hair_timing timings[BENCH_MAX_PASSES];
-    uint32_t count = hair_get_timings(bench->context, timings, BENCH_MAX_PASSES);
-    double sum = 0;
-    *runs = 0;
-    for (uint32_t i = 0; i < count && i < BENCH_MAX_PASSES; ++i)
-        if (!strncmp(timings[i].pass, "field/", 6)) {
-            sum += timings[i].total_ms;
-            *runs += timings[i].runs;
-        }
-    return sum;
-}
-
 // Measure an update. If the driver's timers do not measure compute shaders, wall time is used,
 // which includes CPU work. Return NAN if the library refused.
 static double time_update(struct subject* subject, const hair_collider* colliders, uint32_t count)
@@ -103,11 +87,11 @@ static double time_update(struct subject* subject, const hair_collider* collider
     struct bench* bench = subject->bench;
     uint32_t runs;
     glFinish();
-    double gpu = sum_passes(bench, &runs), start = hair_now();
+    double gpu = bench_sum_passes(bench, "field/", &runs), start = hair_now();
     if (!update(subject, colliders, count)) return NAN;
     glFinish();
     double wall = hair_now() - start;
-    return bench->software ? wall : sum_passes(bench, &runs) - gpu;
+    return bench->software ? wall : bench_sum_passes(bench, "field/", &runs) - gpu;
 }
 
 static int compare(const void* a, const void* b)
@@ -142,29 +126,18 @@ static json_t* new_row(struct subject* subject, const char* name, uint32_t colli
 
 // Colliders ---------------------------------------------------------------------------------------
 
-static uint32_t random_of(uint32_t* seed)
-{
-    *seed = *seed * 747796405u + 2891336453u;
-    return (*seed >> 8) ^ (*seed >> 21);
-}
-
-static double between(uint32_t* seed, double min, double max)
-{
-    return min + (max - min) * (random_of(seed) % 65536) / 65535;
-}
-
 static hair_collider any_collider(hair_shape shape, double size, double reach, uint32_t* seed)
 {
     hair_collider collider = hair_collider_default();
     double norm = 0, q[4];
     for (int i = 0; i < 4; ++i) {
-        q[i] = between(seed, -1, 1);
+        q[i] = bench_field_random(seed, -1, 1);
         norm += q[i] * q[i];
     }
     collider.shape = shape;
     for (int i = 0; i < 4; ++i) collider.rotation[i] = (float)(q[i] / sqrt(norm));
-    for (int i = 0; i < 3; ++i) collider.position[i] = (float)between(seed, -reach, reach);
-    for (int i = 0; i < 3; ++i) collider.size[i] = (float)(size * between(seed, 0.8, 1.2));
+    for (int i = 0; i < 3; ++i) collider.position[i] = (float)bench_field_random(seed, -reach, reach);
+    for (int i = 0; i < 3; ++i) collider.size[i] = (float)(size * bench_field_random(seed, 0.8, 1.2));
     return collider;
 }
 
@@ -204,63 +177,7 @@ static hair_collision_mesh* make_ball(struct bench* bench, double radius)
     return mesh;
 }
 
-// Errors ------------------------------------------------------------------------------------------
-
-struct errors {
-    double max, square, centre; // in voxels
-    uint64_t points, wrong; // `wrong` counts wrong signs farther than a voxel from the surface
-};
-
-// Interpolate as OpenGL's linear filter does.
-static double interpolate(const struct subject* subject, const float* texels, const double at[3])
-{
-    const uint32_t* size = subject->info.size;
-    uint32_t low[3];
-    double t[3], sum = 0;
-    for (int k = 0; k < 3; ++k) {
-        double x = fmin(fmax(at[k] - 0.5, 0), (double)size[k] - 1.001);
-        low[k] = (uint32_t)x;
-        t[k] = x - low[k];
-    }
-    for (uint32_t corner = 0; corner < 8; ++corner) {
-        uint32_t x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
-        double fraction = (x ? t[0] : 1 - t[0]) * (y ? t[1] : 1 - t[1]) * (z ? t[2] : 1 - t[2]);
-        size_t texel = ((size_t)(low[2] + z) * size[1] + low[1] + y) * size[0] + low[0] + x;
-        sum += fraction * (double)texels[texel];
-    }
-    return sum;
-}
-
-// Compare the field with the exact distance to `exact`, the ideal shape of the collider.
-static void measure(const struct subject* subject, const float* texels, const hair_collider* exact,
-                    uint32_t points, struct errors* out)
-{
-    const hair_field_info* info = &subject->info;
-    double voxel = (double)info->voxel;
-    uint32_t seed = 1;
-    *out = (struct errors){0};
-    for (uint32_t i = 0; i < points; ++i) {
-        double at[3], point[3];
-        int centre = i % 2; // Every other point is the middle of a voxel.
-        for (int k = 0; k < 3; ++k) {
-            at[k] = between(&seed, 0.5, (double)info->size[k] - 0.5) +
-                    between(&seed, -2e-5, 2e-5) * info->size[k];
-            if (centre) at[k] = floor(at[k]) + 0.5;
-            at[k] = fmin(fmax(at[k], 0.5), (double)info->size[k] - 0.5);
-            // The head is at the origin, therefore the transform is a scale and a translation.
-            point[k] =
-                (at[k] / info->size[k] - (double)info->transform[12 + k]) / (double)info->transform[5 * k];
-        }
-        double right = hair_distance_to_collider(exact, point, NULL);
-        if (fabs(right) > BAND * voxel) continue;
-        double found = interpolate(subject, texels, at), off = fabs(found - right) / voxel;
-        if (centre) out->centre = fmax(out->centre, off);
-        out->max = fmax(out->max, off);
-        out->square += off * off;
-        out->wrong += fabs(right) > voxel && (right < 0) != (found < 0);
-        ++out->points;
-    }
-}
+// Shapes ------------------------------------------------------------------------------------------
 
 struct shape_row {
     const char* name;
@@ -269,7 +186,7 @@ struct shape_row {
     double limit; // in voxels
 };
 
-static void set_errors(json_t* row, const struct shape_row* shape, const struct errors* errors)
+static void set_errors(json_t* row, const struct shape_row* shape, const struct bench_field_error* errors)
 {
     // A field that is sampled from a grid has errors at voxel centres too.
     double centre = shape->shape == HAIR_SHAPE_MESH ? shape->limit : 0.05;
@@ -310,8 +227,9 @@ static bool run_shape(struct subject* subject, const struct shape_row* shape, ha
         return false;
     }
     glGetTextureImage(subject->info.distance_texture, 0, GL_RED, GL_FLOAT, (GLsizei)bytes, texels);
-    struct errors errors;
-    measure(subject, texels, &exact, subject->bench->options.quick ? 400000 : 2000000, &errors);
+    struct bench_field_error errors;
+    bench_field_measure(&subject->info, texels, &exact, subject->bench->options.quick ? 400000 : 2000000,
+                        &errors);
     free(texels);
     json_t* row = new_row(subject, "shape", 1);
     set_times(row, ms, runs);
@@ -397,12 +315,12 @@ static bool run_all(struct subject* subject, const char* name, uint32_t count, d
     bool ok = colliders;
     if (ok) make_mixed(colliders, count, size);
     ok = ok && update(subject, colliders, count);
-    sum_passes(subject->bench, &before);
+    bench_sum_passes(subject->bench, "field/", &before);
     for (uint32_t k = 0; k < runs && ok; ++k) {
         for (uint32_t i = 0; i < count && !still; ++i) colliders[i].position[2] += k % 2 ? 0.02f : -0.02f;
         ok = !isnan(ms[k] = time_update(subject, colliders, count));
     }
-    sum_passes(subject->bench, &after);
+    bench_sum_passes(subject->bench, "field/", &after);
     free(colliders);
     if (!ok) return false;
     json_t* row = new_row(subject, name, count);

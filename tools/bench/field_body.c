@@ -1,5 +1,6 @@
 // field_body.c - Cost of the distances to a body that deforms, in suite `field`.
 #include "tools/bench/field_body.h"
+#include "tools/bench/pass_time.h"
 #include "tools/common/stats.h"
 
 #include <epoxy/gl.h>
@@ -42,31 +43,16 @@ static void fill_shape(struct shape* shape)
     }
 }
 
-// Return the GPU time of the passes of bodies so far. `runs` receives how often they ran.
-static double sum_body_passes(const struct bench* bench, uint32_t* runs)
-{
-    hair_timing timings[BENCH_MAX_PASSES];
-    uint32_t count = hair_get_timings(bench->context, timings, BENCH_MAX_PASSES);
-    double sum = 0;
-    *runs = 0;
-    for (uint32_t i = 0; i < count && i < BENCH_MAX_PASSES; ++i)
-        if (!strncmp(timings[i].pass, "field/body_", 11)) {
-            sum += timings[i].total_ms;
-            *runs += timings[i].runs;
-        }
-    return sum;
-}
-
 // Measure one move. Return NAN if the library refused.
 static double time_move(const struct bench* bench, hair_body* body, const float* positions)
 {
     uint32_t runs;
     glFinish();
-    double gpu = sum_body_passes(bench, &runs), start = hair_now();
+    double gpu = bench_sum_passes(bench, "field/body_", &runs), start = hair_now();
     if (hair_body_set_positions(body, positions, VERTICES, 3 * sizeof(float))) return NAN;
     glFinish();
     double wall = hair_now() - start;
-    return bench->software ? wall : sum_body_passes(bench, &runs) - gpu;
+    return bench->software ? wall : bench_sum_passes(bench, "field/body_", &runs) - gpu;
 }
 
 static int by_time(const void* a, const void* b)
@@ -91,10 +77,10 @@ static bool run_body(struct bench* bench, const struct shape* shape, uint32_t re
     // The first run of a pass may compile it.
     ok = ok && !isnan(time_move(bench, body, shape->positions[1])) &&
          !isnan(time_move(bench, body, shape->positions[0]));
-    sum_body_passes(bench, &before);
+    bench_sum_passes(bench, "field/body_", &before);
     for (uint32_t i = 0; i < runs && ok; ++i)
         ok = !isnan(ms[i] = time_move(bench, body, shape->positions[moves ? (i + 1) % 2 : 0]));
-    sum_body_passes(bench, &after);
+    bench_sum_passes(bench, "field/body_", &after);
     hair_body_destroy(body);
     if (!ok) return false;
     qsort(ms, runs, sizeof *ms, by_time);
