@@ -28,7 +28,7 @@ hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* he
     const struct hair_collider_list* colliders = hair_sim_colliders(&hair->sim);
     hair_result result = hair_field_update(&hair->field, colliders->collider, colliders->count, head);
     if (result) {
-        // A failure clears the field, so strands that met it and light that it blocked are outdated.
+        // A failure clears the field, so hits of strands and light that it blocked are outdated.
         hair_geometry_set_blockers(&hair->geometry, NULL);
         hair_geometry_invalidate(&hair->geometry);
     }

@@ -1,5 +1,6 @@
 // groups_loss_test.c - physics and looks of groups are restored after the OpenGL context is lost,
 // also when memory runs out meanwhile.
+#include "tests/support/context_loss.h"
 #include "tests/support/live_hair.h"
 
 #include <stdlib.h>
@@ -85,20 +86,11 @@ static void restored_groups_keep_their_physics_and_looks(void** state)
     end(&f);
 }
 
-// Refuse every allocation of a restoration in turn.
 static void refused_memory_keeps_groups_for_the_next_attempt(void** state)
 {
     struct fixture f;
-    uint32_t refused = 0;
     begin(*state, &f);
-    for (;; ++refused) {
-        f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result = hair_context_restore(f.test->context);
-        f.test->host.refuse = 0;
-        if (result == HAIR_OK) break;
-        hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
-    }
-    assert_true(refused > 20);
+    hair_test_restore_against_refusals(f.test, f.living.hair);
     check_groups(&f);
     end(&f);
 }

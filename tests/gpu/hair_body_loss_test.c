@@ -1,6 +1,7 @@
 // hair_body_loss_test.c - a context with bodies is restored after its OpenGL context is lost:
 // bodies that live, bodies that are destroyed, and memory that runs out meanwhile.
 #include "tests/support/deforming.h"
+#include "tests/support/context_loss.h"
 #include "tests/support/live_hair.h"
 
 #include <math.h>
@@ -123,21 +124,12 @@ static void hair_that_misses_a_body_is_restored(void** state)
     end(&f);
 }
 
-// Refuse every allocation of a restoration in turn.
 static void refused_memory_keeps_bodies_for_the_next_attempt(void** state)
 {
     struct fixture f;
-    uint32_t refused = 0;
     begin(*state, &f);
     lose(&f);
-    for (;; ++refused) {
-        f.test->host.refuse = f.test->host.allocations + 1 + refused;
-        hair_result result = hair_context_restore(f.test->context);
-        f.test->host.refuse = 0;
-        if (result == HAIR_OK) break;
-        hair_test_refused(f.test, result, HAIR_ERROR_MEMORY, "out of memory for");
-    }
-    assert_true(refused > 20);
+    hair_test_restore_against_refusals(f.test, f.living.hair);
     assert_true(sweep(&f) > 0.03);
     end(&f);
 }

@@ -1,0 +1,161 @@
+// context_restore_test.c - everything comes back in another OpenGL context after the first is lost
+// or destroyed.
+#include "tests/support/context_loss.h"
+
+#include "tests/support/trace.h"
+
+static void restored_hair_is_at_most_two_steps_old(void** state)
+{
+    static struct hair_test_loss_run run;
+    struct hair_test_loss f;
+    hair_test_loss_record(*state, 0, &run);
+    hair_test_loss_start(&f, *state, 0);
+    for (int i = 1; i <= HAIR_TEST_LOSS_FRAMES; ++i) {
+        hair_test_ok(*state, hair_test_loss_frame(&f, i));
+        glFinish();
+    }
+    hair_test_loss_replace_egl(&f);
+    assert_true(hair_test_loss_check(&f, &run) >= HAIR_TEST_LOSS_FRAMES - 2);
+    hair_test_loss_finish(&f);
+}
+
+static void destroyed_opengl_context_can_be_replaced(void** state)
+{
+    static struct hair_test_loss_run run;
+    struct hair_test_loss f;
+    hair_test_loss_record(*state, 0, &run);
+    hair_test_loss_start(&f, *state, 0);
+    hair_test_ok(f.test, hair_test_loss_frame(&f, 1));
+    glFinish();
+    hair_test_ok(f.test, hair_test_loss_frame(&f, 2));
+    hair_egl_destroy(f.egl);
+    f.egl = NULL;
+    hair_test_refused(f.test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_OPENGL,
+                      "no OpenGL context is current");
+    hair_test_refused(f.test, hair_context_restore(f.context), HAIR_ERROR_OPENGL,
+                      "no OpenGL context is current");
+    hair_test_loss_replace_egl(&f);
+    hair_test_loss_check(&f, &run);
+    hair_test_loss_finish(&f);
+}
+
+static void second_loss_restores_the_same_state(void** state)
+{
+    static struct hair_test_loss_run run;
+    struct hair_test_loss f;
+    hair_test_loss_record(*state, 0, &run);
+    hair_test_loss_start(&f, *state, 0);
+    hair_test_ok(f.test, hair_test_loss_run(&f));
+    hair_test_loss_replace_egl(&f);
+    hair_test_ok(f.test, hair_context_restore(f.context));
+    hair_test_loss_replace_egl(&f);
+    assert_true(hair_test_loss_check(&f, &run) > 0);
+    hair_test_loss_finish(&f);
+}
+
+static void hair_without_a_snapshot_is_at_rest(void** state)
+{
+    static struct hair_test_loss_run run;
+    struct hair_test_loss f;
+    hair_test_loss_record(*state, 0, &run);
+    hair_test_loss_start(&f, *state, 0);
+    hair_test_loss_replace_egl(&f);
+    assert_int_equal(hair_test_loss_check(&f, &run), 0);
+    hair_test_loss_finish(&f);
+}
+
+static void failed_restoration_changes_nothing(void** state)
+{
+    static struct hair_test_loss_run run;
+    struct hair_test_loss f;
+    hair_test_loss_record(*state, 0, &run);
+    hair_test_loss_start(&f, *state, 0);
+    hair_test_ok(f.test, hair_test_loss_run(&f));
+    hair_test_loss_replace_egl(&f);
+    hair_test_restore_against_refusals(f.test, f.hair);
+    assert_true(hair_test_loss_check(&f, &run) > 0);
+    hair_test_loss_finish(&f);
+}
+
+static void settings_made_after_a_loss_are_kept(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_loss f;
+    hair_physics physics = hair_physics_default(), got = hair_physics_default();
+    hair_look look = hair_look_default(), got_look = hair_look_default();
+    hair_test_loss_start(&f, test, 0);
+    hair_group_look group = hair_group_look_default(), got_group = group;
+    group.radius = 2, group.color.enabled = true;
+    hair_test_ok(test, hair_set_group_look(f.hair, 1, &group));
+    hair_test_trace_lose(1, GL_GUILTY_CONTEXT_RESET);
+    hair_test_refused(test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_CONTEXT_LOST, "lost");
+    physics.damping = 5;
+    look.strand.segments = 7;
+    hair_physics stiff = physics, got_stiff = physics;
+    stiff.shape.stiffness_tip = 3;
+    hair_test_ok(test, hair_set_physics(f.hair, &physics));
+    hair_test_ok(test, hair_set_group_physics(f.hair, 2, &stiff));
+    hair_test_ok(test, hair_set_look(f.hair, &look));
+    hair_test_ok(test, hair_set_memory_limit(f.context, 123456789));
+    hair_test_loss_replace_egl(&f);
+    hair_test_ok(test, hair_context_restore(f.context));
+    hair_test_ok(test, hair_get_group_look(f.hair, 1, &got_group));
+    assert_memory_equal(&got_group, &group, sizeof group);
+    hair_test_ok(test, hair_get_physics(f.hair, &got));
+    hair_test_ok(test, hair_get_look(f.hair, &got_look));
+    assert_memory_equal(&got, &physics, sizeof got);
+    hair_test_ok(test, hair_get_group_physics(f.hair, 2, &got_stiff));
+    assert_memory_equal(&got_stiff, &stiff, sizeof stiff);
+    assert_memory_equal(&got_look, &look, sizeof look);
+    hair_memory memory = hair_memory_default();
+    hair_test_ok(test, hair_get_memory(f.context, &memory));
+    assert_int_equal(memory.limit, 123456789);
+    hair_test_ok(test, hair_test_loss_frame(&f, 1));
+    hair_test_loss_finish(&f);
+}
+
+static void restoration_needs_a_restorable_context(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_loss f = {.test = test, .blocks = hair_test_blocks(test)};
+    assert_int_equal(hair_context_restore(NULL), HAIR_ERROR_ARGUMENT);
+    f.groom = hair_test_groom(&test->host.host, hair_test_handmade_default());
+    hair_test_frame_make(&f.frame, HAIR_TEST_LOSS_SIDE, HAIR_TEST_LOSS_SIDE, GL_RGBA32F, 0);
+    hair_test_ok(test, hair_test_loss_create(&f, 0, false));
+    hair_test_trace_clear();
+    hair_test_ok(test, hair_test_loss_run(&f));
+    // The copies cost nothing unless they are wanted.
+    assert_int_equal(hair_test_trace_count("glFenceSync"), 0);
+    hair_test_refused(test, hair_context_restore(f.context), HAIR_ERROR_ARGUMENT, "restorable was false");
+    hair_context_abandon(f.context);
+    hair_test_refused(test, hair_context_restore(f.context), HAIR_ERROR_ARGUMENT, "abandoned");
+    hair_test_frame_free(&f.frame);
+    hair_test_loss_finish(&f);
+}
+
+static void groom_may_be_destroyed_before_a_restoration(void** state)
+{
+    struct hair_test_loss f;
+    hair_test_loss_start(&f, *state, 0);
+    hair_groom_destroy(f.groom);
+    f.groom = NULL;
+    hair_test_loss_replace_egl(&f);
+    hair_test_ok(f.test, hair_context_restore(f.context));
+    hair_test_ok(f.test, hair_test_loss_frame(&f, 1));
+    hair_test_loss_finish(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        HAIR_TEST(restored_hair_is_at_most_two_steps_old),
+        HAIR_TEST(destroyed_opengl_context_can_be_replaced),
+        HAIR_TEST(second_loss_restores_the_same_state),
+        HAIR_TEST(hair_without_a_snapshot_is_at_rest),
+        HAIR_TEST(failed_restoration_changes_nothing),
+        HAIR_TEST(settings_made_after_a_loss_are_kept),
+        HAIR_TEST(restoration_needs_a_restorable_context),
+        HAIR_TEST(groom_may_be_destroyed_before_a_restoration),
+    };
+    return hair_test_skips() ? 0 : cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
+}
