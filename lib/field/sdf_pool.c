@@ -33,8 +33,8 @@ static hair_result upload_nowhere(struct hair_sdf_pool* pool, const struct hair_
 static hair_result upload_sdf(struct hair_sdf_pool* pool, const struct hair_pooled_sdf* pooled)
 {
     if (!pooled->mesh->distance) return upload_nowhere(pool, pooled);
-    pool->gl->NamedBufferSubData(pool->nodes, (GLintptr)(pooled->first * sizeof(float)),
-                                 (GLsizeiptr)(count_nodes(pooled->mesh) * sizeof(float)),
+    GLintptr at = (GLintptr)(pooled->first * sizeof(float));
+    pool->gl->NamedBufferSubData(pool->nodes, at, (GLsizeiptr)(count_nodes(pooled->mesh) * sizeof(float)),
                                  pooled->mesh->distance);
     return HAIR_OK;
 }
