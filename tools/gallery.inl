@@ -3,8 +3,9 @@
 // in.
 #define CLOSE "tools/scenes/portrait.json "
 #define FINE "--followers 60000 --set strand.radius=7e-5 "
-#define LOCKS "--guides 500 --set strand.radius=9e-5 --followers 24000 "
-#define TYPE(name) CLOSE LOCKS "--set look=" name
+// One guide per lock. Wide curls form fewer locks.
+#define TYPE(name, locks) \
+    CLOSE "--set strand.radius=9e-5 --followers 24000 --set look=" name " --guides " locks
 
 ROW("Haircuts")
 PICTURE("Long, parted in the middle", CLOSE FINE)
@@ -13,9 +14,9 @@ PICTURE("Short", CLOSE FINE "--style short")
 PICTURE("Ponytail", FINE "--scene ponytail --motion still --frames 0:1")
 
 ROW("Curls: the strands of a lock turn together and drift apart towards their tips")
-PICTURE("Type 2b: waves of 20 mm", TYPE("2b"))
-PICTURE("Type 3a: curls of 25 mm", TYPE("3a"))
-PICTURE("Type 3b: ringlets of 14 mm", TYPE("3b"))
+PICTURE("Type 2b: waves of 20 mm", TYPE("2b", "200"))
+PICTURE("Type 3a: curls of 25 mm", TYPE("3a", "200"))
+PICTURE("Type 3b: ringlets of 14 mm", TYPE("3b", "300"))
 PICTURE("An afro of coils",
         "--scene afro --motion still --frames 0:1 --followers 30000 --set strand.radius=9e-5")
 
@@ -106,5 +107,4 @@ PICTURE("15 % of the strands, zoomed in",
         "lod.segment_fraction=0.5")
 #undef CLOSE
 #undef FINE
-#undef LOCKS
 #undef TYPE

@@ -120,7 +120,7 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
         offset   = mix(offset, own, multi);
     }
 
-    aside a = find_aside(follower.guide0, follower.seed, v, length_);
+    aside a = find_aside(follower.guide0, follower.seed, v, length_, follower.length_ratio);
     offset.xz += a.at;
     slope.xz  += a.slope;
     vec3 turned = rotate(frame, offset);

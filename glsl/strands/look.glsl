@@ -64,8 +64,9 @@ aside kink(uint seed, float t, float length_)
 
 // Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
 // Strands of a guide share its phase and its variation, and drift apart by their own length of
-// turns.
-aside curl(uint guide, uint seed, float t, float length_)
+// turns. `ratio` is the length of the strand in lengths of the guide. The variation depends on the
+// distance from the root, so that long and short strands of a lock turn together.
+aside curl(uint guide, uint seed, float t, float length_, float ratio)
 {
     vec2  lock = random_pair(guide), own = random_pair(seed + 2u);
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
@@ -73,9 +74,10 @@ aside curl(uint guide, uint seed, float t, float length_)
     float size   = (1.0 + spread) * (1.0 + shared_spread);
     float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / size;
     float places = float(HAIR_TURN_PLACES);
-    aside wind   = scaled(wander(64u * guide + 0x71c71c71u, t, CURL_WAVES),
+    aside wind   = scaled(wander(64u * guide + 0x71c71c71u, t * ratio, CURL_WAVES),
                           vec2(draw.strand.curl_variation, 0.0));
-    float slower = turns / CURL_WAVES;
+    wind.slope *= ratio;
+    float slower = turns / (max(ratio, 1e-3) * CURL_WAVES);
     float at = places * fract(t * turns + slower * wind.at.x + draw.strand.curl_guide_phase * lock.x +
                               draw.strand.curl_strand_phase * own.x);
     int   k  = min(int(at), HAIR_TURN_PLACES - 1);
@@ -105,12 +107,13 @@ void cut(inout hair_follower follower)
 }
 #endif
 
-// Return the offset by which the look moves a strand of a guide.
-aside find_aside(uint guide, uint seed, float t, float length_)
+// Return the offset by which the look moves a strand of a guide, whose length the strand has
+// `ratio` times.
+aside find_aside(uint guide, uint seed, float t, float length_, float ratio)
 {
     aside a = stray(seed, t, length_);
 #ifdef HAIR_STYLED
-    aside kinked = kink(seed, t, length_), curled = curl(guide, seed, t, length_);
+    aside kinked = kink(seed, t, length_), curled = curl(guide, seed, t, length_, ratio);
     a = aside(a.at + kinked.at + curled.at, a.slope + kinked.slope + curled.slope);
 #endif
     return a;

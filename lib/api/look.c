@@ -31,6 +31,8 @@ static void wave(hair_look* look)
     look->curl.guide_phase = 0.5f;
     look->curl.strand_phase = 0.06f;
     look->curl.spread = 0.08f;
+    look->curl.guide_spread = 0.2f;
+    look->curl.variation = 0.3f;
     look->curl.left_fraction = 0.5f;
 }
 
@@ -42,7 +44,9 @@ static void curl(hair_look* look)
     look->curl.profile = (hair_curve){{0, 0.25f, 0.65f, 0.9f, 1, 1.05f, 1, 0.9f}};
     look->curl.wavelength = 0.05f;
     look->curl.strand_phase = 0.08f;
-    look->curl.spread = 0.05f;
+    look->curl.spread = 0.03f;
+    look->curl.guide_spread = 0.25f;
+    look->curl.variation = 0.3f;
     look->curl.left_fraction = 0.5f;
     look->strays.tip_fraction = 0.4f;
 }
@@ -55,6 +59,8 @@ static void coil(hair_look* look)
     look->curl.wavelength = 0.018f;
     look->curl.strand_phase = 0.2f;
     look->curl.spread = 0.15f;
+    look->curl.guide_spread = 0.2f;
+    look->curl.variation = 0.25f;
     look->curl.left_fraction = 0.5f;
     look->strays.fraction = 0.25f;
 }
@@ -114,10 +120,10 @@ static const struct curl_type {
      0.03f,
      0.12f,
      0.0015f},
-    {0.022f, 0.065f, 0.35f, {{0, 0.15f, 0.5f, 0.85f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.05f, 0.025f, 0.15f, 0.002f},
-    {0.025f, 0.055f, 0, {{0, 0.2f, 0.6f, 0.9f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.045f, 0.015f, 0.12f, 0.002f},
-    {0.014f, 0.034f, 0, {{0, 0.4f, 0.85f, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.05f, 0.012f, 0.15f, 0.002f},
-    {0.008f, 0.021f, 0, {{0, 0.6f, 1, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.07f, 0.012f, 0.2f, 0.002f},
+    {0.022f, 0.065f, 0.35f, {{0, 0.15f, 0.5f, 0.85f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.04f, 0.03f, 0.18f, 0.002f},
+    {0.025f, 0.055f, 0, {{0, 0.2f, 0.6f, 0.9f, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.03f, 0.02f, 0.18f, 0.002f},
+    {0.014f, 0.034f, 0, {{0, 0.4f, 0.85f, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.03f, 0.016f, 0.2f, 0.002f},
+    {0.008f, 0.021f, 0, {{0, 0.6f, 1, 1, 1, 1, 1, 1}}, LOCK_WEIGHT, 0.04f, 0.015f, 0.25f, 0.002f},
     {0.005f, 0.013f, 0, {{0, 0.9f, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.12f, 0.03f, 0.25f, 0.0015f},
     {0.004f, 0.009f, 0.6f, {{0, 1, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.2f, 0.06f, 0.35f, 0.0015f},
     {0.003f, 0.007f, 0.2f, {{0, 1, 1, 1, 1, 1, 1, 1}}, COIL_WEIGHT, 0.3f, 0.08f, 0.4f, 0.0015f},
@@ -136,8 +142,8 @@ static void apply_type(hair_look* look, const struct curl_type* type)
     look->curl.flatness = type->flatness;
     look->curl.strand_phase = type->strand_phase;
     look->curl.spread = type->spread;
-    look->curl.guide_spread = 0.12f;
-    look->curl.variation = 0.12f;
+    look->curl.guide_spread = 0.25f;
+    look->curl.variation = 0.3f;
     look->curl.left_fraction = 0.5f;
     look->strays.fraction = 0.06f;
     look->strays.tip_fraction = 0.4f;

@@ -14,7 +14,7 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
         return hair_fail_memory(host, "the guides of a haircut");
     }
     for (uint32_t i = 0; i < count; ++i) {
-        hair_style_grow(desc->style, hair_load3(asset->scalp_positions + 3 * i), desc->length, desc->seed,
+        hair_style_grow(desc->style, i, hair_load3(asset->scalp_positions + 3 * i), desc->length, desc->seed,
                         path);
         HAIR_ASSERT(2 <= path->count && path->count <= HAIR_STYLE_PATH_POINTS && each >= 2);
         hair_strand_resample(&path->point[0].x, path->count, asset->strands.positions + 3 * (size_t)i * each,

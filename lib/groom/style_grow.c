@@ -176,8 +176,12 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_st
         .inward_below = 0,
     };
     run_cut(&walk, root, scale, 0.03f, path);
-    struct hair_curl wave = {
-        0.011f, 0.105f, 0.07f * scale, 0.38f * scale, 1.5f * PI * hair_noise(root, 0.06f, seed + 2), 0.5f};
+    struct hair_curl wave = {.radius = 0.011f,
+                             .pitch = 0.105f,
+                             .start = 0.07f * scale,
+                             .full = 0.38f * scale,
+                             .phase = 1.5f * PI * hair_noise(root, 0.06f, seed + 2),
+                             .flat = 0.5f};
     hair_style_path_add_curl(path, &wave);
 }
 
@@ -216,7 +220,22 @@ static void grow_short(hair_vec3 root, float scale, uint32_t seed, struct hair_s
     run_to(&walk, root, scale * length, path);
 }
 
-static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+// Give the lock of a guide a phase, a direction and a size of its own. Neighbouring locks of one
+// phase would look like waves across the whole head. `spread` is the relative variation of the
+// size.
+static void make_lock(uint32_t guide, uint32_t seed, float spread, struct hair_curl* curl)
+{
+    uint32_t random = hair_hash(guide ^ hair_hash(seed));
+    float size = 1 + spread * (2 * hair_random(&random) - 1);
+    curl->radius *= size * (1 + 0.4f * spread * (2 * hair_random(&random) - 1));
+    curl->pitch *= size;
+    curl->phase = 2 * PI * hair_random(&random);
+    curl->flat = hair_random(&random) < 0.5f ? -1 : 1;
+    curl->seed = hair_hash(random);
+}
+
+static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
+                       struct hair_style_path* path)
 {
     float high = layer(root);
     struct walk walk = {
@@ -231,17 +250,15 @@ static void grow_curly(hair_vec3 root, float scale, uint32_t seed, struct hair_s
         .face = 0.018f,
     };
     run_cut(&walk, root, scale, 0.04f, path);
-    struct hair_curl curl = {.radius = 0.0100f + 0.0025f * hair_noise(root, 0.04f, seed + 2),
-                             .pitch = 0.028f * (1 + 0.12f * hair_noise(root, 0.05f, seed + 4)),
-                             .start = 0.008f,
-                             .full = 0.07f,
-                             .phase = 2 * PI * hair_noise(root, 0.05f, seed + 3),
-                             .flat = 1};
+    struct hair_curl curl = {
+        .radius = 0.0100f, .pitch = 0.028f, .start = 0.008f, .full = 0.07f, .variation = 0.3f};
+    make_lock(guide, seed + 2, 0.3f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
 
 // Grow a tight helix from the root outwards to a sphere.
-static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+static void grow_afro(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
+                      struct hair_style_path* path)
 {
     const hair_vec3 center = {0, 1.648f, -0.014f};
     const float radius = 0.163f;
@@ -257,8 +274,9 @@ static void grow_afro(hair_vec3 root, float scale, uint32_t seed, struct hair_st
         float t = (float)i / (float)count;
         hair_style_path_add(path, hair_lerp(hair_lerp(root, control, t), hair_lerp(control, tip, t), t));
     }
-    struct hair_curl curl = {0.0042f, 0.0125f, 0.002f, 0.025f, 2 * PI * hair_noise(root, 0.045f, seed + 1),
-                             1};
+    struct hair_curl curl = {
+        .radius = 0.0042f, .pitch = 0.0125f, .start = 0.002f, .full = 0.025f, .variation = 0.25f};
+    make_lock(guide, seed + 1, 0.2f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
 
@@ -269,7 +287,7 @@ uint32_t hair_style_vertices(hair_style style)
     return style == HAIR_STYLE_CURLY || style == HAIR_STYLE_AFRO ? 64 : 32;
 }
 
-void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
+void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
                      struct hair_style_path* path)
 {
     seed = hair_hash(seed + 101u);
@@ -278,7 +296,7 @@ void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t see
     case HAIR_STYLE_BOB: grow_bob(root, scale, seed, path); break;
     case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
     case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;
-    case HAIR_STYLE_CURLY: grow_curly(root, scale, seed, path); break;
-    default: grow_afro(root, scale, seed, path); break;
+    case HAIR_STYLE_CURLY: grow_curly(guide, root, scale, seed, path); break;
+    default: grow_afro(guide, root, scale, seed, path); break;
     }
 }

@@ -11,8 +11,9 @@ struct hair_parting hair_style_parting(hair_style style);
 // Return the number of vertices of a guide that resolves the curls of the style.
 uint32_t hair_style_vertices(hair_style style);
 
-// Grow a guide. `scale` multiplies the length of the style.
-void hair_style_grow(hair_style style, hair_vec3 root, float scale, uint32_t seed,
+// Grow the guide of a number, on which its curls depend. `scale` multiplies the length of the
+// style.
+void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
                      struct hair_style_path* path);
 
 // Grow a guide of the ponytail. Defined in style_ponytail.c.

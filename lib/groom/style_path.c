@@ -3,6 +3,8 @@
 #include "lib/groom/style_body.h"
 
 #define PI 3.14159265f
+// Number of turns over which a curl changes.
+#define VARIATION_TURNS 1.3f
 
 static float lattice(int x, int y, int z, uint32_t seed)
 {
@@ -46,6 +48,14 @@ void hair_style_path_trim(struct hair_style_path* path, float max)
     path->length -= fminf(over, 0.99f * step);
 }
 
+// Return the relative deviation of a curl at the distance s from the root. `which` selects the
+// pitch or the radius, which vary independently.
+static float vary(const struct hair_curl* curl, float s, uint32_t which)
+{
+    if (!(curl->variation > 0)) return 0;
+    return curl->variation * hair_noise(hair_v3(s, 0, 0), VARIATION_TURNS * curl->pitch, curl->seed + which);
+}
+
 void hair_style_path_add_curl(struct hair_style_path* path, const struct hair_curl* curl)
 {
     HAIR_ASSERT(path->count >= 2 && curl->pitch > 0);
@@ -64,8 +74,8 @@ void hair_style_path_add_curl(struct hair_style_path* path, const struct hair_cu
                                 across);
         tangent = next, last = p;
         s += step;
-        angle += 2 * PI * step / curl->pitch;
-        float radius = curl->radius * hair_smooth(curl->start, curl->full, s);
+        angle += 2 * PI * step / (curl->pitch * (1 + vary(curl, s, 0)));
+        float radius = curl->radius * (1 + vary(curl, s, 1)) * hair_smooth(curl->start, curl->full, s);
         hair_vec3 along = hair_scale(hair_cross(tangent, across), curl->flat * radius * sinf(angle));
         hair_vec3 q = hair_add(p, hair_add(hair_scale(across, radius * cosf(angle)), along));
         float inside = hair_body_distance(q);

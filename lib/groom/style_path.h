@@ -47,7 +47,9 @@ struct hair_curl {
     // Distances from the root at which the curl starts and at which its radius is reached, m.
     float start, full;
     float phase; // radians
-    float flat; // 1 gives a helix, 0 a plane wave.
+    float flat; // 1 gives a helix to the right, -1 one to the left, 0 a plane wave.
+    float variation; // relative variation of the radius and of the pitch along the curl, [0, 0.9]
+    uint32_t seed; // of this variation
 };
 
 // Wind the path into a helix, in a frame transported along it without twist, outside the bust.

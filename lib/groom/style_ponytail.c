@@ -82,8 +82,11 @@ void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct
         hair_scale(hair_normalize(hair_tangential(side, tie_axis), hair_v3(0, 1, 0)), TIE_RADIUS * away);
     gather(hair_add(tie, offset), normal, path);
     fall(offset, scale * TAIL_LENGTH * (1 + 0.08f * hair_noise(root, 0.02f, seed)), path);
-    struct hair_curl wave = {
-        0.004f, 0.12f, path->length - 0.2f * scale, path->length, PI * hair_noise(root, 0.1f, seed + 1),
-        0.5f};
+    struct hair_curl wave = {.radius = 0.004f,
+                             .pitch = 0.12f,
+                             .start = path->length - 0.2f * scale,
+                             .full = path->length,
+                             .phase = PI * hair_noise(root, 0.1f, seed + 1),
+                             .flat = 0.5f};
     hair_style_path_add_curl(path, &wave);
 }

@@ -12,12 +12,15 @@
 #define FOLLOWERS 4000
 #define SEGMENTS 40u
 #define EACH (SEGMENTS + 1)
+#define CURL_SEGMENTS ((size_t)256)
+#define LOCKS ((size_t)100)
 
 // Create straight guides. Offsets by the look are then perpendicular to a line.
-static struct hair_test_scene start(void** state)
+static struct hair_test_scene start(void** state, uint32_t guides)
 {
     struct hair_test_handmade wanted = hair_test_handmade_default();
-    wanted.turn = 0, wanted.followers = FOLLOWERS, wanted.each = 64;
+    wanted.guides = guides, wanted.turn = 0, wanted.segment = 0.025f, wanted.followers = FOLLOWERS,
+    wanted.each = 64;
     return hair_test_scene_of(*state, &wanted, NULL);
 }
 
@@ -60,7 +63,7 @@ static double fraction_moved(const float* a, const float* b, size_t first, size_
 
 static void stray_fraction_is_the_fraction_of_strays(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
     look.strays.tip_fraction = 0.3f;
@@ -87,7 +90,7 @@ static void stray_fraction_is_the_fraction_of_strays(void** state)
 // Check the radius of curls all along the strand. Therefore the tip gets no nearer to the root.
 static void curls_are_their_radius_away_from_the_strand(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     float* plain = read_with(&f, &look);
     look.curl.radius = 0.004f;
@@ -150,21 +153,32 @@ static float* read_segments(struct hair_test_scene* f, const hair_look* look)
     return positions;
 }
 
-// Check the sizes that hair_look.h gives for types 2a to 4c.
-static void types_have_their_diameter_and_length_of_turns(void** state)
+// Return the look of a preset on strands that are straight but for their curls.
+static hair_look curls_of(hair_look_preset preset)
 {
-    static const struct curl_size types[] = {{0.018, 0.120}, {0.020, 0.090}, {0.022, 0.065},
-                                             {0.025, 0.055}, {0.014, 0.034}, {0.008, 0.021},
-                                             {0.005, 0.013}, {0.004, 0.009}, {0.003, 0.007}};
-    struct hair_test_scene f = start(state);
-    for (size_t i = 0; i < sizeof types / sizeof *types; ++i) {
-        hair_look_preset preset = (hair_look_preset)(HAIR_LOOK_2A + i);
-        hair_look look = hair_look_default();
-        assert_int_equal(hair_look_apply_preset(&look, preset), HAIR_OK);
-        look.strand.segments = 256, look.curl.profile = hair_curve_line(1, 1);
-        // Strands are straight but for their curls.
-        look.strays = plain_look().strays, look.clump = plain_look().clump;
-        look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
+    hair_look look = hair_look_default();
+    assert_int_equal(hair_look_apply_preset(&look, preset), HAIR_OK);
+    look.strand.segments = 256, look.curl.profile = hair_curve_line(1, 1);
+    look.strays = plain_look().strays, look.clump = plain_look().clump;
+    look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
+    return look;
+}
+
+// Check the sizes that hair_look.h gives for presets with curls.
+static void presets_have_their_diameter_and_length_of_turns(void** state)
+{
+    static const struct {
+        hair_look_preset preset;
+        struct curl_size size;
+    } rows[] = {{HAIR_LOOK_WAVY, {0.018, 0.085}},  {HAIR_LOOK_CURLY, {0.024, 0.050}},
+                {HAIR_LOOK_COILY, {0.009, 0.018}}, {HAIR_LOOK_2A, {0.018, 0.120}},
+                {HAIR_LOOK_2B, {0.020, 0.090}},    {HAIR_LOOK_2C, {0.022, 0.065}},
+                {HAIR_LOOK_3A, {0.025, 0.055}},    {HAIR_LOOK_3B, {0.014, 0.034}},
+                {HAIR_LOOK_3C, {0.008, 0.021}},    {HAIR_LOOK_4A, {0.005, 0.013}},
+                {HAIR_LOOK_4B, {0.004, 0.009}},    {HAIR_LOOK_4C, {0.003, 0.007}}};
+    struct hair_test_scene f = start(state, (uint32_t)LOCKS);
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+        hair_look look = curls_of(rows[i].preset);
         // A strand may be shorter than a turn. All phases together have the mean of a turn.
         look.curl.strand_phase = 1;
         float* curled = read_segments(&f, &look);
@@ -172,18 +186,72 @@ static void types_have_their_diameter_and_length_of_turns(void** state)
         look.curl.radius = 0;
         float* plain = read_segments(&f, &look);
         struct curl_size size = measure_curls(plain, curled, look.strand.segments, (double)flatness);
-        print_message("    %s: %.1f mm wide, %.1f mm long\n", hair_look_name(preset), 1000 * size.diameter,
-                      1000 * size.turn);
-        hair_test_near("diameter", i, size.diameter, types[i].diameter, 0.1 * types[i].diameter);
-        hair_test_near("turn", i, size.turn, types[i].turn, 0.1 * types[i].turn);
+        print_message("    %s: %.1f mm wide, %.1f mm long\n", hair_look_name(rows[i].preset),
+                      1000 * size.diameter, 1000 * size.turn);
+        hair_test_near("diameter", i, size.diameter, rows[i].size.diameter, 0.1 * rows[i].size.diameter);
+        hair_test_near("turn", i, size.turn, rows[i].size.turn, 0.1 * rows[i].size.turn);
         free(plain), free(curled);
     }
     hair_test_scene_free(&f);
 }
 
+// Return the length of the mean of the unit offsets of a lock's strands, `along` metres from their
+// roots. It is 1 if all strands are in phase, and near 0 if phases are random.
+static double coherence_of(const float* plain, const float* curled, size_t lock, double along)
+{
+    double sum[3] = {0};
+    for (size_t n = lock; n < FOLLOWERS; n += LOCKS) {
+        size_t root = n * (CURL_SEGMENTS + 1);
+        size_t k = root + (size_t)fmin(along / distance_at(plain, plain + 3, root), (double)CURL_SEGMENTS);
+        double radius = distance_at(plain, curled, k);
+        for (size_t i = 0; i < 3; ++i)
+            sum[i] += ((double)curled[3 * k + i] - (double)plain[3 * k + i]) / radius * LOCKS / FOLLOWERS;
+    }
+    return sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+}
+
+// Return the mean radius of a strand between two vertices.
+static double mean_radius(const float* plain, const float* curled, size_t strand, size_t from, size_t to)
+{
+    double sum = 0;
+    for (size_t k = from; k < to; ++k) sum += distance_at(plain, curled, strand * (CURL_SEGMENTS + 1) + k);
+    return sum / (double)(to - from);
+}
+
+// Check that strands of a lock turn together and drift apart towards the tips, and that the radius
+// varies between locks and along each. Strand n belongs to lock n modulo LOCKS.
+static void locks_vary_and_drift_apart_towards_their_tips(void** state)
+{
+    struct hair_test_scene f = start(state, (uint32_t)LOCKS);
+    hair_look look = curls_of(HAIR_LOOK_3B);
+    float* curled = read_segments(&f, &look);
+    look.curl.radius = 0;
+    float* plain = read_segments(&f, &look);
+    double near_root = 0, tip = 0, mean = 0, square = 0, along = 0;
+    for (size_t lock = 0; lock < LOCKS; ++lock) {
+        near_root += coherence_of(plain, curled, lock, 0.02) / LOCKS;
+        tip += coherence_of(plain, curled, lock, 0.15) / LOCKS;
+        double radius = mean_radius(plain, curled, lock, 0, CURL_SEGMENTS + 1), most = 0, least = 1;
+        for (size_t part = 0; part < 4; ++part) {
+            double there =
+                mean_radius(plain, curled, lock, part * CURL_SEGMENTS / 4, (part + 1) * CURL_SEGMENTS / 4);
+            most = fmax(most, there), least = fmin(least, there);
+        }
+        mean += radius / LOCKS, square += radius * radius / LOCKS, along += (most - least) / radius / LOCKS;
+    }
+    double spread = sqrt(square - mean * mean) / mean;
+    print_message("    coherence of a lock %.3f near the root and %.3f at the tip\n", near_root, tip);
+    print_message("    radius varies by %.3f between locks and %.3f along them\n", spread, along);
+    assert_true(near_root > 0.98 && tip < 0.97 && tip > 0.5);
+    assert_true(spread > 0.1 && spread < 0.25);
+    assert_true(along > 0.1 && along < 0.5);
+    free(plain), free(curled);
+    hair_test_scene_free(&f);
+}
+
 static void strands_have_the_length_of_the_look(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     float* whole = read_with(&f, &look);
@@ -216,7 +284,7 @@ static void strands_have_the_length_of_the_look(void** state)
 
 static void follower_without_offset_is_its_guide(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     look.clump.interpolation = HAIR_INTERPOLATION_SINGLE;
     look.clump.width = hair_curve_line(0, 0);
@@ -242,7 +310,7 @@ static void follower_without_offset_is_its_guide(void** state)
 
 static void interpolation_modes_are_the_ends_of_the_blend(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     for (int single = 0; single < 2; ++single) {
         look.clump.interpolation = single ? HAIR_INTERPOLATION_SINGLE : HAIR_INTERPOLATION_MULTI;
@@ -258,7 +326,7 @@ static void interpolation_modes_are_the_ends_of_the_blend(void** state)
 
 static void disabled_look_has_no_effect_and_no_program(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look(), off = look;
     uint32_t styled = hair_test_runs_of(&f.test->context->gl, "_styled");
     size_t size = 3 * sizeof(float) * FOLLOWERS * EACH;
@@ -291,7 +359,7 @@ static void disabled_look_has_no_effect_and_no_program(void** state)
 
 static void invalid_looks_are_refused_by_name(void** state)
 {
-    struct hair_test_scene f = start(state);
+    struct hair_test_scene f = start(state, 7);
     hair_look look = plain_look();
     look.strand.taper.at[3] = NAN;
     hair_test_refused(f.test, hair_set_look(f.hair, &look), HAIR_ERROR_ARGUMENT,
@@ -313,7 +381,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(stray_fraction_is_the_fraction_of_strays),
         HAIR_TEST(curls_are_their_radius_away_from_the_strand),
-        HAIR_TEST(types_have_their_diameter_and_length_of_turns),
+        HAIR_TEST(presets_have_their_diameter_and_length_of_turns),
+        HAIR_TEST(locks_vary_and_drift_apart_towards_their_tips),
         HAIR_TEST(strands_have_the_length_of_the_look),
         HAIR_TEST(follower_without_offset_is_its_guide),
         HAIR_TEST(interpolation_modes_are_the_ends_of_the_blend),

@@ -131,7 +131,7 @@ void hair_reference_follower(const hair_follower* follower, const hair_look* loo
     const double many = own.multi * (1 - single.value) * (1 - r.freed);
     const double many_slope =
         -own.multi * (single.slope * (1 - r.freed) + (1 - single.value) * r.freed_slope);
-    const astray stray = hair_reference_astray(*look, own.guide0, own.seed, v, length);
+    const astray stray = hair_reference_astray(*look, own.guide0, own.seed, v, length, ratio);
     const Vector3d local = (1 - many) * aside_one + many * aside_many + stray.at;
     const Vector3d local_slope = (1 - many) * slope_one + many_slope * (aside_many - aside_one) + stray.slope;
     const Vector3d turned = first.frame * local;

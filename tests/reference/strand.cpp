@@ -95,13 +95,14 @@ along turn(const float* values, double turns)
     return {c.value, n * c.slope};
 }
 
-astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
+astray curl(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length, double ratio)
 {
     const double spread = look.curl.spread * (2 * high(seed + 2) - 1);
     const double size = (1 + spread) * (1 + look.curl.guide_spread * (2 * low(guide + 0x2aaaaaaau) - 1));
     const double turns = (length / look.curl.wavelength + look.curl.turns) / size;
-    const astray wind = wander(64 * guide + 0x71c71c71u, t, 8);
-    const double shift = look.curl.variation * turns / 8;
+    astray wind = wander(64 * guide + 0x71c71c71u, t * ratio, 8);
+    wind.slope *= ratio;
+    const double shift = look.curl.variation * turns / (8 * ratio);
     const double phase = look.curl.guide_phase * low(guide) + look.curl.strand_phase * low(seed + 2);
     const double hand = high(guide) < double(look.curl.left_fraction) ? -1 : 1;
     const double flat = 1 - double(look.curl.flatness), at = t * turns + shift * wind.at[0] + phase;
@@ -149,7 +150,8 @@ double hair_reference_fraction(const hair_look& look, uint32_t seed)
     return look.strand.length * (1 - look.strand.length_variation * ((hash(seed + 3) >> 8) / 16777216.0));
 }
 
-astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length)
+astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length,
+                             double ratio)
 {
     const along by_tip = hair_reference_curve(look.strays.tip_distance, t),
                 by = hair_reference_curve(look.strays.distance, t);
@@ -160,5 +162,5 @@ astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t see
     if (low(seed + 4) < double(look.strays.frizz_fraction))
         all = sum(all, times(wander(seed + 0x55555555u, t, length / look.strays.frizz_wavelength), 1,
                              hair_reference_curve(look.strays.frizz, t)));
-    return sum(all, curl(look, guide, seed, t, length));
+    return sum(all, curl(look, guide, seed, t, length, ratio));
 }

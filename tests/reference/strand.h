@@ -18,7 +18,9 @@ along hair_reference_curve(const hair_curve& curve, double t);
 along hair_reference_singleness(const hair_look& look, double t);
 // Return the fraction of a strand that is drawn.
 double hair_reference_fraction(const hair_look& look, uint32_t seed);
-// Return the sum of strays, frizz and curls.
-astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length);
+// Return the sum of strays, frizz and curls. `ratio` is the length of the strand in lengths of its
+// guide.
+astray hair_reference_astray(const hair_look& look, uint32_t guide, uint32_t seed, double t, double length,
+                             double ratio);
 
 #endif
