@@ -38,6 +38,7 @@ struct capture {
     struct hair_world* world; // NULL if the scene has no Bullet objects
     hair_collider* colliders;
     uint32_t collider_room;
+    hair_collision_mesh* head[HEAD_MESHES]; // of the built-in head, NULL if none is drawn
     struct hair_render* render;
     struct hair_frame_writer sink;
     struct hair_stats stats;
@@ -107,6 +108,7 @@ static int make_mesh(struct capture* capture)
     }
     hair_render_set_mesh(capture->render, &mesh, !scene->head);
     head_mesh_free(&mesh);
+    if (scene->head && head_collision_meshes_create(&capture->host, capture->head)) return HAIR_EXIT_RUNTIME;
     return HAIR_EXIT_OK;
 }
 
@@ -142,14 +144,18 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
     if (!result)
         result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + other_count)) {
+    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + HEAD_MESHES + other_count)) {
         hair_complain(TOOL, "out of memory for %u colliders", other_count);
         return HAIR_ERROR_MEMORY;
     }
     uint32_t count = hair_head_rig_colliders(&capture->options.scene, time, transform, capture->colliders);
     if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
-    return hair_set_colliders(capture->hair, capture->colliders, count + other_count,
-                              sizeof *capture->colliders);
+    count += other_count;
+    if (capture->head[0]) {
+        hair_head_rig_place_meshes(capture->head, transform, capture->colliders + count);
+        count += HEAD_MESHES;
+    }
+    return hair_set_colliders(capture->hair, capture->colliders, count, sizeof *capture->colliders);
 }
 
 static int make_shader(struct capture* capture)
@@ -380,6 +386,7 @@ static void destroy(struct capture* capture)
 {
     hair_destroy(capture->hair);
     hair_world_destroy(capture->world);
+    for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(capture->head[i]);
     if (capture->render) hair_render_destroy(capture->render);
     hair_shader_destroy(capture->shader);
     hair_context_destroy(capture->context);

@@ -1,4 +1,5 @@
 // head_test.c - the bust that tools draw, on the built-in scalp and around its colliders.
+#include "lib/collide/distance.h"
 #include "tests/support/host.h"
 
 #include <hair/hair_asset.h>
@@ -12,6 +13,7 @@
 
 // Tools are not linked into tests.
 #include "tools/common/head.c"
+#include "tools/common/head_collision.c"
 #include "tools/common/head_eyes.c"
 #include "tools/common/head_parts.c"
 #include "tools/common/head_subdivide.c"
@@ -166,6 +168,60 @@ static void colliders_fill_the_scalp_from_inside(void** state)
     hair_asset_destroy(asset);
 }
 
+// Check that the collision meshes have the drawn skin and garment as their surface, to a millimetre
+// on average. Lids, lips and nostrils are finer than the voxels.
+static void meshes_have_the_drawn_surface(void** state)
+{
+    struct hair_test_host* host = *state;
+    hair_collision_mesh* made[HEAD_MESHES];
+    assert_int_equal(head_collision_meshes_create(&host->host, made), 0);
+    for (int i = 0; i < HEAD_MESHES; ++i) {
+        hair_collision_mesh_info info = hair_collision_mesh_info_default();
+        assert_int_equal(hair_collision_mesh_describe(made[i], &info), HAIR_OK);
+        assert_true(info.is_closed);
+        assert_int_equal(info.unused, 0);
+        hair_collider collider = hair_collider_default();
+        collider.shape = HAIR_SHAPE_MESH;
+        collider.mesh = made[i];
+        double sum = 0, furthest = 0;
+        uint32_t count = 0;
+        struct head_surface part = {0};
+        assert_int_equal(head_load_part(cuts[i].part, &part), 0);
+        for (uint32_t k = 0; k < part.vertex_count; ++k) {
+            point p = point_of(part.vertices[k]);
+            if (p.y < cuts[i].lowest + 0.01f) continue;
+            if (cuts[i].part == HEAD_SKIN) p = head_on_skull(p);
+            const double at[3] = {(double)p.x, (double)p.y, (double)p.z};
+            double distance = fabs(hair_distance_to_collider(&collider, at, NULL));
+            furthest = fmax(furthest, distance);
+            sum += distance;
+            ++count;
+        }
+        print_message("    %u vertices, off by %.2f mm on average, by %.2f mm at most\n", count,
+                      1e3 * sum / count, 1e3 * furthest);
+        assert_true(count > 500);
+        assert_true(sum / count < 1e-3 && furthest < (double)cuts[i].voxel);
+        head_surface_free(&part);
+        hair_collision_mesh_destroy(made[i]);
+    }
+}
+
+static void mesh_without_memory_is_not_made(void** state)
+{
+    struct hair_test_host* host = *state;
+    hair_collision_mesh* made[HEAD_MESHES] = {0};
+    assert_int_equal(head_collision_meshes_create(&host->host, made), 0);
+    for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(made[i]);
+    uint32_t allocations = host->allocations;
+    memset(made, 0, sizeof made);
+    for (uint32_t refuse = 1; refuse <= allocations; ++refuse) {
+        host->refuse = host->allocations + refuse;
+        assert_int_equal(head_collision_meshes_create(&host->host, made), -1);
+        assert_null(made[0]);
+        assert_null(made[1]);
+    }
+}
+
 static void colliders_beyond_the_capacity_are_only_counted(void** state)
 {
     (void)state;
@@ -178,11 +234,14 @@ static void colliders_beyond_the_capacity_are_only_counted(void** state)
 
 int main(void)
 {
+    struct hair_test_host host;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(roots_lie_on_the_skin),
         cmocka_unit_test(the_mesh_is_sound_and_faces_outwards),
         cmocka_unit_test(a_cube_is_subdivided_by_the_rules),
         cmocka_unit_test(colliders_fill_the_scalp_from_inside),
+        HAIR_TEST_WITH_HOST(meshes_have_the_drawn_surface, &host),
+        HAIR_TEST_WITH_HOST(mesh_without_memory_is_not_made, &host),
         cmocka_unit_test(colliders_beyond_the_capacity_are_only_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

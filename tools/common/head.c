@@ -10,32 +10,31 @@
 
 typedef struct head_point point;
 
-enum part { SKIN, CLOTH, BAND, PARTS };
-
 // First vertex and first face of each part in bust.inl, and the numbers of them.
-static const struct range {
+static const struct {
     uint32_t vertex, vertices, face, faces;
-} ranges[PARTS] = BUST_PARTS;
+} ranges[HEAD_PARTS] = BUST_PARTS;
 
 // Skin, garment -----------------------------------------------------------------------------------
 
-static int load_part(const struct range* range, struct head_surface* out)
+int head_load_part(enum head_part part, struct head_surface* out)
 {
-    out->vertices = malloc(range->vertices * sizeof *out->vertices);
-    out->faces = malloc(range->faces * sizeof *out->faces);
+    uint32_t first_vertex = ranges[part].vertex, first_face = ranges[part].face;
+    out->vertices = malloc(ranges[part].vertices * sizeof *out->vertices);
+    out->faces = malloc(ranges[part].faces * sizeof *out->faces);
     if (!out->vertices || !out->faces) return -1;
-    out->vertex_count = range->vertices, out->face_count = range->faces;
-    for (uint32_t i = 0; i < range->vertices; ++i) {
-        const int16_t* p = bust_positions[range->vertex + i];
-        const uint8_t* paint = bust_paint[range->vertex + i];
+    out->vertex_count = ranges[part].vertices, out->face_count = ranges[part].faces;
+    for (uint32_t i = 0; i < out->vertex_count; ++i) {
+        const int16_t* p = bust_positions[first_vertex + i];
+        const uint8_t* paint = bust_paint[first_vertex + i];
         const float values[HEAD_VALUES] = {1e-5f * (float)p[0], 1.45f + 1e-5f * (float)p[1],
                                            1e-5f * (float)p[2], (float)paint[0] / 255, (float)paint[1] / 255};
         memcpy(out->vertices[i], values, sizeof values);
     }
-    for (uint32_t i = 0; i < range->faces; ++i)
+    for (uint32_t i = 0; i < out->face_count; ++i)
         for (uint32_t k = 0; k < 4; ++k) {
-            uint16_t corner = bust_faces[range->face + i][k];
-            out->faces[i][k] = corner == UINT16_MAX ? HEAD_NO_CORNER : corner - range->vertex;
+            uint16_t corner = bust_faces[first_face + i][k];
+            out->faces[i][k] = corner == UINT16_MAX ? HEAD_NO_CORNER : corner - first_vertex;
         }
     return 0;
 }
@@ -45,10 +44,10 @@ static point point_of(const float* p)
     return (point){p[0], p[1], p[2]};
 }
 
-static struct head_paint paint_of(enum part part, const float* values)
+static struct head_paint paint_of(enum head_part part, const float* values)
 {
     static const struct head_paint cloth = {{0.030f, 0.036f, 0.048f}, 0, 0, 1};
-    if (part == SKIN) return head_paint_skin(point_of(values), values[3], values[4]);
+    if (part == HEAD_SKIN) return head_paint_skin(point_of(values), values[3], values[4]);
     struct head_paint paint = cloth;
     paint.open = values[4];
     return paint;
@@ -72,17 +71,17 @@ static void find_normals(struct head_mesh* mesh, uint32_t first_vertex, uint32_t
     }
 }
 
-static void put_part(struct head_builder* builder, enum part part)
+static void put_part(struct head_builder* builder, enum head_part part)
 {
     struct head_surface surface = {0};
     // Skin is finer, for the sake of lids, lips and the paint of the hairline.
-    builder->failed |= load_part(&ranges[part], &surface) || head_subdivide(&surface) ||
-                       (part == SKIN && head_subdivide(&surface));
+    builder->failed |= head_load_part(part, &surface) || head_subdivide(&surface) ||
+                       (part == HEAD_SKIN && head_subdivide(&surface));
     uint32_t first = builder->mesh.vertex_count, triangles = builder->mesh.triangle_count;
     for (uint32_t i = 0; i < surface.vertex_count && !builder->failed; ++i) {
         point p = point_of(surface.vertices[i]);
         struct head_paint paint = paint_of(part, surface.vertices[i]);
-        head_put_vertex(builder, part == SKIN ? head_on_skull(p) : p, (point){0, 0, 0}, &paint);
+        head_put_vertex(builder, part == HEAD_SKIN ? head_on_skull(p) : p, (point){0, 0, 0}, &paint);
     }
     for (uint32_t i = 0; i < surface.face_count; ++i) {
         const uint32_t* face = surface.faces[i];
@@ -96,7 +95,8 @@ static void put_part(struct head_builder* builder, enum part part)
 int head_mesh_create(struct head_mesh* out)
 {
     struct head_builder builder = {0};
-    for (enum part part = SKIN; part < PARTS && !builder.failed; ++part) put_part(&builder, part);
+    for (enum head_part part = HEAD_SKIN; part < HEAD_PARTS && !builder.failed; ++part)
+        put_part(&builder, part);
     head_put_eyes(&builder);
     uint32_t coarse = builder.mesh.triangle_count;
     head_put_brows(&builder);

@@ -26,4 +26,11 @@ void head_mesh_free(struct head_mesh* mesh);
 // at most `capacity` colliders. Return the total count.
 uint32_t head_colliders(hair_collider* out, uint32_t capacity);
 
+#define HEAD_MESHES 2
+
+// Create the collision meshes of the head above the neck and of the garment, in the space of the
+// built-in haircuts. Return 0, or -1 after an error, which the host hears. Destroy the meshes with
+// hair_collision_mesh_destroy().
+int head_collision_meshes_create(const hair_host* host, hair_collision_mesh* out[HEAD_MESHES]);
+
 #endif

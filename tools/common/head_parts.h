@@ -28,6 +28,13 @@ struct head_builder {
 #define HEAD_EYE ((struct head_point){0.0303f, 1.6114f, 0.0682f})
 #define HEAD_EYE_RADIUS 0.0153f
 
+// Parts that bust.inl holds.
+enum head_part { HEAD_SKIN, HEAD_CLOTH, HEAD_BAND, HEAD_PARTS };
+
+// Read a part of the bust. Return 0, or -1 if memory runs out. Release the surface with
+// head_surface_free(), in either case.
+int head_load_part(enum head_part part, struct head_surface* out);
+
 // Return t in [0, 1] for x between two bounds, by a cubic with level ends.
 float head_smooth(float from, float to, float x);
 float head_mix(float a, float b, float t);

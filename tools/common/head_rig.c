@@ -85,3 +85,17 @@ uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, con
     }
     return count;
 }
+
+void hair_head_rig_place_meshes(hair_collision_mesh* const meshes[HEAD_MESHES], const float transform[16],
+                                hair_collider out[HEAD_MESHES])
+{
+    static const float weights[HEAD_MESHES] = {1, 0}; // The garment stays.
+    for (uint32_t i = 0; i < HEAD_MESHES; ++i) {
+        out[i] = hair_collider_default();
+        out[i].shape = HAIR_SHAPE_MESH;
+        out[i].mesh = meshes[i];
+        // The keys outlive a change of the scene's number of colliders.
+        out[i].key = UINT32_MAX - i;
+        hair_collider_carry(transform, weights[i], &out[i]);
+    }
+}

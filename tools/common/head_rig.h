@@ -21,4 +21,8 @@ int hair_head_rig_ball(float radius, struct head_mesh* out);
 uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
                                  hair_collider out[HAIR_HEAD_RIG_COLLIDERS]);
 
+// Place collision meshes of head_collision_meshes_create(), with the head at `transform`.
+void hair_head_rig_place_meshes(hair_collision_mesh* const meshes[HEAD_MESHES], const float transform[16],
+                                hair_collider out[HEAD_MESHES]);
+
 #endif

@@ -34,6 +34,7 @@ struct view_session {
     std::unique_ptr<hair_scene> applied; // scene that the hair has now
     std::string name; // name of the scene, for messages
     std::vector<hair_collider> colliders;
+    hair_collision_mesh* head[HEAD_MESHES] = {}; // of the built-in head, made when one is shown
     std::vector<hair_pin> pins; // strands that the mouse holds
     float reach = 1; // radius of the head's reach, m
     float transform[16] = {}; // of the head
