@@ -108,7 +108,9 @@ static int make_mesh(struct capture* capture)
     }
     hair_render_set_mesh(capture->render, &mesh, !scene->head);
     head_mesh_free(&mesh);
-    if (scene->head && head_collision_meshes_create(&capture->host, capture->head)) return HAIR_EXIT_RUNTIME;
+    // The solver by red-black projection knows no meshes.
+    bool meshes = scene->head && scene->settings.desc.solver != HAIR_SOLVER_REDBLACK;
+    if (meshes && head_collision_meshes_create(&capture->host, capture->head)) return HAIR_EXIT_RUNTIME;
     return HAIR_EXIT_OK;
 }
 
@@ -144,17 +146,14 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
     if (!result)
         result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + HEAD_MESHES + other_count)) {
+    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + other_count)) {
         hair_complain(TOOL, "out of memory for %u colliders", other_count);
         return HAIR_ERROR_MEMORY;
     }
-    uint32_t count = hair_head_rig_colliders(&capture->options.scene, time, transform, capture->colliders);
+    uint32_t count =
+        hair_head_rig_colliders(&capture->options.scene, capture->head, time, transform, capture->colliders);
     if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
     count += other_count;
-    if (capture->head[0]) {
-        hair_head_rig_place_meshes(capture->head, transform, capture->colliders + count);
-        count += HEAD_MESHES;
-    }
     return hair_set_colliders(capture->hair, capture->colliders, count, sizeof *capture->colliders);
 }
 

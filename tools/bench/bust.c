@@ -26,7 +26,7 @@ static bool place(struct bench_bust* bust, float transform[16])
 {
     float time = (float)bust->frame / BUST_FPS;
     hair_motion_at(&bust->scene.motion, time, transform);
-    bust->collider_count = hair_head_rig_colliders(&bust->scene, time, transform, bust->colliders);
+    bust->collider_count = hair_head_rig_colliders(&bust->scene, NULL, time, transform, bust->colliders);
     return !bust->hair ||
            (!hair_set_transform(bust->hair, transform) &&
             !hair_set_colliders(bust->hair, bust->colliders, bust->collider_count, sizeof *bust->colliders));

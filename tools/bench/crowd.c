@@ -73,7 +73,8 @@ static bool place(struct crowd* crowd)
     float time = (float)crowd->frame * (float)CROWD_FRAME, *transform = crowd->transform;
     hair_motion_at(&crowd->scene.motion, time, transform);
     if (crowd->desc.motion != CROWD_SHAKE)
-        crowd->collider_count = hair_head_rig_colliders(&crowd->scene, time, transform, crowd->colliders);
+        crowd->collider_count =
+            hair_head_rig_colliders(&crowd->scene, NULL, time, transform, crowd->colliders);
     return !crowd->hair || (!hair_set_transform(crowd->hair, transform) &&
                             !hair_set_colliders(crowd->hair, crowd->colliders, crowd->collider_count,
                                                 sizeof *crowd->colliders));

@@ -48,7 +48,7 @@ static hair_result add_head(hair_instance* hair)
     const float still[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     hair_scene_default(&scene);
     scene.head = true;
-    uint32_t count = hair_head_rig_colliders(&scene, 0, still, colliders);
+    uint32_t count = hair_head_rig_colliders(&scene, NULL, 0, still, colliders);
     return hair_set_colliders(hair, colliders, count, sizeof *colliders);
 }
 

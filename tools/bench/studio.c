@@ -74,7 +74,7 @@ static bool place(struct bench_studio* studio)
     float time = (float)studio->frame / STUDIO_FPS;
     hair_motion_at(&studio->scene.motion, time, studio->transform);
     if (!studio->hair) return true;
-    uint32_t count = hair_head_rig_colliders(&studio->scene, time, studio->transform, colliders);
+    uint32_t count = hair_head_rig_colliders(&studio->scene, NULL, time, studio->transform, colliders);
     return !hair_set_transform(studio->hair, studio->transform) &&
            !hair_set_colliders(studio->hair, colliders, count, sizeof *colliders);
 }

@@ -21,6 +21,7 @@ int head_mesh_create(struct head_mesh* out);
 void head_mesh_free(struct head_mesh* mesh);
 
 #define HEAD_COLLIDERS 16
+#define HEAD_NECK 10 // index of the collider of the neck
 
 // Write the bust's colliders for hair_set_colliders(). No collider extends outside the scalp. Write
 // at most `capacity` colliders. Return the total count.

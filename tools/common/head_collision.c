@@ -1,7 +1,7 @@
 // head_collision.c - Collision meshes of the bust: the drawn surface, cut and closed.
 //
-// The capsules of head.c are the colliders of every solver. These meshes are more precise: the
-// capsules leave gaps of centimetres under the nose, the chin and the garment.
+// The capsules of head.c are for solvers without meshes. They leave gaps of centimetres under the
+// nose, the chin and the garment.
 #include "tools/common/head_parts.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ typedef struct head_point point;
 static const struct {
     enum head_part part;
     float lowest, voxel; // m
-} cuts[HEAD_MESHES] = {{HEAD_SKIN, 1.5f, 0.005f}, {HEAD_CLOTH, 1.25f, 0.008f}};
+} cuts[HEAD_MESHES] = {{HEAD_SKIN, 1.47f, 0.005f}, {HEAD_CLOTH, 1.25f, 0.008f}};
 
 // A surface that is made closed.
 struct closed {

@@ -66,13 +66,34 @@ static float weight(float height)
     return t * t * (3 - 2 * t);
 }
 
-uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
+// Place the collision meshes of the head and of the garment, which stays.
+static void place_meshes(hair_collision_mesh* const* meshes, const float transform[16],
+                         hair_collider out[HEAD_MESHES])
+{
+    static const float weights[HEAD_MESHES] = {1, 0};
+    for (uint32_t i = 0; i < HEAD_MESHES; ++i) {
+        out[i] = hair_collider_default();
+        out[i].shape = HAIR_SHAPE_MESH;
+        out[i].mesh = meshes[i];
+        hair_collider_carry(transform, weights[i], &out[i]);
+    }
+}
+
+static uint32_t place_head(hair_collision_mesh* const* meshes, const float transform[16], hair_collider* out)
+{
+    uint32_t count = head_colliders(out, HEAD_COLLIDERS);
+    for (uint32_t i = 0; i < count; ++i) hair_collider_carry(transform, weight(out[i].position[1]), &out[i]);
+    if (!meshes || !meshes[0]) return count;
+    out[0] = out[HEAD_NECK];
+    place_meshes(meshes, transform, out + 1);
+    return 1 + HEAD_MESHES;
+}
+
+uint32_t hair_head_rig_colliders(const struct hair_scene* scene, hair_collision_mesh* const* meshes,
+                                 float time, const float transform[16],
                                  hair_collider out[HAIR_HEAD_RIG_COLLIDERS])
 {
-    uint32_t count = 0;
-    if (scene->head) count = head_colliders(out, HEAD_COLLIDERS);
-    for (uint32_t i = 0; i < count; ++i) hair_collider_carry(transform, weight(out[i].position[1]), &out[i]);
-
+    uint32_t count = scene->head ? place_head(meshes, transform, out) : 0;
     if (scene->subject == HAIR_SUBJECT_FUR) {
         out[count] = hair_collider_default();
         out[count].size[0] = scene->ball_radius;
@@ -84,18 +105,4 @@ uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, con
         ++count;
     }
     return count;
-}
-
-void hair_head_rig_place_meshes(hair_collision_mesh* const meshes[HEAD_MESHES], const float transform[16],
-                                hair_collider out[HEAD_MESHES])
-{
-    static const float weights[HEAD_MESHES] = {1, 0}; // The garment stays.
-    for (uint32_t i = 0; i < HEAD_MESHES; ++i) {
-        out[i] = hair_collider_default();
-        out[i].shape = HAIR_SHAPE_MESH;
-        out[i].mesh = meshes[i];
-        // The keys outlive a change of the scene's number of colliders.
-        out[i].key = UINT32_MAX - i;
-        hair_collider_carry(transform, weights[i], &out[i]);
-    }
 }

@@ -10,19 +10,17 @@
 #define HAIR_HEAD_RIG_MOVES 1.525f
 #define HAIR_HEAD_RIG_RESTS 1.425f
 
-#define HAIR_HEAD_RIG_COLLIDERS (HEAD_COLLIDERS + 1 + HAIR_SCENE_COLLIDERS)
+#define HAIR_HEAD_RIG_COLLIDERS (HEAD_COLLIDERS + HEAD_MESHES + 1 + HAIR_SCENE_COLLIDERS)
 
 // Make the ball that fur grows on. Return 0, or -1 if memory runs out. Release the mesh with
 // head_mesh_free().
 int hair_head_rig_ball(float radius, struct head_mesh* out);
 
-// Compute the scene's colliders in the world at a time, in s, with the head at `transform`. Return
-// the number of colliders.
-uint32_t hair_head_rig_colliders(const struct hair_scene* scene, float time, const float transform[16],
+// Compute the scene's colliders in the world at a time, in s, with the head at `transform`. The
+// collision meshes of head_collision_meshes_create() replace the capsules of the built-in head,
+// except for the neck, which bends. NULL selects the capsules. Return the number of colliders.
+uint32_t hair_head_rig_colliders(const struct hair_scene* scene, hair_collision_mesh* const* meshes,
+                                 float time, const float transform[16],
                                  hair_collider out[HAIR_HEAD_RIG_COLLIDERS]);
-
-// Place collision meshes of head_collision_meshes_create(), with the head at `transform`.
-void hair_head_rig_place_meshes(hair_collision_mesh* const meshes[HEAD_MESHES], const float transform[16],
-                                hair_collider out[HEAD_MESHES]);
 
 #endif

@@ -52,16 +52,15 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
         result =
             hair_world_colliders(session.world, time, session.transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (scene.head && !session.head[0] && head_collision_meshes_create(&session.host, session.head))
+    // The solver by red-black projection knows no meshes.
+    bool meshes = scene.head && scene.settings.desc.solver != HAIR_SOLVER_REDBLACK;
+    if (meshes && !session.head[0] && head_collision_meshes_create(&session.host, session.head))
         return HAIR_ERROR_MEMORY;
-    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + HEAD_MESHES + other_count);
-    uint32_t count = hair_head_rig_colliders(&scene, time, session.transform, session.colliders.data());
+    session.colliders.resize(HAIR_HEAD_RIG_COLLIDERS + other_count);
+    uint32_t count = hair_head_rig_colliders(&scene, meshes ? session.head : nullptr, time, session.transform,
+                                             session.colliders.data());
     std::copy(others, others + other_count, session.colliders.begin() + count);
     count += other_count;
-    if (scene.head) {
-        hair_head_rig_place_meshes(session.head, session.transform, session.colliders.data() + count);
-        count += HEAD_MESHES;
-    }
     session.colliders.resize(count);
     // Keys of a new generation, because colliders must not sweep through hair that was put at rest.
     for (uint32_t i = 0; i < count; ++i) {
