@@ -70,25 +70,39 @@ float ellipsoid_distance(vec3 size, vec3 p, out vec3 gradient)
     return longest * dot(normal, at - r * normalize(q));
 }
 
-float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
+// Return the distance to a cylinder or cone.
+float revolved_distance(uint shape, vec2 size, vec3 p, out vec3 gradient)
 {
-    if (shape <= SHAPE_CAPSULE) {
-        vec3  axis = vec3(0.0, shape == SHAPE_CAPSULE ? clamp(p.y, -size.y, size.y) : 0.0, 0.0);
-        float away = length(p - axis);
-        gradient = away > 1e-12             ? (p - axis) / away
-                   : shape == SHAPE_CAPSULE ? vec3(1.0, 0.0, 0.0)
-                                            : vec3(0.0, 1.0, 0.0);
-        return away - size.x;
-    }
-    if (shape == SHAPE_BOX) return box_distance(size, p, gradient);
-    if (shape == SHAPE_ELLIPSOID) return ellipsoid_distance(size, p, gradient);
-    gradient = vec3(0.0, 1.0, 0.0);
-    if (shape >= SHAPE_PLANE) return p.y;
     float around = length(p.xz);
     vec2  slope, radial = around > 1e-12 ? p.xz / around : vec2(1.0, 0.0);
-    float distance = shape == SHAPE_CONE ? cone_distance(size.xy, vec2(around, p.y), slope)
-                                         : cylinder_distance(size.xy, vec2(around, p.y), slope);
+    float distance = shape == SHAPE_CONE ? cone_distance(size, vec2(around, p.y), slope)
+                                         : cylinder_distance(size, vec2(around, p.y), slope);
     gradient       = vec3(slope.x * radial.x, slope.y, slope.x * radial.y);
+    return distance;
+}
+
+// Return the distance to a sphere, or to a capsule whose axis has half the length `size.y`.
+float capsule_distance(bool capsule, vec3 size, vec3 p, out vec3 gradient)
+{
+    vec3  axis = vec3(0.0, capsule ? clamp(p.y, -size.y, size.y) : 0.0, 0.0);
+    float away = length(p - axis);
+    gradient   = away > 1e-12 ? (p - axis) / away : capsule ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    return away - size.x;
+}
+
+// The only return at the end saves a fifth of a driver's time to compile sim/mixed.comp.
+float shape_distance(uint shape, vec3 size, vec3 p, out vec3 gradient)
+{
+    float distance = p.y;
+    gradient       = vec3(0.0, 1.0, 0.0);
+    if (shape <= SHAPE_CAPSULE)
+        distance = capsule_distance(shape == SHAPE_CAPSULE, size, p, gradient);
+    else if (shape == SHAPE_BOX)
+        distance = box_distance(size, p, gradient);
+    else if (shape == SHAPE_ELLIPSOID)
+        distance = ellipsoid_distance(size, p, gradient);
+    else if (shape < SHAPE_PLANE)
+        distance = revolved_distance(shape, size.xy, p, gradient);
     return distance;
 }
 

@@ -29,10 +29,10 @@ float mesh_distance(mesh_grid mesh, vec3 p, out vec3 gradient)
     vec3 slope = vec3(line.y - line.x, mix(rise.x, rise.y, t.x),
                       mix(mix(steps.x, steps.y, t.x), mix(steps.z, steps.w, t.x), t.y));
     gradient     = direction_or(slope, vec3(0.0, 1.0, 0.0));
-    if (at == within) return value;
-    vec3 away = mesh.place.w * (at - within) + value * gradient;
-    gradient  = direction_or(away, gradient);
-    return length(away);
+    bool inside  = at == within;
+    vec3 away    = mesh.place.w * (at - within) + value * gradient;
+    gradient     = inside ? gradient : direction_or(away, gradient);
+    return inside ? value : length(away);
 }
 
 #ifdef HAIR_DEFORMING

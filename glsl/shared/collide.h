@@ -36,14 +36,20 @@ struct hair_contact_body {
 };
 HAIR_SIZE(hair_contact_body)
 
+// Grid of a collision mesh.
+struct hair_contact_mesh {
+    hair_vec4 grid; // xyz: first node, m. w: spacing of nodes, m.
+    hair_uint nodes_x, nodes_y, nodes_z;
+    hair_uint first; // Index of its first node.
+};
+HAIR_SIZE(hair_contact_mesh)
+
 // A collider, for scenes with any number of them.
 struct hair_contact {
     HAIR_STRUCT(hair_capsule) around; // The collider, or a sphere around it.
     // size.x of a collision mesh is its scale. size.y is 1 if it has deformed over the step.
     HAIR_STRUCT(hair_contact_body) body;
-    hair_vec4 grid; // Grid of a collision mesh. xyz: first node, m. w: spacing of nodes, m.
-    hair_uint nodes_x, nodes_y, nodes_z;
-    hair_uint first; // Index of its first node.
+    HAIR_STRUCT(hair_contact_mesh) mesh;
     // Sphere around the collider during the rest of the step. xyz: centre, m. w: radius with the
     // margin, m.
     hair_vec4 ball;

@@ -152,6 +152,7 @@ struct hair_step_params {
     HAIR_STRUCT(hair_substep) substep[HAIR_STEP_SUBSTEPS];
     HAIR_STRUCT(hair_capsule) collider[HAIR_STEP_COLLIDERS];
     HAIR_STRUCT(hair_contact_body) body[HAIR_STEP_COLLIDERS];
+    HAIR_STRUCT(hair_contact_mesh) mesh[HAIR_FEW_COLLIDERS];
 };
 HAIR_SIZE(hair_step_params)
 

@@ -5,6 +5,8 @@
 // be solved. A guide that is not finite even then returns to its rest pose. Each of these events is
 // counted in solver_stats[].
 #version 450 core
+// NVIDIA's compiler would unroll loops, would take twice as long, and its program would be slower.
+#pragma optionNV(unroll none)
 #ifdef HAIR_SUBGROUP
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_vote : require

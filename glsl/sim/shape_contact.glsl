@@ -15,14 +15,14 @@ vec3 body_place(uint k, float fraction)
     return mix(BODY_POSITION(k, 0).xyz, BODY_POSITION(k, 1).xyz, fraction);
 }
 
-#ifdef HAIR_COLLIDER_GRID
+#ifdef HAIR_MESHES
 #include "collide/mesh_distance.glsl"
 #define SHAPE_MESH 6u // Value of hair_shape for a collision mesh
 
 mesh_grid mesh_of(uint k)
 {
-    uvec4 nodes = contact_bits(k, 11u);
-    return mesh_grid(contact_part(k, 10u), nodes.xyz, nodes.w);
+    uvec4 nodes = MESH_NODES(k);
+    return mesh_grid(MESH_GRID(k), nodes.xyz, nodes.w);
 }
 #else
 #define mesh_grid uint // There are no collision meshes.
@@ -32,17 +32,21 @@ mesh_grid mesh_of(uint k)
 // Return the distance to the surface without rounding, in the collider's own space.
 float body_distance(vec4 size, mesh_grid mesh, vec3 at, out vec3 gradient)
 {
-#ifdef HAIR_COLLIDER_GRID
-    if (uint(size.w) == SHAPE_MESH) return size.x * mesh_distance(mesh, at / size.x, gradient);
+    float distance;
+#ifdef HAIR_MESHES
+    if (uint(size.w) == SHAPE_MESH)
+        distance = size.x * mesh_distance(mesh, at / size.x, gradient);
+    else
 #endif
-    return shape_distance(uint(size.w), size.xyz, at, gradient);
+        distance = shape_distance(uint(size.w), size.xyz, at, gradient);
+    return distance;
 }
 
 // Return the displacement of the surface near a place over the step by the deformation of a body,
 // in the collider's own space.
 vec3 body_motion(vec4 size, mesh_grid mesh, vec3 at)
 {
-#if defined(HAIR_COLLIDER_GRID) && defined(HAIR_DEFORMING)
+#ifdef HAIR_DEFORMING
     if (uint(size.w) == SHAPE_MESH && size.y > 0.0) return size.x * mesh_motion(mesh, at / size.x);
 #endif
     return vec3(0.0);

@@ -198,9 +198,11 @@ struct hair_contact hair_colliders_contact(const struct hair_colliders* collider
     HAIR_ASSERT(mesh && (mesh->distance || mesh->home));
     float deforms = hair_colliders_has_deformed(colliders, i) ? 1 : 0;
     contact.body.size = (hair_vec4){now->scale, deforms, 0, HAIR_SHAPE_MESH};
-    contact.grid = (hair_vec4){mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel};
-    contact.nodes_x = mesh->size[0];
-    contact.nodes_y = mesh->size[1];
-    contact.nodes_z = mesh->size[2];
+    contact.mesh = (struct hair_contact_mesh){
+        .grid = {mesh->origin[0], mesh->origin[1], mesh->origin[2], mesh->voxel},
+        .nodes_x = mesh->size[0],
+        .nodes_y = mesh->size[1],
+        .nodes_z = mesh->size[2],
+    };
     return contact;
 }

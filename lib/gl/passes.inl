@@ -61,6 +61,7 @@ FEATURE(COLLIDER_GRID, "HAIR_COLLIDER_GRID") // Any number of colliders.
 // Few guides, which have registers to cache what they read, since they wait for memory.
 FEATURE(FEW_GUIDES, "HAIR_FEW_GUIDES")
 FEATURE(BODIES, "HAIR_BODIES") // Some colliders are not capsules.
+FEATURE(MESHES, "HAIR_MESHES") // Some colliders are collision meshes.
 FEATURE(DEFORMING, "HAIR_DEFORMING") // Some colliders are bodies that deform.
 FEATURE(HITS, "HAIR_HITS") // Some followers are inside colliders.
 FEATURE(DEPTH, "HAIR_DEPTH") // Depth without colour.
@@ -85,7 +86,8 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define WITH(name) HAIR_GL_WITH(name)
 #define STRAND_FEATURES \
     SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | \
-        WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(DEFORMING) | WITH(FEW_GUIDES)
+        WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(MESHES) | WITH(DEFORMING) | \
+        WITH(FEW_GUIDES)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
         WITH(IDS) | WITH(OPAQUE_SHADOWS) | WITH(ALPHA_COVERAGE) | WITH(WIDENED)

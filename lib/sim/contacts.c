@@ -1,5 +1,5 @@
-// contacts.c - colliders of any shape and number. The colliders, and the lists of the colliders in
-// each cell, are in GPU buffers.
+// contacts.c - colliders of any shape and number. A few are in the parameters of the step. Many are
+// in GPU buffers, with lists of the colliders in each cell.
 #include "lib/sim/sim.h"
 
 // Assumed maximum speed of hair relative to the head, m/s. Faster hair may pass through thin
@@ -27,7 +27,12 @@ static struct hair_collider_grid_desc describe_grid(const struct hair_sim* sim, 
 
 bool hair_contacts_are_any(const struct hair_sim* sim)
 {
-    return sim->rods && (sim->colliders.meshes || sim->colliders.contacts > HAIR_FEW_COLLIDERS);
+    return sim->rods && (sim->colliders.meshes || hair_contacts_are_listed(sim));
+}
+
+bool hair_contacts_are_listed(const struct hair_sim* sim)
+{
+    return sim->rods && sim->colliders.contacts > HAIR_FEW_COLLIDERS;
 }
 
 static void release_meshes(struct hair_sim* sim, const uint32_t* held, uint32_t count)
@@ -66,7 +71,7 @@ static hair_result retain_meshes(struct hair_sim* sim)
     if (taken) result = hair_sdf_pool_ensure_texture(contacts->sdf_pool);
     for (uint32_t i = 0, k = 0; i < cells->contacts; ++i) // hair_sdf_pool_acquire() may move nodes.
         if (cells->contact[i].body.size.w == HAIR_SHAPE_MESH)
-            cells->contact[i].first = contacts->sdf_pool->pooled[held[k++]].first;
+            cells->contact[i].mesh.first = contacts->sdf_pool->pooled[held[k++]].first;
     return result;
 }
 
@@ -87,7 +92,7 @@ static hair_result upload_contacts(struct hair_sim* sim)
 {
     struct hair_contacts* contacts = &sim->contacts;
     const struct hair_collider_grid* cells = &contacts->grid;
-    const struct hair_contact none = {.grid = {0, 0, 0, 0}};
+    const struct hair_contact none = {.ball = {0, 0, 0, 0}};
     HAIR_TRY(ensure_texture_buffer(
         sim->gl, "hair contacts", GL_RGBA32UI, (cells->contacts ? cells->contacts : 1) * sizeof none,
         cells->contacts ? cells->contact : &none, &contacts->collider, &contacts->collider_texture));
@@ -104,6 +109,7 @@ static hair_result find_contacts(struct hair_sim* sim, const struct hair_collide
     HAIR_TRY(
         hair_collider_grid_gather(host, cells, &sim->colliders, &sim->head_at_last_step, &sim->head, desc));
     HAIR_TRY(retain_meshes(sim));
+    if (!sim->contacts.listed) return HAIR_OK;
     HAIR_TRY(hair_collider_grid_build(host, cells, desc, &others));
     return others ? upload_contacts(sim) : HAIR_OK;
 }
@@ -116,11 +122,26 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_s
     return result;
 }
 
+static void write_few(const struct hair_collider_grid* cells, struct hair_step_params* params)
+{
+    HAIR_ASSERT(cells->contacts <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
+    for (uint32_t i = 0; i < cells->contacts; ++i) {
+        params->collider[i] = cells->contact[i].around;
+        params->body[i] = cells->contact[i].body;
+        params->mesh[i] = cells->contact[i].mesh;
+        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
+    }
+}
+
 void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* params)
 {
     const struct hair_collider_grid* cells = &sim->contacts.grid;
-    HAIR_ASSERT(cells->size > 0 && cells->entries > 0);
     params->colliders = cells->contacts;
+    if (!sim->contacts.listed) {
+        write_few(cells, params);
+        return;
+    }
+    HAIR_ASSERT(cells->size > 0 && cells->entries > 0);
     params->cells_lower = (hair_vec4){cells->lower.x, cells->lower.y, cells->lower.z, 1 / cells->size};
     params->cells_x = cells->cells[0];
     params->cells_y = cells->cells[1];
@@ -131,9 +152,11 @@ void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* pa
 void hair_contacts_bind(const struct hair_sim* sim)
 {
     const struct hair_contacts* contacts = &sim->contacts;
-    HAIR_ASSERT(contacts->collider_texture && contacts->cell_texture);
-    sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
-    sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
+    if (contacts->listed) {
+        HAIR_ASSERT(contacts->collider_texture && contacts->cell_texture);
+        sim->gl->BindTextureUnit(HAIR_UNIT_CONTACT, contacts->collider_texture);
+        sim->gl->BindTextureUnit(HAIR_UNIT_CELL, contacts->cell_texture);
+    }
     if (contacts->holds) sim->gl->BindTextureUnit(HAIR_UNIT_NODE, contacts->sdf_pool->texture);
 }
 

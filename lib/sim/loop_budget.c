@@ -124,7 +124,7 @@ static void add_leader(const struct hair_sim* sim, int by_thread, struct loops* 
 static uint32_t rounds_of_list(const struct hair_sim* sim, int by_thread)
 {
     const struct hair_collider_grid* cells = &sim->contacts.grid;
-    HAIR_ASSERT(sim->contacts.any);
+    HAIR_ASSERT(sim->contacts.listed);
     uint32_t made = 2 * (TRIED + 1) * cells->longest;
     if (by_thread) return made + MIN_LOOKS * (cells->longest + cells->rounds + 4);
     return made + MAX_LOOKS * (TIMES * (cells->longest + 2 + CACHED) + TIMES_WALKED * cells->rounds);
@@ -135,7 +135,7 @@ static uint32_t rounds_of_contact(const struct hair_sim* sim, int by_thread)
 {
     uint32_t colliders = hair_sim_contacts(sim),
              others = colliders - lesser(sim->colliders.capsules, colliders);
-    if (sim->contacts.any) return rounds_of_list(sim, by_thread);
+    if (sim->contacts.listed) return rounds_of_list(sim, by_thread);
     // Other colliders need sphere tracing of BODY_STEPS steps. The mixed scheme tests colliders
     // once per Newton step, and twice when it follows the leader.
     uint32_t looks = hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) + 4 : 44;
@@ -147,9 +147,9 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int fir
     HAIR_ASSERT(sim->rods);
     uint32_t around = sim->max_vertices + 1; // The last iteration finds the end.
     uint32_t each = rounds_of_contact(sim, by_thread);
-    uint32_t at_root = sim->contacts.any ? sim->contacts.grid.longest : 2 * (hair_sim_contacts(sim) + 1);
+    uint32_t at_root = sim->contacts.listed ? sim->contacts.grid.longest : 2 * (hair_sim_contacts(sim) + 1);
     uint32_t look = (TRIED + 1) * at_root; // Few colliders are also tested once per guide.
-    uint32_t spare = sim->contacts.any ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
+    uint32_t spare = sim->contacts.listed ? AT_ONCE * HAIR_CONTACT_ROUNDS : 0;
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
     loops.over += 6; // The guide is loaded, accepted or reset, and stored. Its turns begin.

@@ -34,7 +34,7 @@ bool hair_sim_is_by_thread(const struct hair_sim* sim)
 // Return whether some substeps may be split. See glsl/sim/parts.glsl.
 static bool has_parts(const struct hair_sim* sim)
 {
-    return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !sim->contacts.any &&
+    return sim->solver == HAIR_SOLVER_ACCURATE && !hair_sim_is_mixed(sim) && !sim->contacts.listed &&
            !sim->pins.count;
 }
 
@@ -101,9 +101,9 @@ static bool has_few_guides(const struct hair_sim* sim, int by_thread)
     return sim->guides <= MAX_FEW && !by_thread;
 }
 
-// Return the solver's pass with only the features in use. `any` is 1 if colliders are looked up in
-// the grid. `bodies` is 1 if some colliders are neither spheres nor capsules.
-static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bodies, int by_thread)
+// Return the solver's pass with only the features in use. `listed` is 1 if colliders are looked up
+// in the grid. `bodies` is 1 if some colliders are neither spheres nor capsules.
+static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int listed, int bodies, int by_thread)
 {
     static const hair_gl_pass row[] = {
         [HAIR_SOLVER_DIRECT] = HAIR_GL_DIRECT,
@@ -113,10 +113,11 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int any, int bod
     };
     HAIR_ASSERT((size_t)sim->solver < sizeof row / sizeof *row);
     hair_gl_pass features = 0;
-    if (any || hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
-    if (any) features |= HAIR_GL_WITH(COLLIDER_GRID);
-    if (any && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW_GUIDES);
+    if (hair_sim_contacts(sim) > 0) features |= HAIR_GL_WITH(COLLIDERS);
+    if (listed) features |= HAIR_GL_WITH(COLLIDER_GRID);
+    if (listed && has_few_guides(sim, by_thread)) features |= HAIR_GL_WITH(FEW_GUIDES);
     if (bodies) features |= HAIR_GL_WITH(BODIES);
+    if (bodies && sim->colliders.meshes) features |= HAIR_GL_WITH(MESHES);
     if (bodies && sim->colliders.deforming) features |= HAIR_GL_WITH(DEFORMING);
     if (by_thread) features |= HAIR_GL_WITH(THREAD_PER_GUIDE);
     if (hair_grid_is_on(sim)) features |= HAIR_GL_WITH(HAIR_GRID);
@@ -145,9 +146,8 @@ static bool has_bodies(const struct hair_sim* sim)
 
 static hair_gl_pass pass_now(const struct hair_sim* sim)
 {
-    int any = sim->contacts.any;
-    int bodies = any ? sim->contacts.grid.bodies > 0 : has_bodies(sim);
-    return solver_pass_for(sim, any, bodies, hair_sim_is_by_thread(sim));
+    int bodies = sim->contacts.any ? sim->contacts.grid.bodies > 0 : has_bodies(sim);
+    return solver_pass_for(sim, sim->contacts.listed, bodies, hair_sim_is_by_thread(sim));
 }
 
 // Return whether guides go through two programs now. Direct does so only for straight hair among
@@ -252,10 +252,10 @@ void hair_sim_run_solver(struct hair_sim* sim, struct hair_step_params* params)
 hair_result hair_sim_ensure_programs(struct hair_sim* sim)
 {
     struct hair_gl* gl = sim->gl;
-    int any = hair_contacts_are_any(sim), by_thread = hair_sim_is_by_thread(sim);
-    HAIR_TRY(ensure_solver(sim, solver_pass_for(sim, any, has_bodies(sim), by_thread)));
-    if (any && sim->by_thread && gl->software) // The lists of a step decide which.
-        HAIR_TRY(hair_gl_ensure_program(gl, solver_pass_for(sim, any, has_bodies(sim), !by_thread)));
+    int listed = hair_contacts_are_listed(sim), by_thread = hair_sim_is_by_thread(sim);
+    HAIR_TRY(ensure_solver(sim, solver_pass_for(sim, listed, has_bodies(sim), by_thread)));
+    if (listed && sim->by_thread && gl->software) // The lists of a step decide which.
+        HAIR_TRY(hair_gl_ensure_program(gl, solver_pass_for(sim, listed, has_bodies(sim), !by_thread)));
     HAIR_TRY(hair_gl_ensure_program(
         gl, hair_sim_smooth_pass(sim, hair_scalp_motion_is_on(sim), hair_targets_are_on(sim))));
     HAIR_TRY(hair_targets_ensure(sim));

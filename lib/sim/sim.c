@@ -111,6 +111,7 @@ static float fraction_of_step(double from, double dt)
 static hair_result prepare(struct hair_sim* sim, double from, double dt, double longest)
 {
     sim->contacts.any = hair_contacts_are_any(sim);
+    sim->contacts.listed = hair_contacts_are_listed(sim);
     HAIR_TRY(hair_pins_write(sim));
     HAIR_TRY(hair_targets_ensure(sim));
     HAIR_TRY(hair_sim_ensure_hair_grid(sim));
@@ -265,7 +266,7 @@ static uint32_t count_substeps(const struct hair_sim* sim, double time)
 // Free what is no longer used.
 static void free_unused(struct hair_sim* sim)
 {
-    if (!sim->colliders.current.count && sim->contacts.collider) hair_contacts_free(sim);
+    if (!sim->colliders.current.count && sim->contacts.grid.contact) hair_contacts_free(sim);
     if (!hair_grid_is_on(sim) && sim->hair_grid.texture) hair_grid_free(sim);
 }
 

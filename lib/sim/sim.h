@@ -29,6 +29,7 @@
 // All 0 until an instance first has them.
 struct hair_contacts {
     int any; // 1 if the current step uses this data.
+    int listed; // 1 if the current step looks up colliders in lists of cells.
     struct hair_sdf_pool* sdf_pool; // Collision meshes of the context.
     struct hair_collider_grid grid;
     // Buffers of the colliders and of the grid's cells, and their textures for shaders.
@@ -264,6 +265,8 @@ bool hair_grid_is_on(const struct hair_sim* sim);
 
 // Return whether the instance has collision meshes or more than HAIR_FEW_COLLIDERS colliders.
 bool hair_contacts_are_any(const struct hair_sim* sim);
+// Return whether the instance has more than HAIR_FEW_COLLIDERS colliders.
+bool hair_contacts_are_listed(const struct hair_sim* sim);
 // Find the colliders in reach during a step of dt. `fraction_start` is the fraction of the step
 // that has been done, and may be negative. No substep is longer than `longest`, s.
 hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_start, double longest);
