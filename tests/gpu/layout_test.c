@@ -24,6 +24,7 @@ static const struct {
     STRUCT(hair_history),
     STRUCT(hair_capsule),
     STRUCT(hair_contact_body),
+    STRUCT(hair_contact_mesh),
     STRUCT(hair_substep),
     STRUCT(hair_step_params),
     STRUCT(hair_follower),
