@@ -46,11 +46,12 @@ static int read_asset(const char* path, const struct hair_groom_options* options
 static bool find_format(const char* path, hair_format* out)
 {
     const char *slash = strrchr(path, '/'), *end = strrchr(slash ? slash : path, '.');
-    bool is_tfx = end && !strcasecmp(end, ".tfx"), is_hair = !end || !strcasecmp(end, ".hair");
-    *out = is_tfx ? HAIR_FORMAT_TFX4 : HAIR_FORMAT_HAIR;
-    if (!is_tfx && !is_hair)
-        hair_complain(TOOL, "%s ends in neither .hair nor .tfx: --format names the format", path);
-    return is_tfx || is_hair;
+    bool is_tfx = end && !strcasecmp(end, ".tfx"), is_groom = end && !strcasecmp(end, ".groom");
+    bool is_hair = !end || !strcasecmp(end, ".hair");
+    *out = is_tfx ? HAIR_FORMAT_TFX4 : is_groom ? HAIR_FORMAT_GROOM : HAIR_FORMAT_HAIR;
+    if (!is_tfx && !is_groom && !is_hair)
+        hair_complain(TOOL, "%s ends in none of .groom, .hair and .tfx: --format names the format", path);
+    return is_tfx || is_groom || is_hair;
 }
 
 static int write_bytes(const char* path, const void* bytes, size_t size)
@@ -68,7 +69,7 @@ static int write_asset(const hair_asset* asset, const struct hair_groom_options*
     if (!format && !find_format(path, &format)) return hair_groom_misuse();
     size_t size = 0;
     hair_result result = hair_asset_write(asset, format, NULL, 0, &size);
-    if (result == HAIR_ERROR_ARGUMENT)
+    if (result == HAIR_ERROR_ARGUMENT && format == HAIR_FORMAT_TFX4)
         hair_complain(TOOL, "%s was not written: give --vertices 4, 8, 16, 32 or 64", path);
     if (result) return exit_code(result);
 
@@ -109,6 +110,19 @@ static void print_repairs(const hair_import_stats* repairs)
     if (!any) printf("%-10s nothing repaired\n", "repairs:");
 }
 
+static void print_scalp(const hair_asset_info* info)
+{
+    if (!info->scalp_positions) {
+        printf("%-10s none\n", "scalp:");
+        return;
+    }
+    printf("%-10s %u vertices, %u triangles%s%s", "scalp:", info->scalp_vertex_count,
+           info->scalp_triangle_count, info->scalp_density ? ", density" : "",
+           info->scalp_uvs ? ", texture coordinates" : "");
+    if (info->scalp_joints) printf(", %u joints", info->scalp_joint_count);
+    printf("\n");
+}
+
 static void print_asset(const hair_asset_info* info)
 {
     const float *l = info->lower, *u = info->upper;
@@ -124,6 +138,8 @@ static void print_asset(const hair_asset_info* info)
            l[1] + 0.0, u[1] + 0.0, l[2] + 0.0, u[2] + 0.0);
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
     printf("%-10s %s\n", "colours:", info->strand_colors ? "of every strand" : "none");
+    printf("%-10s %s\n", "groups:", info->strand_groups ? "of every strand" : "none");
+    print_scalp(info);
     print_repairs(&info->import_stats);
 }
 

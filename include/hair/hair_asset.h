@@ -23,7 +23,12 @@ typedef enum hair_format {
     /// .tfx version 3. Read only.
     HAIR_FORMAT_TFX3,
     /// .tfx version 2, text. Read only.
-    HAIR_FORMAT_TFX2
+    HAIR_FORMAT_TFX2,
+    /// .groom, the format of this library. It holds all that a hair_asset has: strands with radii,
+    /// groups and colours, and the scalp with density, texture coordinates and joints. Positions
+    /// are compressed, with errors of at most 1e-5 of the length of their strand. Roots are exact.
+    /// Colours are rounded by at most 1.6e-5. All other numbers are exact.
+    HAIR_FORMAT_GROOM
 } hair_format;
 
 /// Input of hair_asset_read().
@@ -39,8 +44,9 @@ HAIR_DESC(hair_asset_desc)
 /// Read strands from the bytes of a file. The first bytes determine the format.
 ///
 /// Any bytes may be passed. Memory stays below 4 times `size` plus 64 MiB, whatever the bytes
-/// claim, plus 12 bytes per vertex that hair_import.strand_vertices asks for. A file may have at
-/// most 16,777,216 strands and 67,108,864 vertices. A text has at most 256 MiB.
+/// claim, plus 12 bytes per vertex that hair_import.strand_vertices asks for. The compression of a
+/// .groom file may need 200 times `size` instead. A file may have at most 16,777,216 strands and
+/// 67,108,864 vertices. A text has at most 256 MiB, and a .groom file 4 GiB.
 ///
 /// @param desc Callbacks and import settings.
 /// @param bytes Content of the file.
@@ -70,8 +76,9 @@ HAIR_API void hair_asset_destroy(hair_asset* asset);
 /// Write strands in the format of a file. Colours become sRGB. An asset has 8 colours per strand.
 ///
 /// @param asset Asset to write.
-/// @param format HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. The strands of a .tfx file must all have 4,
-///     8, 16, 32 or 64 vertices. Set hair_import.strand_vertices to resample them.
+/// @param format HAIR_FORMAT_GROOM, HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Only the first has
+///     groups and the scalp. The strands of a .tfx file must all have 4, 8, 16, 32 or 64 vertices.
+///     Set hair_import.strand_vertices to resample them.
 /// @param bytes Receives the content of the file if `capacity` suffices. NULL only queries the
 ///     size.
 /// @param capacity Size of `bytes`. 0 if `bytes` is NULL.
@@ -143,7 +150,7 @@ typedef struct hair_asset_info {
     hair_struct_header header;
     hair_format format; ///< Format of the file.
     /// Meaning of the strands. .tfx files and the built-in haircuts hold guides. .hair files hold
-    /// all strands.
+    /// all strands. .groom files tell.
     hair_strand_set strand_set;
     uint32_t strand_count; ///< Number of strands after the repairs.
     uint32_t vertex_count; ///< Number of vertices of all strands.
@@ -164,6 +171,13 @@ typedef struct hair_asset_info {
     uint32_t scalp_triangle_count; ///< Number of scalp triangles.
     /// Linear rgb at 8 even places from root to tip of each strand. NULL if there are no colours.
     const float* strand_colors;
+    /// Group of each strand, in [0, 7]. NULL if all are 0. See hair_groom_desc.strand_groups.
+    const uint8_t* strand_groups;
+    const float* scalp_density; ///< See hair_groom_desc.scalp_density. NULL if there is none.
+    const float* scalp_uvs; ///< See hair_groom_desc.scalp_uvs. NULL if there are none.
+    const uint16_t* scalp_joints; ///< See hair_set_scalp_weights(). NULL if there are none.
+    const float* scalp_weights; ///< See hair_set_scalp_weights(). NULL if there are none.
+    uint32_t scalp_joint_count; ///< See hair_set_scalp_weights(). 0 if there are none.
 } hair_asset_info;
 HAIR_DESC(hair_asset_info)
 
@@ -172,8 +186,9 @@ HAIR_DESC(hair_asset_info)
 /// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out);
 
-/// Set the strands, radii, colours, strand_set and scalp of `desc` to those of an asset. Other
-/// members keep their values. The asset must live until hair_groom_create() has returned.
+/// Set the strands, radii, colours, groups, strand_set and scalp of `desc` to those of an asset.
+/// Density and texture coordinates are set if the asset has them. Other members keep their values.
+/// The asset must live until hair_groom_create() has returned.
 ///
 /// @param desc Desc to change, from hair_groom_desc_default().
 /// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_VERSION.

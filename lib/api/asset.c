@@ -69,6 +69,7 @@ const char* hair_format_name(hair_format format)
     case HAIR_FORMAT_TFX4: return "tfx4";
     case HAIR_FORMAT_TFX3: return "tfx3";
     case HAIR_FORMAT_TFX2: return "tfx2";
+    case HAIR_FORMAT_GROOM: return "groom";
     }
     return NULL;
 }
@@ -118,6 +119,12 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
         .scalp_vertex_count = asset->scalp_vertex_count,
         .scalp_triangle_count = asset->scalp_triangle_count,
         .strand_colors = asset->strands.colors,
+        .strand_groups = asset->strands.groups,
+        .scalp_density = asset->scalp_density,
+        .scalp_uvs = asset->scalp_uvs,
+        .scalp_joints = asset->scalp_joints,
+        .scalp_weights = asset->scalp_weights,
+        .scalp_joint_count = asset->scalp_joint_count,
     };
     measure_strands(&asset->strands, &info);
     return HAIR_COPY_OUT(&asset->host, hair_asset_info, &info, out);
@@ -139,5 +146,9 @@ hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* d
     desc->strand_radii = asset->strands.radii;
     desc->colors = asset->strands.colors;
     desc->color_count = HAIR_STRAND_COLORS;
+    if (desc->header.size >= offsetof(hair_groom_desc, strand_groups) + sizeof desc->strand_groups)
+        desc->strand_groups = asset->strands.groups; // The desc of an older caller ends before.
+    if (asset->scalp_density) desc->scalp_density = asset->scalp_density;
+    if (asset->scalp_uvs) desc->scalp_uvs = asset->scalp_uvs;
     return HAIR_OK;
 }

@@ -14,6 +14,8 @@ static const struct format {
 } formats[] = {
     {HAIR_FORMAT_HAIR, hair_is_hairfile, hair_max_size_of_hairfile, hair_decode_hairfile, hair_size_hairfile,
      hair_encode_hairfile},
+    {HAIR_FORMAT_GROOM, hair_is_groomfile, hair_max_size_of_groomfile, hair_decode_groomfile,
+     hair_size_groomfile, hair_encode_groomfile},
     {HAIR_FORMAT_TFX4, hair_is_tfx4, hair_max_size_of_tfx4, hair_decode_tfx4, hair_size_tfx4,
      hair_encode_tfx4},
     {HAIR_FORMAT_TFX3, hair_is_tfx3, hair_max_size_of_tfx3, hair_decode_tfx3, NULL, NULL},
@@ -27,7 +29,8 @@ static hair_result refuse(const struct hair_source* source)
         return hair_fail(source->host, HAIR_ERROR_FILE, "the file ends at byte 0: it is empty");
     return hair_fail(
         source->host, HAIR_ERROR_FILE,
-        "at byte 0 stands neither \"HAIR\" nor a version of .tfx that can be read (3, 4, or 2 as text)");
+        "at byte 0 stands none of \"HAIR\", \"GROOM\" and a version of .tfx that can be read (3, 4, or 2 as "
+        "text)");
 }
 
 uint64_t hair_asset_find_max_size(const void* bytes, size_t size)
@@ -113,5 +116,9 @@ void hair_asset_free(hair_asset* asset)
     hair_strands_free(&host, &asset->strands);
     hair_free(&host, asset->scalp_positions);
     hair_free(&host, asset->scalp_triangles);
+    hair_free(&host, asset->scalp_density);
+    hair_free(&host, asset->scalp_uvs);
+    hair_free(&host, asset->scalp_joints);
+    hair_free(&host, asset->scalp_weights);
     hair_free(&host, asset);
 }

@@ -12,7 +12,11 @@ struct hair_asset {
     struct hair_strands strands;
     float* scalp_positions; // xyz per vertex. NULL without a scalp.
     uint32_t* scalp_triangles;
-    uint32_t scalp_vertex_count, scalp_triangle_count;
+    float* scalp_density; // of each vertex. NULL if unknown.
+    float* scalp_uvs; // uv of each vertex. NULL if unknown.
+    uint16_t* scalp_joints; // 4 of each vertex. NULL without a skin.
+    float* scalp_weights; // of these joints
+    uint32_t scalp_vertex_count, scalp_triangle_count, scalp_joint_count;
     uint32_t file_strands, file_vertices;
     hair_import_stats repairs;
 };

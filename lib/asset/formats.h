@@ -23,6 +23,7 @@ struct hair_source {
 
 // Return whether the first bytes belong to the format.
 bool hair_is_hairfile(const unsigned char* bytes, size_t size);
+bool hair_is_groomfile(const unsigned char* bytes, size_t size);
 bool hair_is_tfx3(const unsigned char* bytes, size_t size);
 bool hair_is_tfx4(const unsigned char* bytes, size_t size);
 bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
@@ -30,12 +31,14 @@ bool hair_is_tfx_text(const unsigned char* bytes, size_t size);
 // Return the number of bytes that the reader of the format can need, by the header. If the header
 // is refused, that is the size of the header.
 uint64_t hair_max_size_of_hairfile(const unsigned char* bytes, size_t size);
+uint64_t hair_max_size_of_groomfile(const unsigned char* bytes, size_t size);
 uint64_t hair_max_size_of_tfx3(const unsigned char* bytes, size_t size);
 uint64_t hair_max_size_of_tfx4(const unsigned char* bytes, size_t size);
 uint64_t hair_max_size_of_tfx_text(const unsigned char* bytes, size_t size);
 
 // Fill the asset's strands as the file has them. On failure the caller frees what they contain.
 hair_result hair_decode_hairfile(const struct hair_source* source, hair_asset* asset);
+hair_result hair_decode_groomfile(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx3(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx4(const struct hair_source* source, hair_asset* asset);
 hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* asset);
@@ -43,8 +46,10 @@ hair_result hair_decode_tfx_text(const struct hair_source* source, hair_asset* a
 // Compute the number of bytes needed. Return HAIR_ERROR_ARGUMENT if the format cannot hold the
 // asset.
 hair_result hair_size_hairfile(const hair_asset* asset, size_t* size);
+hair_result hair_size_groomfile(const hair_asset* asset, size_t* size);
 hair_result hair_size_tfx4(const hair_asset* asset, size_t* size);
 void hair_encode_hairfile(const hair_asset* asset, unsigned char* bytes);
+void hair_encode_groomfile(const hair_asset* asset, unsigned char* bytes);
 void hair_encode_tfx4(const hair_asset* asset, unsigned char* bytes);
 
 // Return whether a file may claim these counts.

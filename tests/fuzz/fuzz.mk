@@ -11,10 +11,11 @@ runs      ?= -1
 sanitizer ?= address
 
 # Programs, and objects of the tools that each needs. The rest comes out of the library.
-FUZZERS := hairfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments
+FUZZERS := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments
 FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_colliders scene_lights scene_maps scene_wind \
   settings settings_keys
 FUZZ_TOOLS.hairfile          := file
+FUZZ_TOOLS.groomfile         := file
 FUZZ_TOOLS.tfx               := file
 FUZZ_TOOLS.tfx_text          := file
 FUZZ_TOOLS.obj               := file obj
@@ -32,13 +33,13 @@ FUZZ_MAX.bench_arguments   := 256
 FUZZ_MAX.capture_arguments := 256
 FUZZ_ALL_TOOLS := file groom_options capture_options $(FUZZ_SCENE)
 # Parsers that need no library which MemorySanitizer has not compiled, as libjansson.
-FUZZ_PLAIN := hairfile tfx tfx_text obj save members groom_arguments bench_arguments
+FUZZ_PLAIN := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments
 parser    ?= $(if $(filter memory,$(sanitizer)),$(FUZZ_PLAIN),$(FUZZERS))
 
 # Sources of a program, and of the replay of all.
-fuzz_sources = tests/fuzz/$(1)_fuzz.c tests/fuzz/fuzz.c tests/fuzz/fuzz_asset.c \
+fuzz_sources = tests/fuzz/$(1)_fuzz.c tests/fuzz/fuzz.c tests/fuzz/fuzz_asset.c tests/support/seal.c \
   $(FUZZ_TOOLS.$(1):%=tools/common/%.c) $(if $(filter bench_arguments,$(1)),tools/bench/options.c)
-FUZZ_REPLAY := $(FUZZERS:%=tests/fuzz/%_fuzz.c) $(addprefix tests/fuzz/,fuzz.c fuzz_asset.c corpus.c targets.c)
+FUZZ_REPLAY := $(FUZZERS:%=tests/fuzz/%_fuzz.c) $(addprefix tests/fuzz/,fuzz.c fuzz_asset.c corpus.c targets.c) tests/support/seal.c
 FUZZ_REPLAY += $(FUZZ_ALL_TOOLS:%=tools/common/%.c) tools/bench/options.c
 FUZZ_WRAPS := $(addprefix -Wl$(comma)--wrap=,malloc calloc realloc hair_file_read hair_frame_writer_is_picture)
 
@@ -140,7 +141,7 @@ fuzz-static: $(FUZZERS:%=build/fuzz/address/%)
 
 # Other architectures ------------------------------------------------------------------------------------------
 FUZZ_PORTABLE := $(filter-out %scene_fuzz.c %capture_arguments_fuzz.c %bench_arguments_fuzz.c tools/bench/%, \
-  $(filter tests/fuzz/%,$(FUZZ_REPLAY))) tools/common/file.c tools/common/obj.c tools/common/groom_options.c
+  $(filter tests/%,$(FUZZ_REPLAY))) tools/common/file.c tools/common/obj.c tools/common/groom_options.c
 FUZZ_PORTABLE += tests/fuzz/replay.c $(FUZZ_LIB)
 FUZZ_PORTABLE_FLAGS := -std=c17 -Iinclude -I. -O1 -g -ffp-contract=off -DHAIR_FUZZ_PORTABLE -D_FILE_OFFSET_BITS=64 -MMD -MP
 FUZZ_CC.64  := gcc

@@ -18,7 +18,7 @@ HAIR_FUZZ(groom_arguments)
         bool two = options.command != HAIR_GROOM_INFO;
         HAIR_FUZZ_CHECK(options.operand[0] && !options.operand[1] == !two);
         HAIR_FUZZ_CHECK(options.import.up <= HAIR_UP_X && options.style.style < HAIR_STYLE_COUNT);
-        HAIR_FUZZ_CHECK(options.format <= HAIR_FORMAT_TFX4);
+        HAIR_FUZZ_CHECK(options.format <= HAIR_FORMAT_TFX4 || options.format == HAIR_FORMAT_GROOM);
         hair_fuzz_add(hash, options.command);
         hair_fuzz_add_text(hash, options.operand[0]);
         hair_fuzz_add_text(hash, options.operand[1]);

@@ -3,6 +3,7 @@
 #include "tests/fuzz/fuzz.h"
 
 const struct hair_fuzz_target hair_fuzz_targets[] = {{"hairfile", hair_fuzz_hairfile},
+                                                     {"groomfile", hair_fuzz_groomfile},
                                                      {"tfx", hair_fuzz_tfx},
                                                      {"tfx_text", hair_fuzz_tfx_text},
                                                      {"obj", hair_fuzz_obj},

@@ -26,6 +26,7 @@ static void replay(const char* name)
         replay(#name);                                                                                       \
     }
 REPLAY(hairfile)
+REPLAY(groomfile)
 REPLAY(tfx)
 REPLAY(tfx_text)
 REPLAY(obj)
@@ -40,6 +41,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hairfile_corpus_keeps_the_properties),
+        cmocka_unit_test(groomfile_corpus_keeps_the_properties),
         cmocka_unit_test(tfx_corpus_keeps_the_properties),
         cmocka_unit_test(tfx_text_corpus_keeps_the_properties),
         cmocka_unit_test(obj_corpus_keeps_the_properties),

@@ -82,9 +82,12 @@ static void inputs_without_an_end_are_read_as_far_as_their_format_goes(void** st
     const char* few = "ulimit -v 400000; ";
     char command[256];
     snprintf(command, sizeof command, "%s timeout 20 $T info /dev/zero", few);
-    expect(4, command, "neither");
+    expect(4, command, "at byte 0 stands none of");
     snprintf(command, sizeof command, "%s (cat $D/a.hair; cat /dev/zero) | timeout 20 $T info -", few);
     expect(0, command, "is not read");
+    expect(0, "$T convert $D/a.hair $D/z.groom", "");
+    snprintf(command, sizeof command, "%s (cat $D/z.groom; cat /dev/zero) | timeout 20 $T info -", few);
+    expect(0, command, "groom, all strands");
     snprintf(command, sizeof command, "%s (cat $D/a3.tfx; yes) | timeout 20 $T info -", few);
     expect(0, command, "tfx3");
 }
@@ -101,6 +104,7 @@ static void inputs_that_claim_too_much_are_refused_by_their_beginning(void** sta
         {"(head -c 12 $D/a4.tfx; printf '\\360\\377\\377\\377'; cat /dev/zero)",
          "is 4294967280, but all sections fit before byte"},
         {"(head -c 4 $D/a3.tfx; printf '\\0\\0\\0\\001\\377\\0\\0\\0'; cat /dev/zero)", "more than"},
+        {"(printf 'GROOM\\r\\n\\032'; cat /dev/zero)", "the checksum at byte 24 is 0x00000000"},
         {"(cat $D/a2.tfx; yes '#')", "goes on after byte 268435456"},
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
@@ -130,6 +134,12 @@ static void every_format_converts_to_every_writable_format(void** state)
     expect(0, "$T convert $D/a.hair $D/d.TFX --vertices 16 && $T info $D/d.TFX", "fewest 16, most 16");
     expect(0, "$T convert --format tfx4 --vertices 8 $D/a.hair - | $T info -", "tfx4");
     expect(2, "$T convert $D/a.hair $D/none.tfx", "give --vertices");
+    expect(0,
+           "$T convert $D/a.hair $D/a.groom && $T convert --format groom $D/a.groom - | cmp - $D/a.groom && "
+           "$T info $D/a.groom",
+           "groom, all strands");
+    expect(0, "$T generate bob $D/f.groom && $T info $D/f.groom", "triangles");
+    expect(4, "head -c 1000 $D/f.groom | $T info -", "the file ends at byte 1000, but it had");
     expect(1, "test -e $D/none.tfx", "");
 }
 
@@ -170,7 +180,7 @@ static void wrong_use_exits_with_2(void** state)
                            "generate mullet $D/x.hair",
                            "generate long $D/x.hair --guides 1",
                            "generate long $D/x.hair --length 99",
-                           "generate long $D/x.groom",
+                           "generate long $D/x.groomer",
                            "generate long $D/x.",
                            "convert $D/a.hair $D/x.obj",
                            "convert --format tfx3 $D/a.hair $D/x.tfx"};

@@ -44,7 +44,7 @@ struct row {
 
 static const struct row rows[] = {
     {"scene", SCENE, "NAME", "a built-in scene, below; without it, \"demo\""},
-    {"groom", GROOM, "FILE", "show this haircut (.hair, .tfx), without a head, framed to fit"},
+    {"groom", GROOM, "FILE", "show this haircut (.groom, .hair, .tfx), without a head, framed to fit"},
     {"style", STYLE, "NAME", "show a built-in haircut, below"},
     {"motion", MOTION, "NAME", "move the head so, below"},
     {"head", HEAD, NULL, "draw the built-in head under the haircut of a file"},

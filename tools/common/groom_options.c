@@ -18,7 +18,8 @@ static const struct command {
     const char* about;
 } commands[] = {
     {"info", HAIR_GROOM_INFO, 1, "info FILE", "what is in a haircut, what was repaired, what groom it makes"},
-    {"convert", HAIR_GROOM_CONVERT, 2, "convert IN OUT", "read any format, write .hair or .tfx (version 4)"},
+    {"convert", HAIR_GROOM_CONVERT, 2, "convert IN OUT",
+     "read any format, write .groom, .hair or .tfx (version 4)"},
     {"generate", HAIR_GROOM_GENERATE, 2, "generate STYLE OUT", "write a built-in haircut"},
 };
 
@@ -43,7 +44,7 @@ static const struct row {
     {"seed", SEED, HAIR_GROOM_INFO | HAIR_GROOM_CONVERT | HAIR_GROOM_GENERATE, "N",
      "of every random choice; 1"},
     {"format", FORMAT, HAIR_GROOM_CONVERT | HAIR_GROOM_GENERATE, "NAME",
-     "of OUT: hair or tfx4; as its name ends"},
+     "of OUT: groom, hair or tfx4; as its name ends"},
     {"help", HELP, HAIR_GROOM_INFO | HAIR_GROOM_CONVERT | HAIR_GROOM_GENERATE, NULL, "(also -h) this"},
     {"version", VERSION, HAIR_GROOM_INFO | HAIR_GROOM_CONVERT | HAIR_GROOM_GENERATE, NULL,
      "the version of the library"},
@@ -70,7 +71,8 @@ static int print_help(void)
 {
     printf(TOOL " - look into haircuts, convert them, make built-in ones\n\n");
     for (size_t i = 0; i < COMMANDS; ++i) printf("  " TOOL " %-20s %s\n", commands[i].use, commands[i].about);
-    printf("\nFILE and IN are .hair or .tfx (2, 3, 4); \"-\" is the standard input or output.\nSTYLE is one "
+    printf("\nFILE and IN are .groom, .hair or .tfx (2, 3, 4); \"-\" is the standard input or output.\nSTYLE "
+           "is one "
            "of ");
     print_names(stdout);
     printf(".\n\n");
@@ -125,12 +127,13 @@ static bool parse_up(const char* text, hair_up* out)
 
 static bool parse_format(const char* text, hair_format* out)
 {
-    for (hair_format format = HAIR_FORMAT_HAIR; format <= HAIR_FORMAT_TFX4; ++format)
-        if (!strcmp(text, hair_format_name(format))) {
-            *out = format;
+    static const hair_format formats[] = {HAIR_FORMAT_GROOM, HAIR_FORMAT_HAIR, HAIR_FORMAT_TFX4};
+    for (size_t i = 0; i < sizeof formats / sizeof *formats; ++i)
+        if (!strcmp(text, hair_format_name(formats[i]))) {
+            *out = formats[i];
             return true;
         }
-    hair_complain(TOOL, "--format is %s, not hair or tfx4", text);
+    hair_complain(TOOL, "--format is %s, not groom, hair or tfx4", text);
     return false;
 }
 

@@ -143,7 +143,8 @@ bool shows_gl_messages(const viewer& viewer)
 const view_action actions[] = {
     {"Scene", "Save", SDLK_s, CTRL, "Save the scene, with all changes, as the file above.", save, nullptr},
     {"Scene", "Open", SDLK_o, CTRL,
-     "Open the file above: a scene (.json), a haircut (.hair, .tfx) or a mesh (.obj).", open, nullptr},
+     "Open the file above: a scene (.json), a haircut (.groom, .hair, .tfx) or a mesh (.obj).", open,
+     nullptr},
     {"Scene", "Picture", SDLK_F12, 0, "Write a picture of the window, hair-view-N.png.", picture, nullptr},
     {"Scene", "Record", SDLK_F9, 0, "Write a film of the window, hair-view-N.mp4.", record, is_recording},
     {"Scene", "Undo", SDLK_z, CTRL, "Take back the last change.", undo, nullptr},

@@ -10,7 +10,7 @@ namespace
 namespace files = std::filesystem;
 
 constexpr size_t max_entries = 5000;
-const char* const endings[] = {".json", ".hair", ".tfx", ".obj"};
+const char* const endings[] = {".json", ".groom", ".hair", ".tfx", ".obj"};
 
 bool is_known(const files::path& path)
 {

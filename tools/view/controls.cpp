@@ -30,7 +30,8 @@ const view_mouse_help mouse_controls[] = {
     {"Middle drag", "move the head"},
     {"Ctrl + left drag", "pull the hair under the cursor, or move a collider that is shown"},
     {"Left drag of an arrow or ring", "move or turn a collider that is shown"},
-    {"Drop a file", "open a scene (.json) or a haircut (.hair, .tfx), or add a mesh (.obj) to collide with"},
+    {"Drop a file",
+     "open a scene (.json) or a haircut (.groom, .hair, .tfx), or add a mesh (.obj) to collide with"},
     {nullptr, nullptr},
 };
 

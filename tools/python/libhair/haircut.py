@@ -15,7 +15,7 @@ class Asset:
 
     @classmethod
     def read(cls, source, **members):
-        """Read the bytes of a .hair or .tfx file, or the file of a path. `members` are those of Import."""
+        """Read the bytes of a .groom, .hair or .tfx file, or the file of a path. `members` are those of Import."""
         if not isinstance(source, (bytes, bytearray, memoryview)):
             with open(source, "rb") as file:
                 source = file.read()
@@ -35,10 +35,10 @@ class Asset:
         return cls(out[0])
 
     def write(self, format="hair"):
-        """Return the bytes of a file: "hair" or "tfx4"."""
-        formats = {"hair": hair.HAIR_FORMAT_HAIR, "tfx4": hair.HAIR_FORMAT_TFX4}
+        """Return the bytes of a file: "groom", "hair" or "tfx4"."""
+        formats = {"groom": hair.HAIR_FORMAT_GROOM, "hair": hair.HAIR_FORMAT_HAIR, "tfx4": hair.HAIR_FORMAT_TFX4}
         if format not in formats:
-            raise ValueError(f'the format is {format!r}, not "hair" or "tfx4"')
+            raise ValueError(f'the format is {format!r}, not "groom", "hair" or "tfx4"')
         size = ffi.new("size_t*")
         call(hair.hair_asset_write, self._c, formats[format], ffi.NULL, 0, size)
         out = ffi.new("char[]", size[0])
@@ -64,8 +64,13 @@ class Asset:
             "strand_vertices": array(info.strand_vertices, info.strand_count, 1, np.uint32),
             "strand_radii": array(info.strand_radii, info.strand_count, 1, np.float32),
             "strand_colors": array(info.strand_colors, info.strand_count * 8, 3, np.float32),
+            "strand_groups": array(info.strand_groups, info.strand_count, 1, np.uint8),
             "scalp_positions": array(info.scalp_positions, info.scalp_vertex_count, 3, np.float32),
             "scalp_triangles": array(info.scalp_triangles, info.scalp_triangle_count, 3, np.uint32),
+            "scalp_density": array(info.scalp_density, info.scalp_vertex_count, 1, np.float32),
+            "scalp_uvs": array(info.scalp_uvs, info.scalp_vertex_count, 2, np.float32),
+            "scalp_joints": array(info.scalp_joints, info.scalp_vertex_count, 4, np.uint16),
+            "scalp_weights": array(info.scalp_weights, info.scalp_vertex_count, 4, np.float32),
         }
 
 

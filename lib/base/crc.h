@@ -1,0 +1,17 @@
+// crc.h - the checksum CRC-32 with the polynomial of zlib, 8 bytes at a time.
+#ifndef HAIR_BASE_CRC_H
+#define HAIR_BASE_CRC_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Checksums of every byte, followed by 0 to 7 bytes of 0.
+struct hair_crc_table {
+    uint32_t at[8][256];
+};
+void hair_crc_init(struct hair_crc_table* table);
+
+// Continue the checksum `crc` with `bytes`. Return the new checksum. A checksum begins with 0.
+uint32_t hair_crc_add(const struct hair_crc_table* table, uint32_t crc, const void* bytes, size_t size);
+
+#endif
