@@ -14,7 +14,7 @@ typedef struct hair_asset hair_asset;
 
 /// Format of a file of strands.
 typedef enum hair_format {
-    /// No file. The asset comes from hair_asset_generate().
+    /// No file. The asset comes from hair_asset_generate() or hair_asset_create().
     HAIR_FORMAT_NONE = 0,
     /// .hair ("cyHair"). All strands, with any number of vertices each.
     HAIR_FORMAT_HAIR,
@@ -68,6 +68,21 @@ HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* by
 ///     `bytes` is NULL.
 /// OpenGL: not used. Any thread.
 HAIR_API uint64_t hair_asset_max_size(const void* bytes, size_t size);
+
+/// Create an asset from arrays, to write a file. Maps, physics, followers and the members of `desc`
+/// that choose guides are not used.
+///
+/// @param desc Strands and scalp, of the members of hair_groom_desc. They are copied.
+/// @param scalp_joints Joints of the scalp's vertices, as for hair_set_scalp_weights(). NULL if
+///     there are none. The next two arguments must then be NULL and 0.
+/// @param scalp_weights Weights of the joints.
+/// @param scalp_joint_count Number of joints. [1, 65536].
+/// @param out Receives the asset.
+/// Errors: HAIR_ERROR_ARGUMENT, also if no strand is usable, HAIR_ERROR_MEMORY, HAIR_ERROR_VERSION.
+/// OpenGL: not used. Any thread.
+HAIR_API hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp_joints,
+                                       const float* scalp_weights, uint32_t scalp_joint_count,
+                                       hair_asset** out);
 
 /// Destroy an asset. NULL does nothing.
 /// OpenGL: not used. Any thread.

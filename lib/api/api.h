@@ -127,6 +127,9 @@ hair_result hair_check_lost(hair_context* context, hair_result result);
 // Leave the context, and return like hair_check_lost().
 hair_result hair_leave(hair_context* context, hair_result result);
 
+// Check that a desc has the arrays of strands, and all or nothing of a scalp.
+hair_result hair_check_groom_arrays(const hair_host* host, const hair_groom_desc* desc);
+
 // Check the number of a group of strands.
 hair_result hair_check_group(const hair_instance* hair, uint32_t group);
 

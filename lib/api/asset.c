@@ -1,6 +1,6 @@
 // asset.c - public calls on haircuts as plain arrays.
 #include "lib/api/api.h"
-#include "lib/asset/asset.h"
+#include "lib/asset/arrays.h"
 #include "lib/groom/style.h"
 
 hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size_t size, hair_asset** out)
@@ -13,6 +13,38 @@ hair_result hair_asset_read(const hair_asset_desc* desc, const void* bytes, size
     if (!bytes) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "bytes is NULL");
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     return hair_asset_decode(&host, &import, bytes, size, out);
+}
+
+static hair_result check_skin_pointers(const hair_host* host, const hair_groom_desc* desc,
+                                       const struct hair_skin_arrays* skin)
+{
+    if (!skin->joints) {
+        if (!skin->weights && !skin->joint_count) return HAIR_OK;
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "scalp_joints is NULL but scalp_weights or scalp_joint_count is not");
+    }
+    if (!skin->weights) return hair_fail(host, HAIR_ERROR_ARGUMENT, "scalp_weights is NULL");
+    if (!desc->scalp_positions)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.scalp_positions is NULL but scalp_joints is not");
+    if (skin->joint_count - 1 < 65536) return HAIR_OK;
+    return hair_fail(host, HAIR_ERROR_ARGUMENT, "scalp_joint_count is %u, not in [1, 65536]",
+                     skin->joint_count);
+}
+
+hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp_joints,
+                              const float* scalp_weights, uint32_t scalp_joint_count, hair_asset** out)
+{
+    hair_host host = HAIR_HOST_OF(desc);
+    const struct hair_skin_arrays skin = {scalp_joints, scalp_weights, scalp_joint_count};
+    hair_groom_desc own;
+    hair_import import;
+    HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
+    HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
+    HAIR_TRY(hair_check_groom_arrays(&host, &own));
+    HAIR_TRY(check_skin_pointers(&host, &own, &skin));
+    if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
+    return hair_asset_from_arrays(&host, &own, &import, &skin, out);
 }
 
 uint64_t hair_asset_max_size(const void* bytes, size_t size)

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-static hair_result check_arrays(const hair_host* host, const hair_groom_desc* desc)
+hair_result hair_check_groom_arrays(const hair_host* host, const hair_groom_desc* desc)
 {
     if (!desc->positions) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.positions is NULL");
     if (!desc->strand_vertices)
@@ -77,7 +77,7 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
     hair_map_set maps[HAIR_MAP_SETS];
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
-    HAIR_TRY(check_arrays(&host, &own));
+    HAIR_TRY(hair_check_groom_arrays(&host, &own));
     HAIR_TRY(copy_maps(&host, &own, maps));
     if (own.physics) HAIR_TRY(HAIR_COPY_IN(&host, hair_physics, own.physics, &physics));
     if (own.tasks && !own.tasks->run)

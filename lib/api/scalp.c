@@ -1,8 +1,8 @@
 // scalp.c - public calls on scalp motion, for a scalp that the application skins.
 #include "lib/api/api.h"
+#include "lib/asset/asset.h"
 
 #define MAX_JOINTS 65536u // Indices of joints have 16 bits.
-#define SUM_TOLERANCE 0.01f // Weights may be stored as bytes, whose sum is not exactly 1.
 #define FARTHEST 1e9f // Maximum magnitude of a number in a matrix.
 
 static hair_result check_has_scalp(const hair_instance* hair)
@@ -94,10 +94,11 @@ static hair_result pack_vertex(const hair_instance* hair, uint32_t vertex, const
                              i, (double)weights[i]);
         sum += weights[i];
     }
-    if (!(fabsf(sum - 1) <= SUM_TOLERANCE))
+    if (!(fabsf(sum - 1) <= HAIR_MAX_WEIGHT_ERROR))
         return hair_fail(host, HAIR_ERROR_ARGUMENT,
                          "%s: the sum of the weights of vertex %u is %g, not in [%g, %g]", hair->label,
-                         vertex, (double)sum, 1 - (double)SUM_TOLERANCE, 1 + (double)SUM_TOLERANCE);
+                         vertex, (double)sum, 1 - (double)HAIR_MAX_WEIGHT_ERROR,
+                         1 + (double)HAIR_MAX_WEIGHT_ERROR);
     joints += 4 * (size_t)vertex;
     weights += 4 * (size_t)vertex;
     *out =

@@ -5,6 +5,10 @@
 #include <hair/hair_asset.h>
 #include "lib/asset/strands.h"
 
+// Maximum difference of the sum of the weights of a vertex from 1. Weights may be stored as bytes,
+// whose sum is not exactly 1.
+#define HAIR_MAX_WEIGHT_ERROR 0.01f
+
 struct hair_asset {
     hair_host host;
     hair_format format;

@@ -6,8 +6,6 @@
 #define FARTHEST 1e6f // Maximum distance from the origin, m, as for strands.
 #define MAX_COUNT 4194304 // Maximum number of vertices and of triangles, as of hair_groom_desc.
 #define MAX_JOINTS 65536
-// Maximum difference of the sum of the weights of a vertex from 1, as in hair_set_scalp_weights().
-#define MAX_WEIGHT_ERROR 0.01f
 
 // Allocate floats and read them. Fail unless they are in a range.
 static hair_result read_floats(const struct hair_groom_chunk* chunk, size_t at, size_t count, float min,
@@ -43,9 +41,9 @@ static hair_result read_mesh(const struct hair_groom_chunk* chunk, hair_asset* a
     if (chunk->size < 8) return hair_check_chunk_size(chunk, 8);
     uint32_t vertices = asset->scalp_vertex_count = hair_read_u32(chunk->content);
     uint32_t triangles = asset->scalp_triangle_count = hair_read_u32(chunk->content + 4);
-    if (vertices - 1 >= MAX_COUNT || triangles - 1 >= MAX_COUNT)
-        return HAIR_FAIL_CHUNK(chunk, "has %u vertices and %u triangles, not in [1, %d]", vertices, triangles,
-                               MAX_COUNT);
+    if (vertices < 3 || vertices > MAX_COUNT || triangles - 1 >= MAX_COUNT)
+        return HAIR_FAIL_CHUNK(chunk, "has %u vertices and %u triangles, not in [3, %d] and [1, %d]",
+                               vertices, triangles, MAX_COUNT, MAX_COUNT);
     HAIR_TRY(hair_check_chunk_size(chunk, 8 + 12 * ((uint64_t)vertices + triangles)));
     float limit = 2 * FARTHEST / chunk->source->import->scale;
     HAIR_TRY(read_floats(chunk, 8, 3 * (size_t)vertices, -limit, limit, &asset->scalp_positions));
@@ -70,9 +68,10 @@ static hair_result check_joints(const struct hair_groom_chunk* chunk, const hair
             if (joints[k] >= asset->scalp_joint_count)
                 return HAIR_FAIL_CHUNK(chunk, "has the joint %u of vertex %zu, not in [0, %u]", joints[k], i,
                                        asset->scalp_joint_count - 1);
-        if (!(fabsf(sum - 1) <= MAX_WEIGHT_ERROR))
+        if (!(fabsf(sum - 1) <= HAIR_MAX_WEIGHT_ERROR))
             return HAIR_FAIL_CHUNK(chunk, "has weights of vertex %zu whose sum is %g, not in [%g, %g]", i,
-                                   (double)sum, 1 - (double)MAX_WEIGHT_ERROR, 1 + (double)MAX_WEIGHT_ERROR);
+                                   (double)sum, 1 - (double)HAIR_MAX_WEIGHT_ERROR,
+                                   1 + (double)HAIR_MAX_WEIGHT_ERROR);
     }
     return HAIR_OK;
 }

@@ -110,7 +110,7 @@ static void malformed_chunks_are_refused(void** state)
         {"RADI", 12, 0x7fc00000, "has the radius nan of strand 3"},
         {"GRUP", 0, 0x00080700, "has the group 8 of strand 2, not in [0, 7]"},
         {"COLR", 24, 0x3fffffff, " bytes, not "},
-        {"SCLP", 0, 0, "has 0 vertices and 2 triangles, not in [1, 4194304]"},
+        {"SCLP", 0, 2, "has 2 vertices and 2 triangles, not in [3, 4194304] and [1, 4194304]"},
         {"SCLP", 4, 0xffffffff, "vertices and 4294967295 triangles"},
         {"SCLP", 0, 5, " bytes, not "},
         {"SCLP", 8, 0x7f800000, "has the number inf"},

@@ -75,6 +75,114 @@ static void everything_is_read_as_it_was_written(void** state)
     free(again.bytes);
 }
 
+static const float arrays_positions[] = {0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 2, 1, 0, 3};
+static const float arrays_scalp[] = {0, 0, 0, 2, 0, 0, 0, 2, 0};
+static const uint32_t arrays_vertices[] = {2, 3}, arrays_triangle[] = {0, 1, 2};
+static const uint16_t arrays_joints[12] = {0, 1, 2, 3, 0, 0, 0, 0, 3, 3, 3, 3};
+static const float arrays_weights[12] = {0.25f, 0.25f, 0.5f, 0, 1, 0, 0, 0, 0, 0, 1, 0};
+
+static hair_groom_desc arrays_desc(void)
+{
+    static const uint8_t groups[] = {5, 2};
+    static const float density[] = {0, 1, 0.5f}, uvs[] = {0, 0, 1, 0, 0, 1};
+    static hair_import import;
+    hair_groom_desc desc = hair_groom_desc_default();
+    import = hair_import_default();
+    import.up = HAIR_UP_Z;
+    import.scale = 0.1f;
+    desc.host = &test.host;
+    desc.import = &import;
+    desc.positions = arrays_positions;
+    desc.strand_vertices = arrays_vertices;
+    desc.strand_count = 2;
+    desc.strand_set = HAIR_STRAND_SET_GUIDES;
+    desc.strand_groups = groups;
+    desc.scalp_positions = arrays_scalp;
+    desc.scalp_triangles = arrays_triangle;
+    desc.scalp_density = density;
+    desc.scalp_uvs = uvs;
+    desc.scalp_vertex_count = 3;
+    desc.scalp_triangle_count = 1;
+    return desc;
+}
+
+static void arrays_are_written_and_make_a_groom_with_groups(void** state)
+{
+    (void)state;
+    hair_groom_desc desc = arrays_desc();
+    hair_asset* asset = NULL;
+    assert_int_equal(hair_asset_create(&desc, arrays_joints, arrays_weights, 4, &asset), HAIR_OK);
+    hair_asset* again = read_groom(hair_test_write_file(asset, HAIR_FORMAT_GROOM));
+    hair_asset_info info = hair_asset_info_default();
+    assert_int_equal(hair_asset_describe(again, &info), HAIR_OK);
+    assert_int_equal(info.strand_set, HAIR_STRAND_SET_GUIDES);
+    assert_float_equal(info.positions[3 * 4 + 1], 0.3f, 3e-6); // +z has become +y.
+    assert_float_equal(info.scalp_positions[3 * 2 + 2], -0.2f, 0);
+    assert_memory_equal(info.scalp_joints, arrays_joints, sizeof arrays_joints);
+    assert_memory_equal(info.scalp_weights, arrays_weights, sizeof arrays_weights);
+    assert_int_equal(info.scalp_joint_count, 4);
+    hair_groom_desc next = hair_groom_desc_default();
+    hair_groom* groom = NULL;
+    hair_groom_info made = hair_groom_info_default();
+    next.host = &test.host;
+    next.follower_count = 100;
+    assert_int_equal(hair_asset_to_groom_desc(again, &next), HAIR_OK);
+    assert_ptr_equal(next.scalp_density, info.scalp_density);
+    assert_ptr_equal(next.scalp_uvs, info.scalp_uvs);
+    assert_int_equal(hair_groom_create(&next, &groom), HAIR_OK);
+    assert_int_equal(hair_groom_describe(groom, &made), HAIR_OK);
+    assert_int_equal(made.group_count, 6);
+    assert_int_equal(made.guide_count, 2);
+    hair_groom_destroy(groom);
+    hair_asset_destroy(asset);
+    hair_asset_destroy(again);
+}
+
+// Check a sentence of hair_asset_create() for joints.
+static void refuse_joints(const uint16_t* joints, const float* weights, uint32_t count, const char* text)
+{
+    hair_groom_desc desc = arrays_desc();
+    hair_asset* asset = NULL;
+    uint32_t blocks = test.blocks;
+    assert_int_equal(hair_asset_create(&desc, joints, weights, count, &asset), HAIR_ERROR_ARGUMENT);
+    if (!strstr(test.sentence, text)) fail_msg("\"%s\" lacks \"%s\"", test.sentence, text);
+    assert_null(asset);
+    assert_int_equal(test.blocks, blocks);
+}
+
+static void wrong_arrays_make_no_asset(void** state)
+{
+    (void)state;
+    static const float thin[12] = {0.5f}, nan_weights[12] = {NAN}, far[] = {0, NAN, 0, 0, 0, 0};
+    hair_asset* asset = NULL;
+    refuse_joints(arrays_joints, arrays_weights, 3, "scalp_joints[3] is 3, not in [0, 2]");
+    refuse_joints(arrays_joints, arrays_weights, 0, "scalp_joint_count is 0, not in [1, 65536]");
+    refuse_joints(arrays_joints, arrays_weights, 65537, "scalp_joint_count is 65537");
+    refuse_joints(arrays_joints, NULL, 4, "scalp_weights is NULL");
+    refuse_joints(NULL, arrays_weights, 0, "scalp_joints is NULL");
+    refuse_joints(arrays_joints, thin, 4, "the sum of scalp_weights of vertex 0 is 0.5, not in [0.99, 1.01]");
+    refuse_joints(arrays_joints, nan_weights, 4, "scalp_weights[0] is nan, not in [0, 1]");
+    hair_groom_desc desc = arrays_desc();
+    desc.scalp_uvs = far;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "scalp_uvs[1] is nan"));
+    desc = arrays_desc();
+    desc.positions = NULL;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    desc = arrays_desc();
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(NULL, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    for (uint32_t refused = 1, result = HAIR_ERROR_MEMORY; result; ++refused) {
+        test.allocations = 0;
+        test.refuse = refused;
+        result = hair_asset_create(&desc, arrays_joints, arrays_weights, 4, &asset);
+        test.refuse = 0;
+        assert_true(result == HAIR_OK || (result == HAIR_ERROR_MEMORY && refused < 16));
+        if (result) assert_int_equal(test.blocks, 0);
+    }
+    hair_asset_destroy(asset);
+}
+
 static void import_turns_and_scales_strands_and_scalp(void** state)
 {
     (void)state;
@@ -266,6 +374,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(checksums_are_those_of_zlib),
         TEST(everything_is_read_as_it_was_written),
+        TEST(arrays_are_written_and_make_a_groom_with_groups),
+        TEST(wrong_arrays_make_no_asset),
         TEST(import_turns_and_scales_strands_and_scalp),
         TEST(positions_are_within_1e_5_of_the_length),
         TEST(damaged_chunks_are_named_with_their_byte),
