@@ -1,3 +1,3 @@
-"""hair-convert converts strand hair between USD, Alembic, .hair, .tfx, .data and OBJ."""
+"""hair-convert converts strand hair between USD, Alembic, .groom, .hair, .tfx, .data and OBJ."""
 
 __version__ = "1.0"

@@ -28,6 +28,7 @@ class Format:
 
 FORMATS = [
     Format(".hair", (".hair",), "hairfile", "hairfile"),
+    Format(".groom", (".groom",), "groomfile", "groomfile"),
     Format(".tfx", (".tfx",), "tfx", "tfx"),
     Format(".data", (".data",), "usc", "usc"),
     Format("OBJ", (".obj",), "obj", "obj"),

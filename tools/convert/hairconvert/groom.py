@@ -281,16 +281,21 @@ def resample(groom, count):
     return Groom(counts, blend(groom.points), attributes, motion, groom.format)
 
 
-def _places(groom, count):
-    """Return the vertex before each new vertex, and the weight of the vertex after that."""
-    starts, vertices = groom.starts(), groom.counts
-    steps = _steps(groom)
+def fractions(groom):
+    """Return the fraction of the length of its strand at each vertex."""
+    starts, vertices, steps = groom.starts(), groom.counts, _steps(groom)
     total = np.maximum(np.add.reduceat(steps, starts), 1e-300)
     along = np.cumsum(steps)
     along -= np.repeat(along[starts], vertices)
+    return np.minimum(along / np.repeat(total, vertices), 1)
+
+
+def find_places(groom, count):
+    """Return the vertex before each of `count` even places of each strand, and the weight of the
+    vertex after that."""
+    starts, vertices, fraction = groom.starts(), groom.counts, fractions(groom)
     # Keys grow within a strand from 2i to 2i + 1, so one search serves all strands.
     strand = np.arange(len(vertices))
-    fraction = np.minimum(along / np.repeat(total, vertices), 1)
     keys = 2 * np.repeat(strand, vertices) + fraction
     wanted = np.linspace(0, 1, count)
     targets = (2 * strand[:, None] + wanted[None, :]).ravel()
@@ -299,9 +304,14 @@ def _places(groom, count):
     span = fraction[before + 1] - fraction[before]
     aim = np.tile(wanted, len(vertices))
     weight = np.where(span > 0, (aim - fraction[before]) / np.where(span > 0, span, 1), 0)
-    weight = np.clip(weight, 0, 1)
-    same = np.repeat(vertices == count, count)
-    within = np.tile(np.arange(count), len(vertices))
+    return before, np.clip(weight, 0, 1)
+
+
+def _places(groom, count):
+    """Return the same as find_places(), but the vertices themselves of strands of `count`."""
+    starts, (before, weight) = groom.starts(), find_places(groom, count)
+    same = np.repeat(groom.counts == count, count)
+    within = np.tile(np.arange(count), len(groom.counts))
     last = same & (within == count - 1)
     before = np.where(same, np.repeat(starts, count) + within - last, before)
     return before, np.where(same, last * 1.0, weight)

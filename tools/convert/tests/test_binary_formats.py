@@ -13,7 +13,7 @@ from tests.support import ConvertTest, add_attributes, make_groom
 class RoundTripTest(ConvertTest):
     def test_every_format_keeps_positions(self):
         for kind in ("straight", "curly", "clumped", "braid"):
-            for ending in (".hair", ".data", ".obj"):
+            for ending in (".hair", ".groom", ".data", ".obj"):
                 with self.subTest(kind=kind, ending=ending):
                     groom = make_groom(kind, uneven=True)
                     path, said = self.write(groom, "a" + ending)
@@ -114,7 +114,7 @@ class RoundTripTest(ConvertTest):
         if not tool:
             self.fail("HAIR_GROOM does not name the program hair-groom")
         groom = add_attributes(make_groom("curly", vertices=16))
-        for ending in (".hair", ".tfx"):
+        for ending in (".hair", ".tfx", ".groom"):
             path, _ = self.write(groom, "a" + ending)
             said = subprocess.run([tool, "info", path], capture_output=True, text=True)
             self.assertEqual(said.returncode, 0, said.stderr)

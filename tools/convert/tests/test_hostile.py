@@ -70,7 +70,7 @@ class HostileTest(ConvertTest):
                 self.assert_survived(self.file("a" + ending, bad.tobytes()))
 
     def test_positions_that_are_not_finite(self):
-        for ending in (".hair", ".data", ".tfx", ".obj"):
+        for ending in (".hair", ".groom", ".data", ".tfx", ".obj"):
             groom = make_groom(vertices=8)
             groom.points[:] = np.nan
             path, _ = self.write(groom, "a" + ending)

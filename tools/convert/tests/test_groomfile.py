@@ -1,0 +1,138 @@
+"""The .groom format: what it keeps, and that the library and hair-convert read each other's files."""
+
+import os
+import struct
+import subprocess
+import zlib
+
+import numpy as np
+
+from hairconvert.groom import STRAND, VERTEX, Attribute, lengths
+from tests.support import ConvertTest, add_attributes, make_groom
+
+
+class GroomFileTest(ConvertTest):
+    def tool(self, *arguments):
+        """Run hair-groom, and return what it prints."""
+        tool = os.environ.get("HAIR_GROOM")
+        if not tool:
+            self.fail("HAIR_GROOM does not name the program hair-groom")
+        said = subprocess.run([tool, *arguments], capture_output=True, text=True)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        return said.stdout
+
+    def test_groups_and_widths_of_strands_are_kept(self):
+        groom = make_groom(uneven=True)
+        groom.attributes["group"] = Attribute(STRAND, np.arange(100, dtype=np.int32) % 8)
+        width = np.linspace(1e-5, 1e-4, 100).astype(np.float32)
+        groom.attributes["width"] = Attribute(STRAND, width)
+        color = np.random.default_rng(1).uniform(0, 1, (100, 3)).astype(np.float32)
+        groom.attributes["color"] = Attribute(STRAND, color, "color")
+        path, said = self.write(groom, "a.groom")
+        back = self.read(path)
+        self.assertEqual(said, [])
+        self.assert_same_strands(groom, back)
+        self.assert_same_attributes(groom, back, ["group", "width"])
+        self.assert_same_attributes(groom, back, ["color"], 1.6e-5)
+
+    def test_positions_are_within_1e_5_of_the_length(self):
+        random = np.random.default_rng(5)
+        groom = make_groom("curly", vertices=60, uneven=True)
+        groom.points = (groom.points * np.repeat(random.uniform(0.01, 30, 100), groom.counts)[:, None])
+        groom.points = groom.points.astype(np.float32).astype(np.float64)
+        back = self.read(self.write(groom, "a.groom")[0])
+        error = np.linalg.norm(groom.points - back.points, axis=1)
+        relative = error / np.repeat(lengths(groom), groom.counts)
+        self.assertLessEqual(relative.max(), 1e-5)
+        self.assertGreater(relative.max(), 1e-6)
+        np.testing.assert_array_equal(back.points[back.starts()], groom.points[groom.starts()])
+
+    def test_strands_that_rounding_would_damage_are_exact(self):
+        groom = make_groom(strands=3, vertices=4)
+        groom.points[:4] = [[0, 0, 0], [0, 0, 2.0002e-6], [0, 0, 0.1], [0, 0, 0.2]]
+        groom.points = groom.points.astype(np.float32).astype(np.float64)
+        back = self.read(self.write(groom, "a.groom")[0])
+        np.testing.assert_array_equal(back.points[:4], groom.points[:4])
+        self.assert_same_strands(groom, back)
+
+    def test_library_reads_the_same_strands_and_groups(self):
+        groom = make_groom("braid", strands=200, vertices=24, uneven=True)
+        groom.attributes["group"] = Attribute(STRAND, (np.arange(200) % 3).astype(np.int32))
+        groom.attributes["width"] = Attribute("groom", np.array([8e-5], np.float32))
+        color = np.random.default_rng(2).uniform(0, 1, (len(groom.points), 3)).astype(np.float32)
+        groom.attributes["color"] = Attribute(VERTEX, color, "color")
+        path, said = self.write(groom, "a.groom")
+        self.assertEqual(said, ["colours are those at 8 even places of each strand"])
+        self.assertIn("groups:    of every strand", self.tool("info", path))
+        self.tool("convert", path, self.path("b.groom"))
+        with open(path, "rb") as a, open(self.path("b.groom"), "rb") as b:
+            self.assertEqual(a.read(), b.read())
+
+    def test_files_of_the_library_are_read(self):
+        self.tool("generate", "bob", self.path("a.groom"))
+        self.tool("convert", self.path("a.groom"), self.path("a.hair"))
+        a, b = self.read(self.path("a.groom")), self.read(self.path("a.hair"))
+        np.testing.assert_array_equal(a.counts, b.counts)
+        np.testing.assert_array_equal(a.points, b.points)
+        self.assertTrue(a.values("guide", STRAND).all())
+
+    def test_groups_of_alembic_become_groups(self):
+        groom = make_groom()
+        groom.attributes["group"] = Attribute(STRAND, 10 * (np.arange(100, dtype=np.int32) % 3))
+        path, _ = self.write(groom, "a.abc")
+        status, said = self.convert("convert", path, self.path("a.groom"))
+        self.assertEqual(status, 0, said)
+        self.assertIn("the groups 0, 10, 20 become 0 to 2", said)
+        back = self.read(self.path("a.groom"))
+        np.testing.assert_array_equal(back.attributes["group"].values, np.arange(100) % 3)
+        groom.attributes["group"] = Attribute(STRAND, np.arange(100, dtype=np.int32))
+        self.assertIn("the attribute group is not kept, because a .groom file has at most 8 groups, "
+                      "not 100", self.write(groom, "b.groom")[1])
+
+    def test_every_attribute_that_is_not_kept_is_told(self):
+        path, said = self.write(add_attributes(make_groom(vertices=8)), "a.groom")
+        self.assertEqual(set(self.read(path).attributes), {"width", "group", "color"})
+        for name in ("opacity", "root_uv", "guide", "id", "roughness", "stiffness"):
+            self.assertEqual(sum(f"the attribute {name} " in s for s in said), 1, name)
+
+    def test_long_strands_need_an_option(self):
+        status, said = self.convert("convert", self.write(make_groom(vertices=300), "a.hair")[0],
+                                    self.path("a.groom"))
+        self.assertEqual(status, 4)
+        self.assertIn("use --vertices", said)
+
+    def test_damage_is_told_with_its_chunk_and_byte(self):
+        path, _ = self.write(add_attributes(make_groom(vertices=8)), "a.groom")
+        with open(path, "rb") as file:
+            data = file.read()
+        at = 32
+        while at < len(data):
+            bad, letters = bytearray(data), data[at:at + 4].decode()
+            bad[at + 17] ^= 1
+            with open(self.path("b.groom"), "wb") as file:
+                file.write(bad)
+            status, said = self.convert("info", self.path("b.groom"))
+            self.assertEqual(status, 4)
+            self.assertIn(f'the chunk "{letters}" at byte {at} is damaged', said)
+            at += 16 + struct.unpack_from("<Q", data, at + 4)[0]
+
+    def test_changed_bytes_with_valid_checksums_are_survived(self):
+        random = np.random.default_rng(6)
+        path, _ = self.write(add_attributes(make_groom(strands=5, vertices=4)), "a.groom")
+        with open(path, "rb") as file:
+            data = file.read()
+        for _ in range(300):
+            bad = bytearray(data)
+            for _ in range(2):
+                bad[random.integers(32, len(bad))] = random.integers(0, 256)
+            at = 32
+            while at + 16 <= len(bad):
+                end = at + 16 + struct.unpack_from("<Q", bad, at + 4)[0]
+                checksum = zlib.crc32(bad[at + 16:end], zlib.crc32(bad[at:at + 12]))
+                bad[at + 12:at + 16] = struct.pack("<I", checksum)
+                at = end
+            with open(self.path("b.groom"), "wb") as file:
+                file.write(bad)
+            status, said = self.convert("info", self.path("b.groom"))
+            self.assertIn(status, (0, 4), said)
+            self.assertNotIn("Traceback", said)
