@@ -347,6 +347,25 @@ static void settings_of_a_group_apply_to_its_strands(void** state)
            "physics of groups cannot differ with the solver redblack");
 }
 
+// The strands of the file are in the groups 0, 7, 3 and 0.
+static void groups_of_a_groom_file_have_settings_of_their_own(void** state)
+{
+    (void)state;
+    static const char* const sets[] = {"", "--set groups.7.radius=4", "--set groups.5.radius=4",
+                                       "--set groups.3.tip_mass=4"};
+    expect(0, "cp tests/fuzz/corpus/groomfile/whole $D/whole.groom", "");
+    for (int i = 0; i < 4; ++i) {
+        char command[256];
+        snprintf(command, sizeof command,
+                 "$T --groom $D/whole.groom " FEW " --motion turn --frames 3:4 --hash %s >$D/g%d", sets[i],
+                 i);
+        expect(0, command, "");
+    }
+    expect(0, "cmp $D/g0 $D/g2 && ! cmp -s $D/g0 $D/g1", "");
+    expect(0, "grep -h strands $D/g0 $D/g1 | sort -u | wc -l", "1");
+    expect(0, "grep -h strands $D/g0 $D/g3 | sort -u | wc -l", "2");
+}
+
 static void haircut_files_are_found_beside_their_scene_and_framed(void** state)
 {
     (void)state;
@@ -403,6 +422,7 @@ int main(void)
         cmocka_unit_test(each_solver_can_be_selected),
         cmocka_unit_test(scene_files_and_options_are_equivalent),
         cmocka_unit_test(settings_of_a_group_apply_to_its_strands),
+        cmocka_unit_test(groups_of_a_groom_file_have_settings_of_their_own),
         cmocka_unit_test(haircut_files_are_found_beside_their_scene_and_framed),
         cmocka_unit_test(the_unit_of_a_file_is_guessed_from_its_longest_strand),
         cmocka_unit_test(fur_stands_on_a_ball),
