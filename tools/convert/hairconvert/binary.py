@@ -1,8 +1,21 @@
 """Bounded reading of binary files."""
 
+import os
+
 import numpy as np
 
 from hairconvert.report import InputError
+
+
+MAX_FILE = 1 << 34  # bytes
+
+
+def load(path):
+    """Return the bytes of a file."""
+    if os.path.getsize(path) > MAX_FILE:
+        raise InputError(f"the file is larger than {MAX_FILE} bytes")
+    with open(path, "rb") as file:
+        return file.read()
 
 
 class Bytes:

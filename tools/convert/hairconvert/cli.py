@@ -78,7 +78,8 @@ def make_parser():
     _add_curve_options(motion)
     motion.set_defaults(scale=None, up=None, frame=None, samples=None, tip_first=False, take="all",
                         vertices=None, mesh=None)
-    scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .usd, .obj, .tfxmesh) to "
+    scalp = commands.add_parser("scalp", help="convert a mesh (.gltf, .glb, .usd, .obj, .tfxmesh, "
+                                "or the scalp of .groom) to "
                                 ".obj or .tfxmesh, with texture coordinates or skin weights")
     scalp.add_argument("input", metavar="IN")
     scalp.add_argument("output", metavar="OUT")
@@ -221,6 +222,7 @@ def _fit_to_scalp(groom, options, report):
         temporary = temporary_name(options.bones)
         tfxmesh.write_bones(mesh.joint_names, joints, weights, temporary)
         os.replace(temporary, options.bones)
+    groom.scalp = mesh
     return groom
 
 

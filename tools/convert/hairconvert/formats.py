@@ -6,11 +6,11 @@ import os
 
 import numpy as np
 
+from hairconvert.binary import load
 from hairconvert.groom import (Attribute, Motion, check_counts, clean, place, resample, reverse,
                                select, unplace)
 from hairconvert.report import InputError, MissingPackage, UsageError, find_reason
 
-MAX_FILE = 1 << 34  # bytes
 
 
 @dataclasses.dataclass
@@ -24,11 +24,12 @@ class Format:
     from_path: bool = False  # read() takes a path instead of bytes
     unit: float = 1.0  # metres of one unit, if the file does not tell
     keeps_motion: bool = False
+    keeps_scalp: bool = False
 
 
 FORMATS = [
     Format(".hair", (".hair",), "hairfile", "hairfile"),
-    Format(".groom", (".groom",), "groomfile", "groomfile"),
+    Format(".groom", (".groom",), "groomfile", "groomfile", keeps_scalp=True),
     Format(".tfx", (".tfx",), "tfx", "tfx"),
     Format(".data", (".data",), "usc", "usc"),
     Format("OBJ", (".obj",), "obj", "obj"),
@@ -56,14 +57,6 @@ def _load_module(f, name):
     except ImportError as error:
         raise MissingPackage(f"{f.name} needs the Python module {error.name}, which is missing: "
                              "make convert installs its package") from None
-
-
-def load(path):
-    """Return the bytes of a file."""
-    if os.path.getsize(path) > MAX_FILE:
-        raise InputError(f"the file is larger than {MAX_FILE} bytes")
-    with open(path, "rb") as file:
-        return file.read()
 
 
 def read_groom(path, options, report):
@@ -117,5 +110,7 @@ def write_groom(groom, path, name, options, report):
     if groom.motion and not f.keeps_motion:
         report.lose(f"the motion of {len(groom.motion)} frames",
                     f"a {f.name} file holds one pose: --frame chooses the pose")
+    if groom.scalp and not f.keeps_scalp and not getattr(options, "scalp", None):
+        report.lose("the scalp", f"a {f.name} file holds strands only: hair-convert scalp writes it")
     scale, up = options.output_scale or f.unit, options.output_up or "y"
     module.write(unplace(groom, scale, up), path, options, report)

@@ -9,8 +9,7 @@ import urllib.parse
 
 import numpy as np
 
-from hairconvert.binary import Bytes
-from hairconvert.formats import load
+from hairconvert.binary import Bytes, load
 from hairconvert.mesh import Mesh, keep_influences
 from hairconvert.report import InputError
 

@@ -59,6 +59,7 @@ class Groom:
     format: str = ""
     unit: float = None  # metres of a unit of the file, None if the file does not tell
     up: str = None  # axis of the file that points up
+    scalp: object = None  # Mesh on which the strands grow
 
     def strand_count(self):
         """Return the number of strands."""
@@ -123,7 +124,8 @@ def select(groom, keep):
     if motion:
         motion = Motion(motion.times, lambda i, read=motion.read: read(i)[vertices])
     _renumber_guides(attributes, keep)
-    return Groom(groom.counts[keep], groom.points[vertices], attributes, motion, groom.format)
+    return Groom(groom.counts[keep], groom.points[vertices], attributes, motion, groom.format,
+                 scalp=groom.scalp)
 
 
 def _renumber_guides(attributes, keep):
@@ -196,7 +198,8 @@ def reverse(groom):
     motion = groom.motion
     if motion:
         motion = Motion(motion.times, lambda i, read=motion.read: read(i)[order])
-    return Groom(groom.counts, groom.points[order], attributes, motion, groom.format)
+    return Groom(groom.counts, groom.points[order], attributes, motion, groom.format,
+                 scalp=groom.scalp)
 
 
 def lengths(groom):
@@ -234,7 +237,11 @@ def _transform(groom, rotate, scale):
     motion = groom.motion
     if motion:
         motion = Motion(motion.times, lambda i, read=motion.read: rotate(read(i)) * scale)
-    return Groom(groom.counts, rotate(groom.points) * scale, attributes, motion, groom.format)
+    scalp = groom.scalp
+    if scalp:
+        scalp = dataclasses.replace(scalp, points=rotate(scalp.points) * scale)
+    return Groom(groom.counts, rotate(groom.points) * scale, attributes, motion, groom.format,
+                 scalp=scalp)
 
 
 def rotate_to_y(v, up):
@@ -278,7 +285,7 @@ def resample(groom, count):
     if motion:
         motion = Motion(motion.times, lambda i, read=motion.read: blend(read(i)))
     counts = np.full(len(groom.counts), count, np.int64)
-    return Groom(counts, blend(groom.points), attributes, motion, groom.format)
+    return Groom(counts, blend(groom.points), attributes, motion, groom.format, scalp=groom.scalp)
 
 
 def fractions(groom):

@@ -6,9 +6,10 @@ import zlib
 import numpy as np
 
 from hairconvert import tracks
-from hairconvert.binary import Bytes
+from hairconvert.binary import Bytes, load
 from hairconvert.groom import (STRAND, VERTEX, Attribute, Groom, check_counts, find_places,
                                fractions, lengths)
+from hairconvert.mesh import Mesh, check_mesh
 from hairconvert.report import InputError
 
 MAGIC = b"GROOM\r\n\x1a"
@@ -16,6 +17,7 @@ HEADER, CHUNK = 32, 16  # bytes of the header, and before the content of a chunk
 MAX_VERTICES = 256  # of a strand
 GROUPS = 8
 COLORS = 8  # at even places of a strand
+MAX_JOINTS, MAX_SCALP = 65536, 4194304  # joints, and vertices or triangles of a scalp
 MAX_ERROR, UNIT = 1e-5, 1.15e-5  # of the length of a strand
 BIAS, MIN_STEP, MAX_STEP = 128, 64, 160
 KNOWN = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN"}
@@ -63,8 +65,40 @@ def read(data, options, report):
     if "COLR" in chunks:
         groom.attributes["color"] = _read_colors(chunks["COLR"], groom)
     if "SCLP" in chunks:
-        report.say("the scalp of the file is not read")
+        groom.scalp = check_mesh(_read_scalp(chunks, report), report)
     return groom
+
+
+def read_mesh(path, name, report):
+    """Return the scalp of a .groom file."""
+    chunks = _find_chunks(Bytes(load(path)), report)
+    if "SCLP" not in chunks:
+        raise InputError('the file has no chunk "SCLP", the scalp')
+    return _read_scalp(chunks, report)
+
+
+def _read_scalp(chunks, report):
+    chunk = chunks["SCLP"]
+    vertices, triangles = (int(n) for n in chunk.array(0, 2, "<u4"))
+    chunk.check_size(8 + 12 * (vertices + triangles))
+    points = chunk.array(8, 3 * vertices, "<f4").reshape(-1, 3).astype(np.float64)
+    corners = chunk.array(8 + 12 * vertices, 3 * triangles, "<u4").reshape(-1, 3).astype(np.int64)
+    mesh = Mesh(points, corners, format="groom")
+    if "TEXC" in chunks:
+        chunks["TEXC"].check_size(8 * vertices)
+        mesh.uv = chunks["TEXC"].array(0, 2 * vertices, "<f4").reshape(-1, 2).astype(np.float64)
+    if "SKIN" in chunks:
+        chunks["SKIN"].check_size(4 + 24 * vertices)
+        joints = int(chunks["SKIN"].array(0, 1, "<u4")[0])
+        if not 1 <= joints <= MAX_JOINTS:
+            chunks["SKIN"].refuse(f"has {joints} joints, not in [1, {MAX_JOINTS}]")
+        mesh.joints = chunks["SKIN"].array(4, 4 * vertices, "<u2").reshape(-1, 4).astype(np.int64)
+        mesh.weights = chunks["SKIN"].array(4 + 8 * vertices, 4 * vertices, "<f4").reshape(-1, 4)
+        mesh.weights = mesh.weights.astype(np.float64)
+        mesh.joint_names = [f"joint{i}" for i in range(joints)]
+    if "DENS" in chunks:
+        report.lose("the density of the scalp", "meshes have none here")
+    return mesh
 
 
 def _find_chunks(file, report):
@@ -193,6 +227,8 @@ def write(groom, path, options, report):
         content = encode(groom, report) if name in groom.attributes else None
         if content is not None:
             chunks.append((letters, content))
+    if groom.scalp:
+        chunks += _write_scalp(groom.scalp, report)
     for name in groom.attributes:
         if name not in ("guide", "width", "group", "color"):
             report.lose(f"the attribute {name}", "a .groom file holds only widths, groups and "
@@ -246,6 +282,27 @@ def _is_kept(groom, before, after, length):
         steps[1:] = np.linalg.norm(np.diff(after, axis=0), axis=1)
     steps[groom.starts()] = np.inf
     return near & (np.minimum.reduceat(steps, groom.starts()) >= MAX_ERROR * lengths(read))
+
+
+def _write_scalp(mesh, report):
+    vertices = len(mesh.points)
+    if max(vertices, len(mesh.triangles)) > MAX_SCALP:
+        raise InputError(f"the scalp has {vertices} vertices and {len(mesh.triangles)} triangles, "
+                         f"more than {MAX_SCALP}")
+    chunks = [("SCLP", struct.pack("<II", vertices, len(mesh.triangles))
+               + mesh.points.astype("<f4").tobytes() + mesh.triangles.astype("<u4").tobytes())]
+    if mesh.uv is not None and (np.abs(mesh.uv) <= 1e6).all():
+        chunks.append(("TEXC", mesh.uv.astype("<f4").tobytes()))
+    elif mesh.uv is not None:
+        report.lose("the texture coordinates of the scalp", "a value is not in [-1e6, 1e6]")
+    if mesh.weights is not None and len(mesh.joint_names) <= MAX_JOINTS:
+        chunks.append(("SKIN", struct.pack("<I", len(mesh.joint_names))
+                       + mesh.joints.astype("<u2").tobytes()
+                       + mesh.weights.astype("<f4").tobytes()))
+        report.say("joints of the scalp have numbers, in the order of the skin, but no names")
+    elif mesh.weights is not None:
+        report.lose("the skin of the scalp", f"it has more than {MAX_JOINTS} joints")
+    return chunks
 
 
 def _write_radii(groom, report):

@@ -2,7 +2,7 @@
 
 import os
 
-from hairconvert import gltf, obj, tfxmesh
+from hairconvert import gltf, groomfile, obj, tfxmesh
 from hairconvert.formats import refuse_errors
 from hairconvert.groom import rotate_from_y
 from hairconvert.mesh import check_mesh, place_mesh
@@ -16,7 +16,7 @@ def _read_usd(path, name, report):
 
 
 READERS = {(".gltf", ".glb"): gltf.read, (".obj",): obj.read_mesh, (".tfxmesh",): tfxmesh.read,
-           (".usda", ".usdc", ".usd", ".usdz"): _read_usd}
+           (".groom",): groomfile.read_mesh, (".usda", ".usdc", ".usd", ".usdz"): _read_usd}
 WRITERS = {(".obj",): obj.write_mesh, (".tfxmesh",): tfxmesh.write}
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from hairconvert.formats import load
+from hairconvert.binary import load
 from hairconvert.groom import MAX_VERTICES, Groom, check_counts
 from hairconvert.mesh import Mesh
 from hairconvert.report import InputError

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from hairconvert.binary import Bytes
-from hairconvert.formats import load
+from hairconvert.binary import Bytes, load
 from hairconvert.mesh import MAX_TRIANGLES, Mesh, vertex_normals
 from hairconvert.report import InputError
 

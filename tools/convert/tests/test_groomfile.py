@@ -1,13 +1,19 @@
 """The .groom format: what it keeps, and that the library and hair-convert read each other's files."""
 
+import base64
+import json
 import os
 import struct
 import subprocess
 import zlib
+from types import SimpleNamespace
 
 import numpy as np
 
 from hairconvert.groom import STRAND, VERTEX, Attribute, lengths
+from hairconvert.meshes import read_mesh
+from hairconvert.report import Report
+from tests.test_mesh import make_gltf
 from tests.support import ConvertTest, add_attributes, make_groom
 
 
@@ -88,6 +94,38 @@ class GroomFileTest(ConvertTest):
         groom.attributes["group"] = Attribute(STRAND, np.arange(100, dtype=np.int32))
         self.assertIn("the attribute group is not kept, because a .groom file has at most 8 groups, "
                       "not 100", self.write(groom, "b.groom")[1])
+
+    def test_scalp_with_skin_and_texture_coordinates_is_kept(self):
+        gltf, data = make_gltf()
+        gltf["buffers"][0]["uri"] = "data:;base64," + base64.b64encode(data).decode()
+        with open(self.path("head.gltf"), "w", encoding="utf-8") as file:
+            json.dump(gltf, file)
+        groom = make_groom(strands=20)
+        groom.points += [0.5, -1, 0.5]
+        path, _ = self.write(groom, "a.hair")
+        status, said = self.convert("convert", path, self.path("a.groom"), "--scalp",
+                                    self.path("head.gltf"))
+        self.assertEqual(status, 0, said)
+        self.assertIn("scalp:     4 vertices, 2 triangles, texture coordinates, 2 joints",
+                      self.tool("info", self.path("a.groom")))
+        mesh = read_mesh(self.path("head.gltf"), SimpleNamespace(mesh=None, scale=None, up=None),
+                         Report())
+        back = self.read(self.path("a.groom"))
+        np.testing.assert_allclose(back.scalp.points, mesh.points, atol=1e-6)
+        np.testing.assert_array_equal(back.scalp.triangles, mesh.triangles)
+        np.testing.assert_allclose(back.scalp.uv, mesh.uv, atol=1e-6)
+        np.testing.assert_array_equal(back.scalp.joints, mesh.joints)
+        np.testing.assert_allclose(back.scalp.weights, mesh.weights, atol=1e-6)
+        # Another unit and axis turn the scalp like the strands.
+        turned = self.read(self.path("a.groom"), "--scale", "0.5", "--up", "z")
+        np.testing.assert_allclose(turned.scalp.points[:, 1], 0.5 * mesh.points[:, 2], atol=1e-6)
+        _, said = self.convert("convert", self.path("a.groom"), self.path("b.hair"))
+        self.assertIn("the scalp is not kept, because a .hair file holds strands only", said)
+        status, said = self.convert("scalp", self.path("a.groom"), self.path("a.tfxmesh"))
+        self.assertEqual(status, 0, said)
+        status, said = self.convert("scalp", self.write(groom, "c.groom")[0], self.path("c.obj"))
+        self.assertEqual(status, 4)
+        self.assertIn('no chunk "SCLP"', said)
 
     def test_every_attribute_that_is_not_kept_is_told(self):
         path, said = self.write(add_attributes(make_groom(vertices=8)), "a.groom")
