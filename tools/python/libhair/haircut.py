@@ -7,8 +7,47 @@ from .arrays import array, floats, integers, pointer, small_integers
 from .settings import CLASSES
 
 
+def _exactly(values, count, width, name):
+    """Return `count` rows of floats."""
+    out = floats(values, width, name)
+    if len(out) != count:
+        raise ValueError(f"{name} has {len(out)} rows, not {count}")
+    return out
+
+
+def _set_arrays(c, positions, strand_vertices, strand_groups=None, strand_radii=None, scalp_positions=None,
+                scalp_triangles=None, scalp_density=None, scalp_uvs=None):  # fmt: skip
+    """Let a hair_groom_desc point at arrays. Return what must be kept while the desc is used."""
+    kept = []
+
+    def keep(kind, array):
+        kept.append(array)
+        return pointer(kind, array)
+
+    if positions is not None:
+        points, vertices = floats(positions, 3, "positions"), integers(strand_vertices, "strand_vertices")
+        if int(vertices.sum(dtype=np.uint64)) != len(points):
+            raise ValueError(f"strand_vertices add up to {vertices.sum()}, and there are {len(points)} positions")
+        c.positions, c.strand_vertices = keep("float", points), keep("uint32_t", vertices)
+        c.strand_count = len(vertices)
+    if strand_groups is not None:
+        c.strand_groups = keep("uint8_t", small_integers(strand_groups, c.strand_count, "strand_groups"))
+    if strand_radii is not None:
+        c.strand_radii = keep("float", _exactly(strand_radii, c.strand_count, 1, "strand_radii"))
+    if scalp_positions is not None:
+        points = floats(scalp_positions, 3, "scalp_positions")
+        triangles = integers(() if scalp_triangles is None else scalp_triangles, "scalp_triangles")
+        c.scalp_positions, c.scalp_vertex_count = keep("float", points), len(points)
+        c.scalp_triangles, c.scalp_triangle_count = keep("uint32_t", triangles), len(triangles) // 3
+    if scalp_density is not None:
+        c.scalp_density = keep("float", _exactly(scalp_density, c.scalp_vertex_count, 1, "scalp_density"))
+    if scalp_uvs is not None:
+        c.scalp_uvs = keep("float", _exactly(scalp_uvs, c.scalp_vertex_count, 2, "scalp_uvs"))
+    return kept
+
+
 class Asset:
-    """A haircut as arrays. Asset.read() and Asset.generate() make it."""
+    """A haircut as arrays. Asset.read(), Asset.generate() and Asset.create() make it."""
 
     def __init__(self, pointer):
         self._c = ffi.gc(pointer, hair.hair_asset_destroy)
@@ -32,6 +71,29 @@ class Asset:
         desc, out = CLASSES["StyleDesc"](members, style=style), ffi.new("hair_asset**")
         desc._c.host = host
         call(hair.hair_asset_generate, desc._c, out)
+        return cls(out[0])
+
+    @classmethod
+    def create(cls, positions, strand_vertices, *, scalp_joints=None, scalp_weights=None, joint_count=0,
+               members=None, **arrays):  # fmt: skip
+        """Make a haircut of arrays, to write a file.
+
+        `arrays` are strand_groups, strand_radii, scalp_positions, scalp_triangles, scalp_density and scalp_uvs.
+        A vertex of the scalp has four joints, below joint_count, and four weights. `members` are those of GroomDesc.
+        """
+        desc, out, joints, weights = CLASSES["GroomDesc"](), ffi.new("hair_asset**"), ffi.NULL, ffi.NULL
+        c = desc._c
+        kept = _set_arrays(c, positions, strand_vertices, **arrays)
+        if scalp_joints is not None:
+            numbers = integers(scalp_joints, "scalp_joints")
+            if len(numbers) != 4 * c.scalp_vertex_count or (len(numbers) and numbers.max() > 65535):
+                raise ValueError(f"scalp_joints must be {4 * c.scalp_vertex_count} integers from 0 to 65535")
+            kept += [numbers.astype(np.uint16), _exactly(scalp_weights, c.scalp_vertex_count, 4, "scalp_weights")]
+            joints, weights = pointer("uint16_t", kept[-2]), pointer("float", kept[-1])
+        desc.update(members or {})
+        c.host = host
+        call(hair.hair_asset_create, c, joints, weights, joint_count, out)
+        del kept  # The library has copied the arrays.
         return cls(out[0])
 
     def write(self, format="hair"):
@@ -84,30 +146,19 @@ class Groom:
 
     def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
                  scalp_triangles=None, strand_groups=None, members=None, **more):  # fmt: skip
-        desc, out, kept = CLASSES["GroomDesc"](), ffi.new("hair_groom**"), []
+        desc, out = CLASSES["GroomDesc"](), ffi.new("hair_groom**")
         c = desc._c
         if asset is not None:
             call(hair.hair_asset_to_groom_desc, asset._c, c)
-        else:
-            if positions is None or strand_vertices is None:
-                raise ValueError("a groom needs an asset, or positions and strand_vertices")
-            kept += [floats(positions, 3, "positions"), integers(strand_vertices, "strand_vertices")]
-            if int(kept[1].sum(dtype=np.uint64)) != len(kept[0]):
-                raise ValueError(f"strand_vertices add up to {kept[1].sum()}, and there are {len(kept[0])} positions")
-            c.positions, c.strand_vertices = pointer("float", kept[0]), pointer("uint32_t", kept[1])
-            c.strand_count = len(kept[1])
-        if strand_groups is not None:
-            kept.append(small_integers(strand_groups, c.strand_count, "strand_groups"))
-            c.strand_groups = pointer("uint8_t", kept[-1])
-        if scalp_positions is not None:
-            points = floats(scalp_positions, 3, "scalp_positions")
-            triangles = integers(() if scalp_triangles is None else scalp_triangles, "scalp_triangles")
-            kept += [points, triangles]
-            c.scalp_positions, c.scalp_vertex_count = pointer("float", points), len(points)
-            c.scalp_triangles, c.scalp_triangle_count = pointer("uint32_t", triangles), len(triangles) // 3
+            positions = None
+        elif positions is None or strand_vertices is None:
+            raise ValueError("a groom needs an asset, or positions and strand_vertices")
+        # The library copies the arrays before `kept` ends.
+        kept = _set_arrays(c, positions, strand_vertices, strand_groups, None, scalp_positions, scalp_triangles)
         desc.update(members or {}, **more)
         c.host = host
         call(hair.hair_groom_create, c, out)
+        del kept
         self._c = ffi.gc(out[0], hair.hair_groom_destroy)
 
     @property

@@ -70,6 +70,30 @@ class HaircutTest(unittest.TestCase):
         with self.assertRaisesRegex(libhair.HairArgumentError, r"strand_groups\[0\] is 8, not in \[0, 7\]"):
             libhair.Groom(**arrays, strand_groups=[8] * 20)
 
+    def test_asset_of_arrays_survives_a_groom_file(self):
+        positions = np.zeros((20, 8, 3))
+        positions[:, :, 0] = np.arange(20)[:, None] * 0.01
+        positions[:, :, 1] = -0.02 * np.arange(8)
+        arrays = {"positions": positions, "strand_vertices": [8] * 20}
+        more = {
+            "strand_groups": np.arange(20) % 8, "strand_radii": np.linspace(1e-5, 5e-5, 20),
+            "scalp_positions": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "scalp_triangles": [0, 1, 2],
+            "scalp_density": [0, 0.5, 1], "scalp_uvs": [[0, 0], [1, 0], [0, 1]],
+            "scalp_joints": np.arange(12) % 3, "scalp_weights": [[0.25] * 4] * 3,
+        }  # fmt: skip
+        asset = libhair.Asset.create(**arrays, **more, joint_count=3, members={"strand_set": "guides"})
+        again = libhair.Asset.read(asset.write("groom"))
+        self.assertEqual(again.info["scalp_joint_count"], 3)
+        for name, values in more.items():
+            np.testing.assert_allclose(again.arrays[name].ravel(), np.ravel(values), rtol=1e-6, err_msg=name)
+        np.testing.assert_allclose(again.arrays["positions"], positions.reshape(-1, 3), atol=1.4e-6)
+        self.assertEqual(libhair.Groom(again, follower_count=100).info["group_count"], 8)
+        for wrong in ({"strand_radii": [1]}, {"scalp_weights": [[1, 0, 0, 0]]}, {"scalp_joints": [0]}):
+            with self.assertRaises(ValueError):
+                libhair.Asset.create(**arrays, **{**more, **wrong}, joint_count=3)
+        with self.assertRaisesRegex(libhair.HairArgumentError, r"scalp_joints\[2\] is 2, not in \[0, 1\]"):
+            libhair.Asset.create(**arrays, **more, joint_count=2)
+
     def test_wrong_arrays_raise(self):
         for positions, counts in (([0, 0, 0, 1], [2]), ([0] * 6, [3]), ([0] * 6, [-2]), ([0] * 6, [1.5]), (None, [1])):
             with self.assertRaises(ValueError):
