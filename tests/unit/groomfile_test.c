@@ -314,6 +314,27 @@ static void files_of_other_versions_are_refused(void** state)
     refuse(file, "conversion of line ends");
 }
 
+// A committed file of version 1 must be read by all later versions, and is what version 1 writes.
+static void committed_file_of_version_1_is_read(void** state)
+{
+    (void)state;
+    unsigned char bytes[1024];
+    FILE* file = fopen("tests/fuzz/corpus/groomfile/whole", "rb");
+    assert_non_null(file);
+    size_t size = fread(bytes, 1, sizeof bytes, file);
+    fclose(file);
+    hair_import import = hair_test_import();
+    hair_asset* asset = NULL;
+    assert_int_equal(hair_test_read(&test, &import, bytes, size, &asset), HAIR_OK);
+    assert_int_equal(asset->strands.vertex_count, 12);
+    assert_int_equal(asset->scalp_joint_count, 5);
+    struct hair_test_file own = hair_test_groomfile();
+    assert_int_equal(own.size, size);
+    assert_memory_equal(own.bytes, bytes, size);
+    hair_asset_free(asset);
+    free(own.bytes);
+}
+
 // A lock of 25 vertices in waves of 2 cm, 30 cm long, with noise.
 static void grow_wave(float* p, uint32_t* random)
 {
@@ -381,6 +402,7 @@ int main(void)
         TEST(damaged_chunks_are_named_with_their_byte),
         TEST(unknown_chunks_and_any_order_are_read),
         TEST(files_of_other_versions_are_refused),
+        TEST(committed_file_of_version_1_is_read),
         TEST(head_of_100000_strands_is_small_and_loads_fast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
