@@ -26,6 +26,15 @@
 // Assumed maximum distance by which the fitting of lengths moves a vertex beyond its free motion,
 // in metres.
 #define HAIR_CONTACT_FIT 0.02
+// Texels per guide vertex at HAIR_IMAGE_IMPULSE. Texels 0 and 1: impulses of two colliders, each
+// divided by line density, m^2/s. w: number of the collider in the solver, from 1. Texels 2 and 3:
+// their parts along normals. w of texel 2: collider that the vertex touched last, from 1.
+#define HAIR_IMPULSE_TEXELS 4
+// Numbers per collider at HAIR_BIND_IMPULSE_SUM. There are 13 integers of 64 bits in units of
+// HAIR_IMPULSE_UNIT: impulse, its moment about the head's origin, its part along normals, place
+// times size of each impulse, and size. The number of vertices follows.
+#define HAIR_IMPULSE_WORDS 28
+#define HAIR_IMPULSE_UNIT 9.094947017729282e-13 // 2^-40 m^2/s.
 // Guides per work group in programs with HAIR_PASS1, one subgroup per guide.
 #define HAIR_PASS1_GUIDES 28
 // Two headers, used alternately, follow the counters at HAIR_SOLVER_STATS_COUNT. A header holds the

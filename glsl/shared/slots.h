@@ -69,6 +69,10 @@
 #define HAIR_BIND_FOUND 3  // uint[HAIR_FOUND_COUNT] of motion.comp.
 #define HAIR_BIND_ENERGY 7 // hair_energy[] per guide, of energy.comp.
 
+// Buffer of the pass that sums the impulses of colliders. It also reads the state. uint[], see
+// HAIR_IMPULSE_WORDS.
+#define HAIR_BIND_IMPULSE_SUM 3
+
 // Buffers of the scalp motion passes, which also have guides and the rest shape.
 
 // float[]. The application's buffer, which contains the scalp's positions.

@@ -75,6 +75,8 @@
 // Image units.
 #define HAIR_IMAGE_FIELD 0 // Signed distance, of the pass that writes the distance field.
 #define HAIR_IMAGE_COLLIDER 1 // Number of the nearest collider.
+// Impulses of colliders, of the rod solvers and of the pass that sums them.
+#define HAIR_IMAGE_IMPULSE 0
 #define HAIR_IMAGE_AIR 0 // Texture at HAIR_UNIT_AIR, of the pass that writes it.
 
 #endif

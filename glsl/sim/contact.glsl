@@ -9,6 +9,7 @@
 // no way out that keeps their lengths. A vertex near such a root may be as deep as the root, less a
 // fifth of its distance from the root.
 #include "sim/contact_capsules.glsl"
+#include "sim/impulses.glsl"
 
 #define FREE 0.0
 #define SLIDES 1.0
@@ -157,7 +158,9 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
     way -= dot(way, normal) * normal;
     float far = length(way), grip = friction * max(depth, 0.0);
     bool  stuck = far <= grip;
-    made.d += depth * normal - (stuck ? way : way * (grip / far));
+    vec3  push = depth * normal - (stuck ? way : way * (grip / far));
+    made.d += push;
+    note_push(push, depth * normal);
     made.slip = depth <= 0.0 ? vec4(0.0)
                 : stuck      ? vec4(0.0, 0.0, 0.0, friction)
                              : vec4(way * (friction / far), grip / far);
@@ -177,6 +180,7 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 outcome allowed(uint i, vec3 want, BITS colliders, BITS kept, vec3 head_moved, inout BITS met)
 {
     outcome made = untouched(want);
+    begin_pushes();
     get_out(i, root_now - root_moved + head_moved + GET(place), colliders, kept, head_moved, made, met);
     return made;
 }

@@ -96,6 +96,9 @@ uint leave_deepest(uint i, vec3 start, inout uvec2 colliders, inout uvec2 owed, 
         friction = BODY_POSITION(whose, 1).w;
     }
     vec3 before = made.d;
+#ifdef HAIR_IMPULSES
+    set_presser(member_at(local(members), first_of(from)) & HAIR_ENTRY_NUMBER);
+#endif
     push_by(friction, depth, normal, surface, made);
     met |= from;
     owed &= ~from;
@@ -141,6 +144,7 @@ void get_out(uint i, vec3 start, uvec2 colliders, uvec2 kept, vec3 head_moved, i
             if ((kept[at.x] & at.y) != 0u || is_around(k, start + way, length(way))) {
                 float depth = depth_in_body(k, start, start + way, head_moved, granted, normal, surface);
                 if (depth > 0.0 || (kept[at.x] & at.y) != 0u) {
+                    set_presser(k);
                     push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                     met[at.x] |= at.y;
                     is_out = false;

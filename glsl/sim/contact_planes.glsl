@@ -11,6 +11,11 @@ struct outcome {
     float friction;     // factor of friction of this surface
 };
 
+#ifdef HAIR_IMPULSES
+// Colliders of `plane` and `other`, and of the last collider left, from 1.
+vec3 plane_pressers;
+#endif
+
 outcome untouched(vec3 want) { return outcome(want, vec4(0.0), vec4(0.0), vec3(0.0), 0.0); }
 
 // Push a displacement out of one collider by the depth. `plane` and `other` become the planes of
@@ -19,12 +24,22 @@ void push_by(float factor, float depth, vec3 normal, vec3 surface, inout outcome
 {
     made.d += depth * normal;
     vec4 found = vec4(normal, dot(normal, made.d));
+    bool moves = made.other.xyz != vec3(0.0) && dot(normal, made.other.xyz) <= PARALLEL;
     if (made.plane.xyz == vec3(0.0) || dot(normal, made.plane.xyz) > PARALLEL) {
         made.plane = found;
+#ifdef HAIR_IMPULSES
+        plane_pressers.x = presser;
+#endif
     } else {
-        if (made.other.xyz != vec3(0.0) && dot(normal, made.other.xyz) <= PARALLEL) made.plane = made.other;
+        if (moves) made.plane = made.other;
         made.other = found;
+#ifdef HAIR_IMPULSES
+        plane_pressers.xy = vec2(moves ? plane_pressers.y : plane_pressers.x, presser);
+#endif
     }
+#ifdef HAIR_IMPULSES
+    plane_pressers.z = presser;
+#endif
     made.surface  = surface;
     made.friction = params.friction * factor;
 }

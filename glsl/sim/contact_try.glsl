@@ -11,6 +11,7 @@ void resolve_contact(uint i, vec3 head_moved, bool keep)
     PUT(moved, made.d);
     local(touch) = made.freedom;
     local(slip)  = made.slip;
+    keep_pushes(i);
 }
 
 // Find the displacements that colliders allow.
@@ -19,6 +20,7 @@ void try_wanted(vec3 head_moved, bool keep)
     FOR_VERTICES(guide_count) {
         PUT(moved, local(wanted));
         if (COLLIDERS) local(touch) = local(slip) = vec4(0.0);
+        clear_pushes(i);
         if (COLLIDERS && !LISTS_REACHING && local(reachable) != BITS(0u))
             resolve_contact(i, head_moved, keep);
     }

@@ -72,6 +72,7 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
             // The displacement of the surface matters only in contact.
             if (depth > 0.0 || (kept & bit) != 0u) {
                 surface = surface_of(k, start + made.d - head_moved, head_moved, normal);
+                set_presser(k);
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                 met |= bit;
                 ++contacts;
@@ -82,6 +83,7 @@ void get_out(uint i, vec3 start, uint colliders, uint kept, vec3 head_moved, ino
             float depth =
                 depth_in_body(k, start, start + made.d - head_moved, head_moved, granted, normal, surface);
             if (depth > 0.0 || (kept & bit) != 0u) {
+                set_presser(k);
                 push_by(BODY_POSITION(k, 1).w, depth, normal, surface, made);
                 met |= bit;
                 ++contacts;

@@ -32,6 +32,10 @@ bool may_whip(int method)
 }
 #endif
 
+#ifdef HAIR_IMPULSES
+#include "sim/accept_impulses.glsl"
+#endif
+
 // Accept `moved` as the result of a substep by `method`. Update place, displacement and rates. A
 // strand that is not finite, or is farther away than any hair, returns to its rest pose and moves
 // with the head. Return false if another program must do the substep instead.
@@ -68,6 +72,9 @@ bool accept(int method, bool waits, vec3 head_moved)
         // matter.
         vec3 from_head = rounded(root_now + (GET(place) + (d - root_moved)));
         PUT(place, from_head - root_now);
+#ifdef HAIR_IMPULSES
+        begin_lapse(i, method, d);
+#endif
 #ifdef KEEPS_RATES
         struck = struck || is_struck(i, d);
         keep_rates(i, method, d, kept);
@@ -92,6 +99,9 @@ bool accept(int method, bool waits, vec3 head_moved)
     else if (own_method == SHAKE)
         known = waits && method == EULER ? max(known - WAIT, 1.0) : 2.0 - WAIT;
     else known = method == BACK || method == EULER ? found.y ? LEAPS_NEXT : known_after(method) : 1.0;
+#ifdef HAIR_IMPULSES
+    if (!found.x) accept_impulses(method);
+#endif
 #ifdef LEAVES_WHIPS
     bool whips = (all & 12u) == 4u && rod[guide_first + 1u].segment.w > 0.0;
     return !(found.x || whips);

@@ -42,6 +42,9 @@ void load()
         PUT(moved, vec3(0.0));
 #endif
         load_vertex(i, was, segment, pulled);
+#ifdef HAIR_IMPULSES
+        load_impulses(i, at);
+#endif
     }
 #ifdef HAIR_MIXED
     root_is_clamped = rod[guide_first].strain.w > 0.0;
@@ -64,6 +67,9 @@ void store()
 #endif
 #ifdef KEEPS_TENSION
             state[at].displacement.w = local(tension);
+#endif
+#ifdef HAIR_IMPULSES
+            store_impulses(i, at);
 #endif
 #ifdef HAIR_MIXED
             material[at]       = SHARED_READ(section);

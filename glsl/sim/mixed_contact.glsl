@@ -37,6 +37,9 @@ LOCAL(vec3, surface);        // Displacement of the surface at vertex i
 LOCAL(float, surface_friction);
 // Derivative of the displacement by the wanted displacement.
 LOCAL(symmetric, freedom);
+#ifdef HAIR_IMPULSES
+LOCAL(vec3, pressers);       // Value of `plane_pressers` at vertex i
+#endif
 LOCAL(vec3, pressing);       // Reaction that friction is measured by, m/s^2
 
 void find_planes_of(uint i, vec3 head_moved)
@@ -49,6 +52,9 @@ void find_planes_of(uint i, vec3 head_moved)
     local(other_plane)      = made.other;
     local(surface)          = made.surface;
     local(surface_friction) = made.friction;
+#ifdef HAIR_IMPULSES
+    local(pressers)         = plane_pressers;
+#endif
 }
 
 // Find the planes of colliders where the chain is.
@@ -96,6 +102,20 @@ symmetric taken_by(vec3 n, vec3 m, bool both)
     return times(s / (s * s - c * c), across);
 }
 
+// Note how planes and friction push vertex i.
+void note_pushes(uint i, vec3 by_plane, vec3 by_other, vec3 by_friction)
+{
+#ifdef HAIR_IMPULSES
+    presser = local(pressers).x;
+    if (by_plane != vec3(0.0)) note_push(by_plane, by_plane);
+    presser = local(pressers).y;
+    if (by_other != vec3(0.0)) note_push(by_other, by_other);
+    presser = local(pressers).z;
+    if (by_friction != vec3(0.0)) note_push(by_friction, vec3(0.0));
+#endif
+    keep_pushes(i);
+}
+
 // Find the displacement that planes leave of the wanted one at vertex i. In the `first` Newton
 // step, the wanted displacement follows from forces that are not solved for yet. Only the chain
 // tells whether the vertex presses and sticks.
@@ -106,7 +126,9 @@ void hold_vertex(uint i, bool first)
     vec2  by = pushes_of(dot(n, m), beyond, m != vec3(0.0), first);
     vec3  push = by.x * n + by.y * m;
     local(reaction_found) = vec3(0.0);
+    clear_pushes(i);
     if (by == vec2(0.0)) return;
+    vec3 by_plane = by.x * n, by_other = by.y * m;
     bool both = by.x != 0.0 && by.y != 0.0;
     n = by.x != 0.0 ? n : m;
     m = both ? m : vec3(0.0);
@@ -127,6 +149,7 @@ void hold_vertex(uint i, bool first)
         by_want    = (bears / far) * spring;
     }
     PUT(moved, d + push - by_want);
+    note_pushes(i, by_plane, by_other, -by_want);
     local(reaction_found) = (push - by_want) / of_force;
     local(freedom)        = minus(minus(one, taken_by(n, m, both)), gives);
     local(touch)          = sticks || !both ? vec4(n, sticks ? STICKS : SLIDES) : vec4(along, GLIDES);
@@ -139,6 +162,7 @@ void hold_vertices(bool first)
         PUT(moved, local(wanted));
         if (!COLLIDERS) continue;
         local(touch) = vec4(0.0);
+        clear_pushes(i);
         if (local(reachable) == BITS(0u)) local(reaction_found) = vec3(0.0);
         else if (!LISTS_REACHING) hold_vertex(i, first);
     }

@@ -139,6 +139,59 @@ HAIR_API hair_result hair_set_colliders(hair_instance* hair, const hair_collider
 /// OpenGL: not used. Thread of the context.
 HAIR_API hair_result hair_get_bounds(const hair_instance* hair, float lower[3], float upper[3]);
 
+// Contacts ----------------------------------------------------------------------------------------
+
+/// Contacts of the hair of an instance with one collider, over all steps since the last report.
+typedef struct hair_collider_contact {
+    uint64_t key; ///< hair_collider.key.
+    uint32_t collider; ///< Index of the collider in hair_set_colliders().
+    /// Number of guide vertices that touched the collider, each counted once per step.
+    uint32_t vertices;
+    float position[3]; ///< Mean place of the impulses in the world, m.
+    /// Mean unit normal of the collider's surface there, outwards. 0 without a mean.
+    float normal[3];
+    float impulse[3]; ///< Impulse of the hair on the collider, N s.
+    /// Angular impulse of the hair on the collider about hair_collider.position, N m s.
+    float angular_impulse[3];
+} hair_collider_contact;
+
+/// Record the impulses between the hair of an instance and its colliders from the next step on, for
+/// hair_get_contacts(). Hair that records them does not sleep near colliders. An instance that does
+/// not record them has no pass, memory or shader code for them.
+///
+/// Substeps that HAIR_SOLVER_DIRECT or HAIR_SOLVER_ACCURATE repeat with follow-the-leader do not
+/// conserve momentum, see hair_solver_stats.follow_fallbacks. Followers that are pushed out of
+/// colliders have no impulses.
+///
+/// @param strands Number of strands whose mass each guide has. The impulses are multiples of it. 0
+///     stops the record, and drops what has not been reported. [0, 1e6]. Default 0.
+/// Errors: HAIR_ERROR_ARGUMENT, also under HAIR_SOLVER_FOLLOW and HAIR_SOLVER_REDBLACK, which move
+///     hair without forces, HAIR_ERROR_OPENGL.
+/// OpenGL: required. Does not wait for the GPU.
+HAIR_API hair_result hair_record_contacts(hair_instance* hair, float strands);
+
+/// Report the contacts of all steps that the GPU has finished and that have not been reported. Each
+/// impulse is reported once. Colliders without contact are left out. The contacts are in the order
+/// of their keys, then of their indices.
+///
+/// An application that simulates bodies applies each impulse and angular impulse to the body of the
+/// collider. Momentum then is conserved. The forces of hair that is much heavier than a body may
+/// throw the body off.
+///
+/// @param wait True reports all steps, and waits until the GPU has finished them. Results are then
+///     the same in every run. False does not wait. The newest steps may be reported later.
+/// @param contacts Receives the contacts. May be NULL if `capacity` is 0.
+/// @param stride sizeof(hair_collider_contact).
+/// @param capacity Maximum number of contacts to write. If there are more contacts, all are kept
+///     for the next call.
+/// @param count Receives the number of contacts that there are.
+/// Errors: HAIR_ERROR_ARGUMENT, also without hair_record_contacts(), HAIR_ERROR_MEMORY,
+///     HAIR_ERROR_OPENGL.
+/// OpenGL: required. Waits for the GPU only if `wait` is true.
+HAIR_API hair_result hair_get_contacts(hair_instance* hair, bool wait,
+                                       hair_collider_contact* contacts, size_t stride,
+                                       uint32_t capacity, uint32_t* count);
+
 // Pins --------------------------------------------------------------------------------------------
 
 /// Space in which a pin is fixed.

@@ -103,6 +103,7 @@ static hair_skip_reason why_not(const hair_instance* hair, const struct hair_fra
     case HAIR_GL_CATEGORY_WIND: return why_not_simulated(requests, sim->wind.model != HAIR_WIND_AMBIENT);
     case HAIR_GL_CATEGORY_HAIR_GRID: return why_not_simulated(requests, hair_grid_is_on(sim));
     case HAIR_GL_CATEGORY_DIAGNOSE: return why_not_simulated(requests, hair_sim_is_diagnosed(sim));
+    case HAIR_GL_CATEGORY_IMPULSES: return why_not_simulated(requests, hair_impulses_are_on(sim));
     case HAIR_GL_CATEGORY_ACTIVITY: return why_not_simulated(requests, sim->physics.sleep_threshold > 0);
     case HAIR_GL_CATEGORY_SOLVE: return why_not_simulated(requests, 1);
     case HAIR_GL_CATEGORY_SMOOTH: return shown;

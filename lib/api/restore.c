@@ -70,6 +70,7 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
         memcpy(own, pins->resolved_pin, pins->count * sizeof *own);
     }
     hair_pins_adopt(&hair->sim, own, pins->count);
+    hair_impulses_set(&hair->sim, lost->sim.impulses.strands);
     return hair_scalp_skin_copy(&hair->context->gl, &lost->sim.scalp_motion.skin,
                                 hair_scalp_motion_vertex_count(&hair->sim), &hair->sim.scalp_motion.skin);
 }

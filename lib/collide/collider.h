@@ -73,6 +73,11 @@ uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const str
                                struct hair_capsule around[HAIR_STEP_COLLIDERS],
                                struct hair_contact_body out[HAIR_STEP_COLLIDERS]);
 
+// Return the number of the colliders that hair_colliders_bodies() writes. `index` receives their
+// indices in the current list.
+uint32_t hair_colliders_nearest(const struct hair_colliders* colliders, const struct hair_pose* head_now,
+                                uint32_t index[HAIR_STEP_COLLIDERS]);
+
 // Return the i-th collider in the same way. A collision mesh must have its data. The offset of its
 // nodes is not set.
 struct hair_contact hair_colliders_contact(const struct hair_colliders* colliders, uint32_t i,

@@ -183,6 +183,12 @@ uint32_t hair_colliders_bodies(const struct hair_colliders* colliders, const str
     return fill_contacts(colliders, head_before, head_now, false, around, out);
 }
 
+uint32_t hair_colliders_nearest(const struct hair_colliders* colliders, const struct hair_pose* head_now,
+                                uint32_t index[HAIR_STEP_COLLIDERS])
+{
+    return choose_nearest(colliders, head_now, false, index);
+}
+
 struct hair_contact hair_colliders_contact(const struct hair_colliders* colliders, uint32_t i,
                                            const struct hair_pose* head_before,
                                            const struct hair_pose* head_now)

@@ -23,6 +23,7 @@ CATEGORY(WIND, "wind")
 CATEGORY(HAIR_GRID, "hair_grid")
 CATEGORY(ACTIVITY, "activity")
 CATEGORY(DIAGNOSE, "diagnose")
+CATEGORY(IMPULSES, "impulses")
 CATEGORY(SOLVE, "solve")
 CATEGORY(TARGETS, "targets")
 CATEGORY(SMOOTH, "smooth")
@@ -63,6 +64,7 @@ FEATURE(FEW_GUIDES, "HAIR_FEW_GUIDES")
 FEATURE(BODIES, "HAIR_BODIES") // Some colliders are not capsules.
 FEATURE(MESHES, "HAIR_MESHES") // Some colliders are collision meshes.
 FEATURE(DEFORMING, "HAIR_DEFORMING") // Some colliders are bodies that deform.
+FEATURE(IMPULSES, "HAIR_IMPULSES") // The impulses of colliders are recorded.
 FEATURE(HITS, "HAIR_HITS") // Some followers are inside colliders.
 FEATURE(DEPTH, "HAIR_DEPTH") // Depth without colour.
 FEATURE(FIBRES, "HAIR_FIBRES") // HAIR_SHADING_FIBRES. Otherwise HAIR_SHADING_LINES.
@@ -88,6 +90,7 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
     SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | \
         WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(MESHES) | WITH(DEFORMING) | \
         WITH(FEW_GUIDES)
+#define RECORDED_FEATURES STRAND_FEATURES | WITH(IMPULSES)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
         WITH(IDS) | WITH(OPAQUE_SHADOWS) | WITH(ALPHA_COVERAGE) | WITH(WIDENED)
@@ -134,15 +137,16 @@ PASS(BIND_FOLLOWERS, "strands/bind_followers", BIND_FOLLOWERS, 0,
 PASS(ACTIVITY, "sim/activity", ACTIVITY, 0, "sim/activity.comp")
 PASS(MOTION_OF_GUIDES, "sim/diagnose_motion", DIAGNOSE, 0, "sim/motion.comp")
 PASS(ENERGY, "sim/diagnose_energy", DIAGNOSE, WITH(MIXED), "sim/energy.comp")
+PASS(SUM_IMPULSES, "sim/sum_impulses", IMPULSES, 0, "sim/sum_impulses.comp")
 PASS(HAIR_GRID_CLEAR, "sim/hair_grid_clear", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_clear.comp")
 PASS(HAIR_GRID_SPLAT, "sim/hair_grid_splat", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_splat.comp")
 PASS(HAIR_GRID_GATHER, "sim/hair_grid_gather", HAIR_GRID, 0, "HAIR_GRID=1 sim/hair_grid_gather.comp")
-PASS(DIRECT, "sim/direct", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
-PASS(ACCURATE, "sim/accurate", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2),
+PASS(DIRECT, "sim/direct", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2), "HAIR_SOLVER=1 sim/rod.comp")
+PASS(ACCURATE, "sim/accurate", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2),
      "HAIR_SOLVER=0 sim/rod.comp")
-PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, STRAND_FEATURES | WITH(PASS1) | WITH(PASS2),
+PASS(ACCURATE_STIFF, "sim/accurate_stiff", SOLVE, RECORDED_FEATURES | WITH(PASS1) | WITH(PASS2),
      "HAIR_SOLVER=0 HAIR_STIFF=1 sim/rod.comp")
-PASS(MIXED_SOLVER, "sim/mixed", SOLVE, STRAND_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
+PASS(MIXED_SOLVER, "sim/mixed", SOLVE, RECORDED_FEATURES, "HAIR_SOLVER=1 HAIR_MIXED=1 sim/mixed.comp")
 PASS(FOLLOW, "sim/follow", SOLVE, STRAND_FEATURES, "sim/follow.comp")
 PASS(REDBLACK, "sim/redblack", SOLVE, SIZES | WITH(SKINNED), "sim/redblack.comp")
 // Redblack by transform feedback, in the order of HAIR_PHASE.
@@ -219,6 +223,7 @@ PASS(GUIDES, "draw/guides", GUIDES, 0, "draw/guides.vert draw/guides.frag")
 #undef RASTER_FEATURES
 #undef STAGE_FEATURES
 #undef DRAW_FEATURES
+#undef RECORDED_FEATURES
 #undef STRAND_FEATURES
 #undef WITH
 #undef SIZES

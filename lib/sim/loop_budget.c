@@ -153,6 +153,8 @@ static uint32_t rounds_of_rod(const struct hair_sim* sim, int by_thread, int fir
     struct loops loops = loops_of_methods(sim, by_thread, first);
     if (!first) add_leader(sim, by_thread, &loops);
     loops.over += 6; // The guide is loaded, accepted or reset, and stored. Its turns begin.
+    // The impulses of each part of a substep are added up.
+    if (hair_impulses_are_on(sim)) loops.over += hair_sim_is_mixed(sim) ? newton_steps(sim, by_thread) : 1;
     loops.over += hair_sim_is_stiff(sim); // The first of two programs asks whether it touches.
     if (hair_wind_is_on(&sim->wind)) each += 4 * (HAIR_WIND_BALLS + HAIR_WIND_SOURCES + 2);
     if (by_thread)

@@ -3,103 +3,7 @@
 
 #include <string.h>
 
-#define REDBLACK_SUBSTEP (1.0 / 120)
 #define EARLY 1e-6 // Tolerance of the end of a substep, as a fraction of a substep.
-// Maximum vertices of a guide for a thread per guide. NVIDIA's driver fails to link programs with
-// more private memory.
-#define MAX_OF_THREAD 128
-
-static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
-{
-    sim->solver = desc->solver;
-    sim->asked_substep = desc->substep;
-    sim->by_thread = desc->is_by_thread && desc->solver != HAIR_SOLVER_REDBLACK;
-    sim->feedback.wanted = desc->uses_feedback;
-    sim->diagnosis.wanted = desc->is_diagnosed;
-    sim->snapshots.is_wanted = desc->has_snapshots;
-    sim->physics = desc->physics;
-    sim->wind = desc->wind;
-    sim->head = desc->head;
-    sim->contacts.sdf_pool = desc->sdf_pool;
-    hair_targets_init(&sim->targets);
-    sim->wind_coupling.field = desc->field;
-}
-
-static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
-{
-    for (uint32_t i = 0; i < sim->guides; ++i) {
-        const struct hair_guide* guide = &groom->guides[i];
-        hair_vec4 root = groom->rest[guide->first].position;
-        float reach = hair_length(hair_v3(root.x, root.y, root.z)) + guide->arc_length;
-        sim->reach = fmaxf(sim->reach, reach);
-    }
-}
-
-// Count the guides and their vertices, and find everything that depends on their numbers.
-static void measure_groom(struct hair_sim* sim, const struct hair_groom* groom)
-{
-    sim->guides = groom->info.guide_count;
-    sim->guide_vertices = groom->info.guide_vertex_count;
-    sim->max_vertices = groom->max_vertices;
-    sim->smooth_vertices = 2 * (groom->max_vertices - 1) + 1;
-    if (sim->max_vertices > MAX_OF_THREAD && !sim->gl->software) sim->by_thread = 0;
-    sim->two_pass = hair_sim_may_use_two_passes(sim);
-    for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
-    find_reach(sim, groom);
-    sim->wind_state.ball = groom->head_sphere;
-    sim->scalp_motion.root_bindings = hair_root_bindings_retain(groom->root_bindings);
-}
-
-hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom,
-                            const struct hair_sim_desc* desc)
-{
-    HAIR_ASSERT(!sim->gl && 2 <= groom->max_vertices && groom->max_vertices <= HAIR_MAX_GUIDE_VERTICES);
-    sim->gl = gl;
-    set_up(sim, desc);
-    measure_groom(sim, groom);
-    size_t state = sim->guide_vertices * sizeof(struct hair_state);
-    size_t solver_stats =
-        sim->two_pass ? HAIR_SOLVER_STATS_LISTS + (size_t)sim->guides : HAIR_SOLVER_STATS_COUNT;
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair guides", sim->guides * sizeof *groom->guides,
-                             groom->guides, &sim->guide));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
-                             sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, NULL, &sim->state));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats", solver_stats * sizeof(uint32_t),
-                             NULL, &sim->solver_stats));
-    HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair step", sizeof(struct hair_step_params),
-                             &sim->step));
-    if (sim->solver == HAIR_SOLVER_REDBLACK)
-        sim->substep = sim->asked_substep > 0 ? sim->asked_substep : REDBLACK_SUBSTEP;
-    else
-        HAIR_TRY(hair_sim_create_rods(sim, groom));
-    sim->last_substep = sim->substep;
-    HAIR_TRY(hair_gl_ensure_program(gl, hair_sim_reset_pass(sim, 0)));
-    if (sim->feedback.wanted) HAIR_TRY(hair_feedback_create(sim, groom->guides));
-    return hair_sim_ensure_solver(sim);
-}
-
-void hair_sim_destroy(struct hair_sim* sim)
-{
-    if (!sim->gl) return;
-    hair_colliders_free(&sim->gl->host, &sim->colliders);
-    hair_feedback_free(sim);
-    hair_gl_free_buffer(sim->gl, &sim->guide);
-    hair_gl_free_buffer(sim->gl, &sim->rest);
-    hair_gl_free_buffer(sim->gl, &sim->state);
-    hair_gl_free_buffer(sim->gl, &sim->solver_stats);
-    hair_gl_free_buffer(sim->gl, &sim->step);
-    hair_pins_free(sim);
-    hair_contacts_free(sim);
-    hair_wind_free_state(&sim->wind_state, sim->gl);
-    hair_wind_coupling_free(sim);
-    hair_sim_free_rods(sim);
-    hair_scalp_motion_free(sim);
-    hair_targets_free(sim);
-    hair_sleep_free(sim);
-    hair_diagnosis_free(sim);
-    hair_snapshots_free(sim);
-}
 
 static float fraction_of_step(double from, double dt)
 {
@@ -119,6 +23,7 @@ static hair_result prepare(struct hair_sim* sim, double from, double dt, double 
     HAIR_TRY(hair_wind_coupling_ensure(sim));
     if (!hair_wind_coupling_is_on(sim)) sim->wind_state.box = (hair_vec4){0, 0, 0, 0};
     if (sim->contacts.any) HAIR_TRY(hair_contacts_find(sim, dt, fraction_of_step(from, dt), longest));
+    HAIR_TRY(hair_impulses_ensure(sim));
     return hair_sim_ensure_solver(sim);
 }
 
@@ -142,6 +47,7 @@ static void bind_buffers(struct hair_sim* sim)
     if (sim->contacts.any) hair_contacts_bind(sim);
     hair_sim_bind(sim);
     if (sim->rods) hair_sim_bind_rods(sim);
+    if (hair_impulses_are_on(sim)) hair_impulses_bind(sim);
 }
 
 static uint32_t min_count(uint32_t a, uint32_t b)
@@ -209,6 +115,7 @@ static void run_solver(struct hair_sim* sim, struct hair_step_params* params)
 // Count substeps in the blocks of forces. The next dispatch continues where this one ended.
 static void end_dispatch(struct hair_sim* sim, struct hair_step_params* params, uint32_t count)
 {
+    if (hair_impulses_are_on(sim)) hair_impulses_end_dispatch(sim);
     if (hair_grid_is_on(sim)) hair_grid_count(sim, count);
     if (hair_wind_coupling_is_on(sim)) hair_wind_coupling_count(sim, count);
     if (hair_targets_are_on(sim)) {
@@ -327,6 +234,7 @@ hair_result hair_sim_step(struct hair_sim* sim, double dt)
     HAIR_ASSERT(sim->accumulator < (1 + EARLY) * sim->substep);
     advance(sim, again, total, from, dt);
     hair_diagnosis_watch(sim, total);
+    hair_impulses_end_step(sim);
     sim->head_at_last_step = sim->head;
     hair_colliders_end_step(&sim->colliders);
     hair_sleep_submit_query(sim, disturbed, dt);

@@ -11,6 +11,7 @@
 #include "lib/sim/wind_coupling.h"
 #include "lib/sim/hair_grid.h"
 #include "lib/sim/feedback.h"
+#include "lib/sim/impulses.h"
 #include "lib/sim/snapshot.h"
 #include "lib/sim/solver_stats.h"
 #include "lib/rod/prepared.h"
@@ -123,6 +124,7 @@ struct hair_sim {
     struct hair_wind_coupling wind_coupling;
     struct hair_feedback feedback;
     struct hair_diagnosis diagnosis;
+    struct hair_impulses impulses;
     struct hair_snapshots snapshots;
 };
 
@@ -141,10 +143,14 @@ struct hair_sim_desc {
     const struct hair_collider_field* field; // Field of the instance, which a fluid reads.
 };
 
+// Functions of create.c.
+
 // Create a simulation. `*sim` is all 0. On failure hair_sim_destroy() frees what there is.
 hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const struct hair_groom* groom,
                             const struct hair_sim_desc* desc);
 void hair_sim_destroy(struct hair_sim* sim);
+
+// Functions of sim.c.
 
 // Run the substeps that fit into the time since the last one. Write the step buffer for
 // smooth.comp.

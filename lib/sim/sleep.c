@@ -123,6 +123,7 @@ bool hair_sleep_is_disturbed(const struct hair_sim* sim)
     if (sleep->disturbed || sim->scalp_motion.changed || sim->targets.disturbs ||
         sim->targets.blend_left > 0 || sleep->program_generation != sim->gl->program_generation)
         return true;
+    if (hair_impulses_are_on(sim)) return true; // Hair at rest presses on colliders.
     if (memcmp(&sleep->physics, &sim->physics, sizeof sim->physics) != 0) return true;
     if (memcmp(&sleep->wind, &sim->wind, sizeof sim->wind) != 0) return true;
     if (hair_wind_is_unsteady(&sim->wind)) return true;

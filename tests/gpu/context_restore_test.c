@@ -87,6 +87,7 @@ static void settings_made_after_a_loss_are_kept(void** state)
     hair_group_look group = hair_group_look_default(), got_group = group;
     group.radius = 2, group.color.enabled = true;
     hair_test_ok(test, hair_set_group_look(f.hair, 1, &group));
+    hair_test_ok(test, hair_record_contacts(f.hair, 2));
     hair_test_trace_lose(1, GL_GUILTY_CONTEXT_RESET);
     hair_test_refused(test, hair_step(f.hair, 1.0f / 60), HAIR_ERROR_CONTEXT_LOST, "lost");
     physics.damping = 5;
@@ -99,6 +100,7 @@ static void settings_made_after_a_loss_are_kept(void** state)
     hair_test_ok(test, hair_set_memory_limit(f.context, 123456789));
     hair_test_loss_replace_egl(&f);
     hair_test_ok(test, hair_context_restore(f.context));
+    assert_true(f.hair->sim.impulses.strands == 2);
     hair_test_ok(test, hair_get_group_look(f.hair, 1, &got_group));
     assert_memory_equal(&got_group, &group, sizeof group);
     hair_test_ok(test, hair_get_physics(f.hair, &got));

@@ -84,8 +84,8 @@ static void check(const struct fixture* f, const char* work, hair_skip_reason wh
 static void unused_features_run_no_stage_and_keep_no_memory(void** state)
 {
     static const char* const none[] = {
-        "unpack_positions", "skin_scalp", "targets",      "root_transforms", "wind",    "hair_grid",
-        "bind_followers",   "expand",     "scan_strands", "compact_strands", "diagnose"};
+        "unpack_positions", "skin_scalp", "targets",      "root_transforms", "wind",     "hair_grid",
+        "bind_followers",   "expand",     "scan_strands", "compact_strands", "diagnose", "impulses"};
     struct fixture f = start(state, NULL);
     hair_test_trace_clear();
     run_frame(&f);
