@@ -141,7 +141,8 @@ typedef struct hair_style_desc {
 } hair_style_desc;
 HAIR_DESC(hair_style_desc)
 
-/// Generate a haircut. The roots of its guides are the vertices of the scalp.
+/// Generate a haircut. The roots of its guides are the vertices of the scalp. Its density falls off
+/// towards the hairline.
 ///
 /// The scalp is the part of the skull that bears hair. The skull is an ellipsoid around (0, 1.63,
 /// 0) m with the half axes (0.077, 0.098, 0.096) m. The centres of the scalp's triangles lie on it.

@@ -30,21 +30,45 @@ static void scatter(uint32_t i, double start_u, double start_v, float out[3])
     out[0] = (float)(1 - u - v), out[1] = (float)u, out[2] = (float)v;
 }
 
+// Return the density of the scalp at a point of a triangle as a fraction of the maximum density of
+// its corners.
+static float relative_density(const hair_groom_desc* desc, uint32_t triangle, const float weight[3])
+{
+    const uint32_t* corner = desc->scalp_triangles + 3 * (size_t)triangle;
+    float sum = 0, max = 0;
+    for (int i = 0; i < 3 && desc->scalp_density; ++i) {
+        float density = desc->scalp_density[corner[i]];
+        sum += weight[i] * density;
+        max = fmaxf(max, density);
+    }
+    return max > 0 ? sum / max : 1;
+}
+
+// Scatter the candidates of a triangle in proportion to the density, which is linear over it.
+// Points are rejected at random where the density is lower than elsewhere in the triangle.
+static void scatter_triangle(struct hair_groom_builder* builder, uint32_t triangle)
+{
+    uint32_t random = hair_candidate_random(builder, triangle), count = builder->bin_candidates[triangle];
+    double start_u = (double)hair_random(&random), start_v = (double)hair_random(&random);
+    struct hair_scalp_point* points = builder->scalp_points + builder->bin_first[triangle];
+    for (uint32_t i = 0, kept = 0; kept < count; ++i) {
+        points[kept].triangle = triangle;
+        scatter(i, start_u, start_v, points[kept].weight);
+        float density = relative_density(builder->desc, triangle, points[kept].weight);
+        // The mean density is at least a third of the maximum.
+        HAIR_ASSERT(i < 1000 + 100 * count);
+        if (density >= 0.9999f || hair_random(&random) < density) ++kept;
+    }
+}
+
 static hair_result scatter_candidates(struct hair_groom_builder* builder)
 {
     builder->scalp_points =
         hair_alloc(builder->host, builder->candidate_count, sizeof *builder->scalp_points);
     if (!builder->scalp_points) return hair_fail_memory(builder->host, "the roots of followers");
     builder->is_scattered = true;
-    for (uint32_t triangle = 0; triangle < builder->bin_count; ++triangle) {
-        uint32_t starts = hair_candidate_random(builder, triangle);
-        double start_u = (double)hair_random(&starts), start_v = (double)hair_random(&starts);
-        for (uint32_t i = 0; i < builder->bin_candidates[triangle]; ++i) {
-            struct hair_scalp_point* scalp_point = &builder->scalp_points[builder->bin_first[triangle] + i];
-            scalp_point->triangle = triangle;
-            scatter(i, start_u, start_v, scalp_point->weight);
-        }
-    }
+    for (uint32_t triangle = 0; triangle < builder->bin_count; ++triangle)
+        scatter_triangle(builder, triangle);
     return HAIR_OK;
 }
 

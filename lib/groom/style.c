@@ -1,6 +1,10 @@
 // style.c - the built-in haircuts as assets, with one guide per vertex of the built-in scalp.
 #include "lib/groom/style.h"
+#include "lib/groom/style_body.h"
 #include "lib/groom/style_grow.h"
+
+#define HAIRLINE_DENSITY 0.4f // Fraction of the full density at the hairline.
+#define HAIRLINE_WIDTH 0.012f // Height above the hairline of the full density, m.
 
 static hair_result grow_guides(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
@@ -29,6 +33,21 @@ static hair_result grow_guides(const hair_host* host, const hair_style_desc* des
     return HAIR_OK;
 }
 
+// Let the density fall off towards the hairline, which no head has as a sharp edge. The hairline is
+// uneven.
+static hair_result thin_hairline(const hair_host* host, uint32_t seed, struct hair_asset* asset)
+{
+    asset->scalp_density = hair_alloc(host, asset->scalp_vertex_count, sizeof(float));
+    if (!asset->scalp_density) return hair_fail_memory(host, "the density of a haircut");
+    for (uint32_t i = 0; i < asset->scalp_vertex_count; ++i) {
+        hair_vec3 p = hair_load3(asset->scalp_positions + 3 * (size_t)i), unit = hair_skull_unit(p);
+        float above = p.y - hair_scalp_hairline(atan2f(unit.x, unit.z));
+        float edge = HAIRLINE_DENSITY * (1 + 0.6f * hair_noise(p, 0.009f, hair_hash(seed + 71u)));
+        asset->scalp_density[i] = hair_mix(edge, 1, hair_smooth(0.002f, HAIRLINE_WIDTH, above));
+    }
+    return HAIR_OK;
+}
+
 static hair_result build_style(const hair_host* host, const hair_style_desc* desc, struct hair_asset* asset)
 {
     asset->host = *host;
@@ -40,6 +59,7 @@ static hair_result build_style(const hair_host* host, const hair_style_desc* des
     asset->scalp_triangles = scalp.triangles;
     asset->scalp_vertex_count = scalp.vertex_count;
     asset->scalp_triangle_count = scalp.triangle_count;
+    HAIR_TRY(thin_hairline(host, desc->seed, asset));
     return grow_guides(host, desc, asset);
 }
 

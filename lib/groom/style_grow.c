@@ -11,6 +11,10 @@
 #define CUSHION 0.020f
 // Distance from a parting within which hair runs along it at first, m.
 #define BESIDE 0.025f
+#define WHORL 0.045f // Radius of the whorl at the crown, m.
+#define SWIRL 1.1f // Motion around the whorl per motion away from it.
+// Height by which hair from the crown is cut shorter than hair from the hairline, m.
+#define LAYERS 0.045f
 #define STRIDE HAIR_STYLE_PATH_STRIDE
 
 // Path of the hair of one root.
@@ -43,6 +47,26 @@ struct hair_parting hair_style_parting(hair_style style)
     }
 }
 
+hair_vec3 hair_style_whorl(struct hair_parting parting)
+{
+    return hair_skull_point(
+        hair_skull_unit(hair_v3(parting.crown + 0.004f, 1.71f, parting.crown_z - 0.014f)));
+}
+
+// Turn the comb into a spiral around the whorl.
+static hair_vec3 add_whorl(struct hair_parting parting, hair_vec3 p, hair_vec3 normal, float along,
+                           hair_vec3 comb)
+{
+    hair_vec3 away = hair_tangential(hair_sub(p, hair_style_whorl(parting)), normal);
+    float distance = hair_length(away);
+    float weight = hair_smooth(WHORL, 0.3f * WHORL, distance) * hair_smooth(0.9f, 1.1f, along);
+    if (!(weight > 0 && distance > 1e-5f)) return comb;
+    hair_vec3 outwards = hair_scale(away, 1 / distance);
+    hair_vec3 spiral = hair_add(outwards, hair_scale(hair_cross(normal, outwards), SWIRL));
+    return hair_lerp(hair_normalize(hair_tangential(comb, normal), outwards),
+                     hair_normalize(spiral, outwards), weight);
+}
+
 // Return the direction of a comb drawn from the parting. It runs sideways at the forehead and
 // increasingly backwards towards the crown. Behind the crown it spreads evenly around the back of
 // the head.
@@ -61,6 +85,7 @@ static hair_vec3 comb_from_parting(struct hair_parting parting, hair_vec3 p, flo
     // On the underside of the skull, back would point up.
     float above = hair_smooth(1.57f, 1.67f, p.y);
     hair_vec3 v = {side * above, -0.7f, -back * above};
+    v = add_whorl(parting, p, normal, along, v);
     return hair_normalize(hair_tangential(v, normal), hair_tangential(hair_v3(0, -1, 0), normal));
 }
 
@@ -158,20 +183,28 @@ static float frontness(hair_vec3 root)
     return hair_smooth(-0.012f, 0.030f, root.z);
 }
 
+// Return an uneven height of a root's hair, up to `height` metres up or down. Locks of hair lie on
+// one another, so the outline of a head is no smooth dome.
+static float uneven(hair_vec3 root, float height, uint32_t seed)
+{
+    return height * (0.6f * hair_noise(root, 0.03f, seed) + 0.4f * hair_noise(root, 0.011f, seed + 7));
+}
+
 // Styles ------------------------------------------------------------------------------------------
 
-static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+static void grow_long(uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
+                      struct hair_style_path* path)
 {
     float front = frontness(root), high = layer(root);
     struct walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_LONG), root, 0.30f, 1.1f),
-        .rise = 0.2f,
-        .clearance = hair_mix(0.004f, 0.014f, high) + 0.002f * hair_noise(root, 0.03f, seed),
-        .lift = 0.06f,
+        .rise = 0.17f,
+        .clearance = hair_mix(0.004f, 0.014f, high) + uneven(root, 0.003f, seed),
+        .lift = 0.075f,
         .gravity = 45,
         .hold = 0.04f,
         .split = 25,
-        .floor = hair_mix(1.30f, 1.335f, front) + 0.025f * hair_noise(root, 0.012f, seed + 1),
+        .floor = hair_mix(1.285f, 1.325f, front) + LAYERS * high + 0.03f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.010f,
         .inward_below = 0,
     };
@@ -181,7 +214,9 @@ static void grow_long(hair_vec3 root, float scale, uint32_t seed, struct hair_st
                              .start = 0.07f * scale,
                              .full = 0.38f * scale,
                              .phase = 1.5f * PI * hair_noise(root, 0.06f, seed + 2),
-                             .flat = 0.5f};
+                             .flat = 0.5f,
+                             .variation = 0.3f,
+                             .seed = hair_hash(guide ^ seed)};
     hair_style_path_add_curl(path, &wave);
 }
 
@@ -191,14 +226,14 @@ static void grow_bob(hair_vec3 root, float scale, uint32_t seed, struct hair_sty
     float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
     struct walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_BOB), root, 0.40f, 1.0f),
-        .rise = 0.22f,
-        .clearance = hair_mix(0.005f, 0.017f, high) + 0.001f * hair_noise(root, 0.03f, seed),
-        .lift = 0.045f,
+        .rise = 0.16f,
+        .clearance = hair_mix(0.005f, 0.017f, high) + uneven(root, 0.002f, seed),
+        .lift = 0.06f,
         .gravity = 40,
         .hold = 0.04f,
         .inward = 22,
         .inward_below = cut + 0.045f,
-        .floor = cut + 0.003f * hair_noise(root, 0.02f, seed + 1),
+        .floor = cut + 0.006f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.008f,
     };
     run_cut(&walk, root, scale, 0.03f, path);
@@ -240,13 +275,13 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
     float high = layer(root);
     struct walk walk = {
         .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_CURLY), root, 0.2f, 1.0f),
-        .rise = 0.22f,
-        .clearance = hair_mix(0.014f, 0.030f, high) + 0.006f * hair_noise(root, 0.03f, seed),
-        .lift = 0.06f,
+        .rise = 0.18f,
+        .clearance = hair_mix(0.014f, 0.030f, high) + uneven(root, 0.007f, seed),
+        .lift = 0.07f,
         .gravity = 40,
         .hold = 0.04f,
         .split = 15,
-        .floor = 1.405f + 0.02f * hair_noise(root, 0.025f, seed + 1),
+        .floor = 1.385f + LAYERS * high + 0.025f * hair_noise(root, 0.012f, seed + 1),
         .face = 0.018f,
     };
     run_cut(&walk, root, scale, 0.04f, path);
@@ -292,7 +327,7 @@ void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float sca
 {
     seed = hair_hash(seed + 101u);
     switch (style) {
-    case HAIR_STYLE_LONG: grow_long(root, scale, seed, path); break;
+    case HAIR_STYLE_LONG: grow_long(guide, root, scale, seed, path); break;
     case HAIR_STYLE_BOB: grow_bob(root, scale, seed, path); break;
     case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
     case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;

@@ -7,6 +7,8 @@
 #include "lib/groom/style_scalp.h"
 
 struct hair_parting hair_style_parting(hair_style style);
+// Return the point of the skull around which hair turns, behind the end of the parting.
+hair_vec3 hair_style_whorl(struct hair_parting parting);
 
 // Return the number of vertices of a guide that resolves the curls of the style.
 uint32_t hair_style_vertices(hair_style style);

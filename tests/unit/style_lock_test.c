@@ -1,5 +1,8 @@
-// style_lock_test.c - locks of the built-in haircuts: every lock of curly hair has a phase, a
-// direction and a size of its own.
+// style_lock_test.c - natural irregularity of the built-in haircuts. Locks of curly hair differ,
+// the density falls off at the hairline, tips are layered, and the crown has a whorl.
+#include "lib/groom/groom.h"
+#include "lib/groom/style_body.h"
+#include "lib/groom/style_grow.h"
 #include "tests/support/cut.h"
 
 #include <setjmp.h>
@@ -114,10 +117,127 @@ static void locks_of_curly_hair_differ(void** state)
     hair_asset_destroy(cut.asset);
 }
 
+// Hairline ----------------------------------------------------------------------------------------
+
+#define BANDS 10
+#define BAND 0.002f // m
+
+static hair_vec3 root_of(const hair_groom* groom, const struct hair_follower* follower)
+{
+    const struct hair_guide* guide = &groom->guides[follower->guide0];
+    hair_vec4 p = groom->rest[guide->first].position, q = guide->root_frame, o = follower->offset[0];
+    return hair_add(hair_v3(p.x, p.y, p.z),
+                    hair_rotate((hair_quat){q.x, q.y, q.z, q.w}, hair_v3(o.x, o.y, o.z)));
+}
+
+// Add up the drawn followers by height above the hairline at the nape, where the hairline is level
+// and the skull is steep.
+static void count_drawn(const hair_groom_desc* desc, double drawn[BANDS])
+{
+    hair_groom* groom;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_OK);
+    for (int band = 0; band < BANDS; ++band) drawn[band] = 0;
+    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
+        const struct hair_patch* patch = &groom->patches[i];
+        for (uint32_t k = 0; (float)k < patch->density * (float)patch->count; ++k) {
+            hair_vec3 root = root_of(groom, &groom->followers[patch->first + k]),
+                      unit = hair_skull_unit(root);
+            float azimuth = atan2f(unit.x, unit.z);
+            int band = (int)floorf((root.y - hair_scalp_hairline(azimuth)) / BAND);
+            if (fabsf(azimuth) > 2.5f && band >= 0 && band < BANDS) drawn[band] += 1;
+        }
+    }
+    hair_groom_destroy(groom);
+}
+
+// Compute the density at each height as a fraction of the density without a hairline.
+static void measure_hairline(uint32_t guides, double drawn[BANDS])
+{
+    struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_SHORT, guides, 1, 1);
+    hair_groom_desc desc = hair_groom_desc_default();
+    double full[BANDS];
+    desc.host = &test.host;
+    assert_int_equal(hair_asset_to_groom_desc(cut.asset, &desc), HAIR_OK);
+    desc.follower_count = 200000;
+    count_drawn(&desc, drawn);
+    desc.scalp_density = NULL;
+    count_drawn(&desc, full);
+    print_message("    density at the hairline of %u guides, each %g mm:", guides, 1e3 * (double)BAND);
+    for (int band = 0; band < BANDS; ++band) {
+        assert_true(full[band] > 400);
+        drawn[band] /= full[band];
+        print_message(" %.2f", drawn[band]);
+    }
+    print_message("\n");
+    hair_asset_destroy(cut.asset);
+}
+
+static void density_falls_off_over_a_centimetre(void** state)
+{
+    (void)state;
+    double drawn[BANDS];
+    measure_hairline(500, drawn);
+    assert_true(drawn[0] > 0.2 && drawn[0] < 0.5);
+    for (int band = 0; band < 4; ++band) assert_true(drawn[band] < drawn[band + 1] + 0.03);
+    assert_true(drawn[2] > 0.5 && drawn[2] < 0.9); // 4 to 6 mm above the hairline
+    for (int band = 7; band < BANDS; ++band) assert_true(drawn[band] > 0.95);
+}
+
+// Tips and crown ----------------------------------------------------------------------------------
+
+static void tips_of_long_hair_are_layered(void** state)
+{
+    (void)state;
+    const hair_style styles[] = {HAIR_STYLE_LONG, HAIR_STYLE_CURLY};
+    for (uint32_t s = 0; s < 2; ++s) {
+        struct hair_test_cut cut = hair_test_cut_style(&test, styles[s]);
+        struct statistics high = {0}, low = {0};
+        for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+            float root = height_at(&cut, i, 0), tip = height_at(&cut, i, cut.each - 1);
+            if (root > 1.69f) add(&high, (double)tip);
+            if (root < 1.60f) add(&low, (double)tip);
+        }
+        print_message("    %s: tips of the crown are %.0f mm higher, and deviate by %.0f mm\n",
+                      hair_style_name(styles[s]), 1e3 * (high.mean - low.mean), 1e3 * deviation(&high));
+        assert_true(high.mean - low.mean > 0.025);
+        assert_true(deviation(&high) > 0.006);
+        hair_asset_destroy(cut.asset);
+    }
+}
+
+// Check that hair around the crown turns one way around the whorl, and away from it.
+static void the_crown_has_a_whorl(void** state)
+{
+    (void)state;
+    const struct hair_parting parting = hair_style_parting(HAIR_STYLE_LONG);
+    struct hair_test_cut cut = hair_test_cut_with(&test, HAIR_STYLE_LONG, 1000, 1, 1);
+    hair_vec3 whorl = hair_style_whorl(parting);
+    struct statistics around = {0}, away = {0};
+    for (uint32_t i = 0; i < cut.info.strand_count; ++i) {
+        hair_vec3 root = hair_load3(cut.info.positions + 3 * (size_t)i * cut.each);
+        hair_vec3 normal = hair_skull_normal(root), out = hair_tangential(hair_sub(root, whorl), normal);
+        float distance = hair_length(out);
+        if (distance > 0.025f || root.z > parting.crown_z) continue;
+        out = hair_scale(out, 1 / distance);
+        hair_vec3 along = hair_normalize(hair_tangential(segment_at(&cut, i, 0), normal), out);
+        add(&around, (double)hair_dot(along, hair_cross(normal, out)));
+        add(&away, (double)hair_dot(along, out));
+    }
+    print_message("    %.0f guides turn by %.2f around the whorl and by %.2f away from it\n", around.count,
+                  around.mean, away.mean);
+    assert_true(around.count > 10 && around.mean > 0.3 && away.mean > 0.2);
+    hair_asset_destroy(cut.asset);
+}
+
 #define TEST(name) HAIR_TEST_WITH_HOST(name, &test)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {TEST(locks_of_curly_hair_differ)};
+    const struct CMUnitTest tests[] = {
+        TEST(locks_of_curly_hair_differ),
+        TEST(density_falls_off_over_a_centimetre),
+        TEST(tips_of_long_hair_are_layered),
+        TEST(the_crown_has_a_whorl),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

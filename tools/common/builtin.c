@@ -8,7 +8,8 @@
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.525, 0.0], 'fov': 24}"
 
 // A warm key light from the side puts highlights along the hair. A cool light from behind rims the
-// hair, and a weak one beside the camera fills the shadows of the face.
+// hair, and a weak one beside the camera fills the shadows of the face. A few strands fly away from
+// the others and break the outline, and some kink.
 #define STUDIO                                                                                               \
     "'light': {'direction': [0.75, 0.75, 0.35], 'color': [4.6, 4.3, 3.9], 'ambient': [0.42, 0.45, 0.5]}, "   \
     "'lights': [{'direction': [0.35, 0.5, -0.95], 'color': [1.1, 1.15, 1.25]}], "                            \
@@ -18,7 +19,9 @@
     "'strand.length_variation': 0.45, 'strand.taper': '1,1,1,0.98,0.92,0.8,0.55,0.15', 'color.spread': "     \
     "0.5, "                                                                                                  \
     "'color.hue_spread': 0.12, 'shading.roughness_spread': 0.2, 'color.root_darkening': 0.35, "              \
-    "'strays.fraction': 0.14}"
+    "'strays.fraction': 0.03, 'strays.distance': '0,0.02,0.03,0.035,0.035,0.035,0.035,0.035', "              \
+    "'strays.frizz_fraction': 0.12, 'strays.frizz': '0,0.0015,0.002,0.002,0.002,0.002,0.002,0.002', "        \
+    "'strays.frizz_wavelength': 0.035}"
 
 const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
