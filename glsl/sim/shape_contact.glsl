@@ -87,7 +87,7 @@ float depth_in_body(uint k, vec3 start, vec3 end, vec3 head_moved, vec2 granted,
         if (i == 0u) {
             depth    = -distance;
             outwards = gradient;
-            t        = 0.0;
+            t        = distance > way + BODY_NEAR ? 2.0 : 0.0; // The way is too short for contact.
         } else if (i == 1u) {
             // A vertex leaves through the side it came from, also from beyond the middle of a thin
             // shape.
