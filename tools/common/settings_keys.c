@@ -134,7 +134,7 @@ static size_t make_settings(struct hair_setting out[MAX_SETTINGS])
         made += add_settings(&like, owners[i].prefix, out + made);
     }
     for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g) {
-        char prefix[16];
+        char prefix[24]; // A compiler assumes that g may have any value.
         snprintf(prefix, sizeof prefix, "groups.%d.", g);
         struct hair_setting like = {.kind = HAIR_STRUCT_PHYSICS, .desc = AT(groups[g].physics), .group = g};
         made += add_settings(&like, prefix, out + made);
