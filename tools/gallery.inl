@@ -38,7 +38,8 @@ PICTURE("Blue tips",
 PICTURE("A frozen look, by a shader of the application", CLOSE FINE "--shader tools/scenes/frost.glsl")
 
 ROW("The same haircut, dry and wet, neat and frizzy")
-PICTURE("No strays", CLOSE FINE "--set strays.tip_fraction=0 --set strays.fraction=0 --set strays.frizz_fraction=0")
+PICTURE("No strays", CLOSE FINE "--set strays.tip_fraction=0 --set strays.fraction=0 --set "
+                                "strays.frizz_fraction=0")
 PICTURE("A third of the strands stray", CLOSE FINE)
 PICTURE("Frizz on every strand", CLOSE FINE "--set look=frizzy")
 PICTURE("Wet: darker, glossier, in strings", CLOSE FINE "--set wetness=1 --set preset=wet")
