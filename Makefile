@@ -303,7 +303,7 @@ $(B)/tests/hosts/vulkan_test: $(B)/tests/hosts/vulkan_test.cpp.o | $(B)/examples
 
 $(B)/tests/unit/bullet_%_test: $(B)/tests/unit/bullet_%_test.cpp.o $(SUPPORT) $(REF) $(B)/libhair_bullet.a $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
-	$(Q)$(CXX) $(opt.$(config)) $^ $(BULLET_LIBS) $(TEST_LIBS) -o $@
+	$(Q)$(CXX) $(opt.$(config)) $^ -lBulletDynamics $(BULLET_LIBS) $(TEST_LIBS) -o $@
 
 # Run as many tests at once as there are cores, the longest first. tests/README.md has their times.
 LONG := bench rod_limits determinism soak threads rod_stress lod instance memory capture lengths occlusion golden capture_bullet \

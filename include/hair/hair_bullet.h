@@ -11,8 +11,9 @@
 /// closed mesh is solid. An open mesh is a shell two voxels thick. A height field is solid below
 /// its surface. Soft bodies and shapes with values that are not finite cannot become colliders.
 ///
-/// The library only reads Bullet's objects. It is C++ inside, and links Bullet in single precision.
-/// No call in this header uses OpenGL. A hair_bullet belongs to one thread at a time.
+/// Only hair_bullet_apply() changes Bullet's objects. The library is C++ inside, and links Bullet
+/// in single precision. No call in this header uses OpenGL. A hair_bullet belongs to one thread at
+/// a time.
 #ifndef HAIR_HAIR_BULLET_H
 #define HAIR_HAIR_BULLET_H
 
@@ -87,6 +88,18 @@ HAIR_API hair_result hair_bullet_add_world(hair_bullet* bullet, const btCollisio
 ///
 /// @param count Receives the number of colliders.
 HAIR_API const hair_collider* hair_bullet_colliders(const hair_bullet* bullet, uint32_t* count);
+
+/// Apply the impulses of hair to the rigid bodies of the list, so that hair holds and throws them.
+/// A contact belongs to the collider with its key. Contacts of colliders that are not in the list,
+/// of shapes, and of bodies without mass or that are kinematic do nothing. Bodies wake up. The
+/// objects of the list must still exist.
+///
+/// @param contacts Contacts from hair_get_contacts(). May be NULL if `count` is 0.
+/// @param stride sizeof(hair_collider_contact).
+/// @param count Number of contacts.
+/// Errors: HAIR_ERROR_ARGUMENT, HAIR_ERROR_MEMORY. Nothing is applied then.
+HAIR_API hair_result hair_bullet_apply(hair_bullet* bullet, const hair_collider_contact* contacts,
+                                       size_t stride, uint32_t count);
 
 /// Discard the collision mesh of a shape whose vertices have changed. The next add call makes it
 /// again.

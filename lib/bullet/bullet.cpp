@@ -33,6 +33,7 @@ void hair_bullet_destroy(hair_bullet* bullet)
         hair_collision_mesh_destroy(bullet->cached[i].mesh);
     hair_free(&host, bullet->cached);
     hair_free(&host, bullet->colliders);
+    hair_free(&host, bullet->objects);
     hair_free(&host, bullet->hits);
     hair_free(&host, bullet);
 }
@@ -99,7 +100,7 @@ hair_result hair_bullet_add_shape(hair_bullet* bullet, const btCollisionShape* s
 {
     if (!bullet) return HAIR_ERROR_ARGUMENT;
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "shape is NULL");
-    hair_gather context = {btTransform::getIdentity(), 1, 0xcbf29ce484222325u, 0, false};
+    hair_gather context = {btTransform::getIdentity(), 1, 0xcbf29ce484222325u, 0, false, nullptr};
     if (transform) context.transform.setFromOpenGLMatrix(transform);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -119,8 +120,8 @@ static hair_result gather_object(hair_bullet* bullet, const btCollisionObject* o
     const int unique = proxy ? proxy->m_uniqueId : 0;
     const btCollisionShape* shape = object->getCollisionShape();
     float friction = object->getFriction();
-    hair_gather context = {object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0,
-                           log_once};
+    hair_gather context = {
+        object->getWorldTransform(), friction >= 0 ? std::fmin(friction, 100.0f) : 0, 0, 0, log_once, object};
     context.key = hair_bullet_fingerprint(0xcbf29ce484222325u, &object, sizeof object);
     context.key = hair_bullet_fingerprint(context.key, &unique, sizeof unique);
     if (!shape) return hair_fail(&bullet->host, HAIR_ERROR_ARGUMENT, "the object has no shape");

@@ -26,6 +26,8 @@ struct hair_bullet {
     uint32_t visits; // number of shapes visited while one object is taken
     hair_collider* colliders;
     uint32_t count, capacity;
+    const btCollisionObject** objects; // object of each collider. NULL for colliders of shapes.
+    uint32_t object_capacity;
     hair_cached_shape* cached; // hash table. Empty slots have no shape.
     uint32_t cached_count, cached_capacity;
     const void** hits; // proxies that the broadphase has found
@@ -58,6 +60,7 @@ struct hair_gather {
     uint64_t key; // key of the object, from which each of its colliders derives its own
     uint32_t depth;
     bool log_once; // Shapes that can be no collider cause one warning instead of an error.
+    const btCollisionObject* object; // NULL for a shape alone
 };
 
 // Functions of shape.cpp.

@@ -68,7 +68,13 @@ hair_result hair_bullet_add_collider(hair_bullet* bullet, const btCollisionShape
         hair_bullet_reserve(&bullet->host, &colliders, &bullet->capacity, bullet->count + 1, sizeof collider);
     bullet->colliders = static_cast<hair_collider*>(colliders);
     HAIR_TRY(result);
-    HAIR_ASSERT(bullet->count < bullet->capacity);
+    void* objects = bullet->objects;
+    result = hair_bullet_reserve(&bullet->host, &objects, &bullet->object_capacity, bullet->count + 1,
+                                 sizeof *bullet->objects);
+    bullet->objects = static_cast<const btCollisionObject**>(objects);
+    HAIR_TRY(result);
+    HAIR_ASSERT(bullet->count < bullet->capacity && bullet->count < bullet->object_capacity);
+    bullet->objects[bullet->count] = context.object;
     bullet->colliders[bullet->count++] = collider;
     return HAIR_OK;
 }
