@@ -285,8 +285,9 @@ static void grow_curly(uint32_t guide, hair_vec3 root, float scale, uint32_t see
         .face = 0.018f,
     };
     run_cut(&walk, root, scale, 0.04f, path);
+    // More variation makes turns tighter than 64 vertices resolve.
     struct hair_curl curl = {
-        .radius = 0.0100f, .pitch = 0.028f, .start = 0.008f, .full = 0.07f, .variation = 0.3f};
+        .radius = 0.0100f, .pitch = 0.028f, .start = 0.008f, .full = 0.07f, .variation = 0.2f};
     make_lock(guide, seed + 2, 0.3f, &curl);
     hair_style_path_add_curl(path, &curl);
 }
