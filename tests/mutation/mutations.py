@@ -61,6 +61,15 @@ MUTATIONS = [
      "new": ("desc->margin;\n"
              "    for"),
      "tests": ["unit/collider_grid"]},
+    # Impulses of hair on colliders
+    {"name": "impulse_without_damping", "file": "glsl/sim/accept_impulses.glsl",
+     "old": "float by = massive * h",
+     "new": "float by = h",
+     "tests": ["gpu/contacts"]},
+    {"name": "impulse_of_replaced_velocities_lost", "file": "glsl/sim/accept_impulses.glsl",
+     "old": "    if (has_lapse(method)) accept_lapses();",
+     "new": "",
+     "tests": ["gpu/contacts"]},
     # Bodies that deform
     {"name": "crossing_of_a_column_always_inwards", "file": "glsl/field/body_scatter.comp",
      "old": "area > 0 ? -1 : 1);",
