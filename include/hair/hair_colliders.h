@@ -161,7 +161,7 @@ typedef struct hair_collider_contact {
 ///
 /// Substeps that HAIR_SOLVER_DIRECT or HAIR_SOLVER_ACCURATE repeat with follow-the-leader do not
 /// conserve momentum, see hair_solver_stats.follow_fallbacks. Followers that are pushed out of
-/// colliders have no impulses.
+/// colliders have no impulses. The drag of wind on a push itself is not part of its impulse.
 ///
 /// @param strands Number of strands whose mass each guide has. The impulses are multiples of it. 0
 ///     stops the record, and drops what has not been reported. [0, 1e6]. Default 0.
@@ -176,7 +176,7 @@ HAIR_API hair_result hair_record_contacts(hair_instance* hair, float strands);
 ///
 /// An application that simulates bodies applies each impulse and angular impulse to the body of the
 /// collider. Momentum then is conserved. The forces of hair that is much heavier than a body may
-/// throw the body off.
+/// throw the body off. A fast body passes through hair that is taut between pins.
 ///
 /// @param wait True reports all steps, and waits until the GPU has finished them. Results are then
 ///     the same in every run. False does not wait. The newest steps may be reported later.
