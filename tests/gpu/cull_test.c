@@ -152,6 +152,15 @@ static void read(const struct hair_test_scene* f, const hair_view* view, float* 
     hair_test_draw_in(&f->frame, f->test, f->hair, view, pixels);
 }
 
+// Return how many passes have run. A software rasteriser divides a pass into several dispatches if
+// the pass took long before, as it does on a busy machine.
+static uint64_t count_runs(const struct hair_gl* gl)
+{
+    uint64_t runs = 0;
+    for (uint32_t i = 0; i < gl->programs; ++i) runs += gl->program[i]->timer.begun;
+    return runs;
+}
+
 // Compare the picture with one for which everything is computed anew.
 static void strand_list_is_reused_while_nothing_changes(void** state)
 {
@@ -166,15 +175,17 @@ static void strand_list_is_reused_while_nothing_changes(void** state)
     for (int i = 0; i < 10; ++i) {
         // The cases: again, another view, lower density, with a level of detail, again, another
         // view, stepped, and again.
-        static const uint32_t dispatches[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
+        static const uint64_t computed[] = {4, 0, 0, 2, 2, 0, 2, 4, 0, 0};
         look_along(hair_v3(0, 0.1f, i >= 2 && i < 6 ? 0.7f : 0.8f), hair_v3(0, 0, -1), view.view);
         look.followers.density = i >= 3 ? 0.6f : 1;
         view.lod = i >= 4 ? &lod : NULL;
         hair_test_ok(f.test, hair_set_look(f.hair, &look));
         if (i == 7) hair_test_ok(f.test, hair_step(f.hair, 1.0f / 60));
-        hair_test_trace_clear();
+        uint64_t before = count_runs(f.hair->geometry.gl);
         read(&f, &view, kept);
-        if (i != 0 && i != 7) assert_int_equal(hair_test_trace_count("glDispatch"), dispatches[i]);
+        // The last pass draws.
+        uint64_t runs = count_runs(f.hair->geometry.gl) - before - 1;
+        if (i != 0 && i != 7) assert_int_equal(runs, computed[i]);
         if (f.hair->renderer.strand_list.key) f.hair->renderer.strand_list.key->program_generation = 0;
         ++f.hair->geometry.follower_collision.generation;
         read(&f, &view, anew);
