@@ -124,12 +124,11 @@ hair_result hair_contacts_find(struct hair_sim* sim, double dt, float fraction_s
 
 static void write_few(const struct hair_collider_grid* cells, struct hair_step_params* params)
 {
-    HAIR_ASSERT(cells->contacts <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
+    HAIR_ASSERT(cells->contacts <= HAIR_FEW_COLLIDERS);
     for (uint32_t i = 0; i < cells->contacts; ++i) {
         params->collider[i] = cells->contact[i].around;
         params->body[i] = cells->contact[i].body;
         params->mesh[i] = cells->contact[i].mesh;
-        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
     }
 }
 

@@ -83,20 +83,24 @@ void hair_sim_write_substeps(struct hair_sim* sim, struct hair_step_params* para
     params->substeps = count;
 }
 
+// Set the bits of the colliders that are neither spheres nor capsules.
+static void mark_bodies(struct hair_step_params* params)
+{
+    HAIR_ASSERT(params->colliders <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
+    for (uint32_t i = 0; i < params->colliders; ++i)
+        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
+}
+
 void hair_sim_write_colliders(const struct hair_sim* sim, struct hair_step_params* params)
 {
     if (sim->contacts.any) {
         hair_contacts_write(sim, params);
-        return;
-    }
-    if (!sim->rods) {
+    } else if (sim->rods) {
+        params->colliders = hair_colliders_bodies(&sim->colliders, &sim->head_at_last_step, &sim->head,
+                                                  params->collider, params->body);
+    } else {
         params->colliders =
             hair_colliders_capsules(&sim->colliders, &sim->head_at_last_step, &sim->head, params->collider);
-        return;
     }
-    params->colliders = hair_colliders_bodies(&sim->colliders, &sim->head_at_last_step, &sim->head,
-                                              params->collider, params->body);
-    HAIR_ASSERT(params->colliders <= HAIR_FEW_COLLIDERS); // `bodies` has a bit for each.
-    for (uint32_t i = 0; i < params->colliders; ++i)
-        if (params->body[i].size.w > HAIR_SHAPE_CAPSULE) params->bodies |= 1u << i;
+    if (sim->rods && !sim->contacts.listed) mark_bodies(params);
 }
