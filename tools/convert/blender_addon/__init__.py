@@ -71,7 +71,8 @@ class HairExport(bpy.types.Operator, ExportHelper):
     bl_label = "Export Hair Groom"
     filename_ext = ".usdc"
     check_extension = False
-    filter_glob: StringProperty(default="*.usd;*.usda;*.usdc;*.abc;*.hair;*.tfx", options={"HIDDEN"})
+    filter_glob: StringProperty(default="*.usd;*.usda;*.usdc;*.abc;*.groom;*.hair;*.tfx",
+                                options={"HIDDEN"})
     program: StringProperty(options={"HIDDEN"})
 
     def execute(self, context):
@@ -112,7 +113,7 @@ class HairImport(bpy.types.Operator, ImportHelper):
     bl_idname = "hair.import_cache"
     bl_label = "Import Hair Cache"
     filename_ext = ".usdc"
-    filter_glob: StringProperty(default="*.usd;*.usda;*.usdc;*.abc;*.hair;*.tfx;*.dump",
+    filter_glob: StringProperty(default="*.usd;*.usda;*.usdc;*.abc;*.groom;*.hair;*.tfx;*.dump",
                                 options={"HIDDEN"})
     program: StringProperty(options={"HIDDEN"})
 
@@ -129,12 +130,12 @@ class HairImport(bpy.types.Operator, ImportHelper):
 
 def draw_export(self, _context):
     """Draw the entry of the export menu."""
-    self.layout.operator(HairExport.bl_idname, text="Hair groom (.usdc, .abc, .hair, .tfx)")
+    self.layout.operator(HairExport.bl_idname, text="Hair groom (.usdc, .abc, .groom, .hair, .tfx)")
 
 
 def draw_import(self, _context):
     """Draw the entry of the import menu."""
-    self.layout.operator(HairImport.bl_idname, text="Hair cache (.usdc, .abc, .dump, .hair, .tfx)")
+    self.layout.operator(HairImport.bl_idname, text="Hair cache (.usdc, .abc, .groom, .hair, .tfx, .dump)")
 
 
 CLASSES = (HairPreferences, HairExport, HairImport)

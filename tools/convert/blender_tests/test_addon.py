@@ -173,6 +173,26 @@ class AddonTest(unittest.TestCase):
         off = np.linalg.norm(roots - [0, 0, HEIGHT], axis=1) - RADIUS
         self.assertLess(np.abs(off).max(), 6e-4)  # The faces of the ball lie that far inside.
 
+    def test_groom_keeps_strands_groups_and_scalp(self):
+        hair, ball = make_scene("curly")
+        points, counts, attributes = evaluated(hair)
+        self.assertEqual(bpy.ops.hair.export_groom(filepath=self.path("a.groom"), program=CONVERT),
+                         {"FINISHED"})
+        info = subprocess.run([GROOM, "info", self.path("a.groom")], check=True,
+                              capture_output=True, text=True).stdout
+        triangles = sum(len(p.vertices) - 2 for p in ball.data.polygons)
+        self.assertRegex(info, f"strands: +{len(counts)}, ")
+        self.assertRegex(info, f"scalp: .* {triangles} triangles, texture coordinates")
+        got, got_counts, got_attributes = evaluated(self.import_hair(self.path("a.groom")))
+        np.testing.assert_array_equal(got_counts, counts)
+        np.testing.assert_array_equal(got_attributes["groom_group_id"],
+                                      attributes["groom_group_id"])
+        # The fit to the scalp may move roots, so shapes are compared from the root on.
+        starts = np.repeat(np.cumsum(counts) - counts, counts)
+        error = np.linalg.norm((got - got[starts]) - (points - points[starts]), axis=1)
+        near = error < 1.2e-5 * lengths(points, counts)
+        self.assertGreater(near.mean(), 0.9)
+
     def test_simulated_hair_comes_back_as_animation(self):
         make_scene("straight")
         self.assertEqual(bpy.ops.hair.export_groom(filepath=self.path("a.tfx"), program=CONVERT),
