@@ -14,24 +14,24 @@ static hair_vec3 corner(const struct hair_triangles* t, uint32_t place, int k)
 }
 
 // fminf() and fmaxf() are calls of libm, because they must skip NaN. Corners and points are finite.
-static float less(float a, float b)
+static float min_of(float a, float b)
 {
     return a < b ? a : b;
 }
 
-static float more(float a, float b)
+static float max_of(float a, float b)
 {
     return a > b ? a : b;
 }
 
 static hair_vec3 min(hair_vec3 a, hair_vec3 b)
 {
-    return (hair_vec3){less(a.x, b.x), less(a.y, b.y), less(a.z, b.z)};
+    return (hair_vec3){min_of(a.x, b.x), min_of(a.y, b.y), min_of(a.z, b.z)};
 }
 
 static hair_vec3 max(hair_vec3 a, hair_vec3 b)
 {
-    return (hair_vec3){more(a.x, b.x), more(a.y, b.y), more(a.z, b.z)};
+    return (hair_vec3){max_of(a.x, b.x), max_of(a.y, b.y), max_of(a.z, b.z)};
 }
 
 static int same(hair_vec3 a, hair_vec3 b)
@@ -221,8 +221,8 @@ void hair_triangles_free(const hair_host* host, struct hair_triangles* triangles
 static float squared_to_segment(hair_vec3 p, hair_vec3 a, hair_vec3 b)
 {
     hair_vec3 d = hair_sub(b, a), out = hair_sub(p, a);
-    float t = hair_dot(out, d) / more(hair_dot(d, d), 1e-37f);
-    out = hair_sub(out, hair_scale(d, less(more(t, 0), 1)));
+    float t = hair_dot(out, d) / max_of(hair_dot(d, d), 1e-37f);
+    out = hair_sub(out, hair_scale(d, min_of(max_of(t, 0), 1)));
     return hair_dot(out, out);
 }
 
@@ -231,7 +231,7 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
     hair_vec3 a = corner(t, place, 0), b = corner(t, place, 1), c = corner(t, place, 2);
     hair_vec3 ab = hair_sub(b, a), bc = hair_sub(c, b), ca = hair_sub(a, c);
     hair_vec3 normal = hair_cross(ca, ab);
-    float size = hair_dot(normal, normal), least = INFINITY;
+    float size = hair_dot(normal, normal), nearest = INFINITY;
     int narrow = !(size > 1e-37f);
     int past_ab = narrow || !(hair_dot(hair_cross(normal, ab), hair_sub(p, a)) >= 0);
     int past_bc = narrow || !(hair_dot(hair_cross(normal, bc), hair_sub(p, b)) >= 0);
@@ -241,10 +241,10 @@ static float squared_to_triangle(const struct hair_triangles* t, uint32_t place,
         return height * height / size;
     }
     // An edge that has the point on its inner side has no point that is nearer than all others.
-    if (past_ab) least = squared_to_segment(p, a, b);
-    if (past_bc) least = less(least, squared_to_segment(p, b, c));
-    if (past_ca) least = less(least, squared_to_segment(p, c, a));
-    return least;
+    if (past_ab) nearest = squared_to_segment(p, a, b);
+    if (past_bc) nearest = min_of(nearest, squared_to_segment(p, b, c));
+    if (past_ca) nearest = min_of(nearest, squared_to_segment(p, c, a));
+    return nearest;
 }
 
 static float squared_to_box(const struct hair_box* box, hair_vec3 p)
