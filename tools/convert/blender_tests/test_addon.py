@@ -187,8 +187,9 @@ class AddonTest(unittest.TestCase):
         np.testing.assert_array_equal(got_counts, counts)
         np.testing.assert_array_equal(got_attributes["groom_group_id"],
                                       attributes["groom_group_id"])
-        # The fit to the scalp may move roots, so shapes are compared from the root on.
         starts = np.repeat(np.cumsum(counts) - counts, counts)
+        np.testing.assert_allclose(got_attributes["radius"], attributes["radius"][starts], rtol=1e-6)
+        # The fit to the scalp may move roots, so shapes are compared from the root on.
         error = np.linalg.norm((got - got[starts]) - (points - points[starts]), axis=1)
         near = error < 1.2e-5 * lengths(points, counts)
         self.assertGreater(near.mean(), 0.9)
@@ -213,6 +214,20 @@ class AddonTest(unittest.TestCase):
             # The axis +y of the library is +z of Blender.
             expected = np.stack([want[frame, :, 0], -want[frame, :, 2], want[frame, :, 1]], axis=1)
             np.testing.assert_allclose(got, expected, atol=2e-6)
+
+    def test_commands_of_the_tutorial_make_their_files(self):
+        run = os.path.join(os.path.dirname(__file__), "..", "tutorial", "run.sh")
+        done = subprocess.run(["sh", run, os.path.dirname(GROOM), self.folder, "sh", "convert",
+                               "blender"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        for name in ("blender.png", "head.png", "motion.png"):
+            self.assertTrue(os.path.getsize(self.path(name)), name)
+        # Blender makes the groom that is there for readers without Blender. The order of objects in
+        # USD can differ.
+        made, stored = (subprocess.run([GROOM, "info", path], check=True, capture_output=True).stdout
+                        for path in (self.path("head.groom"),
+                                     os.path.join(os.path.dirname(run), "head.groom")))
+        self.assertEqual(made, stored)
 
     def test_failures_are_reported(self):
         bpy.ops.wm.read_factory_settings(use_empty=True)

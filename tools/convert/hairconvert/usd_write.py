@@ -77,9 +77,11 @@ def _write_attributes(curves, groom, report):
     primvars = UsdGeom.PrimvarsAPI(curves.GetPrim())
     for name, a in groom.attributes.items():
         if name == "width":
+            # Blender reads uniform widths as those of vertices, and beyond the end of the array.
+            scope = VERTEX if a.scope == STRAND else a.scope
             curves.CreateWidthsAttr(Vt.FloatArray.FromNumpy(
-                np.ascontiguousarray(a.values, np.float32)))
-            curves.SetWidthsInterpolation(INTERPOLATIONS[a.scope])
+                np.ascontiguousarray(groom.values(name, scope), np.float32)))
+            curves.SetWidthsInterpolation(INTERPOLATIONS[scope])
         elif name == "normals" and a.values.shape[1:] == (3,):
             curves.CreateNormalsAttr(_vectors(a.values))
             curves.SetNormalsInterpolation(INTERPOLATIONS[a.scope])
