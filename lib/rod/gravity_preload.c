@@ -1,5 +1,9 @@
 // gravity_preload.c - how guides hold their groom against gravity.
 //
+// Guides are computed in blocks: see block.h. A first pass tests all guides. Guides that need more
+// stiffness, and guides that sag, are collected and computed in blocks of their own, so that all
+// guides of a block take about the same steps.
+//
 // A clamped strand is statically determinate. In any pose, the stress that balances all forces
 // follows from the pose alone, and so does the rest strain that gives this stress. The groom can
 // therefore always be made an equilibrium. Two things can still be wrong with it: it may be
@@ -24,257 +28,357 @@
 // The smallest t is taken whose pose is stable and is reached by the guide when released from its
 // groom. Other ways from the groom to a hanging pose sag farther on the built-in haircuts. Examples
 // are gravity on a part of the strand only, and a pull to the groom that weakens.
-#include "lib/rod/statics.h"
+#include "lib/rod/block_kernels.h"
 
+#include <stdint.h>
 #include <string.h>
 
-#define MARGIN 1.05 // Multiple of gravity under which a pose must be stable.
-// Minimum frequency about a pose, rad/s. The default damping of 4/s damps this frequency
-// critically.
-#define SLOWEST 2.0
 #define FINENESS 1.02 // Precision of 1 + c, as a ratio.
 #define STEP 0.125 // Step of t.
 #define BISECTIONS 3 // Number of bisections of a step of t.
 #define STEPS 1 // Steps of Newton's method for each t below 1.
 #define LAST_STEPS 60 // Maximum steps of Newton's method where it must converge.
 #define SAME 1e-4 // Maximum distance between equal poses, as a fraction of the length.
+#define ALIGNMENT (8 * HAIR_LANES) // Bytes of a vector.
 
-struct search {
-    struct hair_rod_shape* shape;
-    struct hair_rod_pose pose;
-    struct hair_rod_stability stability; // Stability of the groom, prepared.
-    // Strain of the groom, times the stiffness. Entry 0 is not kept.
-    double strain[HAIR_MAX_GUIDE_VERTICES];
-    hair_dvec3 root_stress; // Stress of the groom at the root.
-    double bend[HAIR_MAX_GUIDE_VERTICES]; // Stiffness of the material.
-    double lever[HAIR_MAX_GUIDE_VERTICES]; // e_i / e_0
-    hair_rod_rest own[HAIR_MAX_GUIDE_VERTICES]; // Rest shape equal to the groom.
-    hair_rod_rest rest[HAIR_MAX_GUIDE_VERTICES]; // Rest shape that balances the pose.
+struct preload {
+    const struct hair_guide* guides;
+    const struct hair_rest* rest;
+    const hair_physics* physics;
+    struct hair_rod_borne* out;
+    struct hair_rods_report* report;
+    const struct hair_block_kernels* run;
+    struct hair_block* block;
+    // Guides in the order of their numbers of vertices, those that need more stiffness, and those
+    // that sag.
+    uint32_t *all, *soft, *sagging, soft_count, sagging_count;
+    uint32_t guide[HAIR_LANES], lanes; // Guides of the block.
+    hair_lanes sag; // Distance from the groom, m.
 };
 
-static void find_levers(const struct hair_rod_shape* s, double* lever)
+// Load guides that have equal numbers of vertices, from the list. The last guide fills the rest of
+// the lanes. Return the number of guides.
+static uint32_t load_block(struct preload* a, const uint32_t* list, uint32_t count)
 {
-    double beyond = 0;
-    lever[s->count - 1] = 0;
-    for (uint32_t i = s->count - 1; i-- > 0;) {
-        beyond += s->mass[i + 1];
-        lever[i] = lever[i + 1] + beyond * s->length[i];
+    struct hair_block* b = a->block;
+    struct hair_lanes4 scalp;
+    b->count = a->guides[list[0]].count;
+    for (a->lanes = 0; a->lanes < count && a->lanes < HAIR_LANES; ++a->lanes) {
+        if (a->guides[list[a->lanes]].count != b->count) break;
+        a->guide[a->lanes] = list[a->lanes];
     }
-    HAIR_ASSERT(lever[0] > 0);
-    for (uint32_t i = s->count; i-- > 0;) lever[i] /= lever[0];
-}
-
-static void stiffen(struct search* a, double c)
-{
-    HAIR_ASSERT(c >= 0);
-    struct hair_rod_shape* s = a->shape;
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        s->bend[i] = a->bend[i] * fmin(HAIR_ROD_MAX_STIFFEN, 1 + c * a->lever[i]);
-}
-
-// Return the difference of the groom's own strain and the rest strain.
-static hair_dvec3 strain_off(const struct search* a, uint32_t i)
-{
-    hair_rod_rest own = a->own[i], rest = a->rest[i];
-    HAIR_ASSERT(i + 1 < a->shape->count);
-    return (hair_dvec3){own.x - rest.x, own.y - rest.y, own.z - rest.z};
-}
-
-// Set `rest` to the rest shape that balances the pose under gravity. Return whether the strain of
-// the rest shape is allowed.
-static bool balance_gravity(struct search* a)
-{
-    const struct hair_rod_shape* s = a->shape;
-    hair_rod_load(s, 1, &a->pose);
-    hair_rod_balance(s, &a->pose);
-    for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 g = hair_dscale(a->pose.stress[i], 1 / hair_rod_stiffness(s, i));
-        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
-        hair_dquat t = a->pose.turn[i];
-        a->rest[i] = (hair_rod_rest){2 * t.x - g.x / ratio.x, 2 * t.y - g.y / ratio.y,
-                                     2 * t.z - g.z / ratio.z, 2 * t.w};
-        if (!(hair_dlength(strain_off(a, i)) <= HAIR_ROD_MAX_STRAIN)) return false;
+    for (uint32_t k = 0; k < HAIR_LANES; ++k) {
+        const struct hair_guide* guide = a->guides + a->guide[k < a->lanes ? k : a->lanes - 1];
+        const struct hair_rest* rest = a->rest + guide->first;
+        hair_vec4 q = guide->root_frame;
+        scalp.x[k] = (double)q.x, scalp.y[k] = (double)q.y, scalp.z[k] = (double)q.z,
+        scalp.w[k] = (double)q.w;
+        b->active[k] = k < a->lanes ? -1 : 0;
+        for (uint32_t i = 0; i < b->count; ++i) {
+            struct hair_block_vertex* v = b->vertex + i;
+            bool is_tip = i + 1 == b->count;
+            q = rest[i].frame;
+            v->frame.x[k] = (double)q.x, v->frame.y[k] = (double)q.y;
+            v->frame.z[k] = (double)q.z, v->frame.w[k] = (double)q.w;
+            v->length[k] = is_tip ? 0 : fmax((double)rest[i].position.w, HAIR_ROD_SHORTEST);
+            if (is_tip) continue;
+            v->place.x[k] = (double)rest[i + 1].position.x - (double)rest[i].position.x;
+            v->place.y[k] = (double)rest[i + 1].position.y - (double)rest[i].position.y;
+            v->place.z[k] = (double)rest[i + 1].position.z - (double)rest[i].position.z;
+        }
     }
-    return true;
+    a->run->find_shape(b, a->physics, &scalp);
+    return a->lanes;
 }
 
-// Return whether the pose can be held. Set `rest` to the rest shape that holds the pose.
-static bool holds(struct search* a)
+// Write the vertices of the guide in lane k.
+static void write_held_guide(const struct hair_block* b, uint32_t k, struct hair_rod_borne* out)
 {
-    if (!balance_gravity(a)) return false;
-    hair_rod_load(a->shape, MARGIN, &a->pose);
-    hair_rod_balance(a->shape, &a->pose);
-    return hair_rod_is_stable(a->shape, &a->pose, SLOWEST * SLOWEST);
+    for (uint32_t i = 0; i < b->count; ++i) {
+        const struct hair_block_vertex* v = b->vertex + i;
+        out[i] = (struct hair_rod_borne){.stiffen = 1};
+        if (i + 1 == b->count) break;
+        out[i].rest_real = 2 * v->turn.w[k];
+        if (!b->is_loaded) continue;
+        out[i].stress[0] = v->pose.stress.x[k];
+        out[i].stress[1] = v->pose.stress.y[k];
+        out[i].stress[2] = v->pose.stress.z[k];
+        out[i].rest_real = v->rest.w[k];
+        if (v->material[k] > 0) out[i].stiffen = v->bend[k] / v->material[k];
+    }
 }
 
-// Return the length of the strain that a stress causes at vertex i with the stiffness 1.
-static double strain_by(const struct search* a, uint32_t i, hair_dvec3 stress)
+// Write some guides of the block, and add them to the report.
+static void write_guides(struct preload* a, hair_lane_mask mask, bool is_stiffened)
 {
-    hair_dvec3 r = hair_rod_ratios_at(a->shape, i);
-    return hair_dlength((hair_dvec3){stress.x / r.x, stress.y / r.y, stress.z / r.z});
+    struct hair_block* b = a->block;
+    if (b->is_loaded) a->run->find_result(b);
+    for (uint32_t k = 0; k < a->lanes; ++k) {
+        if (!mask[k]) continue;
+        write_held_guide(b, k, a->out + a->guides[a->guide[k]].first);
+        double stiffest = is_stiffened ? b->vertex->bend[k] / b->vertex->material[k] : 1;
+        HAIR_ASSERT(stiffest >= 1 && stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
+        a->report->stiffened += stiffest > 1;
+        a->report->sagging += b->sags;
+        a->report->stiffest = fmaxf(a->report->stiffest, (float)stiffest);
+        if (b->sags) a->report->farthest_sag = fmaxf(a->report->farthest_sag, (float)a->sag[k]);
+    }
 }
 
-// Prepare tests of the groom. The pose is the groom, whose stress does not depend on the stiffness.
-static void prepare_groom(struct search* a)
+// Stiffen the guides as much as is allowed.
+static void stiffen_fully(struct preload* a)
 {
-    const struct hair_rod_shape* s = a->shape;
-    hair_rod_load(s, 1, &a->pose);
-    hair_rod_balance(s, &a->pose);
-    for (uint32_t i = 0; i + 1 < s->count; ++i) a->strain[i] = strain_by(a, i, a->pose.stress[i]);
-    a->root_stress = a->pose.stress[0];
-    hair_rod_load(s, MARGIN, &a->pose);
-    hair_rod_balance(s, &a->pose);
-    hair_rod_prepare_stability(s, &a->pose, SLOWEST * SLOWEST, &a->stability);
+    struct hair_block* b = a->block;
+    b->amount = (HAIR_ROD_MAX_STIFFEN - 1) / b->vertex[b->count - 2].lever;
+    a->run->stiffen(b);
 }
 
-// Return whether the groom can be held with the present stiffness.
-static bool groom_holds(struct search* a)
+// Write the guides of the block that hold their groom. Collect the others.
+static void test_block(struct preload* a)
 {
-    const struct hair_rod_shape* s = a->shape;
-    // The stiffness changes the ratios at the clamp.
-    a->strain[0] = strain_by(a, 0, a->root_stress);
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (!(a->strain[i] <= HAIR_ROD_MAX_STRAIN * hair_rod_stiffness(s, i))) return false;
-    return hair_rod_test_stability(s, &a->pose, &a->stability);
+    struct hair_block* b = a->block;
+    hair_lane_mask resists = b->active, holds = ~resists;
+    a->run->prepare_groom(b);
+    a->run->test_groom(b);
+    holds |= b->holds;
+    b->active = ~holds;
+    if (hair_lanes_any(b->active)) {
+        stiffen_fully(a);
+        a->run->test_groom(b);
+        for (uint32_t k = 0; k < a->lanes; ++k) {
+            if (holds[k]) continue;
+            if (b->holds[k])
+                a->soft[a->soft_count++] = a->guide[k];
+            else
+                a->sagging[a->sagging_count++] = a->guide[k];
+        }
+        b->amount = (hair_lanes){0};
+        a->run->stiffen(b);
+    }
+    b->active = resists;
+    if (hair_lanes_any(holds)) write_guides(a, holds, false);
 }
 
-// Return the smallest c with which the groom holds. The groom holds with c = `does`.
-static double min_stiffening(struct search* a, double does)
+// Stiffen the guides of the block by as little as they need, and write them. The guides hold their
+// groom with the maximum stiffness.
+static void stiffen_block(struct preload* a)
 {
-    HAIR_ASSERT(does >= 0);
-    double fails = 1; // 1 + c
-    for (does += 1; does > FINENESS * fails;) {
-        double middle = sqrt(fails * does);
-        stiffen(a, middle - 1);
-        if (groom_holds(a))
-            does = middle;
+    struct hair_block* b = a->block;
+    hair_lane_mask all = b->active;
+    a->run->prepare_groom(b);
+    stiffen_fully(a);
+    hair_lanes fails = hair_lanes_of(1), does = 1 + b->amount; // 1 + c
+    for (;;) {
+        hair_lanes middle = hair_lanes_sqrt(fails * does);
+        b->active = all & (does > FINENESS * fails);
+        if (!hair_lanes_any(b->active)) break;
+        b->amount = middle - 1;
+        a->run->stiffen(b);
+        a->run->test_groom(b);
+        does = hair_lanes_select(b->holds, middle, does);
+        fails = hair_lanes_select(b->active & ~b->holds, middle, fails);
+    }
+    b->active = all;
+    b->amount = does - 1;
+    a->run->stiffen(b);
+    write_guides(a, all, true);
+}
+
+// Move the poses of some guides to y(t), and find where they hold. The other guides keep theirs.
+static void test_at(struct preload* a, hair_lanes t, hair_lane_mask active)
+{
+    struct hair_block* b = a->block;
+    b->active = active;
+    b->gravity = t;
+    b->is_own = true;
+    for (int k = 0; k < HAIR_LANES; ++k) b->steps[k] = t[k] < 1 ? STEPS : LAST_STEPS;
+    a->run->settle(b);
+    b->active = active;
+    a->run->test_pose(b);
+}
+
+// Set the frames of the poses of some guides.
+#define SET_FRAMES(block, mask, to, value)                                                                   \
+    for (uint32_t i = 0; i + 1 < (block)->count; ++i) {                                                      \
+        struct hair_block_vertex* v = (block)->vertex + i;                                                   \
+        (to) = hair_lanes_select4((mask), (value), (to));                                                    \
+    }
+
+// Find the smallest t whose pose holds, and set the pose. Set t to more than 1 where no pose holds.
+static void find_pose(struct preload* a, hair_lanes* t)
+{
+    struct hair_block* b = a->block;
+    hair_lane_mask all = b->active, active = all;
+    hair_lanes fails = {0}, does = hair_lanes_of(STEP);
+    SET_FRAMES(b, all, v->search.failed, v->frame)
+    while (hair_lanes_any(active)) {
+        test_at(a, does, active);
+        hair_lane_mask failed = active & ~b->holds, more = failed & (does < 1);
+        SET_FRAMES(b, b->holds, v->search.found, v->pose.frame)
+        SET_FRAMES(b, more, v->search.failed, v->pose.frame)
+        fails = hair_lanes_select(more, does, fails);
+        does = hair_lanes_select(failed, does + STEP, does);
+        active = more;
+    }
+    hair_lane_mask found = all & (does <= 1);
+    for (int k = 0; k < BISECTIONS && hair_lanes_any(found); ++k) {
+        hair_lanes middle = (fails + does) / 2;
+        SET_FRAMES(b, found, v->pose.frame, v->search.failed)
+        a->run->place(b);
+        test_at(a, middle, found);
+        hair_lane_mask failed = found & ~b->holds;
+        SET_FRAMES(b, b->holds, v->search.found, v->pose.frame)
+        SET_FRAMES(b, failed, v->search.failed, v->pose.frame)
+        does = hair_lanes_select(b->holds, middle, does);
+        fails = hair_lanes_select(failed, middle, fails);
+    }
+    SET_FRAMES(b, found, v->pose.frame, v->search.found)
+    a->run->place(b);
+    *t = hair_lanes_select(all, does, hair_lanes_of(1 + STEP));
+}
+
+// Return the maximum distance of a vertex of the pose from its position in the groom, or from `at`.
+HAIR_LANES_INLINE hair_lanes max_distance(const struct hair_block* b, bool is_from_groom)
+{
+    hair_lanes max = {0};
+    for (uint32_t i = 1; i < b->count; ++i) {
+        const struct hair_block_vertex* v = b->vertex + i;
+        struct hair_lanes3 d = hair_lanes_subtract(v->pose.place, is_from_groom ? v->place : v->search.at);
+        max = hair_lanes_max(max, hair_lanes_dot(d, d));
+    }
+    return hair_lanes_sqrt(max);
+}
+
+// Find the active guides that come to rest in the pose when released from their groom. Add them to
+// the mask.
+static void find_reached(struct preload* a, hair_lane_mask* out)
+{
+    struct hair_block* b = a->block;
+    hair_lane_mask active = b->active;
+    hair_lanes length = {0};
+    for (uint32_t i = 0; i < b->count; ++i) {
+        b->vertex[i].search.at = b->vertex[i].pose.place;
+        length += b->vertex[i].length;
+    }
+    SET_FRAMES(b, active, v->search.found, v->pose.frame)
+    SET_FRAMES(b, active, v->pose.frame, v->frame)
+    a->run->place(b);
+    b->gravity = hair_lanes_of(1);
+    b->is_own = false;
+    for (int k = 0; k < HAIR_LANES; ++k) b->steps[k] = LAST_STEPS;
+    a->run->settle(b);
+    hair_lane_mask reached = active & (max_distance(b, false) < SAME * length);
+    SET_FRAMES(b, active, v->pose.frame, v->search.found)
+    a->run->place(b);
+    *out |= reached;
+}
+
+// No pose of some guides can be held. Their rest shape balances no gravity, and they hang.
+static void hang(struct preload* a, hair_lane_mask mask)
+{
+    struct hair_block* b = a->block;
+    for (uint32_t i = 0; i + 1 < b->count; ++i) {
+        struct hair_block_vertex* v = b->vertex + i;
+        v->rest = hair_lanes_select4(mask, hair_block_own_rest(v->turn), v->rest);
+    }
+    SET_FRAMES(b, mask, v->pose.frame, v->frame)
+    a->run->place(b);
+    b->active = mask;
+    b->gravity = hair_lanes_of(1);
+    b->is_own = true;
+    for (int k = 0; k < HAIR_LANES; ++k) b->steps[k] = LAST_STEPS;
+    a->run->settle(b);
+}
+
+// Find the poses that the guides of the block hold, and write the guides. The guides do not hold
+// their groom with the maximum stiffness.
+static void sag_block(struct preload* a)
+{
+    struct hair_block* b = a->block;
+    hair_lane_mask all = b->active, done = ~all;
+    stiffen_fully(a);
+    hair_lanes t;
+    find_pose(a, &t);
+    hair_lane_mask pending = all & (t <= 1);
+    while (hair_lanes_any(pending)) {
+        b->active = pending;
+        a->run->test_pose(b);
+        b->active = b->holds;
+        if (hair_lanes_any(b->active)) find_reached(a, &done);
+        pending &= ~done & (t < 1);
+        t = hair_lanes_min(t + STEP, hair_lanes_of(1));
+        if (hair_lanes_any(pending)) test_at(a, t, pending);
+    }
+    if (hair_lanes_any(~done)) hang(a, ~done);
+    a->sag = max_distance(b, true);
+    b->active = all;
+    b->sags = true;
+    write_guides(a, all, true);
+    b->sags = false;
+}
+
+static void run_all(struct preload* a, uint32_t count)
+{
+    struct hair_block* b = a->block;
+    for (uint32_t i = 0; i < count;) {
+        i += load_block(a, a->all + i, count - i);
+        hair_lane_mask all = {0};
+        if (b->is_loaded)
+            test_block(a);
         else
-            fails = middle;
+            write_guides(a, ~all, false);
     }
-    return does - 1;
+    for (uint32_t i = 0; i < a->soft_count;) {
+        i += load_block(a, a->soft + i, a->soft_count - i);
+        stiffen_block(a);
+    }
+    for (uint32_t i = 0; i < a->sagging_count;) {
+        i += load_block(a, a->sagging + i, a->sagging_count - i);
+        sag_block(a);
+    }
 }
 
-// Move the pose to y(t). Return whether the pose holds.
-static bool holds_at(struct search* a, double t)
+// Sort guides by their number of vertices. Return the maximum of a guide.
+static uint32_t sort_guides(const struct hair_guide* guides, uint32_t count, uint32_t* out)
 {
-    hair_rod_settle(a->shape, a->own, t, t < 1 ? STEPS : LAST_STEPS, &a->pose);
-    return holds(a);
-}
-
-// Find the smallest t whose pose holds, and set the pose. Return more than 1 if no pose holds.
-static double find_pose(struct search* a)
-{
-    hair_dquat failed[HAIR_MAX_GUIDE_VERTICES], found[HAIR_MAX_GUIDE_VERTICES];
-    size_t size = a->shape->count * sizeof *failed;
-    double fails = 0, does = STEP;
-    memcpy(failed, a->shape->frame, size);
-    for (; !holds_at(a, does); does += STEP) {
-        if (does >= 1) return does + STEP;
-        memcpy(failed, a->pose.frame, size);
-        fails = does;
+    uint32_t first[HAIR_MAX_GUIDE_VERTICES + 2] = {0}, max = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        HAIR_ASSERT(2 <= guides[i].count && guides[i].count <= HAIR_MAX_GUIDE_VERTICES);
+        ++first[guides[i].count + 1];
+        if (guides[i].count > max) max = guides[i].count;
     }
-    memcpy(found, a->pose.frame, size);
-    for (int k = 0; k < BISECTIONS; ++k) {
-        double middle = (fails + does) / 2;
-        hair_rod_pose_at(a->shape, failed, &a->pose);
-        int here = holds_at(a, middle);
-        memcpy(here ? found : failed, a->pose.frame, size);
-        *(here ? &does : &fails) = middle;
-    }
-    hair_rod_pose_at(a->shape, found, &a->pose);
-    return does;
-}
-
-// Return the maximum distance of a vertex of the pose from its position in `place`.
-static double max_distance(const struct search* a, const hair_dvec3* place)
-{
-    double max = 0;
-    for (uint32_t i = 1; i < a->shape->count; ++i)
-        max = fmax(max, hair_dlength(hair_dadd(a->pose.place[i], hair_dscale(place[i], -1))));
+    for (uint32_t n = 1; n < HAIR_MAX_GUIDE_VERTICES + 2; ++n) first[n] += first[n - 1];
+    for (uint32_t i = 0; i < count; ++i) out[first[guides[i].count]++] = i;
     return max;
 }
 
-// Return whether the guide comes to rest in the pose when released from its groom.
-static bool is_reached(const struct search* a)
+hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_guide* guides,
+                                      const struct hair_rest* rest, uint32_t count,
+                                      const hair_physics* physics, struct hair_rod_borne* out,
+                                      struct hair_rods_report* report)
 {
-    struct hair_rod_pose released;
-    double length = 0;
-    for (uint32_t i = 0; i + 1 < a->shape->count; ++i) length += a->shape->length[i];
-    hair_rod_pose_at(a->shape, a->shape->frame, &released);
-    hair_rod_settle(a->shape, a->rest, 1, LAST_STEPS, &released);
-    return max_distance(a, released.place) < SAME * length;
-}
-
-// Find the pose to hold and its rest shape. Return the distance of that pose from the groom.
-static double sag(struct search* a)
-{
-    double t = find_pose(a);
-    while (t <= 1) {
-        if (holds(a) && is_reached(a)) return max_distance(a, a->shape->place);
-        if (t >= 1) break;
-        t = fmin(t + STEP, 1);
-        holds_at(a, t);
+    const hair_host whole = hair_host_or_default(host);
+    *report = hair_rods_report_none();
+    struct preload a = {.guides = guides, .rest = rest, .physics = physics, .out = out, .report = report};
+    a.run = hair_block_kernels();
+    a.all = hair_alloc(&whole, count, 3 * sizeof *a.all);
+    if (!a.all) return HAIR_ERROR_MEMORY;
+    a.soft = a.all + count;
+    a.sagging = a.soft + count;
+    size_t bytes = sizeof *a.block + sort_guides(guides, count, a.all) * sizeof *a.block->vertex;
+    char* memory = hair_alloc(&whole, bytes + ALIGNMENT, 1);
+    if (memory) {
+        a.block = (struct hair_block*)(memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT);
+        hair_rods_ratios(physics, a.block->ratio);
+        hair_dvec3 load = hair_dscale(hair_dload(physics->gravity), (double)physics->shape.gravity_preload);
+        // Only a clamped strand can balance gravity. A hinged strand hangs. A free one falls.
+        a.block->is_loaded = physics->root == HAIR_ROOT_CLAMPED && hair_ddot(load, load) > 0;
+        a.block->load[0] = load.x;
+        a.block->load[1] = load.y;
+        a.block->load[2] = load.z;
+        run_all(&a, count);
     }
-    // No pose can be held. The rest shape balances no gravity, and the guide hangs.
-    memcpy(a->rest, a->own, sizeof a->rest);
-    hair_rod_pose_at(a->shape, a->shape->frame, &a->pose);
-    hair_rod_settle(a->shape, a->own, 1, LAST_STEPS, &a->pose);
-    return max_distance(a, a->shape->place);
-}
-
-static bool resists(const struct hair_rod_shape* s)
-{
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        if (!(hair_rod_stiffness(s, i) > 0)) return false;
-    return true;
-}
-
-static void start_search(struct search* a, struct hair_rod_shape* s)
-{
-    a->shape = s;
-    memcpy(a->bend, s->bend, s->count * sizeof *a->bend);
-    for (uint32_t i = 0; i + 1 < s->count; ++i)
-        a->own[i] = (hair_rod_rest){2 * s->turn[i].x, 2 * s->turn[i].y, 2 * s->turn[i].z, 2 * s->turn[i].w};
-    find_levers(s, a->lever);
-    hair_rod_pose_at(s, s->frame, &a->pose);
-}
-
-// Set the stress that the rest strain causes in the groom. Set rest_real to the rest shape.
-static void finish_search(struct search* a)
-{
-    struct hair_rod_shape* s = a->shape;
-    for (uint32_t i = 0; i + 1 < s->count; ++i) {
-        hair_dvec3 u = hair_dscale(strain_off(a, i), hair_rod_stiffness(s, i));
-        hair_dvec3 ratio = hair_rod_ratios_at(s, i);
-        s->stress[i] = (hair_dvec3){ratio.x * u.x, ratio.y * u.y, ratio.z * u.z};
-        s->rest_real[i] = a->rest[i].w;
-    }
-}
-
-struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* s)
-{
-    struct hair_rod_preload held = {.stiffest = 1};
-    struct search a;
-    if (hair_ddot(s->load, s->load) == 0) return held;
-    start_search(&a, s);
-    if (!resists(s)) { // No multiple of the stiffness helps.
-        hair_rod_load(s, 1, &a.pose);
-        hair_rod_balance(s, &a.pose);
-        memcpy(s->stress, a.pose.stress, (s->count - 1) * sizeof *s->stress);
-        return held;
-    }
-    prepare_groom(&a);
-    if (!groom_holds(&a)) {
-        double max = (HAIR_ROD_MAX_STIFFEN - 1) / a.lever[s->count - 2], c = max;
-        stiffen(&a, max);
-        held.sags = !groom_holds(&a);
-        if (!held.sags) c = min_stiffening(&a, max);
-        stiffen(&a, c);
-        held.stiffest = s->bend[0] / a.bend[0];
-        HAIR_ASSERT(held.stiffest >= 1 && held.stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
-        if (held.sags) held.sag = sag(&a);
-    }
-    if (!held.sags) balance_gravity(&a);
-    finish_search(&a);
-    return held;
+    hair_free(&whole, memory);
+    hair_free(&whole, a.all);
+    return memory ? HAIR_OK : HAIR_ERROR_MEMORY;
 }

@@ -23,6 +23,7 @@ struct rod_work {
     uint32_t all_rounds; // Rounds of all guides.
     uint32_t each; // Guides of a task.
     struct hair_rods_report report[MAX_TASKS];
+    bool is_refused[MAX_TASKS]; // True if the host has refused memory.
     bool is_mixed[MAX_TASKS];
     uint32_t rounds[MAX_TASKS];
 };
@@ -90,21 +91,27 @@ static void preload(uint32_t index, void* data)
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->report[index] = hair_rods_report_none();
+    work->is_refused[index] = false;
     for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
         struct hair_rods_report own;
-        hair_rods_preload_gravity(guides + run.first, work->source->rest, run.count, run.physics,
-                                  work->new_borne, &own);
+        if (hair_rods_preload_gravity(work->source->host, guides + run.first, work->source->rest, run.count,
+                                      run.physics, work->new_borne, &own))
+            work->is_refused[index] = true;
         add_report(&work->report[index], &own);
     }
 }
 
-void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
-                           struct hair_rod_borne* out, struct hair_rods_report* report)
+hair_result hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
+                                  struct hair_rod_borne* out, struct hair_rods_report* report)
 {
     struct rod_work work = {.source = source, .physics = physics, .new_borne = out};
     uint32_t tasks = divide_guides(&work, preload);
     *report = hair_rods_report_none();
-    for (uint32_t i = 0; i < tasks; ++i) add_report(report, &work.report[i]);
+    for (uint32_t i = 0; i < tasks; ++i) {
+        if (work.is_refused[i]) return hair_fail_memory(source->host, "the gravity preload of guides");
+        add_report(report, &work.report[i]);
+    }
+    return HAIR_OK;
 }
 
 static void find_mixed(uint32_t index, void* data)
@@ -242,7 +249,7 @@ static hair_result fill(const struct hair_rod_source* source, struct hair_prepar
     p->borne = hair_alloc(host, source->vertices, sizeof *p->borne);
     p->rod = hair_alloc(host, source->vertices, sizeof *p->rod);
     if (!p->borne || !p->rod) return hair_fail_memory(host, "the guides as rods");
-    hair_rods_preload_all(source, &p->physics, p->borne, &p->report);
+    HAIR_TRY(hair_rods_preload_all(source, &p->physics, p->borne, &p->report));
     p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
     p->substep = hair_rods_shared_substep(source, p->borne, &p->physics, p->solver, p->mixed);
     p->report.softened =

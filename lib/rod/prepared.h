@@ -18,8 +18,8 @@ struct hair_rod_source {
 };
 
 // Compute the gravity preload of all guides. See hair_rods_preload_gravity().
-void hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
-                           struct hair_rod_borne* out, struct hair_rods_report* report);
+hair_result hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
+                                  struct hair_rod_borne* out, struct hair_rods_report* report);
 
 // Apply hair_rods_are_mixed() to all guides.
 bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,

@@ -230,30 +230,6 @@ static double write_guide(const struct hair_rod_shape* s, double tautness, const
     return softest;
 }
 
-void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                               const hair_physics* physics, struct hair_rod_borne* out,
-                               struct hair_rods_report* report)
-{
-    *report = hair_rods_report_none();
-    for (uint32_t k = 0; k < count; ++k) {
-        struct hair_rod_shape shape;
-        struct hair_rod_borne* own = out + guides[k].first;
-        double bend[HAIR_MAX_GUIDE_VERTICES];
-        hair_rod_shape_of(guides + k, rest + guides[k].first, physics, &shape);
-        memcpy(bend, shape.bend, sizeof bend);
-        struct hair_rod_preload held = hair_rod_preload_gravity(&shape);
-        for (uint32_t i = 0; i < shape.count; ++i) {
-            hair_dvec3 g = shape.stress[i];
-            own[i] = (struct hair_rod_borne){
-                {g.x, g.y, g.z}, shape.rest_real[i], bend[i] > 0 ? shape.bend[i] / bend[i] : 1};
-        }
-        report->stiffened += held.stiffest > 1;
-        report->sagging += (uint32_t)held.sags;
-        report->stiffest = fmaxf(report->stiffest, (float)held.stiffest);
-        report->farthest_sag = fmaxf(report->farthest_sag, (float)held.sag);
-    }
-}
-
 void hair_rod_shape_with(const struct hair_guide* guide, const struct hair_rest* rest,
                          const struct hair_rod_borne* borne, const hair_physics* physics,
                          struct hair_rod_shape* out)

@@ -16,6 +16,7 @@
 
 #include "glsl/shared.h"
 #include "lib/base/assert.h"
+#include "lib/base/host.h"
 
 #include <stdbool.h>
 
@@ -68,9 +69,13 @@ static inline struct hair_rods_report hair_rods_report_none(void)
 // is too soft would still buckle out of the groom, or need a rest strain further than 1 from the
 // groom's own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. A
 // guide that needs more stiffness sags to a pose that it can keep.
-void hair_rods_preload_gravity(const struct hair_guide* guides, const struct hair_rest* rest, uint32_t count,
-                               const hair_physics* physics, struct hair_rod_borne* out,
-                               struct hair_rods_report* report);
+//
+// The order of the guides changes no result. NULL `host` selects the C library's allocator. Return
+// HAIR_ERROR_MEMORY if the host refuses memory.
+hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_guide* guides,
+                                      const struct hair_rest* rest, uint32_t count,
+                                      const hair_physics* physics, struct hair_rod_borne* out,
+                                      struct hair_rods_report* report);
 
 // Write one hair_rod per guide vertex for substeps of the given length. `borne` comes from
 // hair_rods_preload_gravity(). Limit the distance of the rest strain from the groom's own to 1.

@@ -1,9 +1,6 @@
 // rod_shape.c - a guide's lengths, masses, stiffness, frames and strain in its groom.
 #include "lib/rod/rod_shape.h"
 
-// Minimum length of a segment, m. The shortest segment of the shortest strand of a groom is about
-// as long.
-#define SHORTEST 1e-9
 #define TWO_PI 6.283185307179586
 
 static hair_dvec3 along(hair_dquat q)
@@ -45,7 +42,7 @@ void hair_rods_ratios(const hair_physics* physics, double ratio[3])
     ratio[2] = 1 / flat;
 }
 
-static double pull_squared(const hair_physics* physics, double fraction)
+double hair_rod_pull_squared(const hair_physics* physics, double fraction)
 {
     double root = (double)physics->shape.frequency_root,
            frequency = root + fraction * ((double)physics->shape.frequency_tip - root);
@@ -59,7 +56,7 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
         (double)physics->fiber.youngs_modulus * radius * radius / (4 * (double)physics->fiber.density);
     hair_dvec3 gravity = hair_dload(physics->gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
-        s->length[i] = i + 1 < s->count ? fmax((double)rest[i].position.w, SHORTEST) : 0;
+        s->length[i] = i + 1 < s->count ? fmax((double)rest[i].position.w, HAIR_ROD_SHORTEST) : 0;
         s->mass[i] = (s->length[i] + (i > 0 ? s->length[i - 1] : 0)) / 2;
         total += s->length[i];
     }
@@ -70,7 +67,7 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
     for (uint32_t i = 0; i < s->count; ++i) {
         double fraction = so_far / total, root = (double)physics->shape.stiffness_root;
         s->bend[i] = bend * (root + fraction * ((double)physics->shape.stiffness_tip - root));
-        s->pull[i] = pull_squared(physics, (double)i / (s->count - 1));
+        s->pull[i] = hair_rod_pull_squared(physics, (double)i / (s->count - 1));
         so_far += s->length[i];
         if (i > 0) s->weight += s->mass[i] * s->gravity;
     }

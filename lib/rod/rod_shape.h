@@ -56,6 +56,13 @@ static inline hair_dvec3 hair_drotate(hair_dquat q, hair_dvec3 v)
     return hair_dadd(v, hair_dadd(hair_dscale(t, q.w), hair_dcross(u, t)));
 }
 
+// Minimum length of a segment, m. The shortest segment of the shortest strand of a groom is about
+// as long.
+#define HAIR_ROD_SHORTEST 1e-9
+
+// Return the squared angular frequency of the pull to the groom at a fraction of the vertices.
+double hair_rod_pull_squared(const hair_physics* physics, double fraction);
+
 struct hair_rod_shape {
     double ratio[3];
     uint32_t count; // Number of vertices.
@@ -80,7 +87,7 @@ struct hair_rod_shape {
 };
 
 // Compute the shape of a guide. `rest` is the guide's first vertex. The stress is 0 and rest_real
-// is the groom's until hair_rod_preload_gravity() or hair_rod_bear() sets them.
+// is the groom's until hair_rod_bear() sets them.
 void hair_rod_shape_of(const struct hair_guide* guide, const struct hair_rest* rest,
                        const hair_physics* physics, struct hair_rod_shape* out);
 
@@ -132,19 +139,7 @@ void hair_follow_write(const struct hair_rod_shape* shape, struct hair_rod* out)
 
 // Maximum multiple of the bending stiffness that holds the groom.
 #define HAIR_ROD_MAX_STIFFEN 3.0
-// Result of hair_rod_preload_gravity().
-struct hair_rod_preload {
-    double stiffest; // Largest multiple of the stiffness. 1 if no vertex is stiffened.
-    double sag; // Largest distance of a vertex at rest from the groom, m. 0 if the groom holds.
-    int sags;
-};
-// Set stress and rest_real of a new shape so that the shape holds its groom. Multiply its bending
-// stiffness by 1 to 3, vertex by vertex, as far as holding the groom needs. Even with 3 the groom
-// may be unstable, or its rest strain further than 1 from the groom's own. The guide is then three
-// times as stiff, and sags by as little as leads to a stable pose. See gravity_preload.c.
-struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* shape);
-
-// Apply the result of an earlier hair_rod_preload_gravity() to an equal shape.
+// Apply the gravity preload to a new shape.
 void hair_rod_bear(struct hair_rod_shape* shape, const struct hair_rod_borne* borne);
 
 #endif

@@ -118,11 +118,17 @@ static hair_result hold(struct hair_sim* sim)
         rods->report = p->report;
     } else {
         struct hair_rod_source source = source_of(sim);
-        if (!rods->own_borne)
-            rods->own_borne = hair_alloc(host, sim->guide_vertices, sizeof *rods->own_borne);
-        if (!rods->own_borne) return hair_fail_memory(host, "the guides as rods");
-        hair_rods_preload_all(&source, &sim->physics, rods->own_borne, &rods->report);
-        rods->borne = rods->own_borne;
+        struct hair_rods_report report;
+        struct hair_rod_borne* borne = hair_alloc(host, sim->guide_vertices, sizeof *borne);
+        if (!borne) return hair_fail_memory(host, "the guides as rods");
+        hair_result result = hair_rods_preload_all(&source, &sim->physics, borne, &report);
+        if (result) {
+            hair_free(host, borne);
+            return result;
+        }
+        hair_free(host, rods->own_borne);
+        rods->borne = rods->own_borne = borne;
+        rods->report = report;
     }
     rods->borne_for = sim->physics;
     rods->borne_for_groups = sim->groups.version;

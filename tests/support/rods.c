@@ -1,5 +1,7 @@
 #include "tests/support/rods.h"
 
+#include "tests/support/support.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,7 +71,9 @@ double hair_test_rod_bend(const hair_physics* p)
 
 void hair_test_rod_hold(struct hair_test_rod* f)
 {
-    hair_rods_preload_gravity(&f->guide, f->rest, 1, &f->physics, f->borne, &f->report);
+    hair_result result =
+        hair_rods_preload_gravity(NULL, &f->guide, f->rest, 1, &f->physics, f->borne, &f->report);
+    assert_int_equal(result, HAIR_OK);
 }
 
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "lib/rod/statics.h"
+#include "tests/support/rod_statics.h"
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793

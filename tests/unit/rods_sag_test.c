@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 #include "lib/groom/groom.h"
-#include "lib/rod/statics.h"
 #include "lib/sim/pins.h"
+#include "tests/support/rod_statics.h"
 #include "tests/support/rods.h"
 
 #define PI 3.141592653589793
@@ -72,13 +72,15 @@ static void compare(const char* name, const hair_groom* groom, const hair_physic
     struct hair_rod_borne* borne = calloc(groom->info.guide_vertex_count, sizeof *borne);
     struct hair_rod* rod = calloc(groom->info.guide_vertex_count, sizeof *rod);
     struct hair_rods_report all, own;
-    hair_rods_preload_gravity(groom->guides, groom->rest, count, physics, borne, &all);
+    assert_int_equal(hair_rods_preload_gravity(NULL, groom->guides, groom->rest, count, physics, borne, &all),
+                     HAIR_OK);
     hair_rods_write(groom->guides, groom->rest, borne, count, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240, rod);
     assert_true(all.stiffest >= 1 && all.stiffest <= 3);
     double farthest = 0, stiffen = 0;
     for (uint32_t k = 0; k < count; ++k) {
         const struct hair_guide* guide = groom->guides + k;
-        hair_rods_preload_gravity(guide, groom->rest, 1, physics, borne, &own);
+        assert_int_equal(hair_rods_preload_gravity(NULL, guide, groom->rest, 1, physics, borne, &own),
+                         HAIR_OK);
         for (uint32_t i = 0; i < guide->count; ++i)
             assert_true(borne[guide->first + i].stiffen >= 1 && borne[guide->first + i].stiffen <= 3);
         for (uint32_t i = 0; i + 1 < guide->count; ++i)

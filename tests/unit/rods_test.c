@@ -217,7 +217,8 @@ static void guides_are_written_in_order_and_counted(void** state)
     memcpy(rest, short_one->rest, 5 * sizeof *rest);
     memcpy(rest + 5, long_one->rest, 32 * sizeof *rest);
     memcpy(rest + 37, short_one->rest, 5 * sizeof *rest);
-    hair_rods_preload_gravity(guides, rest, 3, &short_one->physics, borne, &report);
+    assert_int_equal(hair_rods_preload_gravity(NULL, guides, rest, 3, &short_one->physics, borne, &report),
+                     HAIR_OK);
     hair_rods_write(guides, rest, borne, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0, 1e-3, rod);
     assert_memory_equal(rod, short_one->rod, 5 * sizeof *rod);
     assert_memory_equal(rod + 5, long_one->rod, 32 * sizeof *rod);

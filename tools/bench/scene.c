@@ -149,7 +149,7 @@ static bool is_mixed(const struct bench_scene* scene, const double root_frame[4]
         rest[i].frame = frame;
         guide.arc_length += rest[i].position.w;
     }
-    hair_rods_preload_gravity(&guide, rest, 1, &scene->physics, borne, &report);
+    if (hair_rods_preload_gravity(NULL, &guide, rest, 1, &scene->physics, borne, &report)) return false;
     return hair_rods_are_mixed(&guide, rest, borne, 1, &scene->physics, scene->solver, false, scene->substep);
 }
 

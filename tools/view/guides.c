@@ -27,8 +27,8 @@ struct hair_reference_rod* view_guide_rod(const hair_instance* hair, const hair_
     double stiffen[HAIR_MAX_GUIDE_VERTICES];
     struct hair_rods_report report;
     alone.first = 0;
-    hair_rods_preload_gravity(&alone, rest, 1, physics, borne, &report);
-    if (report.sagging) return NULL;
+    if (hair_rods_preload_gravity(NULL, &alone, rest, 1, physics, borne, &report) || report.sagging)
+        return NULL;
     for (uint32_t i = 0; i < alone.count; ++i) stiffen[i] = borne[i].stiffen;
     const struct hair_reference_guide_rod desc = {.guide = &alone,
                                                   .rest = rest,

@@ -1,27 +1,6 @@
-// statics.c - forces and stress of a rod in a pose, and its poses of rest.
-//
-// Let x_k be the position of vertex k, m_k its mass, and X_k its position in the groom. Let F_i be
-// the force on all beyond segment i, by gravity g and the pull p_k = m_k w_k^2 to the groom:
-//
-//   F_i = sum_(k > i) m_k g + p_k (X_k - x_k)
-//
-// In equilibrium the moment in the strand at vertex i is
-//
-//   M_i = M_(i+1) + l_i t_i x F_i,   M_(n-1) = 0
-//
-// where l_i is the length of segment i, and t_i its direction.
-//
-// Let (w, v) = conj(q_(i-1)) q_i. A turn of segment i by d, in the frame of segment i-1, changes
-// the strain u = 2 v by w d + d x v, and 2 w by -v . d. The stress G = dE/du and e = dE/d(2 w) thus
-// exert the moment M = w G + v x G - e v. In a pose whose 2 w equal those at rest, e is 0. The
-// stress for a moment is then
-//
-//   G = w M + v (v . M) / w - v x M
-//
-// A pose of rest is found by Newton's method on the turns of the segments, as in variation.c. Where
-// the matrix is not positive, a multiple of the unit matrix is added. Each step is halved until it
-// does not raise the energy.
-#include "lib/rod/statics.h"
+// rod_statics.c - forces and stress of a rod in a pose, and its poses of rest, as
+// lib/rod/block_statics.h describes.
+#include "tests/support/rod_statics.h"
 
 #include <string.h>
 
@@ -147,10 +126,13 @@ static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_p
     return max;
 }
 
+// Return the rotation by a turn of at most LONGEST_TURN. The series end below the rounding error.
 static hair_dquat exponential(hair_dvec3 turn)
 {
-    double angle = hair_dlength(turn), s = angle > 1e-12 ? sin(angle / 2) / angle : 0.5;
-    return (hair_dquat){s * turn.x, s * turn.y, s * turn.z, cos(angle / 2)};
+    double h = hair_ddot(turn, turn) / 4; // Square of half the angle.
+    double sine = 1 - h / 6 * (1 - h / 20 * (1 - h / 42 * (1 - h / 72 * (1 - h / 110 * (1 - h / 156)))));
+    double cosine = 1 - h / 2 * (1 - h / 12 * (1 - h / 30 * (1 - h / 56 * (1 - h / 90 * (1 - h / 132)))));
+    return (hair_dquat){sine / 2 * turn.x, sine / 2 * turn.y, sine / 2 * turn.z, cosine};
 }
 
 // Turn the segments from their frames `from` by a fraction of the turns.

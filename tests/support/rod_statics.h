@@ -1,11 +1,22 @@
-// statics.h - poses of one guide under gravity and the pull to its groom. The functions test poses
-// for stability and find poses of rest.
-#ifndef HAIR_ROD_STATICS_H
-#define HAIR_ROD_STATICS_H
+// rod_statics.h - poses of one guide under gravity and the pull to its groom. The functions test
+// poses for stability and find poses of rest. They are the reference of lib/rod/block_statics.h,
+// which computes several guides at once.
+#ifndef HAIR_TESTS_SUPPORT_ROD_STATICS_H
+#define HAIR_TESTS_SUPPORT_ROD_STATICS_H
 
 #include "lib/rod/rod_shape.h"
 
 #include <stdbool.h>
+
+// Result of hair_rod_preload_gravity().
+struct hair_rod_preload {
+    double stiffest; // Largest multiple of the stiffness. 1 if no vertex is stiffened.
+    double sag; // Largest distance of a vertex at rest from the groom, m. 0 if the groom holds.
+    int sags;
+};
+// Set stress and rest_real of a new shape so that the shape holds its groom, and stiffen the shape
+// as far as this needs. This is the reference of hair_rods_preload_gravity().
+struct hair_rod_preload hair_rod_preload_gravity(struct hair_rod_shape* shape);
 
 struct hair_rod_pose {
     hair_dquat frame[HAIR_MAX_GUIDE_VERTICES]; // Frame of segment i.
@@ -40,13 +51,15 @@ void hair_rod_strain(const struct hair_rod_shape* shape, const hair_rod_rest* re
 bool hair_rod_is_stable(const struct hair_rod_shape* shape, const struct hair_rod_pose* pose,
                         double squared_frequency);
 
-// Second derivatives of a vertex's energy by the turns a before and b after it. See variation.c.
+// Second derivatives of a vertex's energy by the turns a before and b after it. See
+// rod_variation.c.
 struct hair_rod_hinge {
     double before[6], after[6]; // Entries 00, 10, 11, 20, 21 and 22 by a a and by b b.
     double between[3][3]; // Row r has the derivatives by component r of b.
 };
 
-// Columns of the derivative of a segment by its turn, of which the second is 0. See variation.c.
+// Columns of the derivative of a segment by its turn, of which the second is 0. See
+// rod_variation.c.
 struct hair_rod_swing {
     double x[3], z[3];
 };

@@ -1,42 +1,6 @@
-// variation.c - a rod's energy to second order in the turns of its segments. It gives the test for
-// stability, and the step of Newton's method.
-//
-// The forces F_i, the stress G, e and (w, v) are those of statics.c. Let segment i turn by a_i in
-// its own frame: q_i <- q_i exp(a_i / 2). Let a and b be the turns before and after a vertex, k its
-// stiffness, and R the ratios of rod.h. To second order the vertex's energy changes by
-//
-//   G . du + k/2 du . R du - (G . v + e w) (a^2 + b^2) / 4 - G . Im(a (w, v) b) / 2
-//     + e v . (a - b) + k R_z/2 (v . (a - b))^2 + e/2 a . (w + [v]x) b
-//   du = (w + [v]x) b - (w - [v]x) a
-//
-// The force F on a segment of length l along y changes the energy by
-//
-//   -l (y x F) . a + l (F.y a^2 - (a . F) a.y) / 2
-//
-// The pull adds sum_k p_k |dx_k|^2 / 2, where
-//
-//   dx_(i+1) = dx_i + D_i a_i,   D_i a = l_i q_i (a x y) q_i*
-//
-// This couples every segment to every other. But the part beyond vertex i depends on the rest only
-// through x = dx_i and a = a_(i-1). The minimum of its energy is
-//
-//   V_i(x, a) = min_b [vertex_i(a, b) + segment_i(b) + p_(i+1) |x + D_i b|^2 / 2
-//                      + V_(i+1)(x + D_i b, b)]
-//
-// V_i is again quadratic, from V_(n-1) = 0 at the tip to V_0(0, 0) at the clamp. The whole energy
-// is positive when the 3 x 3 matrix of each b is positive. This is a Riccati recursion, and its
-// cost is linear in the number of vertices. The turns include twist. The test thus finds all
-// buckling of a rod, in and out of plane.
-//
-// Small motions about a pose oscillate at a squared frequency of more than W when the energy less
-//
-//   sum_k m_k W |dx_k|^2 / 2
-//
-// is positive. Subtracting this term is equivalent to a pull p_k that is weaker by m_k W.
-//
-// A bisection over the stiffness tests one pose many times. All that does not depend on the
-// stiffness is then computed once: see hair_rod_prepare_stability().
-#include "lib/rod/statics.h"
+// rod_variation.c - a rod's energy to second order in the turns of its segments, as
+// lib/rod/block_variation.h describes.
+#include "tests/support/rod_statics.h"
 
 #include <string.h>
 
