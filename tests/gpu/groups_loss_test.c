@@ -14,8 +14,7 @@ static const uint8_t groups[GUIDES] = {0, 1, 2};
 
 struct fixture {
     struct hair_test* test;
-    hair_context* own; // context of the test
-    hair_egl* egl; // OpenGL context that is lost
+    struct hair_test_restorable restorable;
     struct hair_test_strands strands;
     struct hair_test_living living;
 };
@@ -25,27 +24,19 @@ static void begin(struct hair_test* test, struct fixture* f)
 {
     hair_physics physics = hair_test_loose(0.3f);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
-    hair_context_desc context = hair_context_desc_default();
-    hair_context* made = NULL;
     hair_group_look look = hair_group_look_default();
-    *f = (struct fixture){.test = test, .own = test->context, .strands = hair_test_strands_make(GUIDES, 8)};
+    *f = (struct fixture){.test = test, .strands = hair_test_strands_make(GUIDES, 8)};
     for (uint32_t g = 0; g < GUIDES; ++g)
         hair_test_add_straight(&f->strands, 8, hair_v3(0.05f * (float)g, 0, 0), hair_v3(1, -1, 0), 0.2f);
     f->strands.groups = groups;
-    context.host = &test->host.host;
-    context.get_proc = hair_egl_get_proc;
-    context.restorable = true;
-    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
-    hair_test_ok(test, hair_context_create(&context, &made));
-    test->context = made;
+    hair_test_restorable_begin(test, &f->restorable);
     hair_test_live(test, &f->strands, &desc, &f->living);
     physics.tip_mass = 0.5f, physics.fiber.youngs_modulus = 1e9f;
     hair_test_ok(test, hair_set_group_physics(f->living.hair, 1, &physics));
     look.radius = 0.5f, look.color.enabled = true;
     hair_test_ok(test, hair_set_group_look(f->living.hair, 2, &look));
     hair_test_wait(&f->living, 3);
-    hair_egl_destroy(f->egl);
-    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
+    hair_test_restorable_lose(test, &f->restorable);
 }
 
 static void check_groups(struct fixture* f)
@@ -71,10 +62,7 @@ static void end(struct fixture* f)
 {
     hair_test_die(&f->living);
     hair_test_strands_free(&f->strands);
-    hair_context_destroy(f->test->context);
-    hair_egl_destroy(f->egl);
-    hair_egl_make_current(f->test->egl);
-    f->test->context = f->own;
+    hair_test_restorable_end(f->test, &f->restorable);
 }
 
 static void restored_groups_keep_their_physics_and_looks(void** state)

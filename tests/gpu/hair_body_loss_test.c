@@ -11,8 +11,7 @@
 
 struct fixture {
     struct hair_test* test;
-    hair_context* own; // context of the test
-    hair_egl* egl; // OpenGL context that is lost
+    struct hair_test_restorable restorable;
     struct hair_test_mesh mesh;
     struct hair_test_strands strands;
     struct hair_test_living living;
@@ -24,15 +23,8 @@ static void begin(struct hair_test* test, struct fixture* f)
 {
     hair_physics physics = hair_test_loose(0.3f);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
-    hair_context_desc context = hair_context_desc_default();
-    hair_context* made = NULL;
-    *f = (struct fixture){.test = test, .own = test->context, .mesh = hair_test_ball_mesh(0.06f, 16, 24)};
-    context.host = &test->host.host;
-    context.get_proc = hair_egl_get_proc;
-    context.restorable = true;
-    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
-    hair_test_ok(test, hair_context_create(&context, &made));
-    test->context = made;
+    *f = (struct fixture){.test = test, .mesh = hair_test_ball_mesh(0.06f, 16, 24)};
+    hair_test_restorable_begin(test, &f->restorable);
     f->strands = hair_test_straight(16, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
     hair_test_live(test, &f->strands, &desc, &f->living);
     f->body = hair_test_deforming(test, &f->mesh, 0.16f, 16);
@@ -42,22 +34,13 @@ static void begin(struct hair_test* test, struct fixture* f)
     hair_test_wait(&f->living, 2);
 }
 
-static void lose(struct fixture* f)
-{
-    hair_egl_destroy(f->egl);
-    hair_test_ok(f->test, hair_egl_create(&f->test->host.host, -1, &f->egl));
-}
-
 static void end(struct fixture* f)
 {
     hair_body_destroy(f->body);
     hair_test_die(&f->living);
     hair_test_strands_free(&f->strands);
     assert_int_equal(f->test->context->sdf_pool.nodes, 0);
-    hair_context_destroy(f->test->context);
-    hair_egl_destroy(f->egl);
-    hair_egl_make_current(f->test->egl);
-    f->test->context = f->own;
+    hair_test_restorable_end(f->test, &f->restorable);
     hair_test_mesh_free(&f->mesh);
 }
 
@@ -83,7 +66,7 @@ static void restored_body_pushes_hair_away(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    lose(&f);
+    hair_test_restorable_lose(f.test, &f.restorable);
     hair_test_ok(f.test, hair_context_restore(f.test->context));
     assert_true(sweep(&f) > 0.03);
     end(&f);
@@ -96,7 +79,7 @@ static void lost_shape_of_a_destroyed_body_touches_nothing(void** state)
     begin(*state, &f);
     hair_body_destroy(f.body);
     f.body = NULL;
-    lose(&f);
+    hair_test_restorable_lose(f.test, &f.restorable);
     hair_test_ok(f.test, hair_context_restore(f.test->context));
     assert_true(sweep(&f) < 1e-4);
     end(&f);
@@ -115,7 +98,7 @@ static void hair_that_misses_a_body_is_restored(void** state)
     hair_test_wait(&f.living, 2);
     hair_test_ok(f.test, hair_load(f.living.hair, bytes, size));
     free(bytes);
-    lose(&f);
+    hair_test_restorable_lose(f.test, &f.restorable);
     hair_test_ok(f.test, hair_context_restore(f.test->context));
     const struct hair_collider_list* list = hair_sim_colliders(&f.living.hair->sim);
     assert_int_equal(list->count, 1);
@@ -128,7 +111,7 @@ static void refused_memory_keeps_bodies_for_the_next_attempt(void** state)
 {
     struct fixture f;
     begin(*state, &f);
-    lose(&f);
+    hair_test_restorable_lose(f.test, &f.restorable);
     hair_test_restore_against_refusals(f.test, f.living.hair);
     assert_true(sweep(&f) > 0.03);
     end(&f);

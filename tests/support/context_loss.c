@@ -172,6 +172,33 @@ hair_result hair_test_loss_run(struct hair_test_loss* f)
     return result;
 }
 
+void hair_test_restorable_begin(struct hair_test* test, struct hair_test_restorable* f)
+{
+    hair_context_desc desc = hair_context_desc_default();
+    desc.host = &test->host.host;
+    desc.get_proc = hair_egl_get_proc;
+    desc.restorable = true;
+    *f = (struct hair_test_restorable){.own = test->context};
+    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
+    hair_context* made = NULL;
+    hair_test_ok(test, hair_context_create(&desc, &made));
+    test->context = made;
+}
+
+void hair_test_restorable_lose(struct hair_test* test, struct hair_test_restorable* f)
+{
+    hair_egl_destroy(f->egl);
+    hair_test_ok(test, hair_egl_create(&test->host.host, -1, &f->egl));
+}
+
+void hair_test_restorable_end(struct hair_test* test, struct hair_test_restorable* f)
+{
+    hair_context_destroy(test->context);
+    hair_egl_destroy(f->egl);
+    hair_egl_make_current(test->egl);
+    test->context = f->own;
+}
+
 void hair_test_restore_against_refusals(struct hair_test* test, hair_instance* hair)
 {
     hair_result result = HAIR_ERROR_MEMORY;

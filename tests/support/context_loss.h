@@ -53,6 +53,19 @@ void hair_test_loss_replace_egl(struct hair_test_loss* f);
 // -1.
 int hair_test_loss_check(struct hair_test_loss* f, const struct hair_test_loss_run* run);
 
+// A restorable context in an OpenGL context of its own.
+struct hair_test_restorable {
+    hair_context* own; // context of the test
+    hair_egl* egl; // OpenGL context that is lost
+};
+
+// Give a test a restorable context in place of its own.
+void hair_test_restorable_begin(struct hair_test* test, struct hair_test_restorable* f);
+// Replace the OpenGL context, with all that it holds.
+void hair_test_restorable_lose(struct hair_test* test, struct hair_test_restorable* f);
+// Destroy the restorable context, and give the test its own back.
+void hair_test_restorable_end(struct hair_test* test, struct hair_test_restorable* f);
+
 // Restore the context of an instance while every allocation is refused in turn. Check that a failed
 // restoration changes nothing.
 void hair_test_restore_against_refusals(struct hair_test* test, hair_instance* hair);
