@@ -42,17 +42,22 @@ float light_through(hair_fragment f, uint number, out float met)
 }
 
 // Return the fraction of the sky that no hair hides. Without the density grid, it is an estimate
-// from the fraction `through` of the first light that comes through hair, because occluders of the
-// first light also occlude the sky.
+// from the fraction `through` of the first light, because occluders of the first light also occlude
+// the sky. The constants are fitted to the density grid. Hair on the side away from the light sees
+// the sky as well, so they are close to the mean.
 float sky_open(hair_fragment f, float through)
 {
-    if (draw.light_values == 0u) return 0.1 + 0.4 * sqrt(through);
+    const float FIT_SHADED = 0.29, FIT_LIT = 0.13;
+    if (draw.light_values == 0u) return FIT_SHADED + FIT_LIT * through;
     return clamp(light_found(0u, f.strand, f.t).x, 1e-3, 1.0);
 }
 
 // Return how parallel the strands around are: 1 for straight hair and 0 for curls. Without the
-// density grid nothing measures it.
-float order_of(hair_fragment f) { return draw.light_values > 0u ? light_found(0u, f.strand, f.t).y : 0.6; }
+// density grid, it is the mean of the head.
+float order_of(hair_fragment f)
+{
+    return draw.light_values > 0u ? light_found(0u, f.strand, f.t).y : draw.order;
+}
 
 vec3 sky_of(hair_fragment f)
 {
@@ -156,8 +161,7 @@ vec3 hair_shade(hair_fragment f)
         if (i == 0u) open = light; // Occluders of the first light also occlude the sky.
     }
     // Light hair transmits more of the sky.
-    vec3 through = draw.light_values > 0u ? pow(vec3(sky_open(f, open)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)))
-                                          : vec3(0.25 + 0.75 * sqrt(open));
+    vec3 through = pow(vec3(sky_open(f, open)), 1.0 - sqrt(clamp(f.color, 0.0, 1.0)));
     return sum + sky_of(f) * own.albedo * through;
 }
 #endif

@@ -3,8 +3,8 @@
 //
 // The fraction through hair is that of vertex_transmittance.comp for strand vertices, where it is
 // known. Otherwise it is exponential in the depth of hair that the light's shadow map shows (Beer
-// 1852), averaged over taps around the point. The fraction past opaque geometry is 0 or 1, filtered
-// over the texels around the point.
+// 1852), averaged over taps around the point, and fewer strands than there are. The fraction past
+// opaque geometry is 0 or 1, filtered over the texels around the point.
 #include "draw_params.glsl"
 #include "light/shadow_map.glsl"
 
@@ -53,6 +53,17 @@ float light_through_strands(uint number, uint strand, float t, out float met)
     return found.x;
 }
 
+// Return the mean number of strands that light meets but a shadow map does not show. A texel has
+// only the strand that is nearest to the light. `met` is the number of strands that the map shows.
+// The constants are fitted to the fractions of HAIR_SELF_SHADOW_STRANDS.
+float strands_between(float met)
+{
+    const float FIT_HIDDEN = 0.53, FIT_FIRST = 0.2;
+    return FIT_HIDDEN * sqrt(met / (met + FIT_FIRST));
+}
+
+// Return the fraction of a light that passes through the hair in front of a point. `met` is the
+// number of strands that light meets.
 float light_through_depth(uint number, vec3 position, uint seed, out float met)
 {
     vec4 more = draw.light[number * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE];
@@ -79,7 +90,9 @@ float light_through_depth(uint number, vec3 position, uint seed, out float met)
         arm = GOLDEN_TURN * arm;
     }
     met /= float(SHADOW_TAPS);
-    return sum / float(SHADOW_TAPS);
+    float shown = -log(clamp(sum / float(SHADOW_TAPS), 1e-6, 1.0)), between = strands_between(shown);
+    met += between;
+    return exp(-shown - between);
 }
 
 #ifdef HAIR_OPAQUE_SHADOWS

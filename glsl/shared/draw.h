@@ -132,6 +132,9 @@ struct hair_draw_params {
     hair_uint shape_vertices; // Vertices of a follower's shape. 0 if followers have none.
     hair_uint encode; // hair_encoding.
     float     max_radius; // Maximum radius of a drawn strand, m.
+    // Parallelism of the strands where no pass measures their vertices, from 0 for curls to 1.
+    float     order;
+    hair_uint unused0, unused1, unused2;
     hair_vec4 map_weights; // Weights of the sets of maps. Their sum is 1.
     // Parameters of the level of detail.
 

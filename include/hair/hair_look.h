@@ -214,7 +214,8 @@ typedef struct hair_look {
     struct {
         hair_self_shadow method; ///< Default HAIR_SELF_SHADOW_DEPTH.
         /// Extinction coefficient of the hair, the mean number of strands that light meets per
-        /// metre. HAIR_SELF_SHADOW_DEPTH only.
+        /// metre. HAIR_SELF_SHADOW_DEPTH only, which adds about half a strand that maps do not
+        /// show.
         float absorption; ///< 1/m. [0, 10000]. Default 200.
         /// Minimum cell size of the density grid of HAIR_SELF_SHADOW_STRANDS.
         float cell; ///< m. [0.001, 1]. Default 0.004.

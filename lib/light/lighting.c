@@ -6,6 +6,7 @@ hair_result hair_lighting_create(struct hair_lighting* lighting, struct hair_gl*
 {
     GLuint made[2] = {0};
     lighting->gl = gl;
+    hair_lighting_measure_groom(lighting, groom);
     lighting->has_groom_colors = groom->colors != NULL;
     if (!groom->colors) return HAIR_OK;
     HAIR_TRY(hair_lighting_make_colors(lighting, groom->info.follower_count, groom->colors, made));
@@ -62,6 +63,7 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
     out->specular = (hair_vec4){look->shading.specular[0], look->shading.specular[1], look->shading.gloss[0],
                                 look->shading.gloss[1]};
     write_fibre(look, &out->fibre);
+    out->order = hair_lighting_order(lighting, look);
     hair_look_write_tint(look, &out->tint);
     if (!lighting->has_groom_colors) out->tint.groom_color = 0;
     if (!view) return;

@@ -21,6 +21,8 @@ struct hair_lighting {
     // Colours of the groom and of groups. 0 if there are none.
     GLuint groom_color, groom_color_texture;
     bool has_groom_colors, has_group_colors;
+    float groom_order; // of guides at rest, see hair_lighting_order()
+    float groom_length; // mean length of guides, m
     // 2D views of layers of the application's shadow maps, until hair_lighting_unbind().
     GLuint map_view[2 * HAIR_SHADOW_MAPS];
     GLsizei map_views;
@@ -47,6 +49,14 @@ void hair_lighting_bind(struct hair_lighting* lighting, const hair_look* look, c
 // Create or update the fibre table for a look. Defined in fibres.c.
 hair_result hair_lighting_ensure_fibres(struct hair_lighting* lighting, const hair_look* look);
 void hair_lighting_free_fibres(struct hair_lighting* lighting);
+
+// Functions of order.c.
+
+// Measure the guides at rest for hair_lighting_order().
+void hair_lighting_measure_groom(struct hair_lighting* lighting, const struct hair_groom* groom);
+// Return how parallel strands are: 1 for straight hair, and 0 for curls. The estimate is from the
+// guides at rest, and the curls and the frizz of the look.
+float hair_lighting_order(const struct hair_lighting* lighting, const hair_look* look);
 
 // Shadow maps of one light of a view. `light` is the index of the light. `shadow` is the hair
 // shadow map, and `body` the opaque shadow map. 0 means no map.
