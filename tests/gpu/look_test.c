@@ -164,8 +164,8 @@ static hair_look curls_of(hair_look_preset preset)
     return look;
 }
 
-// Check the sizes that hair_look.h gives for presets with curls.
-static void presets_have_their_diameter_and_length_of_turns(void** state)
+// Check the sizes that hair_look.h gives for every `step`-th preset with curls, in what is drawn now.
+static void check_presets(struct hair_test_scene* f, const char* when, size_t step)
 {
     static const struct {
         hair_look_preset preset;
@@ -176,22 +176,43 @@ static void presets_have_their_diameter_and_length_of_turns(void** state)
                 {HAIR_LOOK_3A, {0.025, 0.055}},    {HAIR_LOOK_3B, {0.014, 0.034}},
                 {HAIR_LOOK_3C, {0.008, 0.021}},    {HAIR_LOOK_4A, {0.005, 0.013}},
                 {HAIR_LOOK_4B, {0.004, 0.009}},    {HAIR_LOOK_4C, {0.003, 0.007}}};
-    struct hair_test_scene f = start(state, (uint32_t)LOCKS);
-    for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i += step) {
         hair_look look = curls_of(rows[i].preset);
         // A strand may be shorter than a turn. All phases together have the mean of a turn.
         look.curl.strand_phase = 1;
-        float* curled = read_segments(&f, &look);
+        float* curled = read_segments(f, &look);
         float flatness = look.curl.flatness;
         look.curl.radius = 0;
-        float* plain = read_segments(&f, &look);
+        float* plain = read_segments(f, &look);
         struct curl_size size = measure_curls(plain, curled, look.strand.segments, (double)flatness);
-        print_message("    %s: %.1f mm wide, %.1f mm long\n", hair_look_name(rows[i].preset),
+        print_message("    %s, %s: %.1f mm wide, %.1f mm long\n", hair_look_name(rows[i].preset), when,
                       1000 * size.diameter, 1000 * size.turn);
         hair_test_near("diameter", i, size.diameter, rows[i].size.diameter, 0.1 * rows[i].size.diameter);
         hair_test_near("turn", i, size.turn, rows[i].size.turn, 0.1 * rows[i].size.turn);
         free(plain), free(curled);
     }
+}
+
+// Turn the head to and fro at 2 Hz while `frames` frames of 1/60 s pass. `angle` is the amplitude.
+static void shake(struct hair_test_scene* f, int frames, float angle)
+{
+    for (int i = 1; i <= frames; ++i) {
+        float turn = angle * sinf(6.2831853f * 2 * (float)i / 60), c = cosf(turn), s = sinf(turn);
+        const float head[16] = {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 0, 0, 0, 1};
+        hair_test_ok(f->test, hair_set_transform(f->hair, head));
+        hair_test_ok(f->test, hair_step(f->hair, 1.0f / 60));
+    }
+}
+
+static void presets_have_their_diameter_and_length_of_turns(void** state)
+{
+    struct hair_test_scene f = start(state, (uint32_t)LOCKS);
+    check_presets(&f, "at rest", 1);
+    shake(&f, 52, 0.6f);
+    check_presets(&f, "in a shake", 4);
+    shake(&f, 8, 0.6f);
+    shake(&f, 120, 0);
+    check_presets(&f, "after a shake", 4);
     hair_test_scene_free(&f);
 }
 
