@@ -164,7 +164,7 @@ static hair_look curls_of(hair_look_preset preset)
     return look;
 }
 
-// Check the sizes that hair_look.h gives for every `step`-th preset with curls, in what is drawn now.
+// Check the sizes that hair_look.h gives for every `step`-th preset with curls.
 static void check_presets(struct hair_test_scene* f, const char* when, size_t step)
 {
     static const struct {
