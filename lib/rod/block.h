@@ -68,6 +68,7 @@ struct hair_block {
     uint32_t count; // Number of vertices.
     double ratio[3];
     double load[3]; // Gravity that the rest strain is to balance, m/s^2.
+    bool is_round; // True if the section is round.
     bool is_loaded; // True if the load is not 0.
     bool sags; // True if the guides hold another pose than their groom.
     bool is_own; // True if the rest shape of a search is the groom, not `rest`.
@@ -78,6 +79,8 @@ struct hair_block {
     hair_lane_mask holds; // Result of a test.
     hair_lanes gravity; // Multiple of the load.
     hair_lanes amount; // Multiple c of the levers. See gravity_preload.c.
+    bool has_target; // True if a search stops near the places `at`.
+    double near; // Distance of such places, as a fraction of the length.
     uint32_t steps[HAIR_LANES]; // Maximum steps of Newton's method.
     struct hair_block_vertex vertex[];
 };

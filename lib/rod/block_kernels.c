@@ -50,14 +50,16 @@ HAIR_LANES_INLINE hair_lanes strain_by(struct hair_lanes3 stress, struct hair_la
 // Prepare tests of the groom. The pose is the groom, whose stress does not depend on the stiffness.
 HAIR_LANES_INLINE void prepare_groom(struct hair_block* b)
 {
-    hair_block_load(b, hair_lanes_of(1));
-    hair_block_balance(b);
-    for (uint32_t i = 0; i + 1 < b->count; ++i)
-        b->vertex[i].strain = strain_by(b->vertex[i].pose.stress, hair_block_ratios(b, i));
-    b->root_stress = b->vertex[0].pose.stress;
-    hair_block_load(b, hair_lanes_of(MARGIN));
-    hair_block_balance(b);
-    hair_block_prepare_stability(b, SLOWEST * SLOWEST);
+    struct hair_lanes3 own = {{0}, {0}, {0}}, load = own, own_moment = own, moment = own;
+    for (uint32_t i = b->count - 1; i-- > 0;) {
+        struct hair_block_vertex* v = b->vertex + i;
+        struct hair_lanes3 force = hair_block_add_load(b, v, hair_lanes_of(1), &own);
+        b->root_stress = hair_block_balance(v, force, &own_moment);
+        v->strain = strain_by(b->root_stress, hair_block_ratios(b, i));
+        force = hair_block_add_load(b, v, hair_lanes_of(MARGIN), &load);
+        struct hair_lanes3 stress = hair_block_balance(v, force, &moment);
+        hair_block_prepare_stability(b, i, force, stress, SLOWEST * SLOWEST);
+    }
 }
 
 // Find where the groom can be held with the present stiffness.
@@ -88,40 +90,52 @@ HAIR_LANES_INLINE struct hair_lanes3 strain_off(const struct hair_block_vertex* 
     return (struct hair_lanes3){own.x - v->rest.x, own.y - v->rest.y, own.z - v->rest.z};
 }
 
-// Set `rest` to the rest shape that balances the pose under gravity. Return where the strain of the
-// rest shape is allowed.
-HAIR_LANES_INLINE hair_lane_mask balance_gravity(struct hair_block* b)
+// Set `rest` to the rest shape that balances a stress. Return where the strain of the rest shape is
+// allowed.
+HAIR_LANES_INLINE hair_lane_mask balance_stress(const struct hair_block* b, uint32_t i,
+                                                struct hair_block_vertex* v, struct hair_lanes3 stress)
 {
-    hair_lane_mask allowed = ~(hair_lane_mask){0};
-    hair_block_load(b, hair_lanes_of(1));
-    hair_block_balance(b);
-    for (uint32_t i = 0; i + 1 < b->count; ++i) {
-        struct hair_block_vertex* v = b->vertex + i;
-        struct hair_lanes3 g = hair_lanes_scale(v->pose.stress, 1 / v->stiffness);
-        struct hair_lanes3 ratio = hair_block_ratios(b, i);
-        struct hair_lanes4 t = v->pose.turn;
-        v->rest = (struct hair_lanes4){2 * t.x - g.x / ratio.x, 2 * t.y - g.y / ratio.y,
-                                       2 * t.z - g.z / ratio.z, 2 * t.w};
-        allowed &= hair_lanes_length(strain_off(v)) <= HAIR_ROD_MAX_STRAIN;
-    }
-    return allowed;
+    struct hair_lanes3 g = hair_lanes_scale(stress, 1 / v->stiffness), ratio = hair_block_ratios(b, i);
+    struct hair_lanes4 t = v->pose.turn;
+    v->rest = (struct hair_lanes4){2 * t.x - g.x / ratio.x, 2 * t.y - g.y / ratio.y, 2 * t.z - g.z / ratio.z,
+                                   2 * t.w};
+    struct hair_lanes3 off = strain_off(v);
+    return hair_lanes_dot(off, off) <= HAIR_ROD_MAX_STRAIN * HAIR_ROD_MAX_STRAIN;
 }
 
 // Find where the pose can be held. Set `rest` to the rest shape that holds the pose.
 HAIR_LANES_INLINE void test_pose(struct hair_block* b)
 {
-    hair_lane_mask allowed = b->active & balance_gravity(b);
-    hair_block_load(b, hair_lanes_of(MARGIN));
-    hair_block_balance(b);
-    b->holds = hair_block_is_stable(b, SLOWEST * SLOWEST, allowed);
+    struct hair_lanes3 own = {{0}, {0}, {0}}, load = own, own_moment = own, moment = own;
+    struct hair_block_beyond v = {0};
+    struct hair_block_stage stage;
+    struct hair_block_hinge hinge;
+    hair_lane_mask holds = b->active;
+    for (uint32_t i = b->count - 1; i-- > 0;) {
+        struct hair_block_vertex* at = b->vertex + i;
+        struct hair_lanes3 force = hair_block_add_load(b, at, hair_lanes_of(1), &own);
+        holds &= balance_stress(b, i, at, hair_block_balance(at, force, &own_moment));
+        if (!hair_lanes_any(holds)) continue;
+        force = hair_block_add_load(b, at, hair_lanes_of(MARGIN), &load);
+        struct hair_lanes3 stress = hair_block_balance(at, force, &moment);
+        struct hair_block_terms terms = hair_block_terms_of(at, force, SLOWEST * SLOWEST);
+        hair_block_write_hinge(b, i, stress, (hair_lanes){0}, &hinge);
+        holds &= hair_block_eliminate(&hinge, &terms, (hair_lanes){0}, &v, &stage);
+    }
+    b->holds = holds;
 }
 
 // Set the stress of the pose to the stress that the rest strain causes in the groom.
 HAIR_LANES_INLINE void find_result(struct hair_block* b)
 {
-    if (!b->sags) balance_gravity(b);
-    for (uint32_t i = 0; i + 1 < b->count; ++i) {
+    struct hair_lanes3 load = {{0}, {0}, {0}}, moment = load;
+    for (uint32_t i = b->count - 1; i-- > 0;) {
         struct hair_block_vertex* v = b->vertex + i;
+        if (!b->sags) {
+            struct hair_lanes3 force = hair_block_add_load(b, v, hair_lanes_of(1), &load);
+            v->pose.stress = hair_block_balance(v, force, &moment);
+            balance_stress(b, i, v, v->pose.stress);
+        }
         struct hair_lanes3 u = hair_lanes_scale(strain_off(v), v->stiffness);
         struct hair_lanes3 ratio = hair_block_ratios(b, i), g = v->pose.stress;
         // No stiffness holds a guide with a vertex that does not resist.

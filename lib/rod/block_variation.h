@@ -41,29 +41,42 @@
 
 #include "lib/rod/block.h"
 
-// Compute the part of a hinge that unit stiffness causes.
-HAIR_LANES_INLINE void hair_block_unit_hinge(struct hair_lanes4 t, struct hair_lanes3 ratios,
-                                             struct hair_block_hinge* h)
+// Compute the part of a hinge that the stiffness k causes. With D = w + [v]x, the derivative of du
+// by b, the parts are
+//
+//   a a: D K D^T + K_z v v^T   b b: D^T K D + K_z v v^T   b a: -(D K D)^T - K_z v v^T
+//
+// where K = k R. As D D^T + v v^T = 1, and D D + v v^T is the matrix of the rotation (w, v), only
+// the differences of K_x and K_y from K_z need products of D.
+HAIR_LANES_INLINE void hair_block_stiff_hinge(struct hair_lanes4 t, hair_lanes k, struct hair_lanes3 ratios,
+                                              bool is_round, struct hair_block_hinge* h)
 {
-    const hair_lanes v[3] = {t.x, t.y, t.z}, w = t.w;
-    const hair_lanes k[3] = {ratios.x, ratios.y, ratios.z};
-    // Derivative of du by b. The transpose is the derivative by -a.
-    const hair_lanes d[3][3] = {{w, -v[2], v[1]}, {v[2], w, -v[0]}, {-v[1], v[0], w}};
-    hair_lanes kd[3][3];
+    const hair_lanes v[3] = {t.x, t.y, t.z}, w = t.w, z = k * ratios.z;
+    const hair_lanes more[2] = {k * ratios.y - z, k * ratios.x - z};
+    const hair_lanes row[2][3] = {{v[2], w, -v[0]}, {w, -v[2], v[1]}}; // Rows y and x of D.
+    const hair_lanes column[2][3] = {{-v[2], w, v[0]}, {w, v[2], -v[1]}};
+    const hair_lanes vz[3] = {2 * z * v[0], 2 * z * v[1], 2 * z * v[2]}, wz = 2 * z * w;
+    hair_lanes xy = vz[0] * v[1], xz = vz[0] * v[2], yz = vz[1] * v[2], own = z - wz * w;
     HAIR_LANES_UNROLL
-    for (int r = 0; r < 3; ++r) HAIR_LANES_UNROLL
-    for (int c = 0; c < 3; ++c) kd[r][c] = k[r] * d[r][c];
-    HAIR_LANES_UNROLL
+    for (int n = 0; n < 6; ++n) h->before[n] = h->after[n] = (hair_lanes){0};
+    h->before[0] = h->before[2] = h->before[5] = h->after[0] = h->after[2] = h->after[5] = z;
+    h->between[0][0] = own - vz[0] * v[0];
+    h->between[1][1] = own - vz[1] * v[1];
+    h->between[2][2] = own - vz[2] * v[2];
+    h->between[0][1] = -xy - wz * v[2];
+    h->between[1][0] = -xy + wz * v[2];
+    h->between[0][2] = -xz + wz * v[1];
+    h->between[2][0] = -xz - wz * v[1];
+    h->between[1][2] = -yz - wz * v[0];
+    h->between[2][1] = -yz + wz * v[0];
+    for (int m = 0; m < (is_round ? 1 : 2); ++m) HAIR_LANES_UNROLL
     for (int r = 0, n = 0; r < 3; ++r) HAIR_LANES_UNROLL
-    for (int c = 0; c <= r; ++c, ++n) {
-        hair_lanes real = k[2] * v[r] * v[c];
-        h->before[n] = real + k[0] * d[r][0] * d[c][0] + k[1] * d[r][1] * d[c][1] + k[2] * d[r][2] * d[c][2];
-        h->after[n] = real + kd[0][r] * d[0][c] + kd[1][r] * d[1][c] + kd[2][r] * d[2][c];
+    for (int c = 0; c < 3; ++c) {
+        h->between[r][c] -= more[m] * row[m][r] * column[m][c];
+        if (c > r) continue;
+        h->before[n] += more[m] * column[m][r] * column[m][c];
+        h->after[n++] += more[m] * row[m][r] * row[m][c];
     }
-    HAIR_LANES_UNROLL
-    for (int r = 0; r < 3; ++r) HAIR_LANES_UNROLL
-    for (int c = 0; c < 3; ++c)
-        h->between[r][c] = -k[2] * v[r] * v[c] - d[c][0] * kd[0][r] - d[c][1] * kd[1][r] - d[c][2] * kd[2][r];
 }
 
 // Compute the part of a hinge that the stress `g` and `e` causes. Return what it subtracts from the
@@ -235,23 +248,28 @@ HAIR_LANES_INLINE void hair_block_eliminate_slope(struct hair_lanes3 slope, stru
     }
 }
 
-HAIR_LANES_INLINE struct hair_block_terms hair_block_terms_of(const struct hair_block_vertex* v,
-                                                              double squared_frequency)
+// Return the terms of the segment after a vertex. `force` is the force on all beyond the segment.
+HAIR_LANES_INLINE struct hair_block_terms
+hair_block_terms_of(const struct hair_block_vertex* v, struct hair_lanes3 force, double squared_frequency)
 {
-    return (struct hair_block_terms){hair_lanes_scale(v->pose.force, v->length),
+    return (struct hair_block_terms){hair_lanes_scale(force, v->length),
                                      v[1].mass * (v[1].pull - squared_frequency),
                                      hair_block_swing_of(v->pose.frame, v->length)};
 }
 
 HAIR_LANES_INLINE void hair_block_write_hinge(const struct hair_block* b, uint32_t i,
+                                              struct hair_lanes3 stress, hair_lanes real_stress,
                                               struct hair_block_hinge* out)
 {
     const struct hair_block_vertex* v = b->vertex + i;
     hair_lanes between[3][3];
-    struct hair_block_hinge unit;
-    hair_lanes self = hair_block_stressed_hinge(v->pose.turn, v->pose.stress, v->pose.real_stress, between);
-    hair_block_unit_hinge(v->pose.turn, hair_block_ratios(b, i), &unit);
-    hair_block_combine_hinge(&unit, v->stiffness, self, between, out);
+    hair_lanes self = hair_block_stressed_hinge(v->pose.turn, stress, real_stress, between);
+    hair_block_stiff_hinge(v->pose.turn, v->stiffness, hair_block_ratios(b, i), b->is_round, out);
+    out->before[0] -= self, out->before[2] -= self, out->before[5] -= self;
+    out->after[0] -= self, out->after[2] -= self, out->after[5] -= self;
+    HAIR_LANES_UNROLL
+    for (int r = 0; r < 3; ++r) HAIR_LANES_UNROLL
+    for (int c = 0; c < 3; ++c) out->between[r][c] += between[r][c];
 }
 
 // Return where all small undamped motions about the pose are oscillations with more than the given
@@ -264,23 +282,26 @@ HAIR_LANES_INLINE hair_lane_mask hair_block_is_stable(const struct hair_block* b
     struct hair_block_stage stage;
     struct hair_block_hinge hinge;
     for (uint32_t i = b->count - 1; i-- > 0 && hair_lanes_any(active);) {
-        struct hair_block_terms terms = hair_block_terms_of(b->vertex + i, squared_frequency);
-        hair_block_write_hinge(b, i, &hinge);
+        const struct hair_block_vertex* at = b->vertex + i;
+        struct hair_block_terms terms = hair_block_terms_of(at, at->pose.force, squared_frequency);
+        hair_block_write_hinge(b, i, at->pose.stress, at->pose.real_stress, &hinge);
         active &= hair_block_eliminate(&hinge, &terms, (hair_lanes){0}, &v, &stage);
     }
     return active;
 }
 
-// Prepare tests of the pose for small motions of at least the given squared angular frequency.
-HAIR_LANES_INLINE void hair_block_prepare_stability(struct hair_block* b, double squared_frequency)
+// Prepare tests of vertex i for small motions of at least the given squared angular frequency. The
+// force and the stress balance.
+HAIR_LANES_INLINE void hair_block_prepare_stability(struct hair_block* b, uint32_t i,
+                                                    struct hair_lanes3 force, struct hair_lanes3 stress,
+                                                    double squared_frequency)
 {
-    for (uint32_t i = 0; i + 1 < b->count; ++i) {
-        struct hair_block_vertex* v = b->vertex + i;
-        v->groom.self =
-            hair_block_stressed_hinge(v->pose.turn, v->pose.stress, v->pose.real_stress, v->groom.between);
-        if (i > 0) hair_block_unit_hinge(v->pose.turn, hair_block_ratios(b, i), &v->groom.unit);
-        v->groom.terms = hair_block_terms_of(v, squared_frequency);
-    }
+    struct hair_block_vertex* v = b->vertex + i;
+    v->groom.self = hair_block_stressed_hinge(v->pose.turn, stress, (hair_lanes){0}, v->groom.between);
+    if (i > 0)
+        hair_block_stiff_hinge(v->pose.turn, hair_lanes_of(1), hair_block_ratios(b, i), b->is_round,
+                               &v->groom.unit);
+    v->groom.terms = hair_block_terms_of(v, force, squared_frequency);
 }
 
 // Return the result of hair_block_is_stable() with the present stiffness.
@@ -290,7 +311,7 @@ HAIR_LANES_INLINE hair_lane_mask hair_block_test_stability(struct hair_block* b,
     struct hair_block_stage stage;
     struct hair_block_hinge hinge, root;
     // The stiffness changes the ratios at the clamp.
-    hair_block_unit_hinge(b->vertex[0].pose.turn, b->clamp_ratio, &root);
+    hair_block_stiff_hinge(b->vertex[0].pose.turn, hair_lanes_of(1), b->clamp_ratio, b->is_round, &root);
     for (uint32_t i = b->count - 1; i-- > 0 && hair_lanes_any(active);) {
         struct hair_block_vertex* at = b->vertex + i;
         hair_block_combine_hinge(i > 0 ? &at->groom.unit : &root, at->stiffness, at->groom.self,
@@ -300,23 +321,28 @@ HAIR_LANES_INLINE hair_lane_mask hair_block_test_stability(struct hair_block* b,
     return active;
 }
 
-// Find the turns of the segments, in their own frames, that minimise the energy to second order
-// about the pose. The slopes of the search are the derivatives of the energy by the turns. `shift`
-// is added to the diagonal of the matrix of second derivatives. Return where there is a minimum.
-HAIR_LANES_INLINE hair_lane_mask hair_block_find_step(struct hair_block* b, hair_lanes shift,
-                                                      hair_lane_mask active)
+// Eliminate the turn of segment i from the search for a step, whose slope is known. Return where
+// there is a minimum.
+HAIR_LANES_INLINE hair_lane_mask hair_block_eliminate_turn(struct hair_block* b, uint32_t i, hair_lanes shift,
+                                                           struct hair_block_beyond* v)
 {
     struct hair_block_hinge hinge;
-    struct hair_block_beyond v = {0};
-    hair_lanes x[3] = {0}, a[3] = {0};
-    for (uint32_t i = b->count - 1; i-- > 0;) {
-        struct hair_block_stage* stage = &b->vertex[i].search.stage;
-        struct hair_block_terms terms = hair_block_terms_of(b->vertex + i, 0);
-        hair_block_write_hinge(b, i, &hinge);
-        active &= hair_block_eliminate(&hinge, &terms, shift, &v, stage);
-        stage->swing = terms.swing;
-        hair_block_eliminate_slope(b->vertex[i].search.slope, &v, stage);
-    }
+    struct hair_block_vertex* at = b->vertex + i;
+    struct hair_block_stage* stage = &at->search.stage;
+    struct hair_block_terms terms = hair_block_terms_of(at, at->pose.force, 0);
+    hair_block_write_hinge(b, i, at->pose.stress, at->pose.real_stress, &hinge);
+    hair_lane_mask positive = hair_block_eliminate(&hinge, &terms, shift, v, stage);
+    stage->swing = terms.swing;
+    hair_block_eliminate_slope(at->search.slope, v, stage);
+    return positive;
+}
+
+// Find the turns of the segments, in their own frames, that minimise the energy to second order
+// about the pose, after the elimination of all. Lanes outside of `active` do not turn. Return the
+// maximum turn squared.
+HAIR_LANES_INLINE hair_lanes hair_block_find_turns_of_step(struct hair_block* b, hair_lane_mask active)
+{
+    hair_lanes x[3] = {0}, a[3] = {0}, max = {0};
     for (uint32_t i = 0; i + 1 < b->count; ++i) {
         const struct hair_block_stage* at = &b->vertex[i].search.stage;
         hair_lanes t[3];
@@ -330,10 +356,12 @@ HAIR_LANES_INLINE hair_lane_mask hair_block_find_step(struct hair_block* b, hair
         for (int r = 0; r < 3; ++r) {
             x[r] += at->swing.x[r] * t[0] + at->swing.z[r] * t[2];
             a[r] = t[r];
+            t[r] = hair_lanes_select(active, t[r], (hair_lanes){0});
         }
         b->vertex[i].search.turns = (struct hair_lanes3){t[0], t[1], t[2]};
+        max = hair_lanes_max(max, hair_block_dot(t, t));
     }
-    return active;
+    return max;
 }
 
 #endif

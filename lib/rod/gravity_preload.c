@@ -266,11 +266,13 @@ static void find_reached(struct preload* a, hair_lane_mask* out)
     b->gravity = hair_lanes_of(1);
     b->is_own = false;
     for (int k = 0; k < HAIR_LANES; ++k) b->steps[k] = LAST_STEPS;
+    b->has_target = true;
+    b->near = SAME;
     a->run->settle(b);
-    hair_lane_mask reached = active & (max_distance(b, false) < SAME * length);
+    b->has_target = false;
+    *out |= active & (max_distance(b, false) < SAME * length);
     SET_FRAMES(b, active, v->pose.frame, v->search.found)
     a->run->place(b);
-    *out |= reached;
 }
 
 // No pose of some guides can be held. Their rest shape balances no gravity, and they hang.
@@ -370,6 +372,7 @@ hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_g
     if (memory) {
         a.block = (struct hair_block*)(memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT);
         hair_rods_ratios(physics, a.block->ratio);
+        a.block->is_round = a.block->ratio[0] == a.block->ratio[2];
         hair_dvec3 load = hair_dscale(hair_dload(physics->gravity), (double)physics->shape.gravity_preload);
         // Only a clamped strand can balance gravity. A hinged strand hangs. A free one falls.
         a.block->is_loaded = physics->root == HAIR_ROOT_CLAMPED && hair_ddot(load, load) > 0;

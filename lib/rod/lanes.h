@@ -8,6 +8,9 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
 
 // Number of guides that are computed at once.
 #define HAIR_LANES 4
@@ -56,10 +59,19 @@ HAIR_LANES_INLINE hair_lanes hair_lanes_abs(hair_lanes a)
 {
     return hair_lanes_select(a < 0, -a, a);
 }
+// sqrt() may set errno, so compilers do not use vectors for it.
 HAIR_LANES_INLINE hair_lanes hair_lanes_sqrt(hair_lanes a)
 {
     hair_lanes root;
+#ifdef __SSE2__
+    for (int k = 0; k < HAIR_LANES; k += 2) {
+        __m128d pair = _mm_sqrt_pd(_mm_set_pd(a[k + 1], a[k]));
+        root[k] = pair[0];
+        root[k + 1] = pair[1];
+    }
+#else
     for (int k = 0; k < HAIR_LANES; ++k) root[k] = sqrt(a[k]);
+#endif
     return root;
 }
 HAIR_LANES_INLINE bool hair_lanes_any(hair_lane_mask mask)

@@ -126,13 +126,10 @@ static double find_slope(const struct hair_rod_shape* s, const struct hair_rod_p
     return max;
 }
 
-// Return the rotation by a turn of at most LONGEST_TURN. The series end below the rounding error.
 static hair_dquat exponential(hair_dvec3 turn)
 {
-    double h = hair_ddot(turn, turn) / 4; // Square of half the angle.
-    double sine = 1 - h / 6 * (1 - h / 20 * (1 - h / 42 * (1 - h / 72 * (1 - h / 110 * (1 - h / 156)))));
-    double cosine = 1 - h / 2 * (1 - h / 12 * (1 - h / 30 * (1 - h / 56 * (1 - h / 90 * (1 - h / 132)))));
-    return (hair_dquat){sine / 2 * turn.x, sine / 2 * turn.y, sine / 2 * turn.z, cosine};
+    double angle = hair_dlength(turn), s = angle > 1e-12 ? sin(angle / 2) / angle : 0.5;
+    return (hair_dquat){s * turn.x, s * turn.y, s * turn.z, cos(angle / 2)};
 }
 
 // Turn the segments from their frames `from` by a fraction of the turns.
