@@ -60,7 +60,7 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     f.strand   = number;
     f.uv       = vec2(0.0);
     f.across   = 0.0;
-    f.color    = tint_of(f.seed, f.lock, t, f.random, color_at(number, t));
+    f.color    = tint_of(f.seed, f.lock, whole_t(t), f.random, color_at(number, whole_t(t)));
 #ifdef HAIR_ROOT_UV
     f.uv = texelFetch(uv_texture, int(number)).xy;
     if (draw.textured != 0u) f.color *= textureLod(color_texture, f.uv, 0.0).rgb;
@@ -96,7 +96,7 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     hair_point    point    = evaluate(follower, number, t);
     vec3          moved    = vec3(0.0);
 #ifdef HAIR_WIDENED
-    if (widened > 1.0) moved = gather(follower, t, point.radius * (widened - 1.0), point);
+    if (widened > 1.0) moved = gather(follower, whole_t(t), point.radius * (widened - 1.0), point);
 #endif
     strand_vertex v;
     v.position = vec4(point.position, point.radius * width);

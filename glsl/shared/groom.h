@@ -21,7 +21,8 @@ HAIR_SIZE(hair_guide)
 
 // A guide vertex at rest, in groom space.
 struct hair_rest {
-    hair_vec4 position; // xyz: m. w: distance to the next vertex, m. 0 for the tip.
+    // xyz: m. w: distance to the next vertex, m. For the tip: length that has been cut off, m.
+    hair_vec4 position;
     // Frame of the segment to the next vertex, parallel-transported from the root's frame. Unit
     // quaternion, y along the segment.
     hair_vec4 frame;

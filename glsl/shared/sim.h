@@ -277,6 +277,15 @@ struct hair_joint {
 };
 HAIR_SIZE(hair_joint)
 
+// Guide whose length changes, before the change.
+struct hair_length_change {
+    hair_uint guide;
+    hair_uint count; // Number of vertices.
+    float     last;  // Length of the last segment, m.
+    hair_uint unused0;
+};
+HAIR_SIZE(hair_length_change)
+
 // Bit of hair_target_params.flags.
 #define HAIR_TARGETS_RESET 1u // There is no history. Vertices get their weights at once.
 

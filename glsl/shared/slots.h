@@ -97,6 +97,10 @@
 #define HAIR_BIND_TARGET 7
 #define HAIR_BIND_TARGET_WEIGHT 3 // float[] per guide. Weight to come. Read-only.
 
+// Buffer of the pass that cuts guides, which also has those of the rod solvers but
+// HAIR_BIND_ROD. hair_length_change[] per guide that changes. Read-only.
+#define HAIR_BIND_LENGTH_CHANGE 3
+
 // Buffers of the passes that find followers inside colliders.
 #define HAIR_BIND_HIT 3    // float[] per follower. First vertex inside, or HAIR_NO_HIT.
 // uvec2[] per follower and control point of strands/repair.glsl. Four halves.

@@ -24,6 +24,7 @@ vec4 head_then;      // Rotation of the head at the start of the substep.
 vec4 head_now;       // Rotation of the head at its end.
 vec3 head_moved;     // Displacement of the head's origin over the substep, m.
 float fraction;      // Fraction of the remaining step that the substep takes.
+vec3 target_before;  // Target of the vertex before, before the substep.
 
 void begin()
 {
@@ -47,14 +48,19 @@ float weight_along(float at)
 }
 
 // Move the target of vertex i and its weight by a substep. Return the displacement of the target
-// over the substep in the world, and set `target_now` to its position.
-vec3 move_target(uint i, float weight, out vec3 target_now)
+// over the substep in the world, and set `target_now` to its position. `at_cut` is true for the tip
+// of a guide that has been cut.
+vec3 move_target(uint i, bool at_cut, float weight, out vec3 target_now)
 {
     vec4 was   = target[i];
     vec3 to    = target_in_head(i);
     bool is_ok = is_near(to);
     if (was.w <= 0.0) was.xyz = rotate(quat_conjugate(head_then), state[i].position.xyz -
                                                                   state[i].displacement.xyz + head_moved);
+    else if (at_cut) was.xyz = cut_point(i, target_before, was.xyz);
+    if (at_cut && is_ok) to = cut_point(i, target_in_head(i - 1u), to);
+    is_ok         = is_near(to);
+    target_before = was.xyz;
     float change = resets ? 1.0 : blend.max_change;
     vec3  now    = is_ok ? mix(was.xyz, to, fraction) : was.xyz;
     if (!is_ok) weight = 0.0;
@@ -98,7 +104,7 @@ void main()
         vec3 goal, here = state[i].position.xyz, to = here;
         float weight = blend.strength * target_weight[g] *
                        weight_along(float(i - first) / float(end - first - 1u));
-        vec3 moved = move_target(i, weight, goal);
+        vec3 moved = move_target(i, i + 1u == end && is_cut(i), weight, goal);
         bool is_held = target[i].w >= 1.0;
         if (is_held) {
             to = goal;
@@ -115,4 +121,7 @@ void main()
         simulated = here;
         placed    = to;
     }
+    // Vertices that grow again begin with the weight 0.
+    uint next = g + 1u < params.guides ? guide[g + 1u].first : uint(target.length());
+    for (uint i = end; i < next; ++i) target[i].w = 0.0;
 }

@@ -18,6 +18,16 @@ vec3 target_in_head(uint i)
     return rotate(blend.rotation, at + blend.offset.xyz);
 }
 
+// Return the point at which a guide with the vertex `tip` as its tip is cut, on the segment from
+// `before` to `end`.
+vec3 cut_point(uint tip, vec3 before, vec3 end)
+{
+    return before + rest[tip - 1u].position.w * direction_or(end - before, vec3(0.0, -1.0, 0.0));
+}
+
+// Return whether a guide with the vertex `tip` as its tip has been cut.
+bool is_cut(uint tip) { return rest[tip].position.w > 0.0; }
+
 // Return whether a target is finite and near. The comparison is by bits, because compilers may
 // remove comparisons with NaN.
 bool is_near(vec3 v)

@@ -13,6 +13,7 @@
 vec3 blend_pose(uint i, uint own, uint count, vec3 simulated)
 {
     vec3  to     = target_in_head(own);
+    if (i + 1u >= count && is_cut(own)) to = cut_point(own, target_in_head(own - 1u), to);
     float weight = target[own].w;
     if (!is_near(to)) {
         to     = simulated;

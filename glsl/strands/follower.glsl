@@ -7,10 +7,26 @@
 #include "strands/look.glsl"
 #include "strands/fetch.glsl"
 
+#ifdef HAIR_LENGTHS
+layout(binding = HAIR_UNIT_LENGTH) uniform samplerBuffer length_texture;
+
+// Fraction of its length that the follower has which was fetched last, above 0.
+float kept = 1.0;
+
+// Return t of the whole strand for t of the follower that was fetched last. Looks place everything
+// on the whole strand, so that a cut does not move it.
+float whole_t(float t) { return t * kept; }
+#else
+float whole_t(float t) { return t; }
+#endif
+
 // Return a follower, cut to the length that is drawn.
 hair_follower fetch_follower(uint number)
 {
     hair_follower follower = fetch_whole(number);
+#ifdef HAIR_LENGTHS
+    kept = clamp(texelFetch(length_texture, int(number)).x, 1e-4, 1.0);
+#endif
 #ifdef HAIR_STYLED
     cut(follower);
 #endif
@@ -85,6 +101,11 @@ const repair UNTOUCHED = repair(vec3(0.0), vec3(0.0), 0.0, 0.0);
 // be longer than its guides.
 hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
 {
+    t = whole_t(t);
+#ifdef HAIR_LENGTHS
+    r.away_slope  /= kept;
+    r.freed_slope /= kept;
+#endif
     if (follower.multi < 0.0) return interpolate_own(follower, t, r);
     float       u       = t * follower.length_ratio;
     float       v       = min(t, 1.0);

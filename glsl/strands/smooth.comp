@@ -87,7 +87,10 @@ void main()
                  quat_multiply(scalp, guide[g].root_frame));
     sum_lengths(i, count);
 
-    float total = from_root[count - 1u];
+    // A guide that has been cut is smoothed over its length in the groom, and goes on straight.
+    float tip     = from_root[count - 1u];
+    float cut_off = rest[guide[g].first + count - 1u].position.w;
+    float total   = tip * (1.0 + cut_off / guide[g].arc_length);
     for (uint k = i; k < params.smooth_vertices; k += HAIR_GUIDE_THREADS) {
         float s      = total * float(k) / float(params.smooth_vertices - 1u);
         uint  j      = find_segment(s, count);
@@ -102,6 +105,7 @@ void main()
         vec3  point   = vertex[j] + w * chord + w * (1.0 - w) * ((1.0 - w) * bend0 - w * bend1);
         vec3  tangent = chord + (1.0 - w) * (1.0 - 3.0 * w) * bend0 - w * (2.0 - 3.0 * w) * bend1;
         tangent       = direction_or(tangent, segment_direction[j]);
+        if (cut_off > 0.0) point += max(s - tip, 0.0) * tangent;
         float rest_length = rest[guide[g].first + j].position.w;
 
         uint to             = g * params.smooth_vertices + k;

@@ -64,6 +64,7 @@
 #include <hair/hair_wind.h>
 #include <hair/hair_look.h>
 #include <hair/hair_targets.h>
+#include <hair/hair_cut.h>
 #include <hair/hair_view.h>
 #include <hair/hair_diagnostics.h>
 #include <hair/hair_buffers.h>

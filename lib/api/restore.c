@@ -62,6 +62,7 @@ static hair_result apply_settings(hair_instance* hair, hair_instance* lost)
     // The state is checked as bytes of a file are. A state that is refused leaves the hair at rest.
     hair_result result = hair_snapshots_load(&hair->sim, &lost->sim.snapshots);
     if (result && result != HAIR_ERROR_FILE) return result;
+    HAIR_TRY(hair_sim_copy_lengths(&hair->sim, &lost->sim.lengths));
     HAIR_TRY(hair_colliders_copy(&hair->context->host, &hair->sim.colliders, &lost->sim.colliders));
     hair_sim_set_head(&hair->sim, &lost->sim.head);
     if (pins->count) {

@@ -383,8 +383,10 @@ hair_result hair_read_positions(hair_instance* hair, hair_read_source what, floa
     hair_sim_set_unseen_time(&hair->sim, 0);
     if (what == HAIR_READ_FOLLOWERS) return read_followers(hair, number, positions);
     if (what == HAIR_READ_SMOOTH) return read_smooth(hair, number, positions);
-    return read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float), &sim->last_after,
-                       positions);
+    HAIR_TRY(read_buffer(hair, sim->state, number, sizeof(struct hair_state) / sizeof(float),
+                         &sim->last_after, positions));
+    hair_lengths_move_lost(sim, positions, number);
+    return HAIR_OK;
 }
 
 hair_result hair_get_solver_stats(hair_instance* hair, hair_solver_stats* out)

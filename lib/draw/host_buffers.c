@@ -20,6 +20,7 @@ static bool has_reflectance(const struct hair_renderer* renderer, size_t vertice
 {
     const struct hair_host_buffers* own = &renderer->host;
     return own->color_vertices == vertices && own->color_generation == renderer->gl->program_generation &&
+           own->color_lengths == renderer->geometry->lengths->version &&
            memcmp(&own->color_look, &renderer->geometry->look, sizeof own->color_look) == 0;
 }
 
@@ -34,6 +35,7 @@ static hair_result ensure_reflectance(struct hair_renderer* renderer)
     size_t vertices = hair_geometry_count_vertices(geometry);
     bool is_painted = hair_lighting_has_strand_colors(lighting, &geometry->look);
     hair_gl_pass pass = HAIR_GL_REFLECTANCE | (is_painted ? HAIR_GL_WITH(GROOM_COLORS) : 0);
+    if (hair_geometry_has_lengths(geometry)) pass |= HAIR_GL_WITH(LENGTHS);
     mark_used(renderer, HAIR_RESOURCE_REFLECTANCE);
     if (has_reflectance(renderer, vertices)) return HAIR_OK;
     HAIR_TRY(hair_gl_ensure_program(gl, pass));
@@ -52,6 +54,7 @@ static hair_result ensure_reflectance(struct hair_renderer* renderer)
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_SHADED, 1, NULL);
     own->color_look = geometry->look;
     own->color_generation = gl->program_generation;
+    own->color_lengths = geometry->lengths->version;
     return HAIR_OK;
 }
 

@@ -16,6 +16,7 @@ struct hair_host_buffers {
     size_t color_vertices;
     hair_look color_look; // Look with which the reflectance was written.
     uint32_t color_generation; // Value of hair_gl.program_generation at the last write. 0 for none.
+    uint32_t color_lengths; // Value of hair_lengths.version for `color`.
     struct hair_strand_index guide_index, follower_index;
 };
 

@@ -25,6 +25,7 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     if (plan->has_root_uvs) features |= HAIR_GL_WITH(ROOT_UV);
     if (plan->is_painted) features |= HAIR_GL_WITH(GROOM_COLORS);
     if (hair_look_is_styled(look)) features |= HAIR_GL_WITH(STYLED);
+    if (hair_geometry_has_lengths(renderer->geometry)) features |= HAIR_GL_WITH(LENGTHS);
     return features;
 }
 

@@ -48,6 +48,17 @@ hair_groom* hair_groom_retain(hair_groom* groom);
 // Remove a reference, and free the groom with the last one. Any thread. NULL is ignored.
 void hair_groom_release(hair_groom* groom);
 
+// Functions of cut.c.
+
+// Write a guide of which a fraction of its length is kept, [0, 1], and the vertices of the whole
+// guide at rest. The vertices beyond the new tip are those of the groom. position.w of the tip is
+// the length that is cut off, m.
+void hair_groom_cut_guide(const struct hair_groom* groom, uint32_t guide, float fraction,
+                          struct hair_guide* out, struct hair_rest* rest);
+// Return the fraction of its length that a follower has beside guides with the given fractions.
+float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t follower,
+                                   const float* guide_fraction);
+
 // Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);
 // Return the sphere inside the head: xyz is its centre, w its radius, m. The radius is 0 if none

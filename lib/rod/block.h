@@ -73,6 +73,7 @@ struct hair_block {
     bool sags; // True if the guides hold another pose than their groom.
     bool is_own; // True if the rest shape of a search is the groom, not `rest`.
     hair_lanes weight; // Weight of all vertices but the root.
+    hair_lanes cut_off; // Length that is cut off beyond the tip, m.
     struct hair_lanes3 clamp_ratio; // Ratios at the root. See hair_rod_ratios_at().
     struct hair_lanes3 root_stress; // Stress of the groom at the root.
     hair_lane_mask active; // Guides that a function works on.
@@ -156,13 +157,15 @@ HAIR_LANES_INLINE void hair_block_find_masses(struct hair_block* b, const hair_p
         v[i].mass = i > 0 ? (v[i].length + v[i - 1].length) / 2 : v[i].length / 2;
         total += v[i].length;
     }
-    v[b->count - 1].mass += (double)physics->tip_mass * total;
+    const hair_lanes whole = total + b->cut_off, none = {0};
+    v[b->count - 1].mass += hair_lanes_select(b->cut_off > 0, none, (double)physics->tip_mass * total);
     b->weight = (hair_lanes){0};
     for (uint32_t i = 0; i < b->count; ++i) {
-        hair_lanes fraction = so_far / total;
+        hair_lanes fraction = so_far / whole;
         v[i].material = bend * (root + fraction * ((double)physics->shape.stiffness_tip - root));
         v[i].bend = v[i].material;
-        v[i].pull = hair_lanes_of(hair_rod_pull_squared(physics, (double)i / (b->count - 1)));
+        for (int k = 0; k < HAIR_LANES; ++k)
+            v[i].pull[k] = hair_rod_pull_squared(physics, (double)i / (b->count - 1) * (total[k] / whole[k]));
         so_far += v[i].length;
         if (i > 0) b->weight += v[i].mass * g;
     }

@@ -81,6 +81,7 @@ static uint32_t load_block(struct preload* a, const uint32_t* list, uint32_t cou
             v->frame.x[k] = (double)q.x, v->frame.y[k] = (double)q.y;
             v->frame.z[k] = (double)q.z, v->frame.w[k] = (double)q.w;
             v->length[k] = is_tip ? 0 : fmax((double)rest[i].position.w, HAIR_ROD_SHORTEST);
+            if (is_tip) b->cut_off[k] = (double)rest[i].position.w;
             if (is_tip) continue;
             v->place.x[k] = (double)rest[i + 1].position.x - (double)rest[i].position.x;
             v->place.y[k] = (double)rest[i + 1].position.y - (double)rest[i].position.y;

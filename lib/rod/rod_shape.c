@@ -61,13 +61,15 @@ static void find_masses(struct hair_rod_shape* s, const struct hair_rest* rest, 
         total += s->length[i];
     }
     HAIR_ASSERT(total > 0);
-    s->mass[s->count - 1] += (double)physics->tip_mass * total;
+    double cut_off = (double)rest[s->count - 1].position.w, whole = total + cut_off;
+    // The additional mass of the tip is cut off with the tip.
+    if (cut_off == 0) s->mass[s->count - 1] += (double)physics->tip_mass * total;
     s->weight = 0;
     s->gravity = hair_dlength(gravity);
     for (uint32_t i = 0; i < s->count; ++i) {
-        double fraction = so_far / total, root = (double)physics->shape.stiffness_root;
+        double fraction = so_far / whole, root = (double)physics->shape.stiffness_root;
         s->bend[i] = bend * (root + fraction * ((double)physics->shape.stiffness_tip - root));
-        s->pull[i] = hair_rod_pull_squared(physics, (double)i / (s->count - 1));
+        s->pull[i] = hair_rod_pull_squared(physics, (double)i / (s->count - 1) * (total / whole));
         so_far += s->length[i];
         if (i > 0) s->weight += s->mass[i] * s->gravity;
     }

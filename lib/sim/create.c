@@ -44,6 +44,7 @@ static void measure_groom(struct hair_sim* sim, const struct hair_groom* groom)
     for (uint32_t i = 0; i < sim->guides; ++i) sim->layout = hair_hash(sim->layout + groom->guides[i].count);
     find_reach(sim, groom);
     sim->wind_state.ball = groom->head_sphere;
+    hair_lengths_init(&sim->lengths, groom);
     sim->scalp_motion.root_bindings = hair_root_bindings_retain(groom->root_bindings);
 }
 
@@ -93,6 +94,7 @@ void hair_sim_destroy(struct hair_sim* sim)
     hair_sim_free_rods(sim);
     hair_scalp_motion_free(sim);
     hair_targets_free(sim);
+    hair_lengths_free(sim);
     hair_sleep_free(sim);
     hair_diagnosis_free(sim);
     hair_impulses_free(sim);

@@ -89,7 +89,8 @@ static void compute_masses(const struct hair_sim* sim, const struct hair_guide* 
         for (uint32_t i = 0; i < guides[g].count; ++i) {
             uint32_t at = guides[g].first + i;
             double before = i > 0 ? (double)rest[at - 1].position.w : 0;
-            mass[at] = (before + (double)rest[at].position.w) / 2;
+            double after = i + 1 < guides[g].count ? (double)rest[at].position.w : 0;
+            mass[at] = (before + after) / 2;
         }
 }
 
@@ -267,7 +268,7 @@ static hair_result make_grid(struct hair_sim* sim, const struct hair_guide* guid
 hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guides,
                              const struct hair_rest* rest)
 {
-    if (!hair_grid_is_on(sim) || sim->hair_grid.texture) return HAIR_OK;
+    if (!hair_grid_is_on(sim) || sim->hair_grid.splat) return HAIR_OK;
     hair_result result = make_grid(sim, guides, rest);
     if (result) hair_grid_free(sim);
     return result;
@@ -275,13 +276,21 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
 
 hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim)
 {
-    return sim->rods ? hair_grid_create(sim, sim->rods->groom->guides, sim->rods->groom->rest) : HAIR_OK;
+    const struct hair_rest* rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
+    return guides ? hair_grid_create(sim, guides, rest) : HAIR_OK;
 }
 
 void hair_grid_free(struct hair_sim* sim)
 {
     struct hair_grid* hair_grid = &sim->hair_grid;
     hair_gl_free_array(sim->gl, &hair_grid->acceleration, &hair_grid->texture);
+    hair_grid_free_weights(sim);
+}
+
+void hair_grid_free_weights(struct hair_sim* sim)
+{
+    struct hair_grid* hair_grid = &sim->hair_grid;
     hair_gl_free_buffer(sim->gl, &hair_grid->params);
     hair_gl_free_buffer(sim->gl, &hair_grid->grid);
     hair_gl_free_buffer(sim->gl, &hair_grid->splat);

@@ -36,6 +36,9 @@ hair_result hair_grid_create(struct hair_sim* sim, const struct hair_guide* guid
                              const struct hair_rest* rest);
 // Make the hair-hair grid if the physics have cohesion or volume.
 hair_result hair_sim_ensure_hair_grid(struct hair_sim* sim);
+// Free what depends on the lengths of guides, which the next step makes again. The accelerations
+// stay.
+void hair_grid_free_weights(struct hair_sim* sim);
 void hair_grid_free(struct hair_sim* sim);
 
 // Create the contributions of guide vertices to a grid of mass alone, a buffer of

@@ -96,6 +96,23 @@ void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pi
     sim->pins.vertex_hash = hash_of_pins(resolved_pin, count);
 }
 
+void hair_pins_drop_lost(struct hair_sim* sim)
+{
+    struct hair_pins* pins = &sim->pins;
+    const struct hair_rest* rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < pins->count; ++i) {
+        const struct hair_guide* guide = &guides[pins->resolved_pin[i].guide];
+        uint32_t tip = guide->count - 1, vertex = pins->resolved_pin[i].vertex;
+        if (vertex < tip || (vertex == tip && rest[guide->first + tip].position.w == 0))
+            pins->resolved_pin[kept++] = pins->resolved_pin[i];
+    }
+    pins->count = kept;
+    pins->max_per_guide = max_per_guide(pins->resolved_pin, kept);
+    pins->vertex_hash = hash_of_pins(pins->resolved_pin, kept);
+}
+
 hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t count, size_t stride)
 {
     const hair_host* host = &sim->gl->host;
@@ -133,7 +150,8 @@ hair_result hair_pins_set(struct hair_sim* sim, const hair_pin* from, uint32_t c
 hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolved_pin* resolved_pin,
                             uint32_t count)
 {
-    const struct hair_guide* guides = hair_sim_guides(sim, NULL);
+    // The pins of vertices that guides have lost are removed after their lengths are loaded.
+    const struct hair_guide* guides = sim->rods ? sim->rods->groom->guides : NULL;
     for (uint32_t i = 0; i < count; ++i) {
         const struct hair_resolved_pin* k = &resolved_pin[i];
         if (!guides || k->guide >= sim->guides || k->vertex == 0 || k->vertex >= guides[k->guide].count)

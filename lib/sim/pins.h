@@ -32,6 +32,8 @@ hair_result hair_pins_check(const struct hair_sim* sim, const struct hair_resolv
 // Replace the pins by an allocated array, which the instance then owns.
 void hair_pins_adopt(struct hair_sim* sim, struct hair_resolved_pin* resolved_pin, uint32_t count);
 void hair_pins_free(struct hair_sim* sim);
+// Remove the pins of vertices that guides have lost, or that are the tip of a guide that is cut.
+void hair_pins_drop_lost(struct hair_sim* sim);
 
 // Write the pins for the solver, for a step to sim->head.
 hair_result hair_pins_write(struct hair_sim* sim);

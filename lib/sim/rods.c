@@ -27,11 +27,12 @@ static bool is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
 
 static struct hair_rod_source source_of(const struct hair_sim* sim)
 {
-    const struct hair_groom* groom = sim->rods->groom;
+    const struct hair_rest* rest;
+    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
     return (struct hair_rod_source){.host = &sim->gl->host,
-                                    .tasks = &groom->tasks,
-                                    .guides = groom->guides,
-                                    .rest = groom->rest,
+                                    .tasks = &sim->rods->groom->tasks,
+                                    .guides = guides,
+                                    .rest = rest,
                                     .groups = hair_sim_groups(sim),
                                     .count = sim->guides,
                                     .vertices = sim->guide_vertices,
@@ -84,7 +85,8 @@ static const struct hair_prepared_rods* find_prepared(const struct hair_sim* sim
 {
     const struct hair_prepared_rods* p = sim->rods->groom->prepared;
     bool is_own = p && p->solver == sim->solver && sim->asked_substep == 0 && !sim->pins.count &&
-                  !had_contact && find_substep_scale(sim) == 1 && !hair_sim_groups(sim);
+                  !had_contact && find_substep_scale(sim) == 1 && !hair_sim_groups(sim) &&
+                  !sim->lengths.guides;
     return is_own && !hair_rods_differ(&p->physics, &sim->physics) ? p : NULL;
 }
 
@@ -111,9 +113,9 @@ static hair_result hold(struct hair_sim* sim)
     const struct hair_prepared_rods* p = rods->groom->prepared;
     const hair_host* host = &sim->gl->host;
     if (rods->borne && rods->borne_for_groups == sim->groups.version &&
-        !hair_rods_differ(&rods->borne_for, &sim->physics))
+        rods->borne_for_lengths == sim->lengths.version && !hair_rods_differ(&rods->borne_for, &sim->physics))
         return HAIR_OK;
-    if (p && !hair_sim_groups(sim) && !hair_rods_differ(&p->physics, &sim->physics)) {
+    if (p && !hair_sim_groups(sim) && !sim->lengths.guides && !hair_rods_differ(&p->physics, &sim->physics)) {
         rods->borne = p->borne;
         rods->report = p->report;
     } else {
@@ -132,6 +134,7 @@ static hair_result hold(struct hair_sim* sim)
     }
     rods->borne_for = sim->physics;
     rods->borne_for_groups = sim->groups.version;
+    rods->borne_for_lengths = sim->lengths.version;
     return HAIR_OK;
 }
 
@@ -188,6 +191,7 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
                                  .had_contact = rods->had_contact,
                                  .made_for = rods->made_for,
                                  .made_for_groups = rods->made_for_groups,
+                                 .made_for_lengths = rods->made_for_lengths,
                                  .softened = rods->report.softened,
                                  .pinned = rods->pinned,
                                  .substep_scale = rods->substep_scale,
@@ -203,6 +207,7 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
     rods->had_contact = now.had_contact;
     rods->made_for = now.made_for;
     rods->made_for_groups = now.made_for_groups;
+    rods->made_for_lengths = now.made_for_lengths;
     rods->report.softened = now.softened;
     rods->pinned = now.pinned;
     rods->substep_scale = now.substep_scale;
@@ -247,6 +252,7 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
     *out = (struct hair_rod_set){.had_contact = had_contact,
                                  .made_for = sim->physics,
                                  .made_for_groups = sim->groups.version,
+                                 .made_for_lengths = sim->lengths.version,
                                  .pinned = sim->pins.vertex_hash,
                                  .substep_scale = find_substep_scale(sim)};
     out->last_scale = out->substep_scale;
@@ -293,10 +299,11 @@ static bool is_first_contact(const struct hair_sim* sim, int had_contact)
     return sim->solver == HAIR_SOLVER_DIRECT && hair_rods_are_long(rods->groom->guides, sim->guides);
 }
 
-// Return whether the rods are for the present physics of all groups.
+// Return whether the rods are for the present physics of all groups, and the present lengths.
 static bool are_for_physics(const struct hair_sim* sim)
 {
     return sim->rods->made_for_groups == sim->groups.version &&
+           sim->rods->made_for_lengths == sim->lengths.version &&
            !hair_rods_differ(&sim->rods->made_for, &sim->physics);
 }
 

@@ -64,6 +64,7 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     s.native = hair_alloc(host, 1, s.end);
     if (!s.native) return hair_fail_memory(host, "the state to load");
     struct hair_colliders colliders = {0};
+    struct hair_new_lengths lengths = {0};
     GLuint still = 0;
     hair_result result = hair_save_read(&s, &own, &loaded, &colliders);
     if (!result && loaded.has_anchors) {
@@ -72,6 +73,9 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     }
     if (!result && !skinned && hair_scalp_motion_is_on(sim))
         result = hair_scalp_motion_make_rest(sim, &still);
+    bool has_lengths = !result && (loaded.guide_fraction || sim->lengths.guides);
+    if (has_lengths)
+        result = hair_lengths_make(sim, loaded.guide_fraction, loaded.follower_fraction, &lengths);
     if (!result) result = upload_state(&s);
     if (!result && sim->bend && s.lacks_bend)
         sim->gl->ClearNamedBufferData(sim->bend, GL_R32F, GL_RED, GL_FLOAT, NULL);
@@ -80,10 +84,13 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     hair_free(host, s.native);
     hair_free(host, loaded.now.collider);
     hair_free(host, loaded.before.collider);
+    hair_free(host, loaded.guide_fraction);
+    hair_free(host, loaded.follower_fraction);
     if (result) {
         hair_free(host, loaded.resolved_pin);
         hair_colliders_free(host, &colliders);
         if (!sim->sleep.anchor) hair_sleep_free(&own);
+        hair_lengths_discard(sim, &lengths);
         return result;
     }
     hair_colliders_free(host, &sim->colliders);
@@ -91,6 +98,7 @@ static hair_result load_state(struct hair_sim* sim, const unsigned char* bytes, 
     *sim = own;
     sim->colliders = colliders;
     hair_pins_adopt(sim, loaded.resolved_pin, loaded.pins);
+    if (has_lengths) hair_lengths_use(sim, &lengths, false);
     sim->next_substep = 0;
     hair_diagnosis_reset(sim);
     if (!sim->hair_grid.acceleration) sim->hair_grid.substeps_done = 0;

@@ -185,6 +185,41 @@ static void serialize_targets(struct hair_serializer* s, struct hair_sim* sim, b
     hair_serialize_buffer(s, "positions of targets to come", targets->position[1], size);
 }
 
+// Serialize fractions of lengths. Read into an array that is allocated.
+static void serialize_fractions(struct hair_serializer* s, const char* name, uint32_t count, float* fraction,
+                                float** loaded)
+{
+    if (s->read && !s->result) {
+        if (count <= (s->end - s->at) / sizeof *fraction)
+            fraction = *loaded = hair_alloc(s->host, count, sizeof *fraction);
+        if (!*loaded)
+            s->result = hair_fail(s->host, HAIR_ERROR_FILE,
+                                  "the %u numbers \"%s\" from byte %zu of the saved state on do not fit",
+                                  count, name, s->at);
+    }
+    for (uint32_t i = 0; i < count && !s->result; ++i) {
+        hair_serialize_float(s, name, &fraction[i], 1);
+        if (s->read && !s->result && !(fraction[i] >= 0))
+            s->result = hair_fail(s->host, HAIR_ERROR_FILE,
+                                  "the %s before byte %zu of the saved state is %g, not in [0, 1]", name,
+                                  s->at, (double)fraction[i]);
+    }
+}
+
+// Serialize the lengths of guides and followers.
+static void serialize_lengths(struct hair_serializer* s, struct hair_sim* sim, bool has_lengths,
+                              struct hair_loaded* loaded)
+{
+    struct hair_lengths* lengths = &sim->lengths;
+    if (!has_lengths || s->result) return;
+    uint32_t followers = lengths->groom ? lengths->groom->info.follower_count : 0;
+    hair_serialize_same(s, "number of followers", followers);
+    serialize_fractions(s, "length of a guide", sim->guides, lengths->guide_fraction,
+                        &loaded->guide_fraction);
+    serialize_fractions(s, "length of a follower", followers, lengths->follower_fraction,
+                        &loaded->follower_fraction);
+}
+
 // Serialize the sleep state and the measurements of activity.
 static void serialize_sleep(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded)
 {
@@ -241,15 +276,16 @@ static void serialize_wind_coupling(struct hair_serializer* s, struct hair_wind_
 void hair_sim_serialize(struct hair_serializer* s, struct hair_sim* sim, struct hair_loaded* loaded)
 {
     uint32_t marks = (hair_scalp_motion_is_on(sim) ? HAIR_SAVE_SKINNED : 0) |
-                     (hair_targets_are_on(sim) ? HAIR_SAVE_TARGETS : 0);
+                     (hair_targets_are_on(sim) ? HAIR_SAVE_TARGETS : 0) |
+                     (sim->lengths.guides ? HAIR_SAVE_LENGTHS : 0);
     // hair_sim_load() reads this field in advance, so it is the first.
-    hair_serialize_uint(s, "marks of a skinned scalp and of targets", &marks,
-                        HAIR_SAVE_SKINNED | HAIR_SAVE_TARGETS);
+    hair_serialize_uint(s, "marks of a skinned scalp, of targets and of lengths", &marks, HAIR_SAVE_MARKS);
     hair_serialize_same(s, "solver", sim->solver);
     hair_serialize_same(s, "substep", sim->asked_substep);
     hair_serialize_same(s, "number of guides", sim->guides);
     hair_serialize_same(s, "number of guide vertices", sim->guide_vertices);
     hair_serialize_same(s, "hash of the vertices of each guide", sim->layout);
+    serialize_lengths(s, sim, (marks & HAIR_SAVE_LENGTHS) != 0, loaded);
     hair_serialize_double(s, "time since the last substep", &sim->accumulator, 0, MAX_SUBSTEP);
     hair_serialize_double(s, "length of the last substep", &sim->last_substep, MIN_SUBSTEP, MAX_SUBSTEP);
     hair_serialize_flag(s, "whether there have been colliders", &sim->had_contact);

@@ -15,6 +15,8 @@
 // Bits of the first field of a saved state.
 #define HAIR_SAVE_SKINNED 1u // The scalp is skinned.
 #define HAIR_SAVE_TARGETS 2u // Guides have targets.
+#define HAIR_SAVE_LENGTHS 4u // Strands have been cut.
+#define HAIR_SAVE_MARKS (HAIR_SAVE_SKINNED | HAIR_SAVE_TARGETS | HAIR_SAVE_LENGTHS)
 
 // Loaded arrays, before they are checked and collision meshes are held.
 struct hair_loaded {
@@ -24,6 +26,8 @@ struct hair_loaded {
     } now, before;
     struct hair_resolved_pin* resolved_pin; // Pins.
     uint32_t pins;
+    // Fractions of the lengths of guides and followers. NULL for whole strands.
+    float *guide_fraction, *follower_fraction;
     uint32_t anchors; // Index of the serializer's buffer that hair_sim_load() creates.
     bool has_anchors;
 };

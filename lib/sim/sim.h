@@ -12,6 +12,7 @@
 #include "lib/sim/hair_grid.h"
 #include "lib/sim/feedback.h"
 #include "lib/sim/impulses.h"
+#include "lib/sim/lengths.h"
 #include "lib/sim/snapshot.h"
 #include "lib/sim/solver_stats.h"
 #include "lib/rod/prepared.h"
@@ -58,6 +59,8 @@ struct hair_rods {
     hair_physics made_for, borne_for;
     // Values of sim->groups.version that the rods and the gravity preload were made for.
     uint32_t made_for_groups, borne_for_groups;
+    // Values of sim->lengths.version that the rods and the gravity preload were made for.
+    uint32_t made_for_lengths, borne_for_lengths;
     struct hair_rods_report report;
     int mixed; // 1 if the mixed scheme solves the guides. See glsl/sim/mixed.glsl.
     int stiff; // 1 if some guides are too stiff for SHAKE.
@@ -74,7 +77,7 @@ struct hair_rod_set {
     uint32_t rounds;
     int mixed, stiff, had_contact;
     hair_physics made_for;
-    uint32_t made_for_groups;
+    uint32_t made_for_groups, made_for_lengths;
     struct hair_rods_softened softened;
     uint32_t pinned, substep_scale;
     uint32_t last_scale; // Value of hair_sim.substep_scale. Loading sets it apart from the rods.
@@ -120,6 +123,7 @@ struct hair_sim {
     struct hair_wind_state wind_state;
     struct hair_scalp_motion scalp_motion;
     struct hair_targets targets;
+    struct hair_lengths lengths;
     struct hair_sleep sleep;
     struct hair_wind_coupling wind_coupling;
     struct hair_feedback feedback;

@@ -31,8 +31,9 @@ uint32_t hair_sim_contacts(const struct hair_sim* sim)
 
 const struct hair_guide* hair_sim_guides(const struct hair_sim* sim, const struct hair_rest** rest)
 {
-    if (rest) *rest = sim->rods ? sim->rods->groom->rest : NULL;
-    return sim->rods ? sim->rods->groom->guides : NULL;
+    const struct hair_lengths* lengths = &sim->lengths;
+    if (rest) *rest = !sim->rods ? NULL : lengths->guides ? lengths->rest : sim->rods->groom->rest;
+    return !sim->rods ? NULL : lengths->guides ? lengths->guides : sim->rods->groom->guides;
 }
 
 bool hair_sim_is_mixed(const struct hair_sim* sim)

@@ -45,6 +45,11 @@ static void free_hair(struct hair_wind_coupling* wind_coupling, struct hair_gl* 
     hair_gl_free_buffer(gl, &wind_coupling->params);
 }
 
+void hair_wind_coupling_free_hair(struct hair_sim* sim)
+{
+    free_hair(&sim->wind_coupling, sim->gl);
+}
+
 static bool is_porous(const struct hair_sim* sim)
 {
     return sim->wind.fluid.drag_strand_count > 0 && sim->physics.drag > 0;

@@ -26,6 +26,8 @@ bool hair_wind_coupling_is_on(const struct hair_sim* sim);
 hair_result hair_wind_coupling_ensure_programs(struct hair_sim* sim);
 // Create what the wind needs. Free what the wind no longer needs.
 hair_result hair_wind_coupling_ensure(struct hair_sim* sim);
+// Free what depends on the lengths of guides, which the next step makes again.
+void hair_wind_coupling_free_hair(struct hair_sim* sim);
 void hair_wind_coupling_free(struct hair_sim* sim);
 // Discard the fluid's past. The fluid starts again from the wind.
 void hair_wind_coupling_reset(struct hair_sim* sim);

@@ -73,11 +73,19 @@ void hair_geometry_bind(struct hair_geometry* geometry)
                          geometry->follower_collision.repair_texture};
     for (GLuint unit = 0; unit <= HAIR_UNIT_REPAIR; ++unit)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
+    if (hair_geometry_has_lengths(geometry))
+        gl->BindTextureUnit(HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
+}
+
+bool hair_geometry_has_lengths(const struct hair_geometry* geometry)
+{
+    return geometry->lengths->follower_texture != 0;
 }
 
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass)
 {
+    if (hair_geometry_has_lengths(geometry)) pass = hair_gl_add_features(pass, HAIR_GL_WITH(LENGTHS));
     return hair_look_is_styled(&geometry->look) ? hair_gl_add_features(pass, HAIR_GL_WITH(STYLED)) : pass;
 }
 

@@ -10,6 +10,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     geometry->gl = gl;
     geometry->look = *look;
     geometry->follower_collision.prepass = uses_prepass;
+    geometry->lengths = &sim->lengths;
     geometry->guides = sim->guides;
     geometry->smooth_vertices = sim->smooth_vertices;
     geometry->followers = groom->info.follower_count;

@@ -20,6 +20,7 @@ struct hair_follower_buffer {
 struct hair_geometry {
     struct hair_gl* gl;
     struct hair_smooth smooth; // Smoothed guides.
+    const struct hair_lengths* lengths; // Lengths of followers.
     hair_look look; // Look after hair_look_apply_wetness().
     struct hair_follower_buffer follower;
     GLuint patch, patch_texture; // Buffer of patches, and its buffer texture.
@@ -82,7 +83,9 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
 double hair_geometry_max_radius(const struct hair_geometry* geometry);
 // Bind the buffers, textures and parameters that the vertices of followers are computed from.
 void hair_geometry_bind(struct hair_geometry* geometry);
-// Return `pass` with the styling features that the look needs.
+// Return whether followers have been cut, which needs program variants.
+bool hair_geometry_has_lengths(const struct hair_geometry* geometry);
+// Return `pass` with the features that the look and the lengths of followers need.
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass);
 // Return whether displayed followers have met colliders, which needs program variants.
 bool hair_geometry_has_hits(const struct hair_geometry* geometry);

@@ -60,6 +60,7 @@ static const struct {
     STRUCT(hair_debug_params),
     STRUCT(hair_debug_collider),
     STRUCT(hair_held),
+    STRUCT(hair_length_change),
 };
 #define STRUCTS (sizeof structs / sizeof *structs)
 

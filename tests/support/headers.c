@@ -16,7 +16,7 @@ static void read_files(void)
 {
     static const char* const names[] = {"base",      "groom", "context",  "look", "physics",
                                         "colliders", "wind",  "instance", "view", "diagnostics",
-                                        "buffers",   "asset", "targets",  "body"};
+                                        "buffers",   "asset", "targets",  "body", "cut"};
     size_t size = 0;
     for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {
         char name[64];
