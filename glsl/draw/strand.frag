@@ -58,7 +58,8 @@ vec4 shade_pixel()
     f.across   = clamp(strand_place.w, -1.0, 1.0);
     f.color    = max(strand_color, 0.0);
     f.strand   = strand_numbers.x;
-    f.lock     = strand_numbers.y;
+    f.lock     = lock_of(strand_numbers.y);
+    f.group    = group_of_lock(strand_numbers.y);
     f.seed     = strand_numbers.z;
     f.random   = random(f.seed + 7u);
     return hair_shade(f);

@@ -57,6 +57,7 @@ hair_fragment fragment_of(hair_follower follower, uint number, hair_point point,
     f.random   = random(follower.seed + 7u);
     f.seed     = follower.seed;
     f.lock     = follower.guide0;
+    f.group    = group_of(follower);
     f.strand   = number;
     f.uv       = vec2(0.0);
     f.across   = 0.0;
@@ -102,7 +103,11 @@ strand_vertex strand_at(uint number, float t, float width, float widened)
     v.position = vec4(point.position, point.radius * width);
     v.tangent  = point.tangent;
     v.color    = vec3(0.0);
-    v.numbers  = uvec3(number, follower.guide0, follower.seed);
+#ifdef HAIR_IDS
+    v.numbers = uvec3(number, follower.guide0, follower.seed);
+#else
+    v.numbers = uvec3(number, pack_lock(follower), follower.seed);
+#endif
     v.place    = vec3(t, 0.0, 0.0);
     v.before   = point.position;
 #ifdef HAIR_SHADED

@@ -3,6 +3,7 @@
 #include "light/lights.glsl"
 #include "light/shadow.glsl"
 #include "light/strand_color.glsl"
+#include "strands/group_look.glsl"
 #ifdef HAIR_FIBRES
 #include "light/multiple_scattering.glsl"
 #endif
@@ -15,6 +16,7 @@ struct hair_fragment {
     float random;   // The strand's own, [0, 1).
     uint  seed;     // The strand's own.
     uint  lock;     // The strand's guide.
+    uint  group;    // The strand's group.
     uint  strand;   // Number of the follower.
     vec2  uv;       // Texture coordinates of its root on the scalp. 0 if there are none.
     float across; // From -1 at one edge of a ribbon to 1 at the other. 0 when vertices are shaded.
@@ -22,6 +24,9 @@ struct hair_fragment {
 };
 
 vec3 albedo_of(hair_fragment f) { return f.color; }
+
+// Return the factor of the variance of the longitudinal lobes, by the strand and its group.
+float find_variance(hair_fragment f) { return GROUP_FACTOR(f.group, variance) * variance_of(f.seed); }
 
 // Return the normal of the ribbon.
 vec3 normal_of(hair_fragment f)
@@ -75,7 +80,7 @@ struct strand_reflection {
 strand_reflection find_reflection(hair_fragment f)
 {
     return strand_reflection(absorption_of(albedo_of(f)), draw.fibre.z * tilt_of(f.random),
-                             draw.fibre.x * variance_of(f.seed), order_of(f));
+                             draw.fibre.x * find_variance(f), order_of(f));
 }
 
 // Return the light that a strand reflects of one light, of which the fraction `direct` meets no
@@ -128,7 +133,7 @@ strand_reflection find_reflection(hair_fragment f)
     float shift = 0.12 + 0.16 * (tilt_of(f.random) - 1.0);
     own.albedo  = albedo_of(f);
     own.normal  = normal_of(f);
-    own.glossy  = draw.specular.zw / variance_of(f.seed);
+    own.glossy  = draw.specular.zw / find_variance(f);
     own.to_root = normalize(f.tangent + shift * own.normal);
     own.to_tip  = normalize(f.tangent - 1.5 * shift * own.normal);
     own.tinted  = draw.specular.y * sparkle_at(f.seed, f.t) * own.albedo;

@@ -202,6 +202,8 @@
 // hair_debug_params, of the passes that draw colliders, the distance field and the wind.
 #define HAIR_BIND_DEBUG 0
 #define HAIR_BIND_OCCLUSION 0         // hair_occlusion_params, of occlusion culling.
+// hair_group_factors[HAIR_STRAND_GROUPS], of passes that compute or shade vertices of followers.
+#define HAIR_BIND_GROUP_LOOKS 0
 #define HAIR_BIND_RASTER 0       // hair_raster_params, of the compute rasteriser.
 
 #endif

@@ -54,4 +54,14 @@ struct hair_strand_look {
 };
 HAIR_SIZE(hair_strand_look)
 
+#define HAIR_STRAND_GROUPS 8 // HAIR_MAX_STRAND_GROUPS.
+
+// Factors of a group of strands.
+struct hair_group_factors {
+    float curl_radius, curl_turns, frizz, clump;
+    float variance; // Variance of the longitudinal lobes.
+    hair_uint unused0, unused1, unused2;
+};
+HAIR_SIZE(hair_group_factors)
+
 #endif

@@ -113,7 +113,8 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
     guide_point g0      = fetch_guide(follower.guide0, u, beyond);
     vec4        frame   = fetch_frame(follower.guide0, u);
     float       length_ = follower.length_ratio * fetch_length(follower.guide0);
-    vec2        clump = curve_at(HAIR_CURVE_CLUMP, v), width = curve_at(HAIR_CURVE_CLUMP_WIDTH, v);
+    vec2        clump = GROUP_FACTOR(group_of(follower), clump) * curve_at(HAIR_CURVE_CLUMP, v);
+    vec2        width = curve_at(HAIR_CURVE_CLUMP_WIDTH, v);
 
     vec3 offset = s * s * s * follower.offset[0].xyz + 3.0 * s * s * v * follower.offset[1].xyz +
                   3.0 * s * v * v * follower.offset[2].xyz + v * v * v * follower.offset[3].xyz;
@@ -141,7 +142,7 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
         offset   = mix(offset, own, multi);
     }
 
-    aside a = find_aside(follower.guide0, follower.seed, v, length_, follower.length_ratio);
+    aside a = find_aside(follower, v, length_);
     offset.xz += a.at;
     slope.xz  += a.slope;
     vec3 turned = rotate(frame, offset);

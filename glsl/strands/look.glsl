@@ -2,6 +2,7 @@
 // offsets across the strand in its guide's frame. Kinks, curls and cuts need HAIR_STYLED.
 #include "draw_params.glsl"
 #include "random.glsl"
+#include "strands/group_look.glsl"
 #include "strands/spline.glsl"
 
 // Intervals of a stray over the length.
@@ -56,23 +57,25 @@ aside stray(uint seed, float t, float length_)
 #ifdef HAIR_STYLED
 // Return the offset of a kinked strand. Its seed is a third of the 32-bit range away from that of
 // strays, which have few control points.
-aside kink(uint seed, float t, float length_)
+aside kink(uint group, uint seed, float t, float length_)
 {
     if (random_pair(seed + 4u).x >= draw.strand.frizz_fraction) return aside(vec2(0.0), vec2(0.0));
-    return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks), curve_at(HAIR_CURVE_FRIZZ, t));
+    return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks),
+                  GROUP_FACTOR(group, frizz) * curve_at(HAIR_CURVE_FRIZZ, t));
 }
 
 // Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
 // Strands of a guide share its phase and its variation, and drift apart by their own length of
 // turns. `ratio` is the length of the strand in lengths of the guide. The variation depends on the
 // distance from the root, so that long and short strands of a lock turn together.
-aside curl(uint guide, uint seed, float t, float length_, float ratio)
+aside curl(uint group, uint guide, uint seed, float t, float length_, float ratio)
 {
     vec2  lock = random_pair(guide), own = random_pair(seed + 2u);
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
     float shared_spread = draw.strand.curl_guide_spread * (2.0 * random_pair(guide + 0x2aaaaaaau).x - 1.0);
     float size   = (1.0 + spread) * (1.0 + shared_spread);
-    float turns  = (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / size;
+    float turns  = GROUP_FACTOR(group, curl_turns) *
+                   (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / size;
     float places = float(HAIR_TURN_PLACES);
     aside wind   = scaled(wander(64u * guide + 0x71c71c71u, t * ratio, CURL_WAVES),
                           vec2(draw.strand.curl_variation, 0.0));
@@ -86,7 +89,8 @@ aside curl(uint guide, uint seed, float t, float length_, float ratio)
     if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
     aside a = aside(vec4(1.0, x, x * x, x * x * x) * c,
                     (turns + slower * wind.slope.x) * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
-    a = scaled(a, draw.strand.curl_radius * size * curve_at(HAIR_CURVE_CURL, t));
+    a = scaled(a, GROUP_FACTOR(group, curl_radius) * draw.strand.curl_radius * size *
+                      curve_at(HAIR_CURVE_CURL, t));
     return scaled(a, vec2(1.0 + wind.at.y, wind.slope.y));
 }
 
@@ -107,13 +111,14 @@ void cut(inout hair_follower follower)
 }
 #endif
 
-// Return the offset by which the look moves a strand of a guide, whose length the strand has
-// `ratio` times.
-aside find_aside(uint guide, uint seed, float t, float length_, float ratio)
+// Return the offset by which the look moves a follower. `length_` is its length, in m.
+aside find_aside(hair_follower follower, float t, float length_)
 {
-    aside a = stray(seed, t, length_);
+    uint  guide = follower.guide0, seed = follower.seed, group = group_of(follower);
+    float ratio = follower.length_ratio;
+    aside a     = stray(seed, t, length_);
 #ifdef HAIR_STYLED
-    aside kinked = kink(seed, t, length_), curled = curl(guide, seed, t, length_, ratio);
+    aside kinked = kink(group, seed, t, length_), curled = curl(group, guide, seed, t, length_, ratio);
     a = aside(a.at + kinked.at + curled.at, a.slope + kinked.slope + curled.slope);
 #endif
     return a;

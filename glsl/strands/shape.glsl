@@ -88,7 +88,7 @@ hair_point interpolate_own(hair_follower follower, float t, repair r)
     vec2 width = curve_at(HAIR_CURVE_CLUMP_WIDTH, v);
     if (width != vec2(1.0, 0.0)) gather(follower, v, width, position, along);
     float length_ = follower.length_ratio * fetch_length(follower.guide0);
-    aside a       = find_aside(follower.guide0, follower.seed, v, length_, follower.length_ratio);
+    aside a       = find_aside(follower, v, length_);
     if (a.at != vec2(0.0) || a.slope != vec2(0.0)) set_aside(follower, v, a, position, along);
     position += max(t - 1.0, 0.0) * along + r.away;
     along    += r.away_slope;

@@ -262,6 +262,19 @@ typedef struct hair_group_look {
         /// Linear rgb reflectance at the tip.
         float tip[3]; ///< [0, 1]. Default (0.26, 0.13, 0.06).
     } color;
+    /// Curls and waves, as far as hair_look.curl has them.
+    struct {
+        /// Multiple of hair_look.curl.radius.
+        float radius; ///< [0, 4]. Default 1.
+        /// Multiple of the number of turns along the strand.
+        float frequency; ///< [0, 4]. Default 1.
+    } curl;
+    /// Multiple of hair_look.strays.frizz.
+    float frizz; ///< [0, 4]. Default 1.
+    /// Multiple of the blend weight of locks, see hair_look.clump. 0 is HAIR_INTERPOLATION_MULTI.
+    float clump; ///< [0, 1]. Default 1.
+    /// Multiple of the roughness along the fibre, to which the width of highlights is proportional.
+    float roughness; ///< [0.2, 4]. Default 1.
 } hair_group_look;
 HAIR_DESC(hair_group_look)
 

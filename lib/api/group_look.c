@@ -1,5 +1,6 @@
 // group_look.c - public calls that set and get the looks of groups of strands. Radii are factors in
-// the buffer of followers, and colours are in the buffer of the groom's colours.
+// the buffer of followers, and colours are in the buffer of the groom's colours. The other factors
+// are in a buffer per group. Followers then have their group in the last bits of their radius.
 #include "lib/api/api.h"
 
 #include <string.h>
@@ -7,7 +8,14 @@
 // Buffers that depend on the looks of groups. 0 keeps the present ones.
 struct group_buffers {
     struct hair_follower_buffer followers;
+    struct hair_group_look_buffer groups;
     GLuint colors[2]; // Buffer and its texture.
+};
+
+// Changes between the looks of all groups.
+struct group_changes {
+    bool radii, colors, factors;
+    bool has_factors; // True if any group has factors after the change.
 };
 
 static uint32_t group_of(const hair_groom* groom, uint32_t follower)
@@ -15,8 +23,19 @@ static uint32_t group_of(const hair_groom* groom, uint32_t follower)
     return groom->guides[groom->followers[follower].guide0].group;
 }
 
+// Return a radius whose last bits, which change it by less than a millionth, are a group.
+static float hide_group(float radius, uint32_t group)
+{
+    uint32_t bits;
+    HAIR_ASSERT(group < HAIR_STRAND_GROUPS);
+    memcpy(&bits, &radius, sizeof bits);
+    bits = (bits & ~(uint32_t)(HAIR_STRAND_GROUPS - 1)) | group;
+    memcpy(&radius, &bits, sizeof bits);
+    return radius;
+}
+
 static hair_result make_group_followers(const hair_instance* hair, const hair_group_look* looks,
-                                        struct hair_follower_buffer* out)
+                                        bool has_factors, struct hair_follower_buffer* out)
 {
     const hair_groom* groom = hair->groom;
     const hair_host* host = &hair->context->host;
@@ -24,8 +43,12 @@ static hair_result make_group_followers(const hair_instance* hair, const hair_gr
     struct hair_follower* followers = hair_alloc(host, size / 16, 16);
     if (!followers) return hair_fail_memory(host, "the followers of groups");
     memcpy(followers, groom->followers, size);
-    for (uint32_t i = 0; i < groom->info.follower_count; ++i)
-        followers[i].offset[0].w *= looks[group_of(groom, i)].radius;
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        float* radius = &followers[i].offset[0].w;
+        uint32_t group = group_of(groom, i);
+        *radius *= looks[group].radius;
+        if (has_factors) *radius = hide_group(*radius, group);
+    }
     hair_result result = hair_geometry_make_followers(&hair->geometry, size, followers, out);
     hair_free(host, followers);
     return result;
@@ -68,31 +91,76 @@ static hair_result make_group_colors(const hair_instance* hair, const hair_group
     return result;
 }
 
-static bool have_equal_radii(const hair_group_look* a, const hair_group_look* b)
+static struct hair_group_factors factors_of(const hair_group_look* look)
 {
-    for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g)
-        if (a[g].radius != b[g].radius) return false;
-    return true;
+    return (struct hair_group_factors){.curl_radius = look->curl.radius,
+                                       .curl_turns = look->curl.frequency,
+                                       .frizz = look->frizz,
+                                       .clump = look->clump,
+                                       .variance = look->roughness * look->roughness};
 }
 
-static bool have_equal_colors(const hair_group_look* a, const hair_group_look* b)
+static bool have_equal_factors(const hair_group_look* a, const hair_group_look* b)
 {
+    return a->curl.radius == b->curl.radius && a->curl.frequency == b->curl.frequency &&
+           a->frizz == b->frizz && a->clump == b->clump && a->roughness == b->roughness;
+}
+
+static bool has_factors(const hair_group_look* looks)
+{
+    const hair_group_look usual = hair_group_look_default();
     for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g)
-        if (a[g].color.enabled != b[g].color.enabled ||
-            (a[g].color.enabled && memcmp(&a[g].color, &b[g].color, sizeof a[g].color) != 0))
-            return false;
-    return true;
+        if (!have_equal_factors(&looks[g], &usual)) return true;
+    return false;
+}
+
+static hair_result make_group_looks(const hair_instance* hair, const hair_group_look* looks,
+                                    struct hair_group_look_buffer* out)
+{
+    struct hair_group_factors factors[HAIR_STRAND_GROUPS];
+    _Static_assert(HAIR_STRAND_GROUPS == HAIR_MAX_STRAND_GROUPS, "groups of shaders");
+    for (int g = 0; g < HAIR_STRAND_GROUPS; ++g) factors[g] = factors_of(&looks[g]);
+    return hair_geometry_make_group_looks(&hair->geometry, factors, out);
+}
+
+static struct group_changes find_group_changes(const hair_group_look* before, const hair_group_look* after)
+{
+    struct group_changes changes = {.has_factors = has_factors(after)};
+    changes.radii = changes.has_factors != has_factors(before);
+    for (int g = 0; g < HAIR_MAX_STRAND_GROUPS; ++g) {
+        const hair_group_look *a = &before[g], *b = &after[g];
+        changes.radii |= a->radius != b->radius;
+        changes.factors |= !have_equal_factors(a, b);
+        changes.colors |= a->color.enabled != b->color.enabled ||
+                          (a->color.enabled && memcmp(&a->color, &b->color, sizeof a->color) != 0);
+    }
+    return changes;
+}
+
+// Make the buffers of changed looks. On failure all that have been made are in `made`.
+static hair_result make_changed_buffers(const hair_instance* hair, const hair_group_look* looks,
+                                        const struct group_changes* changes, struct group_buffers* made)
+{
+    if (changes->radii) HAIR_TRY(make_group_followers(hair, looks, changes->has_factors, &made->followers));
+    if (changes->factors && changes->has_factors) HAIR_TRY(make_group_looks(hair, looks, &made->groups));
+    return changes->colors ? make_group_colors(hair, looks, made->colors) : HAIR_OK;
+}
+
+static void free_group_buffers(struct hair_gl* gl, struct group_buffers* buffers)
+{
+    hair_geometry_free_followers(gl, &buffers->followers);
+    hair_gl_free_buffer(gl, &buffers->groups.factors);
+    hair_gl_free_array(gl, &buffers->colors[0], &buffers->colors[1]);
 }
 
 // Exchange the buffers that have been made, and free those that were there.
-static void use_buffers(hair_instance* hair, struct group_buffers* made, const hair_group_look* looks,
-                        bool changes_colors)
+static void use_group_buffers(hair_instance* hair, struct group_buffers* made, const hair_group_look* looks,
+                              const struct group_changes* changes)
 {
-    struct hair_gl* gl = &hair->context->gl;
-    if (made->followers.buffer) hair_geometry_swap_followers(&hair->geometry, &made->followers);
-    if (changes_colors) hair_lighting_swap_colors(&hair->lighting, made->colors, has_colors(looks));
-    hair_geometry_free_followers(gl, &made->followers);
-    hair_gl_free_array(gl, &made->colors[0], &made->colors[1]);
+    if (changes->radii) hair_geometry_swap_followers(&hair->geometry, &made->followers);
+    if (changes->factors) hair_geometry_swap_group_looks(&hair->geometry, &made->groups);
+    if (changes->colors) hair_lighting_swap_colors(&hair->lighting, made->colors, has_colors(looks));
+    free_group_buffers(&hair->context->gl, made);
     hair_geometry_invalidate(&hair->geometry);
     hair_draw_free_reflectance(&hair->renderer);
 }
@@ -101,7 +169,6 @@ hair_result hair_instance_set_group_looks(hair_instance* hair,
                                           const hair_group_look looks[HAIR_MAX_STRAND_GROUPS])
 {
     struct hair_gl* gl = &hair->context->gl;
-    size_t size = HAIR_MAX_STRAND_GROUPS * sizeof *looks;
     if (!hair->group_looks) {
         hair_group_look* own = hair_alloc(&gl->host, HAIR_MAX_STRAND_GROUPS, sizeof *own);
         if (!own) return hair_fail_memory(&gl->host, "the looks of groups");
@@ -109,17 +176,14 @@ hair_result hair_instance_set_group_looks(hair_instance* hair,
         hair->group_looks = own;
     }
     struct group_buffers made = {0};
-    bool changes_colors = !have_equal_colors(looks, hair->group_looks);
-    hair_result result = HAIR_OK;
-    if (!have_equal_radii(looks, hair->group_looks))
-        result = make_group_followers(hair, looks, &made.followers);
-    if (!result && changes_colors) result = make_group_colors(hair, looks, made.colors);
+    struct group_changes changes = find_group_changes(hair->group_looks, looks);
+    hair_result result = make_changed_buffers(hair, looks, &changes, &made);
     if (result) {
-        hair_geometry_free_followers(gl, &made.followers);
+        free_group_buffers(gl, &made);
         return result;
     }
-    memcpy(hair->group_looks, looks, size);
-    if (made.followers.buffer || changes_colors) use_buffers(hair, &made, looks, changes_colors);
+    memcpy(hair->group_looks, looks, HAIR_MAX_STRAND_GROUPS * sizeof *looks);
+    if (changes.radii || changes.factors || changes.colors) use_group_buffers(hair, &made, looks, &changes);
     return HAIR_OK;
 }
 

@@ -55,7 +55,8 @@ static double hair_reach_beyond(const struct hair_renderer* renderer, const hair
     const hair_look* look = &renderer->geometry->look;
     double reach = (double)(GIVE * fmaxf(hair_curve_max(&look->clump.width), 1) * renderer->extent.reach);
     return reach +
-           (double)(hair_look_max_stray(look) * renderer->extent.length + hair_look_max_offset(look)) +
+           (double)(hair_look_max_stray(look) * renderer->extent.length +
+                    hair_geometry_max_offset(renderer->geometry)) +
            hair_draw_max_radius(renderer, lod);
 }
 

@@ -68,7 +68,10 @@ static hair_result draw_guides(struct hair_renderer* renderer, const struct hair
 static void prepare_vertices(struct hair_renderer* renderer, struct hair_draw_plan* plan,
                              const struct hair_draw_params* params)
 {
-    if (plan->has_occlusion) hair_draw_cull_occluded(renderer, plan);
+    if (plan->has_occlusion) {
+        hair_draw_cull_occluded(renderer, plan);
+        hair_geometry_bind_group_looks(renderer->geometry);
+    }
     if (plan->has_strand_list) hair_draw_update_strand_list(renderer, plan, params);
     if (plan->vertices == HAIR_VERTICES_CACHED) hair_geometry_bind_vertex_cache(renderer->geometry);
     if (plan->shade) hair_draw_write_vertices(renderer, plan, params);

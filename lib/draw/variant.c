@@ -26,6 +26,7 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     if (plan->is_painted) features |= HAIR_GL_WITH(GROOM_COLORS);
     if (hair_look_is_styled(look)) features |= HAIR_GL_WITH(STYLED);
     if (hair_geometry_has_lengths(renderer->geometry)) features |= HAIR_GL_WITH(LENGTHS);
+    if (renderer->geometry->groups.factors) features |= HAIR_GL_WITH(GROUP_LOOKS);
     return features;
 }
 

@@ -71,6 +71,7 @@ FEATURE(FIBRES, "HAIR_FIBRES") // HAIR_SHADING_FIBRES. Otherwise HAIR_SHADING_LI
 FEATURE(LINES, "HAIR_LINES") // Lines. Otherwise ribbons.
 FEATURE(STYLED, "HAIR_STYLED") // The look kinks, curls or cuts followers.
 FEATURE(LENGTHS, "HAIR_LENGTHS") // Followers have been cut.
+FEATURE(GROUP_LOOKS, "HAIR_GROUP_LOOKS") // Groups of strands have factors of the look.
 FEATURE(ROOT_UV, "HAIR_ROOT_UV") // Strands have colours or positions on the scalp of their own.
 FEATURE(GROOM_COLORS, "HAIR_GROOM_COLORS") // Strands have the groom's colours.
 FEATURE(IDS, "HAIR_IDS") // Numbers in place of colour.
@@ -92,11 +93,13 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
         WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(MESHES) | WITH(DEFORMING) | \
         WITH(FEW_GUIDES)
 #define RECORDED_FEATURES STRAND_FEATURES | WITH(IMPULSES)
+// The shape of followers.
+#define STYLE_FEATURES WITH(STYLED) | WITH(LENGTHS) | WITH(GROUP_LOOKS)
 #define DRAW_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | WITH(STYLED) | WITH(LENGTHS) | WITH(ROOT_UV) | \
+    WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | STYLE_FEATURES | WITH(ROOT_UV) | \
         WITH(GROOM_COLORS) | WITH(IDS) | WITH(OPAQUE_SHADOWS) | WITH(ALPHA_COVERAGE) | WITH(WIDENED)
 #define STAGE_FEATURES \
-    WITH(DEPTH) | WITH(FIBRES) | WITH(STYLED) | WITH(LENGTHS) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
+    WITH(DEPTH) | WITH(FIBRES) | STYLE_FEATURES | WITH(ROOT_UV) | WITH(GROOM_COLORS) | \
         WITH(OPAQUE_SHADOWS) | WITH(WIDENED) | WITH(HITS)
 #define RASTER_FEATURES WITH(DEPTH) | WITH(ALPHA_COVERAGE)
 #define DRAW_STAGES " !HAIR_LINES?draw/ribbon.geom !HAIR_DEPTH?draw/strand.frag HAIR_DEPTH?draw/depth.frag"
@@ -162,20 +165,20 @@ PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", SOLVE, 0, "HAIR_PHASE=6 sim/feedb
 PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert")
 PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED) | WITH(TARGETS), "strands/smooth.comp")
 PASS(DISPLACE, "strands/displace", SMOOTH, 0, "strands/displace.comp")
-PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | WITH(STYLED) | WITH(LENGTHS),
+PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | STYLE_FEATURES,
      "HAIR_STORED=1 HAIR_EVERY_FOLLOWER=1 strands/expand.comp")
-PASS(EXPAND_DRAWN, "strands/expand_drawn", EXPAND, WITH(HITS) | WITH(STYLED) | WITH(LENGTHS),
+PASS(EXPAND_DRAWN, "strands/expand_drawn", EXPAND, WITH(HITS) | STYLE_FEATURES,
      "HAIR_STORED=1 strands/expand.comp")
-PASS(HIT, "strands/hit", HIT, WITH(STYLED) | WITH(LENGTHS), "HAIR_FINDS_HITS=1 strands/hit.comp")
-PASS(HIT_GROUP, "strands/hit_group", HIT, WITH(STYLED) | WITH(LENGTHS),
+PASS(HIT, "strands/hit", HIT, STYLE_FEATURES, "HAIR_FINDS_HITS=1 strands/hit.comp")
+PASS(HIT_GROUP, "strands/hit_group", HIT, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_STORED=1 HAIR_HIT_GROUP=1 strands/hit.comp")
-PASS(PREPASS, "strands/hit_prepass", HIT, WITH(STYLED) | WITH(LENGTHS),
+PASS(PREPASS, "strands/hit_prepass", HIT, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_EVERY_FOLLOWER=1 draw/patch.vert draw/patch.tesc strands/hit.tese "
      "strands/hit.frag")
 PASS(PREPASS_HIT, "strands/hit_gather", HIT, 0, "HAIR_FINDS_HITS=1 HAIR_PREPASS=1 strands/hit.comp")
-PASS(REPAIR, "strands/repair", REPAIR, WITH(STYLED) | WITH(LENGTHS),
+PASS(REPAIR, "strands/repair", REPAIR, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=HAIR_REPAIR_ALONE HAIR_REPAIR_LANES=1 strands/repair.comp")
-PASS(REPAIR_GROUP, "strands/repair_group", REPAIR, WITH(STYLED) | WITH(LENGTHS),
+PASS(REPAIR_GROUP, "strands/repair_group", REPAIR, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=1 HAIR_REPAIR_LANES=HAIR_REPAIR_THREADS strands/repair.comp")
 PASS(HIZ_REDUCE_DEPTH, "draw/hiz_reduce_depth", OCCLUSION, 0, "draw/hiz_reduce_depth.comp")
 PASS(HIZ_DOWNSAMPLE, "draw/hiz_downsample", OCCLUSION, 0, "draw/hiz_downsample.comp")
@@ -202,7 +205,8 @@ PASS(COMPOSE_TILES, "draw/compose_tiles", COLOR, RASTER_FEATURES | WITH(WIDENED)
 PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES | WITH(MOTION_OUTPUT),
      "draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR,
-     WITH(FIBRES) | WITH(LENGTHS) | WITH(ROOT_UV) | WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
+     WITH(FIBRES) | WITH(LENGTHS) | WITH(GROUP_LOOKS) | WITH(ROOT_UV) | WITH(GROOM_COLORS) |
+         WITH(OPAQUE_SHADOWS),
      "HAIR_VERTEX_CACHE=1 draw/shade.comp")
 PASS(REFLECTANCE, "draw/reflectance", COLOR, WITH(GROOM_COLORS) | WITH(LENGTHS),
      "HAIR_VERTEX_CACHE=1 HAIR_USER_PIXELS=1 draw/shade.comp")
@@ -226,6 +230,7 @@ PASS(GUIDES, "draw/guides", GUIDES, 0, "draw/guides.vert draw/guides.frag")
 #undef RASTER_FEATURES
 #undef STAGE_FEATURES
 #undef DRAW_FEATURES
+#undef STYLE_FEATURES
 #undef RECORDED_FEATURES
 #undef STRAND_FEATURES
 #undef WITH

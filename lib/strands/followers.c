@@ -58,6 +58,24 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
     out->strand_fraction = 1;
     out->segment_fraction = 1;
     hair_look_write_curves(look, &out->strand);
+    out->strand.max_offset = hair_geometry_max_offset(geometry);
+}
+
+float hair_geometry_max_offset(const struct hair_geometry* geometry)
+{
+    const struct hair_group_look_buffer* groups = &geometry->groups;
+    hair_look look = geometry->look;
+    if (!groups->factors) return hair_look_max_offset(&look);
+    look.curl.radius *= groups->max_curl_radius;
+    for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) look.strays.frizz.at[i] *= groups->max_frizz;
+    return hair_look_max_offset(&look);
+}
+
+void hair_geometry_bind_group_looks(const struct hair_geometry* geometry)
+{
+    struct hair_gl* gl = geometry->gl;
+    if (geometry->groups.factors)
+        gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_GROUP_LOOKS, 1, &geometry->groups.factors);
 }
 
 void hair_geometry_bind(struct hair_geometry* geometry)
@@ -76,6 +94,7 @@ void hair_geometry_bind(struct hair_geometry* geometry)
     if (hair_geometry_has_lengths(geometry))
         gl->BindTextureUnit(HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
+    hair_geometry_bind_group_looks(geometry);
 }
 
 bool hair_geometry_has_lengths(const struct hair_geometry* geometry)
@@ -86,6 +105,7 @@ bool hair_geometry_has_lengths(const struct hair_geometry* geometry)
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass)
 {
     if (hair_geometry_has_lengths(geometry)) pass = hair_gl_add_features(pass, HAIR_GL_WITH(LENGTHS));
+    if (geometry->groups.factors) pass = hair_gl_add_features(pass, HAIR_GL_WITH(GROUP_LOOKS));
     return hair_look_is_styled(&geometry->look) ? hair_gl_add_features(pass, HAIR_GL_WITH(STYLED)) : pass;
 }
 

@@ -47,6 +47,7 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     geometry->root_bindings = NULL;
     hair_geometry_free_followers(gl, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
+    hair_gl_free_buffer(gl, &geometry->groups.factors);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);
 }
@@ -84,6 +85,27 @@ void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_fo
 void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers)
 {
     hair_gl_free_array(gl, &followers->buffer, &followers->texture);
+}
+
+hair_result hair_geometry_make_group_looks(const struct hair_geometry* geometry,
+                                           const struct hair_group_factors factors[HAIR_STRAND_GROUPS],
+                                           struct hair_group_look_buffer* out)
+{
+    struct hair_group_look_buffer made = {0};
+    for (int g = 0; g < HAIR_STRAND_GROUPS; ++g) {
+        made.max_curl_radius = fmaxf(made.max_curl_radius, factors[g].curl_radius);
+        made.max_frizz = fmaxf(made.max_frizz, factors[g].frizz);
+    }
+    HAIR_TRY(hair_gl_buffer(geometry->gl, HAIR_GL_CATEGORY_COLOR, "looks of groups",
+                            HAIR_STRAND_GROUPS * sizeof *factors, factors, &made.factors));
+    *out = made;
+    return HAIR_OK;
+}
+
+void hair_geometry_swap_group_looks(struct hair_geometry* geometry, struct hair_group_look_buffer* groups)
+{
+    struct hair_group_look_buffer was = geometry->groups;
+    geometry->groups = *groups, *groups = was;
 }
 
 void hair_geometry_set_look(struct hair_geometry* geometry, const hair_look* look)

@@ -17,12 +17,19 @@ struct hair_follower_buffer {
     float max_width; // Maximum factor of the look's radius by the groom and by groups.
 };
 
+// Factors by which the looks of groups differ from the look.
+struct hair_group_look_buffer {
+    GLuint factors; // Uniform buffer of hair_group_factors. 0 if no group differs.
+    float max_curl_radius, max_frizz; // Maxima of all groups.
+};
+
 struct hair_geometry {
     struct hair_gl* gl;
     struct hair_smooth smooth; // Smoothed guides.
     const struct hair_lengths* lengths; // Lengths of followers.
     hair_look look; // Look after hair_look_apply_wetness().
     struct hair_follower_buffer follower;
+    struct hair_group_look_buffer groups;
     GLuint patch, patch_texture; // Buffer of patches, and its buffer texture.
     GLuint params; // Uniform buffer of hair_draw_params, which each user writes before its passes.
     uint32_t followers, patches, smooth_vertices, guides, shape_vertices;
@@ -58,6 +65,12 @@ hair_result hair_geometry_make_followers(const struct hair_geometry* geometry, s
 // Exchange the buffer of followers.
 void hair_geometry_swap_followers(struct hair_geometry* geometry, struct hair_follower_buffer* followers);
 void hair_geometry_free_followers(struct hair_gl* gl, struct hair_follower_buffer* followers);
+// Make the buffer of factors of all groups.
+hair_result hair_geometry_make_group_looks(const struct hair_geometry* geometry,
+                                           const struct hair_group_factors factors[HAIR_STRAND_GROUPS],
+                                           struct hair_group_look_buffer* out);
+// Exchange the buffer of factors.
+void hair_geometry_swap_group_looks(struct hair_geometry* geometry, struct hair_group_look_buffer* groups);
 // Record that the guides have moved. They are smoothed again before the next draw.
 void hair_geometry_invalidate_guides(struct hair_geometry* geometry);
 // Smooth the guides, and move the roots of followers with a skinned scalp, unless both are up to
@@ -81,11 +94,16 @@ uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double 
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);
 // Return the maximum radius of strands in metres, before a level of detail widens them.
 double hair_geometry_max_radius(const struct hair_geometry* geometry);
+// Return the maximum distance that curls and frizz of all groups move a strand, in metres.
+float hair_geometry_max_offset(const struct hair_geometry* geometry);
+// Bind the factors of groups, if there are any. Occlusion culling has its parameters in their slot.
+void hair_geometry_bind_group_looks(const struct hair_geometry* geometry);
 // Bind the buffers, textures and parameters that the vertices of followers are computed from.
 void hair_geometry_bind(struct hair_geometry* geometry);
 // Return whether followers have been cut, which needs program variants.
 bool hair_geometry_has_lengths(const struct hair_geometry* geometry);
-// Return `pass` with the features that the look and the lengths of followers need.
+// Return `pass` with the features that the look, the looks of groups and the lengths of followers
+// need.
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass);
 // Return whether displayed followers have met colliders, which needs program variants.
 bool hair_geometry_has_hits(const struct hair_geometry* geometry);

@@ -33,7 +33,7 @@ static void begin(struct hair_test* test, struct fixture* f)
     hair_test_live(test, &f->strands, &desc, &f->living);
     physics.tip_mass = 0.5f, physics.fiber.youngs_modulus = 1e9f;
     hair_test_ok(test, hair_set_group_physics(f->living.hair, 1, &physics));
-    look.radius = 0.5f, look.color.enabled = true;
+    look.radius = 0.5f, look.color.enabled = true, look.frizz = 2;
     hair_test_ok(test, hair_set_group_look(f->living.hair, 2, &look));
     hair_test_wait(&f->living, 3);
     hair_test_restorable_lose(test, &f->restorable);
@@ -49,7 +49,8 @@ static void check_groups(struct fixture* f)
     hair_test_ok(f->test, hair_get_group_physics(hair, 2, &physics));
     assert_true(physics.tip_mass == f->living.physics.tip_mass);
     hair_test_ok(f->test, hair_get_group_look(hair, 2, &look));
-    assert_true(look.radius == 0.5f && look.color.enabled);
+    assert_true(look.radius == 0.5f && look.frizz == 2 && hair->geometry.groups.factors &&
+                look.color.enabled);
     hair_test_wait(&f->living, 3);
     hair_test_read_guides(&f->living);
     // The rods and the colours of the groups are there too.

@@ -37,6 +37,7 @@ static const struct {
     STRUCT(hair_grid_params),
     STRUCT(hair_grid_splat),
     STRUCT(hair_strand_look),
+    STRUCT(hair_group_factors),
     STRUCT(hair_strand),
     STRUCT(hair_draw_command),
     STRUCT(hair_contact),

@@ -140,5 +140,13 @@ COLOR(hair_group_look, color.root, 0.13, 0.055, 0.024, 0, 1, 0, 1, "",
       "Linear rgb reflectance at the root.")
 COLOR(hair_group_look, color.tip, 0.26, 0.13, 0.06, 0, 1, 0, 1, "", "Linear rgb reflectance at the tip.")
 #undef GROUP
+#define GROUP "curl"
+FLOAT(hair_group_look, curl.radius, 1, 0, 4, 0, 4, LINEAR, "", "Multiple of hair_look.curl.radius.")
+FLOAT(hair_group_look, curl.frequency, 1, 0, 4, 0, 4, LINEAR, "",
+      "Multiple of the number of turns along the strand.")
+#undef GROUP
 #define GROUP ""
+FLOAT(hair_group_look, frizz, 1, 0, 4, 0, 4, LINEAR, "", "Multiple of hair_look.strays.frizz.")
+FLOAT(hair_group_look, clump, 1, 0, 1, 0, 1, LINEAR, "", "Multiple of the blend weight of locks.")
+FLOAT(hair_group_look, roughness, 1, 0.2, 4, 0.2, 4, LINEAR, "", "Multiple of the roughness along the fibre.")
 END
