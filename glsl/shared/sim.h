@@ -65,7 +65,8 @@ struct hair_rod {
     // L(i+2,i). w: number of the first pin beyond this vertex, counted from 1. 0 if there is none.
     hair_vec4 factor;
     // Row of L D L^T of implicit Euler, the fallback method. In the mixed scheme, xyz: stiffness
-    // about the axes of the section, as multiples of strain.w.
+    // about the axes of the section, as multiples of strain.w. w of the tip: rate at which the
+    // guide's velocities decay, 1/s.
     hair_vec4 factor_euler;
 };
 HAIR_SIZE(hair_rod)

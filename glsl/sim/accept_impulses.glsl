@@ -2,7 +2,7 @@
 //
 // A force f moves a vertex of mass m by of_force f / m beyond the way that its past gives, for
 // methods with damping c and pull w times 1 / (1 + b c h + b^2 h^2 w^2). A push of a collider
-// stands for such a force, whose impulse is h f. SHAKE has params.kick in place of of_force.
+// stands for such a force, whose impulse is h f. SHAKE has guide_kick in place of of_force.
 //
 // The momentum of BDF2 is m (3/2 v - 1/2 v'), with v' the velocity a substep before. All forces
 // change it by h f. Velocities that velocity_history.glsl replaces in contact change it too. The
@@ -68,7 +68,7 @@ void accept_impulses(int method)
     if (has_lapse(method)) accept_lapses();
 #endif
     FOR_VERTICES(guide_count) {
-        float massive = 1.0 + b * params.damping * h + b * b * h * h * local(aim).w;
+        float massive = 1.0 + b * guide_damping * h + b * b * h * h * local(aim).w;
         if (i < guide_count && local(slack) > 0.0) {
             float by = massive * h / (IS_SHAKE(method) ? part_kick : of_force) / local(slack);
             add_impulse(i, local(push_one).w, by * local(push_one).xyz, by * local(normal_one));

@@ -11,7 +11,7 @@
 
 vec3 along; // Unit direction of the strand
 uint substep_number; // Index of the substep in the dispatch
-// Substep h times the rates across and along by which the law exceeds params.damping.
+// Substep h times the rates across and along by which the law exceeds guide_damping.
 vec2 drags;
 // Displacement by the velocity of the wind through damping and drag, as h^2 times an acceleration.
 vec3 drifts;
@@ -39,14 +39,14 @@ void feel_air(uint i, vec3 before, float fraction, vec3 hv)
     vec2  max_value  = guide_length / max(vec2(across, abs(faces)), vec2(1e-9));
     vec2  law   = min(h * (wind.viscous * drag_of(across / h * wind.per_speed)), max_value);
     // Damping and the law are drag by one air, so the greater of both acts.
-    drags       = light * max(law - params.damping * h, 0.0);
-    drifts      = fraction * params.damping * h * air + by_parts(drags, air);
+    drags       = light * max(law - guide_damping * h, 0.0);
+    drifts      = fraction * guide_damping * h * air + by_parts(drags, air);
 }
 
 // SHAKE: return the change of d in a substep by an acceleration and the wind.
 vec3 dragged_on(vec3 d, vec3 push)
 {
-    float h     = SUBSTEP, c = params.damping * h;
+    float h     = SUBSTEP, c = guide_damping * h;
     vec2  x     = vec2(c) + drags;
     // The series of (1 - exp(-x)) / x is used where x is small, because rounding spoils the
     // difference.
@@ -60,7 +60,7 @@ vec3 dragged_on(vec3 d, vec3 push)
 vec3 dragged_back(uint i, float b, vec3 sum)
 {
     float h       = SUBSTEP;
-    float massive = 1.0 + b * params.damping * h + b * b * h * h * local(aim).w;
+    float massive = 1.0 + b * guide_damping * h + b * b * h * h * local(aim).w;
     return by_parts(1.0 / (1.0 + b * drags / massive), sum);
 }
 

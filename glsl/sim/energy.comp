@@ -81,10 +81,10 @@ void add_bending(uint g, uint first, uint count, inout vec4 sum)
 }
 
 // Return the updated window of a guide. `total` is its energy, and `kinetic` the kinetic part.
-vec4 next_window(vec4 window, float total, float kinetic)
+vec4 next_window(vec4 window, float total, float kinetic, float damping)
 {
     if (watch.begins != 0u) window = vec4(NONE, -NONE, 0.0, 0.0);
-    window.z += params.damping * kinetic * watch.time;
+    window.z += damping * kinetic * watch.time;
     window.y = max(window.y, total + window.z);
     window.w = max(window.w, kinetic);
     if (watch.ends == 0u) return window;
@@ -108,5 +108,6 @@ void main()
     for (uint i = first; i < first + count; ++i) add_vertex(i, root, has_rate, sum);
     add_bending(g, first, count, sum);
     energy[g].now    = sum;
-    energy[g].window = next_window(energy[g].window, sum.x + sum.y + sum.z + sum.w, sum.x);
+    energy[g].window = next_window(energy[g].window, sum.x + sum.y + sum.z + sum.w, sum.x,
+                                   rod[first + count - 1u].factor_euler.w);
 }

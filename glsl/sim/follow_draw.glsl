@@ -25,7 +25,7 @@ void predict()
         feel_air(i, before, 1.0, d);
         d += dragged_on(d, force);
 #else
-        d = params.keep * d + params.kick * force;
+        d = guide_keep * d + guide_kick * force;
 #endif
         float k = local(aim).w * h * h;
         d += k / (1.0 + k) * (rotate(turn_now, local(aim).xyz) + root_moved - GET(place) - d);
@@ -33,7 +33,7 @@ void predict()
         PUT(edge, local(plane));
         PUT(handed, root_moved);
         local(touch) = vec4(0.0);
-        PUT(moved, local(slack) > 0.0 ? d + params.kick * params.gravity.xyz : held_move(i));
+        PUT(moved, local(slack) > 0.0 ? d + guide_kick * params.gravity.xyz : held_move(i));
     }
     GROUP_BARRIER;
 }
@@ -67,7 +67,7 @@ void draw_strand_after_root(bool met)
 {
     vec4 turn   = turn_now;
     vec3 last   = rotate(turn, rod[guide_first].factor_euler.xyz);
-    vec3 root   = root_is_free ? GET_AT(lever, 0u) + params.kick * params.gravity.xyz : GET_AT(moved, 0u);
+    vec3 root   = root_is_free ? GET_AT(lever, 0u) + guide_kick * params.gravity.xyz : GET_AT(moved, 0u);
     vec3 leader = kept_above(0u, root, met);
     PUT_AT(handed, 0u, root);
     PUT_AT(moved, 0u, leader);
@@ -82,8 +82,8 @@ void draw_strand_after_root(bool met)
             way  = normalize(between);
         }
         vec3 inertial = GET_AT(lever, k), relative = GET_AT(lever, k + 1u) - inertial;
-        vec3 felt = params.kick * params.gravity.xyz + inertial - leader;
-        vec3 pull = params.kick * rotate(turn, f.strain.xyz) + f.strain.w * felt -
+        vec3 felt = guide_kick * params.gravity.xyz + inertial - leader;
+        vec3 pull = guide_kick * rotate(turn, f.strain.xyz) + f.strain.w * felt -
                     dot(felt, way) * rotate(turn, f.factor.xyz);
         vec3 led  = f.segment.w * params.gravity.w * (rotate(swung, between) - between);
         vec3 to   = between + (relative + led) / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;

@@ -70,10 +70,10 @@ void place_part(float size, float end, vec3 head_moved)
 {
     vec4  to   = dot(head_at_start, head_at_end) < 0.0 ? -head_at_end : head_at_end;
     vec4  head = end == 1.0 ? head_at_end : normalize(mix(head_at_start, to, end));
-    float h    = params.gravity.w * size, c = params.damping;
+    float h    = params.gravity.w * size, c = guide_damping;
     leap_part  = size;
-    part_keep  = size == 1.0 ? params.keep : exp(-c * h);
-    part_kick  = size == 1.0 ? params.kick : c * h > 1e-6 ? h * (1.0 - part_keep) / c : h * h;
+    part_keep  = size == 1.0 ? guide_keep : exp(-c * h);
+    part_kick  = size == 1.0 ? guide_kick : c * h > 1e-6 ? h * (1.0 - part_keep) / c : h * h;
     place_root(head, end == 1.0 ? fraction_at_end : mix(fraction_at_start, fraction_at_end, end));
     root_moved = root_now - root_then + (end - done) * head_moved;
 }

@@ -92,7 +92,7 @@ void stiffen_solution(float b)
     GROUP_BARRIER;
     FOR_VERTICES(segments) {
         vec3  after   = AFTER_VEC3(handed);
-        float massive = 1.0 + b * params.damping + b * b * local(aim).w;
+        float massive = 1.0 + b * guide_damping + b * b * local(aim).w;
         float stiffly =
             b * b * (local(hinge_along) - (i + 1u < segments ? after.x : 0.0)) / local(rest_length);
         local(solution) = massive * local(solution) + stiffly;

@@ -99,7 +99,7 @@ void move_freely(uint i, int method, vec3 before)
 #ifdef HAIR_GRID
     acceleration += local(hair_acceleration);
 #endif
-    float massive = 1.0 + b * params.damping * h + b * b * h * h * local(aim).w;
+    float massive = 1.0 + b * guide_damping * h + b * b * h * h * local(aim).w;
     vec3  q       = b * hv + b * b * h * h * acceleration;
 #ifdef HAIR_WIND
     feel_air(i, before, 1.0, hv);

@@ -32,7 +32,7 @@ bool is_left; // The second program must do the guide.
 #ifdef SPLITS
 float whip_part;    // Longest part of a guide that whips. 0 if the guide cannot be split.
 float leap_part;    // Fraction of the substep, a power of two
-// Values of params.keep and params.kick for the part.
+// Values of guide_keep and guide_kick for the part.
 float part_keep;
 float part_kick;
 float done;         // Fraction of the substep that is done
@@ -46,8 +46,8 @@ float known_part() { return known < 1.0 ? uintBitsToFloat(floatBitsToUint(known)
 float leap_span() { return known == 0.0 ? 0.5 : 0.5 + 0.5 * known_part() / leap_part; }
 #else
 #define leap_part 1.0
-#define part_keep params.keep
-#define part_kick params.kick
+#define part_keep guide_keep
+#define part_kick guide_kick
 float leap_span() { return known == 0.0 ? 0.5 : 1.0; } // The first leap is half a step.
 #endif
 

@@ -57,7 +57,7 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
 {
     float h = params.gravity.w, b = IS_BACK(method) ? 2.0 / 3.0 : 1.0;
     bool  leaps = LEAPS(method);
-    vec3  hv = rate_from(i, method), q = leaps ? -params.damping * h * hv : b * hv;
+    vec3  hv = rate_from(i, method), q = leaps ? -guide_damping * h * hv : b * hv;
     local(wanted) = leaps ? hv : IS_BACK(method) ? local(displacement) : vec3(0.0);
 #ifdef HAIR_WIND
     q += leaps ? drifts - by_parts(drags, hv) : b * b * drifts;
@@ -67,7 +67,7 @@ void step_back(uint i, int method, vec3 force, vec3 bending)
     PUT(moved, dragged_back(i, b, GET(moved)));
 #endif
     if (IS_BACK(method) && !leaps)
-        PUT(moved, GET(moved) - (1.0 + b * params.damping * h) * b / local(slack) * local(displacement));
+        PUT(moved, GET(moved) - (1.0 + b * guide_damping * h) * b / local(slack) * local(displacement));
 }
 
 #ifdef KEEPS_RATES

@@ -43,6 +43,8 @@ vec4 scalp;      // Frame that clamps the first segment.
 vec3 clamp_way, clamp_at_rest; // Direction of the clamp, and the same direction in groom space.
 bool root_is_free;
 
+#include "sim/damping.glsl"
+
 vec3 rest_from_root(uint i)
 {
     return rest[guide_first + min(i, guide_count - 1u)].position.xyz - root_at_rest;

@@ -33,6 +33,7 @@ bool solve()
     guide_first  = guide[guide_number].first;
     guide_count  = guide[guide_number].count;
     guide_length = guide[guide_number].arc_length;
+    load_damping();
     root_at_rest = rest[guide_first].position.xyz;
     clamp_at_rest = rotate(guide[guide_number].root_frame, vec3(0.0, 1.0, 0.0));
     uint begin = params.substep_first;

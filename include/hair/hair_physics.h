@@ -137,9 +137,9 @@ HAIR_API hair_result hair_get_physics(const hair_instance* hair, hair_physics* o
 
 /// Set the physics of one group of strands, see hair_groom_desc.strand_groups.
 ///
-/// Only fiber.youngs_modulus, the members of `shape`, and tip_mass can differ by group. All other
-/// members must be those of the instance, and follow later calls of hair_set_physics(). The group
-/// that needs the shortest substeps decides their length for all groups.
+/// Only damping, fiber.youngs_modulus, the members of `shape`, and tip_mass can differ by group.
+/// All other members must be those of the instance, and follow later calls of hair_set_physics().
+/// The group that needs the shortest substeps decides their length for all groups.
 ///
 /// @param group Group. [0, 7].
 /// @param physics Physics of the group, from hair_get_group_physics(). NULL gives the group the

@@ -50,6 +50,7 @@ FEATURE(WIND, "HAIR_WIND") // Wind blows.
 FEATURE(PINNED, "HAIR_PINNED") // Vertices are pinned.
 FEATURE(SKINNED, "HAIR_SKINNED") // Roots move with a skinned scalp.
 FEATURE(TARGETS, "HAIR_TARGETS") // Guides are blended with targets.
+FEATURE(GROUP_DAMPING, "HAIR_GROUP_DAMPING") // Groups of guides have damping of their own.
 FEATURE(HAIR_GRID, "HAIR_GRID") // The hair-hair grid acts on guides.
 // One thread per guide. Otherwise one work group per guide.
 FEATURE(THREAD_PER_GUIDE, "HAIR_THREAD_PER_GUIDE")
@@ -91,7 +92,7 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 #define STRAND_FEATURES \
     SIZES | WITH(WIND) | WITH(PINNED) | WITH(SKINNED) | WITH(HAIR_GRID) | WITH(THREAD_PER_GUIDE) | \
         WITH(COLLIDERS) | WITH(COLLIDER_GRID) | WITH(BODIES) | WITH(MESHES) | WITH(DEFORMING) | \
-        WITH(FEW_GUIDES)
+        WITH(FEW_GUIDES) | WITH(GROUP_DAMPING)
 #define RECORDED_FEATURES STRAND_FEATURES | WITH(IMPULSES)
 // The shape of followers.
 #define STYLE_FEATURES WITH(STYLED) | WITH(LENGTHS) | WITH(GROUP_LOOKS)

@@ -268,6 +268,7 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
         struct hair_rod_shape shape;
         hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
+        out[guides[i].first + guides[i].count - 1].factor_euler.w = physics->damping;
         HAIR_ASSERT(0 <= own && own <= 1);
         softened.guides += own < 1;
         if (own >= (double)softened.factor) continue;

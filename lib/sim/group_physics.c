@@ -1,9 +1,10 @@
-// group_physics.c - physics of groups of strands. Only the numbers of which rods are made can
-// differ by group. Everything else is a parameter of all guides.
+// group_physics.c - physics of groups of strands. Only damping and the numbers of which rods are
+// made can differ by group. Everything else is a parameter of all guides.
 #include "lib/sim/sim.h"
 
 void hair_sim_copy_group_members(const hair_physics* from, hair_physics* to)
 {
+    to->damping = from->damping;
     to->fiber.youngs_modulus = from->fiber.youngs_modulus;
     to->shape = from->shape;
     to->tip_mass = from->tip_mass;
@@ -24,6 +25,22 @@ hair_physics hair_sim_max_physics(const struct hair_sim* sim)
         max.tip_mass = fmaxf(max.tip_mass, groups[g].tip_mass);
     }
     return max;
+}
+
+bool hair_sim_has_group_damping(const struct hair_sim* sim)
+{
+    const hair_physics* groups = hair_sim_groups(sim);
+    for (int g = 0; groups && g < HAIR_MAX_STRAND_GROUPS; ++g)
+        if (groups[g].damping != sim->physics.damping) return true;
+    return false;
+}
+
+float hair_sim_min_damping(const struct hair_sim* sim)
+{
+    const hair_physics* groups = hair_sim_groups(sim);
+    float min = sim->physics.damping;
+    for (int g = 0; groups && g < HAIR_MAX_STRAND_GROUPS; ++g) min = fminf(min, groups[g].damping);
+    return min;
 }
 
 // Compute the physics of all groups again. `physics` are new ones of `group`, or NULL.

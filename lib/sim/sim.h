@@ -179,6 +179,10 @@ void hair_sim_copy_group_members(const hair_physics* from, hair_physics* to);
 const hair_physics* hair_sim_groups(const struct hair_sim* sim);
 // Return the physics of the instance, with the largest frequencies and tip mass of any group.
 hair_physics hair_sim_max_physics(const struct hair_sim* sim);
+// Return whether guides of some group have another damping than the instance.
+bool hair_sim_has_group_damping(const struct hair_sim* sim);
+// Return the minimum damping of all groups, in 1/s.
+float hair_sim_min_damping(const struct hair_sim* sim);
 // Apply changed physics of the instance to the groups.
 void hair_sim_update_groups(struct hair_sim* sim);
 // Set the wind, from the next step on. Copy the checked sources to which `wind` points. Other

@@ -114,7 +114,7 @@ static struct hair_motion_params motion_params(const struct hair_sim* sim)
         hair_quat_multiply(sim->last_after.rotation, hair_quat_conjugate(sim->last_before.rotation));
     hair_vec3 moved = hair_pose_offset(&sim->last_after, &sim->last_before);
     HAIR_ASSERT(sim->last_substep > 0);
-    double rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)sim->physics.damping;
+    double rate = sim->sleep.asleep ? 0 : 1 / sim->last_substep, damping = (double)hair_sim_min_damping(sim);
     double wait = damping > 0 ? 2 / damping * log(FASTEST_SPEED / RESTLESS_SPEED) : INFINITY;
     return (struct hair_motion_params){.turn = {turn.x, turn.y, turn.z, turn.w},
                                        .moved = {moved.x, moved.y, moved.z, (float)rate},

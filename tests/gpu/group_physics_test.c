@@ -1,5 +1,6 @@
 // group_physics_test.c - groups of strands with physics of their own in one instance.
 #include "tests/support/live_hair.h"
+#include "tests/support/passes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -218,6 +219,54 @@ static void groups_bend_at_the_frequency_of_their_stiffness(void** state)
     hair_test_strands_free(&strands);
 }
 
+// Let guides that nothing holds fall, and then move without gravity. Their speeds decay at the rate
+// of their group. One guide of each group is curled.
+static void check_decay(struct hair_test* test, hair_solver solver)
+{
+    static const float rate[3] = {1, 3, 0};
+    struct hair_test_strands strands = make_strands(mixed_groups);
+    struct hair_test_living living;
+    hair_physics physics = without_forces();
+    physics.gravity[1] = -9.81f, physics.root = HAIR_ROOT_FREE, physics.damping = rate[0];
+    physics.shape.gravity_preload = 0;
+    hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, STEP / 4, &physics);
+    hair_test_live(test, &strands, &desc, &living);
+    for (uint32_t g = 1; g < 3; ++g) {
+        physics.damping = rate[g];
+        hair_test_ok(test, hair_set_group_physics(living.hair, g, &physics));
+    }
+    hair_test_wait(&living, 12);
+    physics.gravity[1] = 0, physics.damping = rate[0];
+    hair_test_ok(test, hair_set_physics(living.hair, &physics));
+    hair_test_wait(&living, 6);
+    double y[3][GUIDES];
+    for (int k = 0; k < 3; ++k) {
+        hair_test_read_guides(&living);
+        for (uint32_t g = 0; g < GUIDES; ++g) {
+            y[k][g] = 0;
+            for (uint32_t i = 0; i < 16; ++i) y[k][g] += (double)hair_test_at(&living, g, i).y / 16;
+        }
+        hair_test_wait(&living, 15);
+    }
+    for (uint32_t g = 0; g < GUIDES; ++g) {
+        double found = log((y[0][g] - y[1][g]) / (y[1][g] - y[2][g])) / 0.25;
+        printf("solver %d, group %u: %.4f 1/s\n", (int)solver, mixed_groups[g], found);
+        hair_test_near("rate", g, found, (double)rate[mixed_groups[g]], 0.02);
+    }
+    hair_test_die(&living);
+    hair_test_strands_free(&strands);
+}
+
+static void speeds_decay_at_the_damping_of_their_group(void** state)
+{
+    const struct hair_gl* gl = &((struct hair_test*)*state)->context->gl;
+    uint32_t runs = hair_test_runs_of(gl, "_group_damping");
+    check_decay(*state, HAIR_SOLVER_DIRECT);
+    check_decay(*state, HAIR_SOLVER_ACCURATE);
+    check_decay(*state, HAIR_SOLVER_FOLLOW);
+    assert_true(hair_test_runs_of(gl, "_group_damping") > runs);
+}
+
 static uint64_t gpu_bytes(struct hair_test* test)
 {
     hair_memory memory = hair_memory_default();
@@ -247,7 +296,9 @@ static void equal_groups_give_the_bits_of_none(void** state)
     hair_test_ok(test, hair_set_group_physics(with.hair, 1, &other));
     hair_test_ok(test, hair_set_group_physics(with.hair, 1, NULL));
     hair_test_ok(test, hair_set_group_physics(with.hair, 6, NULL));
+    uint32_t runs = hair_test_runs_of(&test->context->gl, "_group_damping");
     swing(&with);
+    assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_damping"), runs);
     assert_int_equal(with.hair->sim.rod, rods);
     assert_int_equal(gpu_bytes(test) - before, 2 * bytes);
     assert_memory_equal(with.positions, without.positions, 3 * with.vertices * sizeof(float));
@@ -277,11 +328,11 @@ static void groups_keep_their_physics(void** state)
     free(bytes);
 
     hair_physics physics = physics_of(0), got = hair_physics_default();
-    physics.damping = 9, physics.shape.stiffness_tip = 5;
+    physics.drag = 9, physics.shape.stiffness_tip = 5;
     hair_test_ok(test, hair_set_physics(living.hair, &physics));
     hair_test_ok(test, hair_get_group_physics(living.hair, 0, &got));
     assert_memory_equal(&got, &physics, sizeof got);
-    physics = physics_of(1), physics.damping = 9;
+    physics = physics_of(1), physics.drag = 9;
     hair_test_ok(test, hair_get_group_physics(living.hair, 1, &got));
     assert_memory_equal(&got, &physics, sizeof got);
     hair_test_ok(test, hair_get_physics(living.hair, &got));
@@ -308,11 +359,11 @@ static void wrong_physics_of_groups_are_refused(void** state)
     physics.shape.stiffness_tip = -1;
     hair_test_refused(test, hair_set_group_physics(hair, 1, &physics), HAIR_ERROR_ARGUMENT,
                       "hair_physics.shape.stiffness_tip is -1, not in [0, 10000]");
-    physics.shape.stiffness_tip = 1, physics.damping = 7;
+    physics.shape.stiffness_tip = 1, physics.drag = 7;
     hair_test_refused(test, hair_set_group_physics(hair, 1, &physics), HAIR_ERROR_ARGUMENT,
-                      "hair_physics.damping is 7 for group 1 but 4 for the instance, and this member cannot "
+                      "hair_physics.drag is 7 for group 1 but 0.1 for the instance, and this member cannot "
                       "differ by group");
-    physics.damping = 4, physics.root = HAIR_ROOT_HINGED;
+    physics.drag = 0.1f, physics.root = HAIR_ROOT_HINGED;
     hair_test_refused(test, hair_set_group_physics(hair, 1, &physics), HAIR_ERROR_ARGUMENT,
                       "hair_physics.root is hinged for group 1 but clamped for the instance");
     hair_test_die(&living);
@@ -332,6 +383,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(groups_move_like_instances_of_their_physics),
         HAIR_TEST(groups_swing_at_their_frequency),
+        HAIR_TEST(speeds_decay_at_the_damping_of_their_group),
         HAIR_TEST(groups_bend_at_the_frequency_of_their_stiffness),
         HAIR_TEST(equal_groups_give_the_bits_of_none),
         HAIR_TEST(groups_keep_their_physics),

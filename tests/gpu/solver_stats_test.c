@@ -228,7 +228,7 @@ static void solver_that_gains_energy_is_counted(void** state)
         uint32_t vertices;
         const char* change;
     } cases[] = {
-        {40, "sed -i 's/= 1.0 + b \\* params.damping/= 1.0 - b * params.damping/' mixed.glsl"},
+        {40, "sed -i 's/= 1.0 + b \\* guide_damping/= 1.0 - b * guide_damping/' mixed.glsl"},
         {16, "sed -i 's/ : b \\* hv;/ : 1.1 * b * hv;/' predict.glsl"},
     };
     for (int k = 0; k < 2; ++k) {

@@ -57,7 +57,7 @@ static void wrong_use_exits_with_2(void** state)
         {"-o $D/a.png --set thread_mapping=",
          "thread_mapping is empty, not one of: auto, workgroup_per_guide, thread_per_guide"},
         {"-o $D/a.png --set groups.8.radius=1", "no setting groups.8.radius; groups are 0 to 7"},
-        {"-o $D/a.png --set groups.1.damping=1", "no setting groups.1.damping"},
+        {"-o $D/a.png --set groups.1.drag=1", "no setting groups.1.drag"},
         {"-o $D/a.png --set groups.1.radius=5",
          "groups.1.radius: hair_group_look.radius is 5, not in [0, 4]"},
         {"-o $D/a.png --set groups.1.radius=2",

@@ -112,7 +112,7 @@ static void settings_of_a_group_leave_other_groups_inherited(void** state)
     assert_false(hair_settings_set("test", &settings, "groups.3.tip_mass", "inf"));
     assert_false(hair_settings_set("test", &settings, "groups.3.radius", "5"));
     assert_false(hair_settings_set("test", &settings, "groups.8.radius", "1"));
-    assert_false(hair_settings_set("test", &settings, "groups.3.damping", "1"));
+    assert_false(hair_settings_set("test", &settings, "groups.3.drag", "1"));
     assert_true(settings.groups[3].physics.tip_mass == 0.5f);
 }
 

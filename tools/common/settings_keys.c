@@ -102,7 +102,7 @@ static void write_names(const char* prefix, struct hair_setting* setting)
 static bool can_differ_by_group(const hair_member* member)
 {
     return !strcmp(member->group, "shape") || !strcmp(member->name, "fiber.youngs_modulus") ||
-           !strcmp(member->name, "tip_mass");
+           !strcmp(member->name, "tip_mass") || !strcmp(member->name, "damping");
 }
 
 // Append the settings of a struct at the offset and of the group of `like`.
