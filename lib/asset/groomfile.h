@@ -22,7 +22,12 @@
 //   TEXC  f32[2] texture coordinates of each vertex of the scalp.
 //   SKIN  u32 joints, u16[4] joints of each vertex of the scalp, f32[4] weights of each.
 //
-// STRD and CURV are required. Readers skip chunks of unknown letters.
+// STRD and CURV are required. Readers skip chunks of unknown letters. The library skips two chunks
+// that hair-convert writes, and says so:
+//
+//   GUID  u8 1 for each strand that is a guide, otherwise 0. Sets of guides do not have it.
+//   JNTN  Names of the joints of SKIN in UTF-8, each followed by a byte 0.
+//
 #ifndef HAIR_ASSET_GROOMFILE_H
 #define HAIR_ASSET_GROOMFILE_H
 

@@ -185,8 +185,8 @@ class AddonTest(unittest.TestCase):
         self.assertRegex(info, f"scalp: .* {triangles} triangles, texture coordinates")
         got, got_counts, got_attributes = evaluated(self.import_hair(self.path("a.groom")))
         np.testing.assert_array_equal(got_counts, counts)
-        np.testing.assert_array_equal(got_attributes["groom_group_id"],
-                                      attributes["groom_group_id"])
+        for name in ("groom_group_id", "groom_guide"):
+            np.testing.assert_array_equal(got_attributes[name], attributes[name], name)
         starts = np.repeat(np.cumsum(counts) - counts, counts)
         np.testing.assert_allclose(got_attributes["radius"], attributes["radius"][starts], rtol=1e-6)
         # The fit to the scalp may move roots, so shapes are compared from the root on.

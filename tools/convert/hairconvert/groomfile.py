@@ -20,7 +20,7 @@ COLORS = 8  # at even places of a strand
 MAX_JOINTS, MAX_SCALP = 65536, 4194304  # joints, and vertices or triangles of a scalp
 MAX_ERROR, UNIT = 1e-5, 1.15e-5  # of the length of a strand
 BIAS, MIN_STEP, MAX_STEP = 128, 64, 160
-KNOWN = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN"}
+KNOWN = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN", "GUID", "JNTN"}
 
 
 class Chunk:
@@ -56,6 +56,8 @@ def read(data, options, report):
     groom = Groom(counts, _read_points(chunks["CURV"], counts), format="groom")
     if is_guides:
         groom.attributes["guide"] = Attribute("groom", np.ones(1, np.int32))
+    elif "GUID" in chunks:
+        groom.attributes["guide"] = Attribute(STRAND, _read_guides(chunks["GUID"], len(counts)))
     if "RADI" in chunks:
         chunks["RADI"].check_size(4 * len(counts))
         radii = chunks["RADI"].array(0, len(counts), "<f4")
@@ -96,6 +98,8 @@ def _read_scalp(chunks, report):
         mesh.weights = chunks["SKIN"].array(4 + 8 * vertices, 4 * vertices, "<f4").reshape(-1, 4)
         mesh.weights = mesh.weights.astype(np.float64)
         mesh.joint_names = [f"joint{i}" for i in range(joints)]
+        if "JNTN" in chunks:
+            mesh.joint_names = _read_names(chunks["JNTN"], joints)
     if "DENS" in chunks:
         report.lose("the density of the scalp", "meshes have none here")
     return mesh
@@ -188,6 +192,25 @@ def _read_groups(chunk, strands):
     return groups
 
 
+def _read_guides(chunk, strands):
+    chunk.check_size(strands)
+    guides = chunk.array(0, strands, "u1").astype(np.int32)
+    if guides.max() > 1:
+        chunk.refuse(f"has the flag {guides.max()} of a strand, not 0 or 1")
+    return guides
+
+
+def _read_names(chunk, count):
+    """Return the names of joints, each of which ends in a byte 0."""
+    names = chunk.data.split(b"\0")
+    if len(names) != count + 1 or names[-1]:
+        chunk.refuse(f"does not have {count} names that end in a byte 0")
+    try:
+        return [name.decode() for name in names[:-1]]
+    except UnicodeDecodeError:
+        chunk.refuse("has a name that is not UTF-8")
+
+
 def _read_colors(chunk, groom):
     strands = len(groom.counts)
     roots = chunk.array(0, 3 * strands, "<u2").reshape(-1, 3).astype(np.int64)
@@ -216,9 +239,6 @@ def write(groom, path, options, report):
     strands = len(groom.counts)
     guide = groom.values("guide", STRAND)
     is_guides = guide is not None and bool(guide.all())
-    if guide is not None and not is_guides and guide.any():
-        report.lose("the attribute guide", "a .groom file has guides only or all strands: --take "
-                    "selects one of them")
     chunks = [("STRD", struct.pack("<III", strands, len(groom.points), is_guides)
                + (groom.counts - 1).astype("u1").tobytes()),
               ("CURV", _write_points(groom))]
@@ -227,12 +247,14 @@ def write(groom, path, options, report):
         content = encode(groom, report) if name in groom.attributes else None
         if content is not None:
             chunks.append((letters, content))
+    if guide is not None and not is_guides and guide.any():
+        chunks.append(("GUID", (guide != 0).astype("u1").tobytes()))
     if groom.scalp:
         chunks += _write_scalp(groom.scalp, report)
     for name in groom.attributes:
         if name not in ("guide", "width", "group", "color"):
-            report.lose(f"the attribute {name}", "a .groom file holds only widths, groups and "
-                        "colours")
+            report.lose(f"the attribute {name}", "a .groom file holds only widths, groups, "
+                        "colours and guides")
     _write_chunks(path, chunks)
 
 
@@ -299,10 +321,15 @@ def _write_scalp(mesh, report):
         chunks.append(("SKIN", struct.pack("<I", len(mesh.joint_names))
                        + mesh.joints.astype("<u2").tobytes()
                        + mesh.weights.astype("<f4").tobytes()))
-        report.say("joints of the scalp have numbers, in the order of the skin, but no names")
+        chunks.append(("JNTN", _write_names(mesh.joint_names)))
     elif mesh.weights is not None:
         report.lose("the skin of the scalp", f"it has more than {MAX_JOINTS} joints")
     return chunks
+
+
+def _write_names(names):
+    """Return the names of joints, of which each ends in a byte 0."""
+    return b"".join(n.replace("\0", "_").encode(errors="replace") + b"\0" for n in names)
 
 
 def _write_radii(groom, report):

@@ -11,8 +11,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from hairconvert.groom import STRAND, VERTEX, Attribute, lengths
+from hairconvert.groomfile import Chunk, _read_names, _write_names
 from hairconvert.meshes import read_mesh
-from hairconvert.report import Report
+from hairconvert.report import InputError, Report
 from tests.test_mesh import make_gltf
 from tests.support import ConvertTest, add_attributes, make_groom
 
@@ -116,6 +117,7 @@ class GroomFileTest(ConvertTest):
         np.testing.assert_allclose(back.scalp.uv, mesh.uv, atol=1e-6)
         np.testing.assert_array_equal(back.scalp.joints, mesh.joints)
         np.testing.assert_allclose(back.scalp.weights, mesh.weights, atol=1e-6)
+        self.assertEqual(back.scalp.joint_names, mesh.joint_names)
         # Another unit and axis turn the scalp like the strands.
         turned = self.read(self.path("a.groom"), "--scale", "0.5", "--up", "z")
         np.testing.assert_allclose(turned.scalp.points[:, 1], 0.5 * mesh.points[:, 2], atol=1e-6)
@@ -129,9 +131,43 @@ class GroomFileTest(ConvertTest):
 
     def test_every_attribute_that_is_not_kept_is_told(self):
         path, said = self.write(add_attributes(make_groom(vertices=8)), "a.groom")
-        self.assertEqual(set(self.read(path).attributes), {"width", "group", "color"})
-        for name in ("opacity", "root_uv", "guide", "id", "roughness", "stiffness"):
+        self.assertEqual(set(self.read(path).attributes), {"width", "group", "color", "guide"})
+        for name in ("opacity", "root_uv", "id", "roughness", "stiffness"):
             self.assertEqual(sum(f"the attribute {name} " in s for s in said), 1, name)
+
+    def test_guides_among_strands_are_kept(self):
+        groom = add_attributes(make_groom())
+        path, said = self.write(groom, "a.groom")
+        self.assert_same_attributes(groom, self.read(path), ["guide"])
+        self.assertEqual(len(self.read(path, "--take", "guides").counts), 20)
+        # The library reads the strands, and says that the flags are not read.
+        self.assertIn("strands:   100, of 100", self.tool("info", path))
+        with open(path, "rb") as file:
+            data = bytearray(file.read())
+        at = data.index(b"GUID")
+        for flag, sentence in ((2, "has the flag 2 of a strand, not 0 or 1"), (1, "")):
+            data[at + 16] = flag
+            self.seal(data, at)
+            with open(self.path("b.groom"), "wb") as file:
+                file.write(data)
+            status, said = self.convert("info", self.path("b.groom"))
+            self.assertEqual(status, 4 if sentence else 0)
+            self.assertIn(sentence, said)
+
+    def seal(self, data, at):
+        """Write the checksum of the chunk at a byte."""
+        end = at + 16 + struct.unpack_from("<Q", data, at + 4)[0]
+        checksum = zlib.crc32(data[at + 16:end], zlib.crc32(data[at:at + 12]))
+        data[at + 12:at + 16] = struct.pack("<I", checksum)
+
+    def test_wrong_names_of_joints_are_refused(self):
+        chunk = Chunk("JNTN", 7, b"hip\0head\0")
+        self.assertEqual(_read_names(chunk, 2), ["hip", "head"])
+        for names, count, words in ((b"hip\0", 2, "does not have 2 names"), (b"hip", 1, "1 names"),
+                                    (b"", 1, "1 names"), (b"\xff\0", 1, "not UTF-8")):
+            with self.assertRaisesRegex(InputError, f'chunk "JNTN" at byte 7.*{words}'):
+                _read_names(Chunk("JNTN", 7, names), count)
+        self.assertEqual(_write_names(["a\0b", "\ud800"]), b"a_b\0?\0")
 
     def test_long_strands_need_an_option(self):
         status, said = self.convert("convert", self.write(make_groom(vertices=300), "a.hair")[0],
