@@ -61,6 +61,7 @@ static void make_stub(struct stub* stub, const struct hair_fuzz_host* host, unsi
     stub->gl.GetNamedBufferSubData = get_buffer;
     stub->guides[0].count = 4, stub->guides[1].count = VERTICES - 4;
     stub->groom.guides = stub->guides;
+    stub->groom.info.follower_count = 3;
     stub->rods.groom = &stub->groom;
     stub->bindings.vertex_count = 3;
     stub->mesh.content_hash = 0x0123456789abcdef;
@@ -86,6 +87,7 @@ static void make_stub(struct stub* stub, const struct hair_fuzz_host* host, unsi
         sim->scalp_motion.scalp[0] = SCALP;
         sim->scalp_motion.scalp[1] = SCALP_TO_COME;
     }
+    sim->lengths.groom = &stub->groom;
     sim->targets.target = TARGETS;
     sim->targets.position[0] = TARGET_POSITIONS;
     sim->targets.position[1] = TARGET_POSITIONS_TO_COME;
@@ -127,6 +129,11 @@ static void check_round_trip(struct hair_sim* sim, const struct hair_serializer*
     uint32_t marks = hair_read_u32(read->read + HAIR_SAVE_HEADER);
     if (!(marks & HAIR_SAVE_SKINNED)) sim->scalp_motion.root_transform = 0;
     if (!(marks & HAIR_SAVE_TARGETS)) sim->targets.target = 0;
+    if (marks & HAIR_SAVE_LENGTHS) {
+        sim->lengths.guides = sim->lengths.groom->guides;
+        sim->lengths.guide_fraction = loaded->guide_fraction;
+        sim->lengths.follower_fraction = loaded->follower_fraction;
+    }
     struct hair_serializer s = {.host = read->host, .gl = sim->gl, .at = HAIR_SAVE_HEADER};
     if (read->lacks_bend) sim->bend = 0;
     s.write = malloc(read->end);
@@ -160,6 +167,8 @@ static void free_loaded(const struct hair_host* host, struct hair_loaded* loaded
     hair_free(host, loaded->now.collider);
     hair_free(host, loaded->before.collider);
     hair_free(host, loaded->resolved_pin);
+    hair_free(host, loaded->guide_fraction);
+    hair_free(host, loaded->follower_fraction);
     hair_colliders_free(host, colliders);
     hair_free(host, native);
 }

@@ -167,7 +167,7 @@ static void refused_load_changes_nothing(void** state)
         {load_sealed_short, 48 * vertices + SLEEP + 8 + forces, HAIR_ERROR_FILE,
          "within the guide vertices at byte "},
         {load_sealed_short, good.size - 28, HAIR_ERROR_FILE,
-         "end at byte 20, within the marks of a skinned scalp and of targets at byte 20"},
+         "end at byte 20, within the marks of a skinned scalp, of targets and of lengths at byte 20"},
         {load_sealed_long, 4, HAIR_ERROR_FILE, "the fields of the saved state end at byte "},
         {load_with_minus_1, SUBSTEP, HAIR_ERROR_ARGUMENT, "its substep is -1, the instance's 0.004166"},
         {load_with_nan, SUBSTEP, HAIR_ERROR_ARGUMENT, "the saved state is another's"},
