@@ -58,8 +58,9 @@ static void compute_info(struct hair_groom_builder* builder)
     for (size_t a = 0; a < 3; ++a) {
         info->lower[a] = info->upper[a] = strands->positions[a];
         for (size_t i = 1; i < strands->vertex_count; ++i) {
-            info->lower[a] = fminf(info->lower[a], strands->positions[3 * i + a]);
-            info->upper[a] = fmaxf(info->upper[a], strands->positions[3 * i + a]);
+            float at = strands->positions[3 * i + a];
+            if (at < info->lower[a]) info->lower[a] = at;
+            if (at > info->upper[a]) info->upper[a] = at;
         }
     }
 }

@@ -104,13 +104,15 @@ static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
 static void write_rest(const float* p, uint32_t count, struct hair_guide* guide, struct hair_rest* rest)
 {
     hair_quat frame = {guide->root_frame.x, guide->root_frame.y, guide->root_frame.z, guide->root_frame.w};
+    hair_vec3 before = segment_vector(p, 0);
     double total = 0;
     for (uint32_t i = 0; i < count; ++i) {
         hair_vec3 at = vertex(p, i);
         float length = i + 1 < count ? hair_distance(at, vertex(p, i + 1)) : 0;
         if (i > 0 && i + 1 < count) {
-            hair_quat turn = hair_quat_between(segment_vector(p, i - 1), segment_vector(p, i));
-            frame = hair_quat_normalize(hair_quat_multiply(turn, frame));
+            hair_vec3 direction = segment_vector(p, i);
+            frame = hair_quat_normalize(hair_quat_multiply(hair_quat_between(before, direction), frame));
+            before = direction;
         }
         rest[i].position = (hair_vec4){at.x, at.y, at.z, length};
         HAIR_ASSERT(hair_quat_is_unit(frame));

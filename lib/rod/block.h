@@ -127,7 +127,8 @@ HAIR_LANES_INLINE struct hair_lanes4 hair_block_unit(struct hair_lanes4 q)
 {
     hair_lanes s = hair_lanes_sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
     struct hair_lanes4 none = {{0}, {0}, {0}, hair_lanes_of(1)};
-    struct hair_lanes4 unit = {q.x / s, q.y / s, q.z / s, q.w / s};
+    hair_lanes over = 1 / s;
+    struct hair_lanes4 unit = {q.x * over, q.y * over, q.z * over, q.w * over};
     return hair_lanes_select4(s > 1e-20, unit, none);
 }
 

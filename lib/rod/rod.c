@@ -67,8 +67,10 @@ double hair_rod_max_stiffness(const struct hair_rod_shape* s, uint32_t i, double
     HAIR_ASSERT(h > 0);
     hair_dvec3 row = row_of_vertex(s, i);
     double after = row.z * row.z / s->mass[i + 1], max = after;
-    if (i > 0) max = fmax(max, row.y * row.y / s->mass[i]);
-    if (i > 1 || (i == 1 && !s->held)) max = fmax(max, row.x * row.x / s->mass[i - 1]);
+    double own = row.y * row.y / s->mass[i];
+    if (i > 0 && own > max) max = own;
+    double before = i > 1 || (i == 1 && !s->held) ? row.x * row.x / s->mass[i - 1] : 0;
+    if (before > max) max = before;
     return (s->held ? MAX_STIFF : MAX_STIFF_FREE) / (h * h * max * implicit_ratio(s));
 }
 
@@ -109,7 +111,8 @@ static double max_frequency_squared(const struct hair_rod_shape* s, const struct
         if (i > 1) sum += fabs(k[i - 2].z) / sqrt(s->mass[i - 2]);
         if (i + 1 < s->count) sum += fabs(k[i].y) / sqrt(s->mass[i + 1]);
         if (i + 2 < s->count) sum += fabs(k[i].z) / sqrt(s->mass[i + 2]);
-        max = fmax(max, sum / sqrt(s->mass[i]));
+        sum /= sqrt(s->mass[i]);
+        if (sum > max) max = sum;
     }
     return max;
 }
@@ -166,8 +169,9 @@ static hair_vec4 rest_strain(const struct hair_rod_shape* s, uint32_t i, double 
     hair_dvec3 strain = hair_dscale((hair_dvec3){s->turn[i].x, s->turn[i].y, s->turn[i].z}, 2);
     if ((float)stiffness > 0) {
         hair_dvec3 excess = hair_rod_excess(s, i, stiffness);
-        double size = hair_dlength(excess);
-        strain = hair_dadd(strain, hair_dscale(excess, -fmin(1, HAIR_ROD_MAX_STRAIN / fmax(size, 1e-30))));
+        double squared = hair_ddot(excess, excess), max = HAIR_ROD_MAX_STRAIN;
+        double kept = squared > max * max ? max / sqrt(squared) : 1;
+        strain = hair_dadd(strain, hair_dscale(excess, -kept));
     }
     return (hair_vec4){(float)strain.x, (float)strain.y, (float)strain.z, (float)stiffness};
 }

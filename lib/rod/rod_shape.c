@@ -10,8 +10,9 @@ static hair_dvec3 along(hair_dquat q)
 
 static hair_dquat unit(hair_dquat q)
 {
-    double s = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-    return s > 1e-20 ? (hair_dquat){q.x / s, q.y / s, q.z / s, q.w / s} : (hair_dquat){0, 0, 0, 1};
+    double s = sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w), over = 1 / s;
+    return s > 1e-20 ? (hair_dquat){q.x * over, q.y * over, q.z * over, q.w * over}
+                     : (hair_dquat){0, 0, 0, 1};
 }
 
 static hair_dquat load_frame(const hair_vec4* q)
