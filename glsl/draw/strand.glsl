@@ -10,7 +10,7 @@
 #include "strands/evaluate.glsl"
 #endif
 #ifdef HAIR_WIDENED
-#include "draw/lod_contract.glsl"
+#include "strands/lod_contract.glsl"
 #endif
 #define HAIR_OF_VERTICES 1
 #include "light/shading.glsl"

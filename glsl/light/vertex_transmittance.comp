@@ -19,6 +19,9 @@
 #include "light/lights.glsl"
 #include "light/shadow_map.glsl"
 #include "random.glsl"
+#ifdef HAIR_WIDENED
+#include "strands/lod_contract.glsl"
+#endif
 
 layout(std430, binding = HAIR_BIND_DENSITY_LIGHT) readonly restrict buffer node_buffer
 {
@@ -35,7 +38,7 @@ layout(binding = HAIR_UNIT_SHADOW) uniform sampler2D hair_shadow_map[HAIR_SHADOW
 struct strand_bit {
     vec3  before, at, after; // m, from the head's origin.
     vec3  tangent;
-    float radius;
+    float radius, thin; // m. `thin` is without a level of detail.
     uint  seed;
 };
 
@@ -100,7 +103,7 @@ float open_in(uint map, uint light, vec3 to, strand_bit s)
     vec3  side  = cross(s.tangent, to);
     side *= s.radius / max(length(side), 1e-12);
     float each = depth_by_metre(light, find_place_in_map(map, s.at).z, distance_to_light(light, s.at));
-    float own = OWN_DEPTH * s.radius * each, turn = random(s.seed + 0x3c6ef372u), open = 0.0;
+    float own = OWN_DEPTH * s.thin * each, turn = random(s.seed + 0x3c6ef372u), open = 0.0;
     for (int i = 0; i < TAPS; ++i) {
         float x = (float(i) + turn) / float(TAPS) * 2.0 - 1.0,
               across = 2.0 * fract(turn + 0.618034 * float(i + 1)) - 1.0;
@@ -135,24 +138,41 @@ float find_order(uint vertex, uint k, strand_bit s)
     return straight * straight;
 }
 
-void light(density_grid grid, uint vertex)
+// Return the place where a vertex is drawn. Wider strands of a level of detail are drawn elsewhere.
+vec3 drawn_at(uint vertex, float widened)
+{
+    vec4 v = strand_vertex[vertex];
+#ifdef HAIR_WIDENED
+    uint       each  = draw.segments + 1u;
+    hair_point point = hair_point(v.xyz, vec3(0.0), v.w);
+    float      t     = float(vertex % each) / float(draw.segments);
+    hair_follower follower = fetch_follower(vertex / each);
+    if (widened > 1.0) gather(follower, whole_t(t), v.w * (widened - 1.0), point);
+    v.xyz = point.position;
+#endif
+    return v.xyz;
+}
+
+// Light a vertex. `run` has the width of strands.
+void light(density_grid grid, uint vertex, vertex_range run)
 {
     uint       each = draw.segments + 1u, k = vertex % each;
     vec4       at = strand_vertex[vertex];
     strand_bit s;
-    s.at      = at.xyz;
-    s.before  = k > 0u ? strand_vertex[vertex - 1u].xyz : s.at;
-    s.after   = k + 1u < each ? strand_vertex[vertex + 1u].xyz : s.at;
+    s.at      = drawn_at(vertex, run.widened);
+    s.before  = k > 0u ? drawn_at(vertex - 1u, run.widened) : s.at;
+    s.after   = k + 1u < each ? drawn_at(vertex + 1u, run.widened) : s.at;
     s.tangent = direction_or(s.after - s.before, vec3(0.0, 1.0, 0.0));
-    s.radius  = at.w;
+    s.radius  = at.w * run.thickness;
+    s.thin    = at.w;
     s.seed    = vertex / each;
-    find_corners(grid, place_in(grid, s.at));
+    find_corners(grid, place_in(grid, at.xyz));
     light_of_vertex[vertex * draw.light_values] = packHalf2x16(vec2(around(0u), find_order(vertex, k, s)));
     for (uint i = 0u; i < draw.lights; ++i) {
         vec4  place = draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_TO];
         vec3  to    = beam_at(i, s.at).to;
         float along = dot(s.tangent, to), reach = place.w > 0.0 ? length(place.xyz - s.at) : 1e9;
-        float met   = met_towards(grid, s.at, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
+        float met   = met_towards(grid, at.xyz, i, to, reach) * sqrt(max(1.0 - along * along, 0.0));
         uint  map   = uint(draw.light[i * HAIR_LIGHT_VECTORS + HAIR_LIGHT_MORE].w);
         float open  = map < uint(HAIR_SHADOW_MAPS) ? open_in(map, i, to, s) : exp(-met);
         light_of_vertex[vertex * draw.light_values + 1u + i] = packHalf2x16(vec2(open, met));
@@ -164,5 +184,5 @@ void main()
     vertex_range run = find_vertex_range();
     if (run.first >= run.end) return;
     density_grid grid = find_grid();
-    for (uint vertex = run.first; vertex < run.end; vertex += run.stride) light(grid, vertex);
+    for (uint vertex = run.first; vertex < run.end; vertex += run.stride) light(grid, vertex, run);
 }

@@ -39,13 +39,3 @@ hair_patch_lines find_lines(uint number)
                             1.0 - (float(strands) - wanted), thickness * detail.thickness, detail.thickness);
 #endif
 }
-
-// Return the first follower of a patch and the number of followers whose vertices a pass covers.
-// These are the drawn strands. A strand that is about to appear counts as well, because other
-// stages round differently.
-uvec2 find_strands(uint number)
-{
-    uvec2 all = texelFetch(patch_texture, int(number) * HAIR_PATCH_TEXELS).xy; // hair_patch
-    hair_patch_lines lines = find_lines(number);
-    return uvec2(all.x, min(lines.strands + uint(lines.fading > 0.999), all.y));
-}

@@ -25,7 +25,7 @@ enum hair_blending {
     HAIR_BLENDING_SORTED, // Blended by coverage, from far to near.
 };
 
-#define HAIR_DRAW_MAX_PASSES 20
+#define HAIR_DRAW_MAX_PASSES 21
 
 struct hair_draw_plan {
     const hair_view* view;

@@ -222,6 +222,8 @@ PASS(NODE_TRANSMITTANCE, "light/node_transmittance", SELF_SHADOW, WITH(COLLIDERS
      "light/node_transmittance.comp")
 PASS(VERTEX_TRANSMITTANCE, "light/vertex_transmittance", SELF_SHADOW, WITH(COLLIDERS),
      "light/vertex_transmittance.comp")
+PASS(VERTEX_TRANSMITTANCE_DRAWN, "light/vertex_transmittance_drawn", SELF_SHADOW,
+     WITH(COLLIDERS) | STYLE_FEATURES, "HAIR_WIDENED=1 light/vertex_transmittance.comp")
 PASS(COLLIDERS, "draw/colliders", COLLIDERS, 0, "HAIR_MESHES=1 draw/colliders.vert draw/colliders.frag")
 PASS(SLICE, "draw/colliders_slice", COLLIDERS, 0, "draw/slice.vert draw/slice.frag")
 PASS(AIR, "draw/air", AIR, 0, "draw/air.vert draw/guides.frag")

@@ -83,12 +83,12 @@ void hair_lighting_bind_shadow_maps(struct hair_lighting* lighting, const hair_v
 
 // Return the number of light values per vertex, or 0 without self-shadowing.
 uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view);
-// Compute the light that reaches each vertex in `view`, which requests self-shadowing. `params` are
-// the parameters of the view. With `is_part`, only the vertices that the view draws are written to
-// the vertex cache and lit. The programs must be compiled.
+// Compute the light that reaches each vertex in `view`, which requests self-shadowing. `drawn` are
+// the parameters of the view, and `params` those of the grid. With `is_part`, only the vertices
+// that the view draws are written to the vertex cache. The programs must be compiled.
 hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, struct hair_geometry* geometry,
                                              const hair_view* view, const struct hair_draw_params* params,
-                                             bool is_part);
+                                             const struct hair_draw_params* drawn, bool is_part);
 void hair_lighting_free_self_shadow(struct hair_lighting* lighting);
 
 // Functions of strand_color.c.

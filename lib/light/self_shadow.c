@@ -105,7 +105,7 @@ uint32_t hair_lighting_value_count(const hair_look* look, const hair_view* view)
 
 hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, struct hair_geometry* geometry,
                                              const hair_view* view, const struct hair_draw_params* params,
-                                             bool is_part)
+                                             const struct hair_draw_params* drawn, bool is_part)
 {
     struct hair_gl* gl = lighting->gl;
     struct hair_self_shadow_state* own = &lighting->self_shadow;
@@ -122,12 +122,16 @@ hair_result hair_lighting_update_self_shadow(struct hair_lighting* lighting, str
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY, 2, grid);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_DENSITY_LIGHT, 3, buffers);
     if (own->filled != geometry->vertex_cache.writes) fill_grid(lighting, geometry, groups);
-    if (is_found(lighting, view, params)) return HAIR_OK;
-    if (is_part) own->frame = 0; // Another view draws other vertices.
+    if (is_found(lighting, view, params) && !view->lod) return HAIR_OK;
+    if (view->lod) own->frame = 0; // Another view draws other strands, or in another width.
     if (geometry->follower_collision.field) hair_field_bind(geometry->follower_collision.field);
     uint32_t values = params->light_values;
     find_light(lighting, geometry, HAIR_GL_NODE_TRANSMITTANCE, NODE_GROUPS, NODE_GROUPS / values);
-    find_light(lighting, geometry, HAIR_GL_VERTEX_TRANSMITTANCE, groups,
-               LIT_VALUES / (HAIR_GROUP_SIZE * values));
+    hair_gl_pass pass = HAIR_GL_VERTEX_TRANSMITTANCE;
+    if (view->lod) { // Strands of a level of detail are wider, and drawn elsewhere.
+        pass = hair_geometry_choose_variant(geometry, HAIR_GL_VERTEX_TRANSMITTANCE_DRAWN);
+        hair_gl_write_uniform(gl, geometry->params, sizeof *drawn, drawn);
+    }
+    find_light(lighting, geometry, pass, groups, LIT_VALUES / (HAIR_GROUP_SIZE * values));
     return HAIR_OK;
 }

@@ -1,5 +1,5 @@
 // depth_shadow_test.c - light that HAIR_SELF_SHADOW_DEPTH estimates, against that of
-// HAIR_SELF_SHADOW_STRANDS, which knows where all strands are.
+// HAIR_SELF_SHADOW_STRANDS, which knows where all strands are. Levels of detail keep this light.
 #include "tests/support/scene.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "tests/support/haircut.h"
 
-enum { SIDE = 96, VALUES = 4 * SIDE * SIDE, MAP = 512, FOLLOWERS = 3000 };
+enum { SIDE = 96, VALUES = 4 * SIDE * SIDE, MAP = 2048, FOLLOWERS = 3000 };
 
 #define RADIUS 4e-4f // m, as wide together as the strands of a head
 
@@ -38,7 +38,7 @@ static hair_view view_from(float turn, float rise)
 }
 
 // Return a sun at `turn` radians from the eye, with a map of the hair.
-static hair_light shine(const struct hair_test_scene* f, float turn, GLuint map)
+static hair_light shine(const struct hair_test_scene* f, float turn, const hair_lod* lod, GLuint map)
 {
     hair_light light = hair_light_default();
     hair_view view = view_from(turn, 0.44f);
@@ -56,6 +56,7 @@ static hair_light shine(const struct hair_test_scene* f, float turn, GLuint map)
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, MAP, MAP);
     view.pass = HAIR_PASS_DEPTH;
+    view.lod = lod;
     hair_test_ok(f->test, hair_draw(f->hair, &view));
     glBindFramebuffer(GL_FRAMEBUFFER, f->frame.framebuffer);
     glViewport(0, 0, SIDE, SIDE);
@@ -89,13 +90,14 @@ static void set_method(struct hair_test_scene* f, hair_self_shadow method)
 
 // Return the mean of green of the hair.
 static double brightness(struct hair_test_scene* f, hair_self_shadow method, const hair_light* light,
-                         float sky)
+                         const hair_lod* lod, float sky)
 {
     static float pixels[VALUES];
     double sum = 0, covered = 0;
     hair_view view = view_from(0, 0);
     set_method(f, method);
     view.lights = light;
+    view.lod = lod;
     view.light_count = 1;
     for (int k = 0; k < 3; ++k) view.ambient[k] = sky;
     hair_test_draw_in(&f->frame, f->test, f->hair, &view, pixels);
@@ -116,17 +118,38 @@ static void light_is_near_that_of_counted_strands(void** state)
         glCreateTextures(GL_TEXTURE_2D, 1, &map);
         glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
         for (int k = 0; k < 3; ++k) {
-            hair_light sun = shine(&f, 1.5707963f * (float)k, map);
-            double lit = brightness(&f, HAIR_SELF_SHADOW_DEPTH, &sun, 0);
-            double expected = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, 0);
+            hair_light sun = shine(&f, 1.5707963f * (float)k, NULL, map);
+            double lit = brightness(&f, HAIR_SELF_SHADOW_DEPTH, &sun, NULL, 0);
+            double expected = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, NULL, 0);
             for (int c = 0; c < 3; ++c) sun.color[c] = 0;
-            double sky = brightness(&f, HAIR_SELF_SHADOW_DEPTH, &sun, 1);
-            double expected_sky = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, 1);
+            double sky = brightness(&f, HAIR_SELF_SHADOW_DEPTH, &sun, NULL, 1);
+            double expected_sky = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, NULL, 1);
             print_message("    %s, sun at %d: %+.0f %%, sky %+.0f %%\n", hair_look_name(presets[i]), 90 * k,
                           100 * (lit / expected - 1), 100 * (sky / expected_sky - 1));
             assert_true(fabs(lit / expected - 1) < limit[k]);
             assert_true(fabs(sky / expected_sky - 1) < sky_limit);
         }
+        glDeleteTextures(1, &map);
+        hair_test_scene_free(&f);
+    }
+}
+
+static void level_of_detail_keeps_light(void** state)
+{
+    for (int i = 0; i < 2; ++i) {
+        struct hair_test_scene f = start(state, presets[i]);
+        hair_lod lod = hair_lod_default();
+        GLuint map;
+        glCreateTextures(GL_TEXTURE_2D, 1, &map);
+        glTextureStorage2D(map, 1, GL_DEPTH_COMPONENT32F, MAP, MAP);
+        lod.strand_fraction = 0.3f, lod.per_patch = false;
+        hair_light sun = shine(&f, 0.8f, NULL, map);
+        double expected = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, NULL, 0);
+        sun = shine(&f, 0.8f, &lod, map);
+        double lit = brightness(&f, HAIR_SELF_SHADOW_STRANDS, &sun, &lod, 0);
+        print_message("    %s, 3 of 10 strands: %+.1f %%\n", hair_look_name(presets[i]),
+                      100 * (lit / expected - 1));
+        assert_true(fabs(lit / expected - 1) < 0.05);
         glDeleteTextures(1, &map);
         hair_test_scene_free(&f);
     }
@@ -145,7 +168,7 @@ static double measured_order(struct hair_test_scene* f)
     hair_light light = hair_light_default();
     GLint size;
     double sum = 0;
-    brightness(f, HAIR_SELF_SHADOW_STRANDS, &light, 1);
+    brightness(f, HAIR_SELF_SHADOW_STRANDS, &light, NULL, 1);
     glGetNamedBufferParameteriv(own->light, GL_BUFFER_SIZE, &size);
     uint32_t* numbers = malloc((size_t)size);
     assert_non_null(numbers);
@@ -174,6 +197,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         HAIR_TEST(light_is_near_that_of_counted_strands),
+        HAIR_TEST(level_of_detail_keeps_light),
         HAIR_TEST(order_is_near_that_of_vertices),
     };
     if (hair_test_skips()) return 0;
