@@ -24,7 +24,7 @@ layout(std430, binding = HAIR_BIND_BEND) buffer bend_buffer { vec4 bend[]; };
 // Return the frame of segment i, whose next vertex is in place.
 vec4 frame_of(uint i)
 {
-#ifdef HAIR_MIXED
+#if defined(HAIR_ROD) && defined(HAIR_MIXED)
     return material[i];
 #else
     vec3 link = direction_or(state[i + 1u].position.xyz - state[i].position.xyz, vec3(0.0, -1.0, 0.0));
