@@ -271,9 +271,9 @@ typedef struct hair_group_look {
     } curl;
     /// Multiple of hair_look.strays.frizz.
     float frizz; ///< [0, 4]. Default 1.
-    /// Multiple of the blend weight of locks, see hair_look.clump. 0 is HAIR_INTERPOLATION_MULTI.
+    /// Multiple of the blend weight of locks. See hair_look.clump. 0 is HAIR_INTERPOLATION_MULTI.
     float clump; ///< [0, 1]. Default 1.
-    /// Multiple of the roughness along the fibre, to which the width of highlights is proportional.
+    /// Multiple of the roughness along the fibre. The width of highlights is proportional to the roughness.
     float roughness; ///< [0.2, 4]. Default 1.
 } hair_group_look;
 HAIR_DESC(hair_group_look)

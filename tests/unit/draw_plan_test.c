@@ -13,6 +13,7 @@ static const hair_pass passes[] = {HAIR_PASS_COLOR, HAIR_PASS_DEPTH, HAIR_PASS_M
 
 struct fixture {
     struct hair_geometry geometry;
+    struct hair_lengths lengths;
     struct hair_lighting lighting;
     struct hair_renderer renderer;
     struct hair_gl_shader shader;
@@ -43,6 +44,7 @@ static struct fixture* start(void)
     f.renderer.geometry = &f.geometry;
     f.renderer.lighting = &f.lighting;
     f.geometry.look = hair_look_default();
+    f.geometry.lengths = &f.lengths;
     f.lod = hair_lod_default();
     f.light = hair_light_default();
     return &f;
@@ -134,6 +136,7 @@ static void passes_of_plans_make_what_later_passes_read(void** state)
         assert_int_equal(has_pass(&plan, HAIR_GL_VERTEX_TRANSMITTANCE), is_lit);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND), is_lit || plan.vertices == HAIR_VERTICES_CACHED);
         assert_int_equal(has_pass(&plan, HAIR_GL_EXPAND_DRAWN), is_lit && s.view.lod);
+        assert_int_equal(has_pass(&plan, HAIR_GL_VERTEX_TRANSMITTANCE_DRAWN), is_lit && s.view.lod);
         assert_int_equal(has_pass(&plan, HAIR_GL_RASTER), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_COMPOSE_TILES), plan.is_computed);
         assert_int_equal(has_pass(&plan, HAIR_GL_RESOLVE_TILES), plan.is_computed);
