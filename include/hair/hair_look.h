@@ -273,7 +273,7 @@ typedef struct hair_group_look {
     float frizz; ///< [0, 4]. Default 1.
     /// Multiple of the blend weight of locks. See hair_look.clump. 0 is HAIR_INTERPOLATION_MULTI.
     float clump; ///< [0, 1]. Default 1.
-    /// Multiple of the roughness along the fibre. The width of highlights is proportional to the roughness.
+    /// Multiple of the roughness along the fibre. Highlights widen in proportion.
     float roughness; ///< [0.2, 4]. Default 1.
 } hair_group_look;
 HAIR_DESC(hair_group_look)
