@@ -19,7 +19,7 @@
 //   G = w M + v (v . M) / w - v x M
 //
 // A pose of rest is found by Newton's method on the turns of the segments, as in block_variation.h.
-// Where the matrix is not positive, a multiple of the unit matrix is added. Each step is halved
+// A matrix that is not positive gets a multiple of the unit matrix. Each step is halved
 // until it does not raise the energy.
 #ifndef HAIR_ROD_BLOCK_STATICS_H
 #define HAIR_ROD_BLOCK_STATICS_H
