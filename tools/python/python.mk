@@ -26,4 +26,18 @@ test-python: wheel ## Install the wheel in a new virtual environment and test th
 	@cd $(PY)/test && HAIR_ROOT=$(CURDIR) bin/python -B -m unittest discover -t $(CURDIR)/tools/python/tests \
 	  -s $(CURDIR)/tools/python/tests $(if $(filter),-k $(filter))
 
-.PHONY: wheel test-python
+# Engines for Python draw hair by the package, in contexts of their own. The versions are those that were tested.
+HOSTS := build/python/hosts
+$(HOSTS)/installed: $(PY)/made
+	@rm -rf $(HOSTS) && $(PYTHON) -m venv $(HOSTS)
+	@$(HOSTS)/bin/pip install -q --disable-pip-version-check $(WHEEL) raylib==6.2.0.0 panda3d==1.10.16 || \
+	  { echo "pip could not install raylib and panda3d, which test-hosts-python needs (above)."; exit 1; }
+	@touch $@
+test-hosts-python: $(HOSTS)/installed ## Programs of raylib and Panda3D keep their pixels beside hair
+	@command -v xvfb-run >/dev/null || { echo "test-hosts-python needs xvfb-run; make hosts installs it."; exit 1; }
+	@for host in "raylib_test.py" "panda3d_test.py core" "panda3d_test.py compatibility"; do \
+	  xvfb-run -a $(HOSTS)/bin/python -B tests/hosts/python/$$host || exit 1; done
+	@for host in "raylib_test.py" "panda3d_test.py compatibility"; do \
+	  MESA_GL_VERSION_OVERRIDE=3.3 xvfb-run -a $(HOSTS)/bin/python -B tests/hosts/python/$$host || exit 1; done
+
+.PHONY: wheel test-python test-hosts-python

@@ -83,6 +83,28 @@ def egl():
     return _egl[0]
 
 
+_loader_ffi = cffi.FFI()
+_loader_ffi.cdef("""
+    void* eglGetCurrentContext(void);
+    void* glXGetCurrentContext(void);
+    void* glXGetProcAddressARB(const char*);
+""")
+
+
+def current_loader():
+    """Return a function that finds functions of the current OpenGL context by name, or None for one of EGL.
+
+    Hosts make their contexts by EGL or by GLX. The libraries of both exist wherever a host uses them.
+    """
+    try:
+        if _loader_ffi.dlopen("libEGL.so.1").eglGetCurrentContext():
+            return None
+        glx = _loader_ffi.dlopen("libGL.so.1")
+    except OSError:
+        return None
+    return glx.glXGetProcAddressARB if glx.glXGetCurrentContext() else None
+
+
 def call(function, *arguments):
     """Call a function that returns a hair_result. Raise the error that the result stands for."""
     errors = _errors()

@@ -4,7 +4,7 @@ import threading
 
 import numpy as np
 
-from ._native import call, egl, ffi, hair, host, new_desc, to_dict
+from ._native import call, current_loader, egl, ffi, hair, host, new_desc, to_dict
 from .arrays import floats, integers, matrix, pointer
 from .settings import CLASSES
 
@@ -16,9 +16,10 @@ class Context:
     """The objects of the library in an OpenGL context.
 
     Context() makes an OpenGL context without a window, on the EGL device of an index or, for -1, on the first
-    that works. Context(current=True) takes the OpenGL context that is current on this thread. It is then
-    up to the caller to keep that current. `get_proc` gives the addresses of its functions, by name as bytes,
-    if EGL did not make the context.
+    that works. Context(current=True) takes the OpenGL context of EGL or GLX that is current on this thread,
+    such as that of a window. It is then up to the caller to keep that context current. `get_proc` replaces
+    the search for the functions of OpenGL: it takes a name as bytes, and returns an address as an integer or
+    as a pointer of cffi.
 
     Close a context, or use it in a with statement. Its hair is closed with it.
     """
@@ -32,8 +33,11 @@ class Context:
             _current.context = self
         desc, out = CLASSES["ContextDesc"](members), ffi.new("hair_context**")
         desc._c.host = host
-        self.get_proc = egl().hair_egl_get_proc
-        if get_proc is not None:
+        if current and get_proc is None:
+            get_proc = current_loader()
+        if get_proc is None:
+            self.get_proc = egl().hair_egl_get_proc
+        else:
             self.get_proc = ffi.callback(
                 "void*(const char*, void*)", lambda name, _user: ffi.cast("void*", get_proc(ffi.string(name)) or 0)
             )
@@ -99,7 +103,7 @@ class Hair:
         if physics is not None:
             desc._point("physics", physics._c)
         if transform is not None:
-            desc._c.transform = matrix(transform).ravel().tolist()
+            desc.transform = transform
         context.make_current()
         call(hair.hair_create, context._c, groom._c, desc._c, out)
         self._c, self.context, self._kept = out[0], context, []

@@ -102,8 +102,7 @@ def render(hairs, eye, target, size=(640, 480), *, angle=0.5, samples=4, backgro
     for name, value, limit in (("width", width, 0x84E8), ("height", height, 0x84E8), ("samples", samples, 0x8D57)):
         gl.check_limit(name, value, limit)
     view = CLASSES["View"]() if view is None else view.copy()
-    view._c.view = look_at(eye, target).T.ravel().tolist()
-    view._c.projection = perspective(angle, width / height).T.ravel().tolist()
+    view.view, view.projection = look_at(eye, target), perspective(angle, width / height)
     pixels = np.empty((height, width, 4), dtype=np.uint8)
     with _Target(gl, width, height, 0) as resolved:
         with _Target(gl, width, height, samples) as target:

@@ -6,7 +6,10 @@ hair_get_member(), which check ranges.
 
 import dataclasses
 
+import numpy as np
+
 from ._native import call, ffi, hair, host, new_desc
+from .arrays import matrix
 
 _members = {}
 
@@ -108,7 +111,8 @@ class Settings:
     """A struct with all defaults, and then with the given members.
 
     Names are those of hair_set_member(): look["strand.radius"], look["gravity.y"] or look["taper[3]"].
-    The attribute look.strand.radius is the same member. A tuple sets all elements of a member.
+    The attribute look.strand.radius is the same member. A tuple sets all elements of a member. A matrix is a
+    4x4 array for column vectors.
     """
 
     _kind = None
@@ -143,13 +147,18 @@ class Settings:
         while member is None:
             name = name[: max(name.rfind("."), name.rfind("["))]
             member = describe(self._kind).get(name)
-        return _from_text(member, _text(text))
+        value = _from_text(member, _text(text))
+        if member.layout == "matrix" and isinstance(value, tuple):
+            return np.array(value, dtype=np.float32).reshape(4, 4).T
+        return value
 
     def __setitem__(self, name, value):
         member = describe(self._kind).get(name)
         if member and member.type == "texture":
             setattr(*self._field(name), int(value))
             return
+        if member and member.layout == "matrix":
+            value = matrix(value).ravel()
         call(hair.hair_set_member, host, *self._sized(), name.encode(), _to_text(value).encode())
 
     def __iter__(self):

@@ -12,6 +12,7 @@ import unittest
 import numpy as np
 
 import libhair
+from libhair._native import current_loader, ffi
 
 ROOT = pathlib.Path(os.environ["HAIR_ROOT"])
 
@@ -152,12 +153,12 @@ class HairTest(unittest.TestCase):
         self.assertEqual(hair.physics.shape.stiffness_tip, 1)
         hair.set_group_physics(3, None)
         self.assertEqual(hair.group_physics(3).shape.stiffness_tip, 1)
-        physics.damping = 5
+        physics.gravity = (0, -5, 0)
         look = libhair.GroupLook(radius=2)
         look.color.root = (1, 0, 0)
         hair.set_group_look(1, look)
         self.assertEqual(hair.group_look(1).radius, 2)
-        with self.assertRaisesRegex(libhair.HairArgumentError, "damping is 5 for group 3 but 4 for the instance"):
+        with self.assertRaisesRegex(libhair.HairArgumentError, "gravity is 0,-5,0 for group 3 but 0,-9.81,0 for the"):
             hair.set_group_physics(3, physics)
 
     def test_followers_have_a_vertex_for_each_end_of_a_segment(self):
@@ -285,6 +286,23 @@ class HairTest(unittest.TestCase):
             hair.step(1 / 60)
             self.assertEqual(len(hair.read()), self.groom.info["guide_vertex_count"])
             self.assertGreater(guest.memory["gpu"] if "gpu" in guest.memory else 1, 0)
+
+    def test_functions_of_a_current_context_come_from_any_loader(self):
+        self.context.make_current()
+        self.assertIsNone(current_loader())  # It is a context of EGL.
+        addresses = {}
+
+        def find(name):
+            """Return addresses as pointers and as integers in turn."""
+            pointer = self.context.get_proc(ffi.new("char[]", name), ffi.NULL)
+            addresses[name] = int(ffi.cast("intptr_t", pointer))
+            return pointer if len(addresses) % 2 else addresses[name]
+
+        with libhair.Context(current=True, get_proc=find) as guest, libhair.Hair(guest, self.groom) as hair:
+            hair.step(1 / 60)
+        self.assertGreater(len(addresses), 100)
+        with self.assertRaisesRegex(libhair.HairOpenGLError, "does not find glGetIntegerv"):
+            libhair.Context(current=True, get_proc=lambda _name: None)
 
     def test_no_current_context_raises(self):
         caught = []

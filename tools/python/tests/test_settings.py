@@ -4,6 +4,8 @@ import json
 import math
 import unittest
 
+import numpy as np
+
 import libhair
 from libhair._native import ffi, hair
 
@@ -29,7 +31,8 @@ class SettingsTest(unittest.TestCase):
                 if member.type in ("pointer", "texture") or member.name in REQUIRED:
                     continue
                 value = struct[member.name]
-                values = value if isinstance(value, tuple) else (value,)
+                values = tuple(value.T.ravel()) if member.layout == "matrix" else value
+                values = values if isinstance(values, tuple) else (values,)
                 self.assertEqual(len(values), member.count)
                 for one, default in zip(values, member.defaults):
                     expected = member.choices[int(default)] if member.type == "enum" else default
@@ -76,6 +79,17 @@ class SettingsTest(unittest.TestCase):
             _ = look.strand.no_such_member
         with self.assertRaises(libhair.HairArgumentError):
             look.no_such_member = 1
+
+    def test_matrices_are_arrays_for_column_vectors(self):
+        matrix = libhair.look_at((0.3, 1.6, 1.2), (0, 1.5, 0))
+        view = libhair.View(view=matrix)
+        self.assertEqual(view._c.view[13], np.float32(matrix[1, 3]))
+        np.testing.assert_allclose(view.view, matrix, rtol=1e-6)
+        view["view[12]"] = 2
+        self.assertEqual(view.view[0, 3], 2)
+        for wrong in (np.eye(3), range(16), 1):
+            with self.assertRaisesRegex(ValueError, "4x4"):
+                view.projection = wrong
 
     def test_textures_are_integers_and_pointers_are_refused(self):
         view = libhair.View(color_texture=7)
