@@ -42,4 +42,57 @@ HAIR_API hair_result hair_set_lengths(hair_instance* hair, uint32_t first, uint3
 HAIR_API hair_result hair_get_lengths(const hair_instance* hair, uint32_t first, uint32_t count,
                                       float* fractions);
 
+/// Shape that cuts hair.
+typedef enum hair_cut_shape {
+    HAIR_CUT_SHAPE_PLANE = 0, ///< All of space on the side of a plane to which its normal points.
+    HAIR_CUT_SHAPE_CAPSULE, ///< All places within a distance of an axis, or of a point.
+    /// The surface over which a straight edge moves in a stroke, as that of scissors or of a sword.
+    HAIR_CUT_SHAPE_BLADE
+} hair_cut_shape;
+
+/// Input of hair_cut().
+typedef struct hair_cut_desc {
+    hair_struct_header header;
+    hair_cut_shape shape; ///< Shape of the cut. Default HAIR_CUT_SHAPE_PLANE.
+    /// A point of the plane, or the first end of the axis or the edge, in the world.
+    float from[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Second end of the axis or the edge, in the world. A capsule with `from` as `to` is a sphere.
+    float to[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Normal of the plane in the world, of any length above 0. Hair on its side is cut off.
+    float normal[3]; ///< [-1, 1]. Default (0, -1, 0).
+    float radius; ///< Radius of the capsule. m. [0, 1e6]. Default 0.01.
+    /// Position of `from` at the begin of the stroke of a blade. Without a stroke it cuts nothing.
+    float last_from[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Position of `to` at the begin of the stroke of a blade.
+    float last_to[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Groups of strands that are cut. Bit i stands for group i.
+    uint32_t groups; ///< [0, 255]. Default 255.
+} hair_cut_desc;
+HAIR_DESC(hair_cut_desc)
+
+/// Effect of a hair_cut().
+typedef struct hair_cut_info {
+    hair_struct_header header;
+    uint32_t strands; ///< Number of drawn strands that were cut.
+    uint32_t guides; ///< Number of guides that were cut.
+    /// Length that all drawn strands have lost, m. Curls and frizz count as drawn.
+    double length;
+} hair_cut_info;
+HAIR_DESC(hair_cut_info)
+
+/// Cut all drawn strands where they first meet a shape, from their roots on. Roots inside the shape
+/// leave no hair.
+///
+/// The strands are those of HAIR_READ_FOLLOWERS after the last hair_step(), with their curls, at
+/// full density. A guide is cut where it meets the shape itself, but keeps the length of the
+/// longest strand that moves with it. hair_get_lengths() before the call tells lengths with which
+/// hair_set_lengths() lets hair grow again.
+///
+/// @param cut Shape.
+/// @param info Receives the effect, and comes from hair_cut_info_default(). NULL disables it.
+/// Errors: HAIR_ERROR_ARGUMENT, also with HAIR_THREAD_MAPPING_FEEDBACK, HAIR_ERROR_MEMORY,
+///     HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
+/// OpenGL: required. Waits for the GPU.
+HAIR_API hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_info* info);
+
 #endif

@@ -34,6 +34,7 @@ typedef enum hair_struct {
     HAIR_STRUCT_TARGET_BLEND, ///< hair_target_blend.
     HAIR_STRUCT_BODY_DESC, ///< hair_body_desc.
     HAIR_STRUCT_GROUP_LOOK, ///< hair_group_look.
+    HAIR_STRUCT_CUT_DESC, ///< hair_cut_desc.
     HAIR_STRUCT_COUNT
 } hair_struct;
 

@@ -167,6 +167,10 @@ hair_result hair_update_field(hair_instance* hair);
 // Update the field as hair_update_field() does, but for another pose of the head.
 hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
 
+// Read the vertices of all followers in full detail, xyz from hair_sim.head_at_last_step. `out` is
+// NULL before, and receives memory that the caller frees, also on failure. Defined in view.c.
+hair_result hair_read_follower_vertices(hair_instance* hair, hair_vec4** out);
+
 // Find followers inside colliders and push them out before they are drawn or read, unless nobody
 // can see this. Colliders block the light of a density grid in any case. Defined in view.c.
 hair_result hair_update_follower_collision(hair_instance* hair);

@@ -104,6 +104,7 @@
 #include "lib/base/schema/view.inl"
 #include "lib/base/schema/asset.inl"
 #include "lib/base/schema/targets.inl"
+#include "lib/base/schema/cut.inl"
 
 #define SCHEMA(S, rows, count, has_header)                                                                   \
     struct hair_schema hair_schema_of_##S(void) {                                                            \

@@ -4,6 +4,7 @@
 #define HAIR_BASE_SCHEMA_H
 
 #include <hair/hair_asset.h>
+#include <hair/hair_cut.h>
 
 #include "lib/base/desc.h"
 
@@ -32,12 +33,14 @@
     DESC(hair_target_blend)                                                                                  \
     DESC(hair_body_desc)                                                                                     \
     DESC(hair_group_look)                                                                                    \
+    DESC(hair_cut_desc)                                                                                      \
     INFO(hair_groom_info)                                                                                    \
     INFO(hair_collision_mesh_info)                                                                           \
     INFO(hair_memory)                                                                                        \
     INFO(hair_solver_stats)                                                                                  \
     INFO(hair_report_info)                                                                                   \
     INFO(hair_field_info)                                                                                    \
+    INFO(hair_cut_info)                                                                                      \
     INFO(hair_asset_info)
 
 #define HAIR_DECLARE_SCHEMA(S) struct hair_schema hair_schema_of_##S(void);

@@ -198,6 +198,17 @@ hair_result hair_sim_copy_lengths(struct hair_sim* sim, const struct hair_length
     return HAIR_OK;
 }
 
+hair_result hair_sim_set_strand_lengths(struct hair_sim* sim, const float* guide_fraction,
+                                        const float* follower_fraction)
+{
+    struct hair_new_lengths made;
+    bool whole = are_whole(guide_fraction, sim->guides) &&
+                 are_whole(follower_fraction, sim->lengths.groom->info.follower_count);
+    HAIR_TRY(hair_lengths_make(sim, whole ? NULL : guide_fraction, whole ? NULL : follower_fraction, &made));
+    hair_lengths_use(sim, &made, true);
+    return HAIR_OK;
+}
+
 hair_result hair_sim_set_lengths(struct hair_sim* sim, uint32_t first, uint32_t count, const float* fractions,
                                  bool* changes)
 {
@@ -210,15 +221,12 @@ hair_result hair_sim_set_lengths(struct hair_sim* sim, uint32_t first, uint32_t 
     struct fractions f = {.before = hair_alloc(host, sim->guides, sizeof(float)),
                           .after = hair_alloc(host, sim->guides, sizeof(float)),
                           .follower = hair_alloc(host, followers, sizeof(float))};
-    struct hair_new_lengths made;
     hair_result result =
         f.before && f.after && f.follower ? HAIR_OK : hair_fail_memory(host, "the lengths of strands");
     if (!result) {
         fill_fractions(sim, first, count, fractions, &f);
-        bool whole = are_whole(f.after, sim->guides) && are_whole(f.follower, followers);
-        result = hair_lengths_make(sim, whole ? NULL : f.after, whole ? NULL : f.follower, &made);
+        result = hair_sim_set_strand_lengths(sim, f.after, f.follower);
     }
-    if (!result) hair_lengths_use(sim, &made, true);
     hair_free(host, f.before);
     hair_free(host, f.after);
     hair_free(host, f.follower);

@@ -45,6 +45,9 @@ void hair_lengths_discard(struct hair_sim* sim, struct hair_new_lengths* made);
 // from their guides. Set *changes to whether anything changes. On failure nothing has changed.
 hair_result hair_sim_set_lengths(struct hair_sim* sim, uint32_t first, uint32_t count, const float* fractions,
                                  bool* changes);
+// Give all guides and followers fractions of their lengths, [0, 1]. On failure nothing has changed.
+hair_result hair_sim_set_strand_lengths(struct hair_sim* sim, const float* guide_fraction,
+                                        const float* follower_fraction);
 // Give all strands the lengths of an instance of the same groom. On failure nothing has changed.
 hair_result hair_sim_copy_lengths(struct hair_sim* sim, const struct hair_lengths* from);
 // Return the fraction of its length that a guide has.

@@ -163,6 +163,10 @@ static hair_result use_hair_group_look(struct hair_test_scene* user, void* desc)
 {
     return hair_set_group_look(user->hair, 0, desc);
 }
+static hair_result use_hair_cut_desc(struct hair_test_scene* user, void* desc)
+{
+    return hair_cut(user->hair, desc, NULL);
+}
 static hair_result use_hair_wind(struct hair_test_scene* user, void* given)
 {
     hair_wind_source sources[4];
@@ -241,6 +245,7 @@ INIT(hair_buffers)
 INIT(hair_style_desc)
 INIT(hair_target_blend)
 INIT(hair_group_look)
+INIT(hair_cut_desc)
 #define SUBJECT(KIND, S)                                                                                     \
     {                                                                                                        \
         HAIR_STRUCT_##KIND, #S, use_##S, init_##S, true                                                      \
@@ -272,6 +277,7 @@ static const struct subject subjects[] = {
     SUBJECT(STYLE_DESC, hair_style_desc),
     SUBJECT(TARGET_BLEND, hair_target_blend),
     SUBJECT(GROUP_LOOK, hair_group_look),
+    SUBJECT(CUT_DESC, hair_cut_desc),
 };
 _Static_assert(sizeof subjects / sizeof *subjects == HAIR_STRUCT_COUNT - 1, "a struct is missing");
 
