@@ -250,7 +250,7 @@ $(B)/examples/bullet_world: $(B)/tools/examples/bullet_world.cpp.o $(B)/libhair_
 	$(Q)$(CXX) $(opt.$(config)) $(LINK_FLAGS) $^ $(BULLET_LIBS) $(EXAMPLE_LIBS) -o $@
 # Shaders of the example for Vulkan are compiled into arrays of C.
 $(B)/tools/examples/vulkan_host.c.o: private C += -I$(B)/tools/examples $(patsubst -I%,-isystem %,$(call packages,--cflags,vulkan))
-VULKAN_SHADERS := $(B)/tools/examples/vulkan_scene.vert.inc $(B)/tools/examples/vulkan_scene.frag.inc
+VULKAN_SHADERS := $(patsubst %,$(B)/tools/examples/vulkan_%.inc,scene.vert beads.vert scene.frag)
 $(B)/tools/examples/vulkan_host.c.o: $(VULKAN_SHADERS)
 $(B)/examples/vulkan_host: private EXAMPLE_LIBS += $(call packages,--libs,vulkan)
 $(B)/tools/examples/%.inc: tools/examples/%

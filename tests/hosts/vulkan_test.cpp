@@ -1,5 +1,6 @@
 // vulkan_test.cpp - hair that OpenGL draws into images of Vulkan, and triangles of Vulkan, hide
-// each other. The picture is that of tools/examples/vulkan_host.c.
+// each other, and Vulkan draws beads on the tips of the strands. The picture is that of
+// tools/examples/vulkan_host.c.
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,21 +15,23 @@ extern "C" {
 namespace
 {
 constexpr int WIDTH = 256, HEIGHT = 192;
-unsigned char pixels[HEIGHT][WIDTH][3];
+using picture = unsigned char[HEIGHT][WIDTH][3];
+picture pixels, copied;
 
 // Leaks of the drivers are not the example's, so a sanitizer must not report them.
-constexpr char command[] = "ASAN_OPTIONS=detect_leaks=0 " HAIR_BUILD_DIR
-                           "/examples/vulkan_host " HAIR_BUILD_DIR "/vulkan_host.ppm 256";
+#define COMMAND(name, argument)                                                                              \
+    "ASAN_OPTIONS=detect_leaks=0 " HAIR_BUILD_DIR "/examples/vulkan_host " HAIR_BUILD_DIR "/" name           \
+    " 256 " argument
 
 // Colours of the program. All other pixels are of hair and of what it grows on.
-enum class color { background, first, second, hair };
+enum class color { background, first, second, bead, hair };
 
-color color_of(int y, int x)
+color color_of(int y, int x, const picture& from = pixels)
 {
-    static const int known[3][3] = {{111, 121, 134}, {231, 160, 63}, {63, 149, 231}};
-    for (int i = 0; i < 3; ++i) {
+    static const int known[4][3] = {{111, 121, 134}, {231, 160, 63}, {63, 149, 231}, {0, 218, 137}};
+    for (int i = 0; i < 4; ++i) {
         bool is_near = true;
-        for (int k = 0; k < 3; ++k) is_near &= std::abs(pixels[y][x][k] - known[i][k]) <= 2;
+        for (int k = 0; k < 3; ++k) is_near &= std::abs(from[y][x][k] - known[i][k]) <= 2;
         if (is_near) return static_cast<color>(i);
     }
     return color::hair;
@@ -50,16 +53,23 @@ int count_changes(int y, color from, color to)
     return out;
 }
 
-int draw_picture(void**)
+void draw_picture(const char* command, const char* path, picture& out)
 {
     int width = 0, height = 0;
     assert_int_equal(std::system(command), 0);
-    FILE* file = std::fopen(HAIR_BUILD_DIR "/vulkan_host.ppm", "rb");
+    FILE* file = std::fopen(path, "rb");
     assert_non_null(file);
     assert_int_equal(std::fscanf(file, "P6 %d %d 255%*c", &width, &height), 2);
     assert_true(width == WIDTH && height == HEIGHT);
-    assert_int_equal(std::fread(pixels, 1, sizeof pixels, file), sizeof pixels);
-    return std::fclose(file);
+    assert_int_equal(std::fread(out, 1, sizeof out, file), sizeof out);
+    assert_int_equal(std::fclose(file), 0);
+}
+
+int draw_pictures(void**)
+{
+    draw_picture(COMMAND("vulkan_host.ppm", ""), HAIR_BUILD_DIR "/vulkan_host.ppm", pixels);
+    draw_picture(COMMAND("vulkan_copy.ppm", "copy"), HAIR_BUILD_DIR "/vulkan_copy.ppm", copied);
+    return 0;
 }
 
 void images_of_vulkan_have_triangles_and_hair(void**)
@@ -90,6 +100,19 @@ void depth_of_hair_hides_the_second_triangle(void**)
     for (int x = WIDTH * 63 / 100; x < WIDTH * 65 / 100; ++x) assert_true(color_of(y, x) == color::hair);
     for (int x = WIDTH * 70 / 100; x < WIDTH * 95 / 100; ++x) assert_true(color_of(y, x) == color::second);
 }
+
+// Beads are on the tips below the chin, and are the same pixels if main memory has the strands.
+void beads_are_on_the_tips_of_strands(void**)
+{
+    int changes = 0;
+    for (int y = 0; y < HEIGHT; ++y)
+        for (int x = 0; x < WIDTH; ++x)
+            changes += (color_of(y, x) == color::bead) != (color_of(y, x, copied) == color::bead);
+    print_message("    %d pixels of beads\n", count(0, HEIGHT, color::bead));
+    assert_int_equal(count(0, HEIGHT * 3 / 4, color::bead), 0);
+    assert_true(count(HEIGHT * 3 / 4, HEIGHT, color::bead) > 60);
+    assert_int_equal(changes, 0);
+}
 } // namespace
 
 int main()
@@ -98,6 +121,7 @@ int main()
         cmocka_unit_test(images_of_vulkan_have_triangles_and_hair),
         cmocka_unit_test(hair_is_before_and_behind_the_first_triangle),
         cmocka_unit_test(depth_of_hair_hides_the_second_triangle),
+        cmocka_unit_test(beads_are_on_the_tips_of_strands),
     };
-    return cmocka_run_group_tests_name("vulkan", tests, draw_picture, nullptr);
+    return cmocka_run_group_tests_name("vulkan", tests, draw_pictures, nullptr);
 }

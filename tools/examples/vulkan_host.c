@@ -1,103 +1,13 @@
 // vulkan_host.c - Hair in a renderer of Vulkan. Vulkan owns the images of colour and depth, and the
-// library draws into them by OpenGL. Hair and triangles of Vulkan hide each other.
+// library draws into them by OpenGL. Hair and triangles of Vulkan hide each other. Vulkan also owns
+// a buffer of the strands, and draws beads on their tips.
 //
-//     vulkan_host [FILE.ppm [WIDTH]]
+//     vulkan_host [FILE.ppm [WIDTH [copy]]]     copy: strands go through main memory
 #include "camera.h"
-#include "vulkan_scene.h"
+#include "vulkan_shared.h"
 #include <hair/hair_egl.h>
 
-enum { TO_OPENGL, TO_VULKAN }; // Semaphores.
-static const GLenum gl_formats[IMAGES] = {GL_RGBA16F, GL_DEPTH_COMPONENT32F};
-static const GLenum gl_layouts[IMAGES] = {GL_LAYOUT_GENERAL_EXT, GL_LAYOUT_GENERAL_EXT};
-
-static GLuint memory_objects[IMAGES], textures[IMAGES], semaphores[2];
-
-// Return the address of a function of an extension.
-#define VK_FUNCTION(name) ((PFN_##name)vkGetDeviceProcAddr(vk.device, #name))
-
-// Create an image in memory of its own, and an OpenGL texture in the same memory.
-static void create_image(int which)
-{
-    static const VkImageUsageFlags usages[] = {
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT};
-    const VkExternalMemoryImageCreateInfo external = {VK_STRUCTURE_TYPE_EXTERNAL_MEMORY_IMAGE_CREATE_INFO,
-                                                      NULL, VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT};
-    const VkImageCreateInfo image = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
-                                     .pNext = &external,
-                                     .imageType = VK_IMAGE_TYPE_2D,
-                                     .format = formats[which],
-                                     .extent = {vk.width, vk.height, 1},
-                                     .mipLevels = 1,
-                                     .arrayLayers = 1,
-                                     .samples = VK_SAMPLE_COUNT_1_BIT,
-                                     .usage = usages[which]};
-    VkMemoryRequirements needs;
-    vk_check(vkCreateImage(vk.device, &image, NULL, &vk.images[which]));
-    vkGetImageMemoryRequirements(vk.device, vk.images[which], &needs);
-    const VkMemoryDedicatedAllocateInfo dedicated = {VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, NULL,
-                                                     vk.images[which], VK_NULL_HANDLE};
-    const VkExportMemoryAllocateInfo export = {VK_STRUCTURE_TYPE_EXPORT_MEMORY_ALLOCATE_INFO, &dedicated,
-                                               VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT};
-    const VkMemoryAllocateInfo allocation = {
-        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &export, needs.size,
-        find_memory(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
-    vk_check(vkAllocateMemory(vk.device, &allocation, NULL, &vk.memories[which]));
-    vk_check(vkBindImageMemory(vk.device, vk.images[which], vk.memories[which], 0));
-    const VkImageViewCreateInfo view = {VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = vk.images[which],
-                                        .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = formats[which],
-                                        .subresourceRange = {aspects[which], 0, 1, 0, 1}};
-    vk_check(vkCreateImageView(vk.device, &view, NULL, &vk.views[which]));
-
-    const VkMemoryGetFdInfoKHR get = {VK_STRUCTURE_TYPE_MEMORY_GET_FD_INFO_KHR, NULL, vk.memories[which],
-                                      VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT};
-    const GLint is_dedicated = GL_TRUE;
-    int file;
-    vk_check(VK_FUNCTION(vkGetMemoryFdKHR)(vk.device, &get, &file));
-    glCreateMemoryObjectsEXT(1, &memory_objects[which]);
-    glMemoryObjectParameterivEXT(memory_objects[which], GL_DEDICATED_MEMORY_OBJECT_EXT, &is_dedicated);
-    // OpenGL owns the file from here on.
-    glImportMemoryFdEXT(memory_objects[which], needs.size, GL_HANDLE_TYPE_OPAQUE_FD_EXT, file);
-    glCreateTextures(GL_TEXTURE_2D, 1, &textures[which]);
-    glTextureStorageMem2DEXT(textures[which], 1, gl_formats[which], (GLsizei)vk.width, (GLsizei)vk.height,
-                             memory_objects[which], 0);
-    if (glGetError() != GL_NO_ERROR) fail("OpenGL refuses the memory of an image.");
-}
-
-// Create a semaphore of both interfaces.
-static void create_semaphore(int which)
-{
-    const VkExportSemaphoreCreateInfo export = {VK_STRUCTURE_TYPE_EXPORT_SEMAPHORE_CREATE_INFO, NULL,
-                                                VK_EXTERNAL_SEMAPHORE_HANDLE_TYPE_OPAQUE_FD_BIT};
-    const VkSemaphoreCreateInfo semaphore = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &export, 0};
-    vk_check(vkCreateSemaphore(vk.device, &semaphore, NULL, &vk.semaphores[which]));
-    const VkSemaphoreGetFdInfoKHR get = {VK_STRUCTURE_TYPE_SEMAPHORE_GET_FD_INFO_KHR, NULL,
-                                         vk.semaphores[which],
-                                         VK_EXTERNAL_SEMAPHORE_HANDLE_TYPE_OPAQUE_FD_BIT};
-    int file;
-    vk_check(VK_FUNCTION(vkGetSemaphoreFdKHR)(vk.device, &get, &file));
-    glGenSemaphoresEXT(1, &semaphores[which]);
-    glImportSemaphoreFdEXT(semaphores[which], GL_HANDLE_TYPE_OPAQUE_FD_EXT, file);
-}
-
-// Make writes to the images visible, and hand the images from one owner to another.
-static void hand_over(VkCommandBuffer commands, VkImageLayout from, uint32_t owner, uint32_t next)
-{
-    VkImageMemoryBarrier barriers[IMAGES];
-    for (int i = 0; i < IMAGES; ++i)
-        barriers[i] = (VkImageMemoryBarrier){VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER,
-                                             NULL,
-                                             VK_ACCESS_MEMORY_WRITE_BIT,
-                                             VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT,
-                                             from,
-                                             layout,
-                                             owner,
-                                             next,
-                                             vk.images[i],
-                                             {aspects[i], 0, 1, 0, 1}};
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0,
-                         0, NULL, 0, NULL, IMAGES, barriers);
-}
+enum { TIPS = 3 }; // One of this number of strands has a bead. Vulkan limits the stride of vertices.
 
 // Create hair on two capsules, the skull and the shoulders.
 static hair_instance* create_hair(const hair_host* host, hair_context** context)
@@ -153,7 +63,6 @@ static void draw_hair(hair_instance* hair, const struct camera* camera)
     hair_view view = hair_view_default();
     memcpy(view.view, camera->view, sizeof view.view);
     memcpy(view.projection, camera->projection, sizeof view.projection);
-    if (vk.has_semaphores) glWaitSemaphoreEXT(semaphores[TO_OPENGL], 0, NULL, IMAGES, textures, gl_layouts);
     view.pass = HAIR_PASS_COLLIDERS; // An engine draws its own head.
     check(hair_draw(hair, &view));
     view.pass = HAIR_PASS_COLOR;
@@ -162,16 +71,61 @@ static void draw_hair(hair_instance* hair, const struct camera* camera)
     view.pass = HAIR_PASS_DEPTH;
     view.coverage = HAIR_COVERAGE_MSAA;
     check(hair_draw(hair, &view));
-    if (!vk.has_semaphores)
-        glFinish();
+}
+
+// Return the positions of the strands of this frame, in a buffer of the library.
+static hair_buffers get_strands(hair_instance* hair)
+{
+    hair_buffers out = hair_buffers_default();
+    out.attributes = HAIR_ATTRIBUTE_POSITION;
+    check(hair_get_buffers(hair, HAIR_READ_FOLLOWERS, &out));
+    return out;
+}
+
+// Draw beads on tips of strands.
+static void draw_tips(VkCommandBuffer commands, const hair_buffers* strands, const struct camera* camera)
+{
+    const VkDeviceSize tip = (strands->strand_vertices - 1) * strands->position.stride;
+    float to_world[16], clip[16];
+    memcpy(to_world, identity, sizeof to_world);
+    for (int i = 0; i < 3; ++i) to_world[12 + i] = (float)strands->origin[i];
+    multiply(camera->clip, to_world, clip);
+    draw_beads(commands, strand_memory.buffer, tip, strands->strand_count / TIPS, clip);
+}
+
+// Draw a frame by Vulkan, OpenGL and Vulkan in turn. Only the GPU waits if there are semaphores.
+static void draw_frame(hair_instance* hair, const struct camera* camera, bool is_first)
+{
+    VkCommandBuffer commands = begin(0);
+    hand_over(commands, is_first ? VK_IMAGE_LAYOUT_UNDEFINED : layout, VK_QUEUE_FAMILY_IGNORED,
+              VK_QUEUE_FAMILY_IGNORED);
+    draw_triangle(commands, 0, camera->clip);
+    hand_over(commands, layout, vk.family, VK_QUEUE_FAMILY_EXTERNAL);
+    submit(commands, NULL, &vk.semaphores[TO_OPENGL]);
+
+    if (vk.has_semaphores) wait_for_vulkan();
+    draw_hair(hair, camera);
+    hair_buffers strands = get_strands(hair); // They are valid until the next call for the hair.
+    write_strands(strands.position.buffer, strands.position.offset);
+    if (vk.has_semaphores)
+        signal_vulkan();
     else
-        glSignalSemaphoreEXT(semaphores[TO_VULKAN], 0, NULL, IMAGES, textures, gl_layouts), glFlush();
+        glFinish();
+
+    commands = begin(1);
+    hand_over(commands, layout, VK_QUEUE_FAMILY_EXTERNAL, vk.family);
+    draw_triangle(commands, 1, camera->clip);
+    draw_tips(commands, &strands, camera);
+    copy_pixels(commands);
+    submit(commands, &vk.semaphores[TO_VULKAN], NULL);
 }
 
 int main(int argc, char** argv)
 {
     const char* path = argc > 1 ? argv[1] : "vulkan_host.ppm";
     int width = argc > 2 ? (int)strtol(argv[2], NULL, 10) : 800;
+    bool wants_copy = argc > 3 && strcmp(argv[3], "copy") == 0;
+    if (argc > 3 && !wants_copy) fail("The last argument is not copy.");
     if (width < 16 || width > 4096) fail("WIDTH is not in [16, 4096].");
     hair_host host = {NULL, NULL, print_sentence, NULL};
     hair_egl* egl;
@@ -186,33 +140,31 @@ int main(int argc, char** argv)
     create_device(uuid, epoxy_has_gl_extension("GL_EXT_semaphore_fd"));
     for (int i = 0; i < IMAGES; ++i) create_image(i);
     for (int i = 0; i < 2 && vk.has_semaphores; ++i) create_semaphore(i);
-    create_pipeline();
     create_pixels();
     GLuint framebuffer = create_framebuffer();
     hair = create_hair(&host, &context);
-    for (int frame = 0; frame < 30; ++frame) check(hair_step(hair, 1.0f / 60));
+    for (int frame = 0; frame < 27; ++frame) check(hair_step(hair, 1.0f / 60));
+    hair_buffers strands = get_strands(hair);
+    create_strand_memory(strands.position.count * (VkDeviceSize)strands.position.stride, wants_copy);
+    create_pipelines(TIPS * strands.strand_vertices * strands.position.stride);
+    printf("OpenGL: %s\n", (const char*)glGetString(GL_RENDERER));
+    printf("%u strands of %u vertices, %s\n", strands.strand_count, strands.strand_vertices,
+           strand_memory.gl_buffer ? "in memory that Vulkan and OpenGL share" : "copied through main memory");
+    printf("The interfaces wait for each other by %s.\n", vk.has_semaphores ? "semaphores" : "glFinish");
 
     const float eye[3] = {0.50f, 1.62f, 0.985f}, target[3] = {0, 1.56f, 0};
     struct camera camera = camera_perspective(eye, target, 0.38f, 4.0f / 3);
     use_depth_of_vulkan(&camera);
 
-    VkCommandBuffer commands = begin(0);
-    hand_over(commands, VK_IMAGE_LAYOUT_UNDEFINED, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED);
-    draw_triangle(commands, 0, camera.clip);
-    hand_over(commands, layout, vk.family, VK_QUEUE_FAMILY_EXTERNAL);
-    submit(commands, NULL, &vk.semaphores[TO_OPENGL]);
-
-    draw_hair(hair, &camera);
-
-    commands = begin(1);
-    hand_over(commands, layout, VK_QUEUE_FAMILY_EXTERNAL, vk.family);
-    draw_triangle(commands, 1, camera.clip);
-    copy_pixels(commands);
-    submit(commands, &vk.semaphores[TO_VULKAN], NULL);
+    for (int frame = 0; frame < 3; ++frame) {
+        check(hair_step(hair, 1.0f / 60));
+        draw_frame(hair, &camera, frame == 0);
+    }
     write_pixels(path);
 
     hair_destroy(hair);
     hair_context_destroy(context);
+    destroy_strand_buffer();
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteTextures(IMAGES, textures);
     glDeleteMemoryObjectsEXT(IMAGES, memory_objects);

@@ -1,4 +1,4 @@
-// vulkan_scene.h - A device of Vulkan, two triangles that it draws, and the pixels as a file.
+// vulkan_scene.h - A device of Vulkan, two triangles and beads that it draws, and the pixels as a file.
 // Nothing here is about hair.
 #ifndef TOOLS_EXAMPLES_VULKAN_SCENE_H
 #define TOOLS_EXAMPLES_VULKAN_SCENE_H
@@ -8,9 +8,12 @@
 #include <stdbool.h>
 #include <vulkan/vulkan.h>
 
-// glslc -mfmt=c compiles these files from vulkan_scene.vert and vulkan_scene.frag.
+// glslc -mfmt=c compiles these files from vulkan_scene.vert, vulkan_beads.vert and vulkan_scene.frag.
 static const uint32_t vertex_code[] =
 #include "vulkan_scene.vert.inc"
+    ;
+static const uint32_t bead_code[] =
+#include "vulkan_beads.vert.inc"
     ;
 static const uint32_t fragment_code[] =
 #include "vulkan_scene.frag.inc"
@@ -35,7 +38,7 @@ static struct vulkan {
     VkDeviceMemory memories[IMAGES];
     VkImageView views[IMAGES];
     VkPipelineLayout pipeline_layout;
-    VkPipeline pipeline;
+    VkPipeline triangles, beads;
     VkBuffer pixels;
     VkDeviceMemory pixel_memory;
     bool has_semaphores; // True if semaphores order the work of both interfaces.
@@ -58,7 +61,9 @@ static void select_device(const unsigned char uuid[VK_UUID_SIZE])
         VkPhysicalDeviceIDProperties id = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
         VkPhysicalDeviceProperties2 properties = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &id, {0}};
         vkGetPhysicalDeviceProperties2(devices[i], &properties);
-        if (memcmp(id.deviceUUID, uuid, VK_UUID_SIZE) == 0) vk.physical = devices[i];
+        if (memcmp(id.deviceUUID, uuid, VK_UUID_SIZE) != 0) continue;
+        vk.physical = devices[i];
+        printf("Vulkan: %s\n", properties.properties.deviceName);
     }
     if (!vk.physical) fail("Vulkan does not have the device of the OpenGL context.");
 }
@@ -101,6 +106,7 @@ static void create_device(const unsigned char uuid[VK_UUID_SIZE], bool has_semap
                                        .enabledExtensionCount = vk.has_semaphores ? 2 : 1,
                                        .ppEnabledExtensionNames = extensions};
     const VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                          .flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT,
                                           .queueFamilyIndex = vk.family};
     vk_check(vkCreateDevice(vk.physical, &device, NULL, &vk.device));
     vkGetDeviceQueue(vk.device, vk.family, 0, &vk.queue);
@@ -132,15 +138,12 @@ static VkPipelineShaderStageCreateInfo make_stage(VkShaderStageFlagBits stage, c
     return out;
 }
 
-static void create_pipeline(void)
+static VkPipeline create_pipeline(const VkPipelineVertexInputStateCreateInfo* vertices, const uint32_t* code,
+                                  size_t size)
 {
-    const VkPushConstantRange clip = {VK_SHADER_STAGE_VERTEX_BIT, 0, 64};
-    const VkPipelineLayoutCreateInfo pipeline_layout = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                                        .pushConstantRangeCount = 1,
-                                                        .pPushConstantRanges = &clip};
-    vk_check(vkCreatePipelineLayout(vk.device, &pipeline_layout, NULL, &vk.pipeline_layout));
+    VkPipeline out;
     const VkPipelineShaderStageCreateInfo stages[] = {
-        make_stage(VK_SHADER_STAGE_VERTEX_BIT, vertex_code, sizeof vertex_code),
+        make_stage(VK_SHADER_STAGE_VERTEX_BIT, code, size),
         make_stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment_code, sizeof fragment_code)};
     // A viewport of negative height has +y upwards, as OpenGL has it.
     const float width = (float)vk.width, height = (float)vk.height;
@@ -150,8 +153,6 @@ static void create_pipeline(void)
     const VkPipelineRenderingCreateInfo rendering = {
         VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO, .colorAttachmentCount = 1,
         .pColorAttachmentFormats = &formats[COLOR], .depthAttachmentFormat = formats[DEPTH]};
-    const VkPipelineVertexInputStateCreateInfo vertices = {
-        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     const VkPipelineInputAssemblyStateCreateInfo assembly = {
         VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO,
         .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
@@ -172,7 +173,7 @@ static void create_pipeline(void)
                                                    .pNext = &rendering,
                                                    .stageCount = 2,
                                                    .pStages = stages,
-                                                   .pVertexInputState = &vertices,
+                                                   .pVertexInputState = vertices,
                                                    .pInputAssemblyState = &assembly,
                                                    .pViewportState = &view,
                                                    .pRasterizationState = &raster,
@@ -180,8 +181,28 @@ static void create_pipeline(void)
                                                    .pDepthStencilState = &depth,
                                                    .pColorBlendState = &blend,
                                                    .layout = vk.pipeline_layout};
-    vk_check(vkCreateGraphicsPipelines(vk.device, VK_NULL_HANDLE, 1, &pipeline, NULL, &vk.pipeline));
+    vk_check(vkCreateGraphicsPipelines(vk.device, VK_NULL_HANDLE, 1, &pipeline, NULL, &out));
     for (int i = 0; i < 2; ++i) vkDestroyShaderModule(vk.device, stages[i].module, NULL);
+    return out;
+}
+
+// Create the pipelines. A bead is an instance. Its only attribute is a position.
+static void create_pipelines(uint32_t bead_stride)
+{
+    const VkPushConstantRange clip = {VK_SHADER_STAGE_VERTEX_BIT, 0, 64};
+    const VkPipelineLayoutCreateInfo pipeline_layout = {VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
+                                                        .pushConstantRangeCount = 1,
+                                                        .pPushConstantRanges = &clip};
+    const VkVertexInputBindingDescription bead = {0, bead_stride, VK_VERTEX_INPUT_RATE_INSTANCE};
+    const VkVertexInputAttributeDescription position = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0};
+    VkPipelineVertexInputStateCreateInfo vertices = {
+        .sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
+    vk_check(vkCreatePipelineLayout(vk.device, &pipeline_layout, NULL, &vk.pipeline_layout));
+    vk.triangles = create_pipeline(&vertices, vertex_code, sizeof vertex_code);
+    vertices.vertexBindingDescriptionCount = vertices.vertexAttributeDescriptionCount = 1;
+    vertices.pVertexBindingDescriptions = &bead;
+    vertices.pVertexAttributeDescriptions = &position;
+    vk.beads = create_pipeline(&vertices, bead_code, sizeof bead_code);
 }
 
 // Create a buffer for the pixels that the program writes into a file.
@@ -201,10 +222,9 @@ static void create_pixels(void)
     vk_check(vkBindBufferMemory(vk.device, vk.pixels, vk.pixel_memory, 0));
 }
 
-// Draw a triangle. The first one clears the images.
-static void draw_triangle(VkCommandBuffer commands, uint32_t triangle, const float clip[16])
+static void begin_drawing(VkCommandBuffer commands, VkPipeline pipeline, VkAttachmentLoadOp load,
+                          const float clip[16])
 {
-    const VkAttachmentLoadOp load = triangle ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
     const VkClearValue clear[IMAGES] = {{.color = {{0.16f, 0.19f, 0.24f, 1}}}, {.depthStencil = {1, 0}}};
     VkRenderingAttachmentInfo attachments[IMAGES];
     for (int i = 0; i < IMAGES; ++i)
@@ -221,9 +241,26 @@ static void draw_triangle(VkCommandBuffer commands, uint32_t triangle, const flo
                                        .pColorAttachments = &attachments[COLOR],
                                        .pDepthAttachment = &attachments[DEPTH]};
     vkCmdBeginRendering(commands, &rendering);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, vk.pipeline);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     vkCmdPushConstants(commands, vk.pipeline_layout, VK_SHADER_STAGE_VERTEX_BIT, 0, 64, clip);
+}
+
+// Draw a triangle. The first one clears the images.
+static void draw_triangle(VkCommandBuffer commands, uint32_t triangle, const float clip[16])
+{
+    const VkAttachmentLoadOp load = triangle ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+    begin_drawing(commands, vk.triangles, load, clip);
     vkCmdDraw(commands, 3, 1, 3 * triangle, 0);
+    vkCmdEndRendering(commands);
+}
+
+// Draw beads at positions of a buffer, which begin at an offset.
+static void draw_beads(VkCommandBuffer commands, VkBuffer positions, VkDeviceSize offset, uint32_t count,
+                       const float clip[16])
+{
+    begin_drawing(commands, vk.beads, VK_ATTACHMENT_LOAD_OP_LOAD, clip);
+    vkCmdBindVertexBuffers(commands, 0, 1, &positions, &offset);
+    vkCmdDraw(commands, 3, count, 0, 0);
     vkCmdEndRendering(commands);
 }
 
@@ -298,7 +335,8 @@ static void destroy_vulkan(void)
     }
     vkDestroyBuffer(vk.device, vk.pixels, NULL);
     vkFreeMemory(vk.device, vk.pixel_memory, NULL);
-    vkDestroyPipeline(vk.device, vk.pipeline, NULL);
+    vkDestroyPipeline(vk.device, vk.triangles, NULL);
+    vkDestroyPipeline(vk.device, vk.beads, NULL);
     vkDestroyPipelineLayout(vk.device, vk.pipeline_layout, NULL);
     vkDestroyCommandPool(vk.device, vk.pool, NULL);
     vkDestroyDevice(vk.device, NULL);
