@@ -7,7 +7,8 @@
 #include "vulkan_shared.h"
 #include <hair/hair_egl.h>
 
-enum { TIPS = 3 }; // One of this number of strands has a bead. Vulkan limits the stride of vertices.
+// One of this number of strands has a bead. Vulkan limits the stride of vertices to 2048 bytes.
+enum { TIPS = 3 };
 
 // Create hair on two capsules, the skull and the shoulders.
 static hair_instance* create_hair(const hair_host* host, hair_context** context)

@@ -1,4 +1,4 @@
-// vulkan_scene.h - A device of Vulkan, two triangles and beads that it draws, and the pixels as a file.
+// vulkan_scene.h - A device of Vulkan, triangles and beads that it draws, and the pixels as a file.
 // Nothing here is about hair.
 #ifndef TOOLS_EXAMPLES_VULKAN_SCENE_H
 #define TOOLS_EXAMPLES_VULKAN_SCENE_H
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <vulkan/vulkan.h>
 
-// glslc -mfmt=c compiles these files from vulkan_scene.vert, vulkan_beads.vert and vulkan_scene.frag.
+// glslc -mfmt=c compiles these files from shaders beside this header.
 static const uint32_t vertex_code[] =
 #include "vulkan_scene.vert.inc"
     ;
