@@ -72,6 +72,38 @@ typedef struct hair_map_set {
 } hair_map_set;
 HAIR_DESC(hair_map_set)
 
+// Attributes of strands ---------------------------------------------------------------------------
+
+/// Property of strands that a hair_strand_attribute multiplies. The first four belong to guides. A
+/// guide has the values of its strand and of the map at its root. HAIR_SOLVER_REDBLACK ignores
+/// them.
+typedef enum hair_strand_attribute_kind {
+    /// Multiple of hair_physics.fiber.youngs_modulus. [0, 100].
+    HAIR_STRAND_ATTRIBUTE_STIFFNESS = 0,
+    /// Multiple of hair_physics.damping. [0, 100].
+    HAIR_STRAND_ATTRIBUTE_DAMPING,
+    /// Multiple of hair_physics.shape.frequency_root and frequency_tip. [0, 100].
+    HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY,
+    /// Multiple of hair_physics.shape.gravity_preload. [0, 100].
+    HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD
+} hair_strand_attribute_kind;
+
+/// Factor that differs from strand to strand, by strand, by a map on the scalp, or by both, which
+/// multiply each other. Attributes of one kind multiply each other too, and those of groups. Every
+/// product is limited to the range of the kind, and the result to the range of the member that the
+/// kind multiplies.
+typedef struct hair_strand_attribute {
+    hair_struct_header header;
+    /// Property that the factors multiply. It decides the range of the factors.
+    hair_strand_attribute_kind kind; ///< Default HAIR_STRAND_ATTRIBUTE_STIFFNESS.
+    /// Factor of each strand. Followers between guides have the weighted mean of their guides. NULL
+    /// selects 1 for all strands.
+    const float* strand_values; ///< Default NULL.
+    /// Map of factors on the scalp, which strands and followers have at their roots.
+    hair_map map;
+} hair_strand_attribute;
+HAIR_DESC(hair_strand_attribute)
+
 // Grooms ------------------------------------------------------------------------------------------
 
 /// Meaning of the strands that a groom is made from.
@@ -147,6 +179,10 @@ typedef struct hair_groom_desc {
     /// its followers move with these guides only. hair_set_group_physics() sets its physics. NULL
     /// puts all strands into group 0, at no cost.
     const uint8_t* strand_groups; ///< [0, 7]. Default NULL.
+    /// Attributes of strands, strand_attribute_count of them. Properties without an attribute cost
+    /// nothing.
+    const hair_strand_attribute* strand_attributes; ///< Default NULL.
+    uint32_t strand_attribute_count; ///< Number of attributes. [0, 32].
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 

@@ -35,6 +35,7 @@ typedef enum hair_struct {
     HAIR_STRUCT_BODY_DESC, ///< hair_body_desc.
     HAIR_STRUCT_GROUP_LOOK, ///< hair_group_look.
     HAIR_STRUCT_CUT_DESC, ///< hair_cut_desc.
+    HAIR_STRUCT_STRAND_ATTRIBUTE, ///< hair_strand_attribute.
     HAIR_STRUCT_COUNT
 } hair_struct;
 

@@ -2,6 +2,7 @@
 #ifndef HAIR_API_API_H
 #define HAIR_API_API_H
 
+#include "lib/asset/strands.h"
 #include "lib/base/schema.h"
 #include "lib/draw/draw.h"
 #include "lib/field/body_grid.h"
@@ -129,6 +130,9 @@ hair_result hair_leave(hair_context* context, hair_result result);
 
 // Check that a desc has the arrays of strands, and all or nothing of a scalp.
 hair_result hair_check_groom_arrays(const hair_host* host, const hair_groom_desc* desc);
+// Copy the attributes of a desc, and let it point at the copies. Their arrays are checked later.
+hair_result hair_copy_attributes(const hair_host* host, hair_groom_desc* desc,
+                                 hair_strand_attribute own[HAIR_MAX_ATTRIBUTES]);
 
 // Check the number of a group of strands.
 hair_result hair_check_group(const hair_instance* hair, uint32_t group);

@@ -39,9 +39,11 @@ hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp
     const struct hair_skin_arrays skin = {scalp_joints, scalp_weights, scalp_joint_count};
     hair_groom_desc own;
     hair_import import;
+    hair_strand_attribute attributes[HAIR_MAX_ATTRIBUTES];
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     HAIR_TRY(hair_check_groom_arrays(&host, &own));
+    HAIR_TRY(hair_copy_attributes(&host, &own, attributes));
     HAIR_TRY(check_skin_pointers(&host, &own, &skin));
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     return hair_asset_from_arrays(&host, &own, &import, &skin, out);

@@ -53,6 +53,40 @@ static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_
     return HAIR_OK;
 }
 
+// Copy an attribute, and name its place in the sentences of the log.
+static hair_result copy_attribute(const hair_host* host, const hair_strand_attribute* attribute, uint32_t i,
+                                  hair_strand_attribute* own)
+{
+    char name[48];
+    struct hair_schema schema = hair_schema_of_hair_strand_attribute();
+    HAIR_TRY(hair_check_header(host, schema.name, attribute->header));
+    snprintf(name, sizeof name, "hair_groom_desc.strand_attributes[%u]", i);
+    schema.name = name;
+    return hair_schema_copy_in(host, attribute, own, schema);
+}
+
+hair_result hair_copy_attributes(const hair_host* host, hair_groom_desc* desc,
+                                 hair_strand_attribute own[HAIR_MAX_ATTRIBUTES])
+{
+    const hair_strand_attribute* attributes = desc->strand_attributes;
+    HAIR_ASSERT(desc->strand_attribute_count <= HAIR_MAX_ATTRIBUTES);
+    if (desc->strand_attribute_count && !attributes)
+        return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.strand_attributes is NULL but strand_attribute_count is %u",
+                         desc->strand_attribute_count);
+    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i) {
+        // Attributes are as far apart as the caller's struct is long.
+        const void* at = (const char*)attributes + i * (size_t)attributes->header.size;
+        HAIR_TRY(copy_attribute(host, at, i, &own[i]));
+        if (own[i].map.source != HAIR_MAP_SOURCE_NONE && !desc->scalp_positions)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_positions is NULL but strand_attributes[%u].map is not",
+                             i);
+    }
+    desc->strand_attributes = own;
+    return HAIR_OK;
+}
+
 // Prepare the guides for the physics of instances. The solver redblack has no rods.
 static hair_result prepare_rods(hair_groom* groom, const hair_physics* physics, hair_solver solver)
 {
@@ -60,6 +94,7 @@ static hair_result prepare_rods(hair_groom* groom, const hair_physics* physics, 
                                            .tasks = &groom->tasks,
                                            .guides = groom->guides,
                                            .rest = groom->rest,
+                                           .factors = groom->guide_factors,
                                            .count = groom->info.guide_count,
                                            .vertices = groom->info.guide_vertex_count,
                                            .max_vertices = groom->max_vertices};
@@ -75,10 +110,12 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
     hair_import import;
     hair_physics physics;
     hair_map_set maps[HAIR_MAP_SETS];
+    hair_strand_attribute attributes[HAIR_MAX_ATTRIBUTES];
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     HAIR_TRY(hair_check_groom_arrays(&host, &own));
     HAIR_TRY(copy_maps(&host, &own, maps));
+    HAIR_TRY(hair_copy_attributes(&host, &own, attributes));
     if (own.physics) HAIR_TRY(HAIR_COPY_IN(&host, hair_physics, own.physics, &physics));
     if (own.tasks && !own.tasks->run)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.tasks has no function run");

@@ -45,11 +45,12 @@ static hair_result copy_groups(const hair_host* host, const hair_groom_desc* des
     return HAIR_OK;
 }
 
-// Copy the groups, radii and colours of strands.
+// Copy the groups, radii, factors and colours of strands.
 static hair_result copy_rest(const hair_host* host, const hair_groom_desc* desc, struct hair_strands* strands)
 {
     uint32_t each = desc->color_count, count = strands->strand_count;
     HAIR_TRY(copy_groups(host, desc, strands));
+    HAIR_TRY(hair_strands_copy_factors(host, desc, strands));
     if (desc->strand_radii) {
         HAIR_TRY(check_array(host, "strand_radii", desc->strand_radii, count, FARTHEST));
         strands->radii = hair_alloc(host, count, sizeof *strands->radii);

@@ -17,6 +17,7 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     hair_free(host, strands->radii);
     hair_free(host, strands->colors);
     hair_free(host, strands->groups);
+    for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k) hair_free(host, strands->factors[k]);
     memset(strands, 0, sizeof *strands);
 }
 
@@ -59,11 +60,13 @@ struct kept {
     uint32_t strands, vertices;
 };
 
-// Keep the radius, the group and the colours of a strand.
+// Keep the radius, the group, the factors and the colours of a strand.
 static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
 {
     if (strands->radii) strands->radii[kept] = strands->radii[strand];
     if (strands->groups) strands->groups[kept] = strands->groups[strand];
+    for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k)
+        if (strands->factors[k]) strands->factors[k][kept] = strands->factors[k][strand];
     if (strands->colors)
         memmove(colors_of(strands, kept), colors_of(strands, strand),
                 3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
@@ -250,6 +253,11 @@ static hair_result shrink_all(const hair_host* host, struct hair_strands* strand
     strands->radii = radii;
     strands->colors = colors;
     strands->groups = groups;
+    for (int k = 0; k < HAIR_ATTRIBUTE_KINDS && !result; ++k) {
+        void* factors = strands->factors[k];
+        result = shrink(host, &factors, strands->strand_count, sizeof(float));
+        strands->factors[k] = factors;
+    }
     return result;
 }
 

@@ -8,6 +8,8 @@
 #include <stdbool.h>
 
 #define HAIR_STRAND_MAX_VERTICES 256
+#define HAIR_ATTRIBUTE_KINDS 4 // Number of values of hair_strand_attribute_kind.
+#define HAIR_MAX_ATTRIBUTES 32 // Maximum of hair_groom_desc.strand_attribute_count.
 #define HAIR_STRAND_COLORS 8 // Number of points with a colour, at even distances from root to tip.
 
 struct hair_strands {
@@ -18,7 +20,15 @@ struct hair_strands {
     uint8_t* groups; // of each strand, below HAIR_MAX_STRAND_GROUPS. NULL if all are 0.
     uint32_t strand_count;
     uint32_t vertex_count;
+    // Factor of each strand, by hair_strand_attribute_kind. NULL if all are 1.
+    float* factors[HAIR_ATTRIBUTE_KINDS];
 };
+
+// Range of the factors of an attribute.
+struct hair_attribute_range {
+    float min, max;
+};
+struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind kind);
 
 // Return an imported point in metres, +y up. Only proper rotations are used, so nothing is
 // mirrored.

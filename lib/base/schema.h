@@ -34,6 +34,7 @@
     DESC(hair_body_desc)                                                                                     \
     DESC(hair_group_look)                                                                                    \
     DESC(hair_cut_desc)                                                                                      \
+    DESC(hair_strand_attribute)                                                                              \
     INFO(hair_groom_info)                                                                                    \
     INFO(hair_collision_mesh_info)                                                                           \
     INFO(hair_memory)                                                                                        \

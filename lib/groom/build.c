@@ -71,6 +71,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_build_scalp(builder));
     HAIR_TRY(hair_build_guides(builder));
     HAIR_TRY(hair_build_rest(builder));
+    HAIR_TRY(hair_build_guide_factors(builder));
     HAIR_TRY(count_candidates(builder));
     HAIR_TRY(hair_build_scalp_points(builder));
     HAIR_TRY(hair_build_maps(builder));
@@ -151,6 +152,7 @@ void hair_groom_release(hair_groom* groom)
     hair_free(&host, groom->guide_shapes);
     hair_free(&host, groom->patches);
     hair_free(&host, groom->colors);
+    hair_free(&host, groom->guide_factors);
     hair_root_bindings_release(groom->root_bindings);
     if (groom->prepared) groom->free_prepared(&host, groom->prepared);
     hair_free(&host, groom);

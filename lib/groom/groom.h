@@ -3,6 +3,7 @@
 #define HAIR_GROOM_GROOM_H
 
 #include "lib/base/host.h"
+#include "lib/groom/guide_factors.h"
 #include "lib/groom/scalp_binding.h"
 #include "glsl/shared.h"
 
@@ -23,6 +24,9 @@ struct hair_groom {
     // rgb and an unused value at HAIR_STRAND_COLORS points of each follower. 65535 stands for 1.
     // NULL disables.
     uint16_t* colors;
+    // Factors of the physics of each guide, and the bounds of all. NULL if no attribute has them.
+    struct hair_guide_factors* guide_factors;
+    struct hair_guide_factors min_factors, max_factors;
     // A sphere inside the head. xyz is its centre and w its radius, m. A radius of 0 means no
     // sphere.
     hair_vec4 head_sphere;

@@ -67,11 +67,23 @@ static inline uint32_t hair_group_of(const struct hair_groom_builder* builder, u
     return builder->strands.groups ? builder->strands.groups[strand] : 0;
 }
 
+// Check a map, whose name in hair_groom_desc is `name`, and the texture coordinates for images.
+hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
+                           float min, float max);
+hair_result hair_check_uvs(const struct hair_groom_builder* builder);
+// Return the value of a map at a point of the scalp. A map without a source has no point.
+float hair_map_value(const struct hair_groom_builder* builder, const hair_map* map,
+                     const struct hair_scalp_point* scalp_point);
+// Fail because no triangle of the scalp has an area on which maps could lie.
+hair_result hair_fail_degenerate(const struct hair_groom_builder* builder);
+
 // Steps, in order. Each reports a failure by one sentence and leaves its results in the builder.
 hair_result hair_build_strands(struct hair_groom_builder* builder);
 hair_result hair_build_scalp(struct hair_groom_builder* builder);
 hair_result hair_build_guides(struct hair_groom_builder* builder);
 hair_result hair_build_rest(struct hair_groom_builder* builder);
+// Check the maps of attributes, and compute the factors of guides.
+hair_result hair_build_guide_factors(struct hair_groom_builder* builder);
 // Sources of followers. The desc selects one: full strands (bind.c), the guides and the space
 // around them (generate.c), or the scalp (scalp.c). First all candidates are counted per root bin.
 // Then the patches give them places. Then followers are made from them.

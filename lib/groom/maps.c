@@ -1,6 +1,8 @@
 // maps.c - density and thickness of hair, read from maps on the scalp.
 #include "lib/groom/groom_builder.h"
 
+#include <stdio.h>
+
 // Maximum number of values along a side of an image.
 #define LARGEST 16384u
 // Maximum value of a thickness map.
@@ -24,31 +26,40 @@ static uint64_t count_values(const hair_groom_desc* desc, const hair_map* map)
     return 0;
 }
 
-static hair_result check_map(const struct hair_groom_builder* builder, uint32_t set, const char* name,
-                             const hair_map* map, float max)
+hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
+                           float min, float max)
 {
     const hair_host* host = builder->host;
     const hair_groom_desc* desc = builder->desc;
     HAIR_ASSERT((uint32_t)map->source <= HAIR_MAP_SOURCE_TRIANGLES);
     if (map->source == HAIR_MAP_SOURCE_NONE) return HAIR_OK;
-    if (!map->values)
-        return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.map_sets[%u].%s.values is NULL", set,
-                         name);
+    if (!map->values) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s.values is NULL", name);
     if (map->source == HAIR_MAP_SOURCE_IMAGE) {
         if (map->width - 1 >= LARGEST || map->height - 1 >= LARGEST)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.map_sets[%u].%s is an image of %u by %u, not of [1, %u] each",
-                             set, name, map->width, map->height, LARGEST);
+                             "hair_groom_desc.%s is an image of %u by %u, not of [1, %u] each", name,
+                             map->width, map->height, LARGEST);
         if (!desc->scalp_uvs)
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs is NULL but map_sets[%u].%s is an image", set, name);
+                             "hair_groom_desc.scalp_uvs is NULL but %s is an image", name);
     }
     uint64_t count = count_values(desc, map);
     for (uint64_t i = 0; i < count; ++i)
-        if (!(map->values[i] >= 0 && map->values[i] <= max)) // NaN fails too.
+        if (!(map->values[i] >= min && map->values[i] <= max)) // NaN fails too.
             return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.map_sets[%u].%s.values[%llu] is %g, not in [0, %g]", set, name,
-                             (unsigned long long)i, (double)map->values[i], (double)max);
+                             "hair_groom_desc.%s.values[%llu] is %g, not in [%g, %g]", name,
+                             (unsigned long long)i, (double)map->values[i], (double)min, (double)max);
+    return HAIR_OK;
+}
+
+hair_result hair_check_uvs(const struct hair_groom_builder* builder)
+{
+    const hair_groom_desc* desc = builder->desc;
+    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count; ++i)
+        if (!(fabsf(desc->scalp_uvs[i]) <= 1e6f))
+            return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.scalp_uvs: vertex %zu has %g, not in [-1e6, 1e6]", i / 2,
+                             (double)desc->scalp_uvs[i]);
     return HAIR_OK;
 }
 
@@ -56,15 +67,13 @@ static hair_result check_maps(const struct hair_groom_builder* builder, uint32_t
 {
     const hair_groom_desc* desc = builder->desc;
     for (uint32_t i = 0; i < sets; ++i) {
-        HAIR_TRY(check_map(builder, i, "density", &desc->map_sets[i]->density, 1));
-        HAIR_TRY(check_map(builder, i, "thickness", &desc->map_sets[i]->thickness, THICKEST));
+        char name[48];
+        snprintf(name, sizeof name, "map_sets[%u].density", i);
+        HAIR_TRY(hair_check_map(builder, name, &desc->map_sets[i]->density, 0, 1));
+        snprintf(name, sizeof name, "map_sets[%u].thickness", i);
+        HAIR_TRY(hair_check_map(builder, name, &desc->map_sets[i]->thickness, 0, THICKEST));
     }
-    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count; ++i)
-        if (!(fabsf(desc->scalp_uvs[i]) <= 1e6f))
-            return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs: vertex %zu has %g, not in [-1e6, 1e6]", i / 2,
-                             (double)desc->scalp_uvs[i]);
-    return HAIR_OK;
+    return hair_check_uvs(builder);
 }
 
 // Find the values before and after a coordinate along a side. `fraction` is the weight of the
@@ -92,13 +101,13 @@ static float look_up(const hair_map* map, float u, float v)
     return (1 - down) * row[0] + down * row[1];
 }
 
-static float value_at(const struct hair_groom_builder* builder, const hair_map* map,
-                      const struct hair_scalp_point* scalp_point)
+float hair_map_value(const struct hair_groom_builder* builder, const hair_map* map,
+                     const struct hair_scalp_point* scalp_point)
 {
     const hair_groom_desc* desc = builder->desc;
+    if (map->source == HAIR_MAP_SOURCE_NONE) return 1;
     HAIR_ASSERT(scalp_point->triangle < desc->scalp_triangle_count);
     const uint32_t* corner = desc->scalp_triangles + 3 * (size_t)scalp_point->triangle;
-    if (map->source == HAIR_MAP_SOURCE_NONE) return 1;
     if (map->source == HAIR_MAP_SOURCE_TRIANGLES) return map->values[scalp_point->triangle];
     float sum[2] = {0};
     for (int i = 0; i < 3; ++i) {
@@ -119,8 +128,8 @@ static void read_maps(struct hair_groom_builder* builder, uint32_t sets, uint32_
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) {
         const hair_map_set* set = builder->desc->map_sets[i < sets ? i : sets - 1];
         // Correct rounding.
-        density[i] = fminf(fmaxf(value_at(builder, &set->density, scalp_point), 0), 1);
-        thickness[i] = fmaxf(value_at(builder, &set->thickness, scalp_point), 0);
+        density[i] = fminf(fmaxf(hair_map_value(builder, &set->density, scalp_point), 0), 1);
+        thickness[i] = fmaxf(hair_map_value(builder, &set->thickness, scalp_point), 0);
         max = fmaxf(max, thickness[i]);
     }
     for (uint32_t i = 0; i < HAIR_MAP_SETS; ++i) thickness[i] = max > 0 ? thickness[i] / max : 1;
@@ -130,6 +139,13 @@ static void read_maps(struct hair_groom_builder* builder, uint32_t sets, uint32_
     builder->map_thickness[candidate] = max;
 }
 
+hair_result hair_fail_degenerate(const struct hair_groom_builder* builder)
+{
+    return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
+                     "hair_groom_desc.scalp_triangles: none of %u has three different corners",
+                     builder->desc->scalp_triangle_count);
+}
+
 hair_result hair_build_maps(struct hair_groom_builder* builder)
 {
     uint32_t sets = count_sets(builder->desc);
@@ -137,10 +153,7 @@ hair_result hair_build_maps(struct hair_groom_builder* builder)
     builder->groom->map_sets = sets;
     if (sets == 0) return HAIR_OK;
     HAIR_TRY(check_maps(builder, sets));
-    if (!builder->scalp_points)
-        return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
-                         "hair_groom_desc.scalp_triangles: none of %u has three different corners",
-                         builder->desc->scalp_triangle_count);
+    if (!builder->scalp_points) return hair_fail_degenerate(builder);
     builder->map_density = hair_alloc(builder->host, count, sizeof *builder->map_density);
     builder->map_thickness = hair_alloc(builder->host, count, sizeof *builder->map_thickness);
     builder->map_fraction = hair_alloc(builder->host, count, sizeof *builder->map_fraction);

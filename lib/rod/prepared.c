@@ -48,23 +48,44 @@ static const struct hair_guide* guides_of(const struct rod_work* work, uint32_t 
     return work->source->guides + first;
 }
 
-// Guides of one group, one after the other, and their physics.
-struct group_run {
+// Guides with the same physics, one after the other.
+struct physics_run {
     uint32_t first, count;
     const hair_physics* physics;
+    hair_physics own; // The physics, if factors have changed those of the group.
 };
+
+// Return whether two guides have the same physics.
+static bool have_equal_physics(const struct hair_rod_source* source, const struct hair_guide* a,
+                               const struct hair_guide* b)
+{
+    const struct hair_guide_factors* factors = source->factors;
+    if (source->groups && a->group != b->group) return false;
+    return !factors || hair_factors_are_equal(factors + (a - source->guides), factors + (b - source->guides));
+}
+
+// Return the physics of a guide. Those that factors change are in `own`.
+static const hair_physics* find_physics(const struct hair_rod_source* source, const hair_physics* physics,
+                                        const struct hair_guide* guide, hair_physics* own)
+{
+    HAIR_ASSERT(guide->group < HAIR_MAX_STRAND_GROUPS);
+    const hair_physics* shared = source->groups ? &source->groups[guide->group] : physics;
+    if (!source->factors) return shared;
+    *own = hair_physics_multiply(shared, source->factors + (guide - source->guides));
+    return own;
+}
 
 // Advance to the next run among `count` guides. An empty run precedes the first one. Return false
 // at the end.
 static bool next_run(const struct hair_rod_source* source, const hair_physics* physics,
-                     const struct hair_guide* guides, uint32_t count, struct group_run* run)
+                     const struct hair_guide* guides, uint32_t count, struct physics_run* run)
 {
     uint32_t first = run->first + run->count, end = first;
     if (first >= count) return false;
-    while (end < count && (!source->groups || guides[end].group == guides[first].group)) ++end;
-    HAIR_ASSERT(guides[first].group < HAIR_MAX_STRAND_GROUPS);
-    *run = (struct group_run){first, end - first,
-                              source->groups ? &source->groups[guides[first].group] : physics};
+    while (end < count && have_equal_physics(source, &guides[first], &guides[end])) ++end;
+    run->first = first;
+    run->count = end - first;
+    run->physics = find_physics(source, physics, &guides[first], &run->own);
     return true;
 }
 
@@ -92,7 +113,7 @@ static void preload(uint32_t index, void* data)
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->report[index] = hair_rods_report_none();
     work->is_refused[index] = false;
-    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
+    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
         struct hair_rods_report own;
         if (hair_rods_preload_gravity(work->source->host, guides + run.first, work->source->rest, run.count,
                                       run.physics, work->new_borne, &own))
@@ -120,7 +141,7 @@ static void find_mixed(uint32_t index, void* data)
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->is_mixed[index] = false;
-    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);)
+    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);)
         if (hair_rods_are_mixed(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
                                 work->solver, work->is_held, work->substep))
             work->is_mixed[index] = true;
@@ -146,7 +167,7 @@ double hair_rods_shared_substep(const struct hair_rod_source* source, const stru
                                 const hair_physics* physics, hair_solver solver, int mixed)
 {
     double shortest = INFINITY;
-    for (struct group_run run = {0}; next_run(source, physics, source->guides, source->count, &run);)
+    for (struct physics_run run = {0}; next_run(source, physics, source->guides, source->count, &run);)
         shortest = fmin(shortest, hair_rods_substep(source->guides + run.first, source->rest, borne,
                                                     run.count, run.physics, solver, mixed));
     return shortest;
@@ -158,7 +179,7 @@ static void write(uint32_t index, void* data)
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->report[index].softened = (struct hair_rods_softened){.factor = 1};
-    for (struct group_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
+    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
         struct hair_rods_softened own =
             hair_rods_write(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
                             work->solver, work->mixed, work->substep, work->new_rod);
@@ -182,6 +203,20 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
     struct hair_rods_softened all = {.factor = 1};
     for (uint32_t i = 0; i < tasks; ++i) add_softened(&all, &work.report[i].softened, i * work.each);
     return all;
+}
+
+void hair_rods_pin_all(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                       const struct hair_resolved_pin* resolved_pin, uint32_t count,
+                       const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                       struct hair_rod* out)
+{
+    for (uint32_t first = 0, end = 0; first < count; first = end) {
+        const struct hair_guide* guide = source->guides + resolved_pin[first].guide;
+        hair_physics own;
+        while (end < count && resolved_pin[end].guide == resolved_pin[first].guide) ++end;
+        hair_rods_pin(guide, source->rest, borne, resolved_pin, first, end,
+                      find_physics(source, physics, guide, &own), solver, mixed, substep, out);
+    }
 }
 
 static void reduce(uint32_t index, void* data)

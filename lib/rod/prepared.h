@@ -14,6 +14,8 @@ struct hair_rod_source {
     // Physics of HAIR_MAX_STRAND_GROUPS groups, which replace those that are passed along with the
     // source. NULL if all groups have the physics that are passed along.
     const hair_physics* groups;
+    // Factors of each guide, which multiply the physics. NULL if all are 1.
+    const struct hair_guide_factors* factors;
     uint32_t count, vertices, max_vertices; // Guides, their vertices, and the maximum of a guide.
 };
 
@@ -34,6 +36,12 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
                                               const struct hair_rod_borne* borne, const hair_physics* physics,
                                               hair_solver solver, int mixed, double substep,
                                               struct hair_rod* out);
+
+// Write the pinned guides again. The pins are in the order of guides and their vertices.
+void hair_rods_pin_all(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
+                       const struct hair_resolved_pin* resolved_pin, uint32_t count,
+                       const hair_physics* physics, hair_solver solver, int mixed, double substep,
+                       struct hair_rod* out);
 
 // Allocate and compute the reduction of all guides, with a row of zeros after the rounds. Set *out
 // to NULL if no guide has an implicit system.

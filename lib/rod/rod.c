@@ -258,6 +258,7 @@ static double write_shape(struct hair_rod_shape* s, const hair_physics* physics,
         softest = write_guide(s, tautness, physics, solver, substep, out);
     }
     write_pins(s, out);
+    out[s->count - 1].factor_euler.w = physics->damping;
     return softest;
 }
 
@@ -272,7 +273,6 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
         struct hair_rod_shape shape;
         hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
         double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
-        out[guides[i].first + guides[i].count - 1].factor_euler.w = physics->damping;
         HAIR_ASSERT(0 <= own && own <= 1);
         softened.guides += own < 1;
         if (own >= (double)softened.factor) continue;
@@ -282,21 +282,18 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
     return softened;
 }
 
-void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
+void hair_rods_pin(const struct hair_guide* guide, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_resolved_pin* resolved_pin,
-                   uint32_t count, const hair_physics* physics, const hair_physics* groups,
-                   hair_solver solver, int mixed, double substep, struct hair_rod* out)
+                   uint32_t first, uint32_t end, const hair_physics* physics, hair_solver solver, int mixed,
+                   double substep, struct hair_rod* out)
 {
-    for (uint32_t i = 0; i < count;) {
-        const struct hair_guide* guide = guides + resolved_pin[i].guide;
-        const hair_physics* own = groups ? groups + guide->group : physics;
-        struct hair_rod_shape shape;
-        hair_rod_shape_with(guide, rest, borne, own, &shape);
+    struct hair_rod_shape shape;
+    hair_rod_shape_with(guide, rest, borne, physics, &shape);
+    for (uint32_t i = first; i < end; ++i) {
         HAIR_ASSERT(resolved_pin[i].vertex < shape.count);
-        for (uint32_t same = resolved_pin[i].guide; i < count && resolved_pin[i].guide == same; ++i)
-            shape.pinned[resolved_pin[i].vertex] = i + 1;
-        write_shape(&shape, own, solver, mixed, substep, out + guide->first);
+        shape.pinned[resolved_pin[i].vertex] = i + 1;
     }
+    write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
 }
 
 // Return the number of substeps per frame that one guide needs for explicit bending.

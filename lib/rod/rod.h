@@ -17,6 +17,7 @@
 #include "glsl/shared.h"
 #include "lib/base/assert.h"
 #include "lib/base/host.h"
+#include "lib/groom/guide_factors.h"
 
 #include <stdbool.h>
 
@@ -85,12 +86,11 @@ struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const
                                           const hair_physics* physics, hair_solver solver, int mixed,
                                           double substep, struct hair_rod* out);
 
-// Write the pinned guides again. The pins are in the order of guides and their vertices. `groups`
-// has the physics of each group instead of `physics`, unless it is NULL.
-void hair_rods_pin(const struct hair_guide* guides, const struct hair_rest* rest,
+// Write a pinned guide again. Its pins are those from `first` up to, not including, `end`.
+void hair_rods_pin(const struct hair_guide* guide, const struct hair_rest* rest,
                    const struct hair_rod_borne* borne, const struct hair_resolved_pin* resolved_pin,
-                   uint32_t count, const hair_physics* physics, const hair_physics* groups,
-                   hair_solver solver, int mixed, double substep, struct hair_rod* out);
+                   uint32_t first, uint32_t end, const hair_physics* physics, hair_solver solver, int mixed,
+                   double substep, struct hair_rod* out);
 
 // Return whether the mixed scheme is to solve the guides under direct and accurate. The mixed
 // scheme is needed when some guides are curved at rest. It is also needed when segments are too
@@ -129,5 +129,11 @@ void hair_rods_add_final_solve(const struct hair_guide* guides, uint32_t count, 
 
 // Return whether physics `a` and `b` need different rods.
 bool hair_rods_differ(const hair_physics* a, const hair_physics* b);
+
+// Functions of factors.c.
+
+bool hair_factors_are_equal(const struct hair_guide_factors* a, const struct hair_guide_factors* b);
+// Return physics that are multiplied by the factors of a guide, within the ranges of hair_physics.
+hair_physics hair_physics_multiply(const hair_physics* physics, const struct hair_guide_factors* factors);
 
 #endif

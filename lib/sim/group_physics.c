@@ -1,5 +1,6 @@
 // group_physics.c - physics of groups of strands. Only damping and the numbers of which rods are
-// made can differ by group. Everything else is a parameter of all guides.
+// made can differ by group. Everything else is a parameter of all guides. The groom's factors of
+// each guide multiply the physics of its group.
 #include "lib/sim/sim.h"
 
 void hair_sim_copy_group_members(const hair_physics* from, hair_physics* to)
@@ -15,21 +16,31 @@ const hair_physics* hair_sim_groups(const struct hair_sim* sim)
     return sim->groups.version ? sim->groups.physics : NULL;
 }
 
+// Return the groom if its guides have factors. Solvers without rods ignore them.
+static const struct hair_groom* groom_with_factors(const struct hair_sim* sim)
+{
+    const struct hair_groom* groom = sim->rods ? sim->rods->groom : NULL;
+    return groom && groom->guide_factors ? groom : NULL;
+}
+
 hair_physics hair_sim_max_physics(const struct hair_sim* sim)
 {
     const hair_physics* groups = hair_sim_groups(sim);
+    const struct hair_groom* groom = groom_with_factors(sim);
     hair_physics max = sim->physics;
     for (int g = 0; groups && g < HAIR_MAX_STRAND_GROUPS; ++g) {
         max.shape.frequency_root = fmaxf(max.shape.frequency_root, groups[g].shape.frequency_root);
         max.shape.frequency_tip = fmaxf(max.shape.frequency_tip, groups[g].shape.frequency_tip);
         max.tip_mass = fmaxf(max.tip_mass, groups[g].tip_mass);
     }
-    return max;
+    return groom ? hair_physics_multiply(&max, &groom->max_factors) : max;
 }
 
-bool hair_sim_has_group_damping(const struct hair_sim* sim)
+bool hair_sim_has_guide_damping(const struct hair_sim* sim)
 {
     const hair_physics* groups = hair_sim_groups(sim);
+    const struct hair_groom* groom = groom_with_factors(sim);
+    if (groom && (groom->min_factors.damping != 1 || groom->max_factors.damping != 1)) return true;
     for (int g = 0; groups && g < HAIR_MAX_STRAND_GROUPS; ++g)
         if (groups[g].damping != sim->physics.damping) return true;
     return false;
@@ -38,9 +49,10 @@ bool hair_sim_has_group_damping(const struct hair_sim* sim)
 float hair_sim_min_damping(const struct hair_sim* sim)
 {
     const hair_physics* groups = hair_sim_groups(sim);
+    const struct hair_groom* groom = groom_with_factors(sim);
     float min = sim->physics.damping;
     for (int g = 0; groups && g < HAIR_MAX_STRAND_GROUPS; ++g) min = fminf(min, groups[g].damping);
-    return min;
+    return groom ? min * groom->min_factors.damping : min;
 }
 
 // Compute the physics of all groups again. `physics` are new ones of `group`, or NULL.

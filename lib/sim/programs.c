@@ -124,7 +124,7 @@ static hair_gl_pass solver_pass_for(const struct hair_sim* sim, int listed, int 
     if (sim->pins.count > 0) features |= HAIR_GL_WITH(PINNED);
     if (hair_scalp_motion_is_on(sim)) features |= HAIR_GL_WITH(SKINNED);
     if (hair_wind_is_on(&sim->wind)) features |= HAIR_GL_WITH(WIND);
-    if (hair_sim_has_group_damping(sim)) features |= HAIR_GL_WITH(GROUP_DAMPING);
+    if (hair_sim_has_guide_damping(sim)) features |= HAIR_GL_WITH(GROUP_DAMPING);
     if (hair_impulses_are_on(sim)) features |= HAIR_GL_WITH(IMPULSES);
     hair_gl_pass pass = hair_sim_is_mixed(sim)   ? HAIR_GL_MIXED_SOLVER
                         : hair_sim_is_stiff(sim) ? HAIR_GL_ACCURATE_STIFF

@@ -34,6 +34,7 @@ static struct hair_rod_source source_of(const struct hair_sim* sim)
                                     .guides = guides,
                                     .rest = rest,
                                     .groups = hair_sim_groups(sim),
+                                    .factors = sim->rods->groom->guide_factors,
                                     .count = sim->guides,
                                     .vertices = sim->guide_vertices,
                                     .max_vertices = sim->max_vertices};
@@ -224,8 +225,8 @@ static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair
     out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
     out->softened =
         hair_rods_write_all(&source, rods->borne, &sim->physics, sim->solver, out->mixed, out->substep, rod);
-    hair_rods_pin(source.guides, source.rest, rods->borne, sim->pins.resolved_pin, sim->pins.count,
-                  &sim->physics, source.groups, sim->solver, out->mixed, out->substep, rod);
+    hair_rods_pin_all(&source, rods->borne, sim->pins.resolved_pin, sim->pins.count, &sim->physics,
+                      sim->solver, out->mixed, out->substep, rod);
     out->stiff = is_stiff(sim, rod);
     return upload_rods(sim, rod, out);
 }

@@ -177,11 +177,11 @@ hair_result hair_sim_set_group_physics(struct hair_sim* sim, uint32_t group, con
 void hair_sim_copy_group_members(const hair_physics* from, hair_physics* to);
 // Return the physics of all groups. Return NULL if all groups have the physics of the instance.
 const hair_physics* hair_sim_groups(const struct hair_sim* sim);
-// Return the physics of the instance, with the largest frequencies and tip mass of any group.
+// Return the physics of the instance, with the largest frequencies and tip mass of any guide.
 hair_physics hair_sim_max_physics(const struct hair_sim* sim);
-// Return whether guides of some group have another damping than the instance.
-bool hair_sim_has_group_damping(const struct hair_sim* sim);
-// Return the minimum damping of all groups, in 1/s.
+// Return whether some guides have another damping than the instance, by group or by factor.
+bool hair_sim_has_guide_damping(const struct hair_sim* sim);
+// Return the minimum damping of all guides, in 1/s.
 float hair_sim_min_damping(const struct hair_sim* sim);
 // Apply changed physics of the instance to the groups.
 void hair_sim_update_groups(struct hair_sim* sim);

@@ -56,6 +56,9 @@ static hair_result use_hair_groom_desc(struct hair_test_scene* user, void* given
     desc->host = &user->test->host.host;
     desc->positions = positions;
     desc->strand_vertices = vertices;
+    hair_strand_attribute attributes[32];
+    for (int i = 0; i < 32; ++i) attributes[i] = hair_strand_attribute_default();
+    if (!desc->strand_attributes && desc->header.version) desc->strand_attributes = attributes;
     // This field has no default.
     if (desc->strand_count == 0 && desc->header.version) desc->strand_count = 1;
     hair_result result = hair_groom_create(desc, &groom);
@@ -78,18 +81,33 @@ static hair_result use_hair_style_desc(struct hair_test_scene* user, void* given
     return result;
 }
 
-static hair_result use_hair_map_set(struct hair_test_scene* user, void* given)
+static hair_groom_desc desc_with_scalp(void)
 {
-    static const float scalp[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1}, values[3] = {1, 1, 1};
+    static const float scalp[9] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
     static const uint32_t triangle[3] = {0, 2, 1};
-    hair_map_set* set = given;
     hair_groom_desc desc = hair_groom_desc_default();
-    set->density.values = set->thickness.values = values;
     desc.scalp_positions = scalp;
     desc.scalp_vertex_count = 3;
     desc.scalp_triangles = triangle;
     desc.scalp_triangle_count = 1;
+    return desc;
+}
+static const float ones[9] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
+static hair_result use_hair_map_set(struct hair_test_scene* user, void* given)
+{
+    hair_map_set* set = given;
+    hair_groom_desc desc = desc_with_scalp();
+    set->density.values = set->thickness.values = ones;
     desc.map_sets[0] = set;
+    return use_hair_groom_desc(user, &desc);
+}
+static hair_result use_hair_strand_attribute(struct hair_test_scene* user, void* given)
+{
+    hair_strand_attribute* attribute = given;
+    hair_groom_desc desc = desc_with_scalp();
+    attribute->map.values = ones;
+    desc.strand_attributes = attribute;
+    desc.strand_attribute_count = 1;
     return use_hair_groom_desc(user, &desc);
 }
 static hair_result make_mesh(struct hair_test_scene* user, hair_collision_mesh_desc* desc,
@@ -226,6 +244,7 @@ struct subject {
     }
 INIT(hair_import)
 INIT(hair_map_set)
+INIT(hair_strand_attribute)
 INIT(hair_groom_desc)
 INIT(hair_context_desc)
 INIT(hair_desc)
@@ -258,6 +277,8 @@ INIT(hair_cut_desc)
 static const struct subject subjects[] = {
     SUBJECT(IMPORT, hair_import),
     {HAIR_STRUCT_MAP_SET, "hair_groom_desc.map_sets[0]", use_hair_map_set, init_hair_map_set, true},
+    {HAIR_STRUCT_STRAND_ATTRIBUTE, "hair_groom_desc.strand_attributes[0]", use_hair_strand_attribute,
+     init_hair_strand_attribute, true},
     SUBJECT(GROOM_DESC, hair_groom_desc),
     SUBJECT(CONTEXT_DESC, hair_context_desc),
     SUBJECT(DESC, hair_desc),

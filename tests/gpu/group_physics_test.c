@@ -1,5 +1,5 @@
 // group_physics_test.c - groups of strands with physics of their own in one instance.
-#include "tests/support/live_hair.h"
+#include "tests/support/beams.h"
 #include "tests/support/passes.h"
 
 #include <math.h>
@@ -9,9 +9,8 @@
 
 #include "lib/api/api.h"
 
-#define STEP (1.0 / 240)
+#define STEP HAIR_TEST_BEAM_STEP
 #define GUIDES 6
-#define PI 3.14159265358979
 
 // Groups of the six guides below.
 static const uint8_t mixed_groups[GUIDES] = {0, 1, 2, 2, 1, 0};
@@ -30,17 +29,6 @@ static struct hair_test_strands make_strands(const uint8_t* groups)
     for (uint32_t g = 0; g < GUIDES; ++g) strands.vertices[strands.count++] = 16;
     strands.groups = groups;
     return strands;
-}
-
-// Swing the head for half a second.
-static void swing(struct hair_test_living* living)
-{
-    for (int i = 0; i < 30; ++i) {
-        struct hair_reference_rod_pose head = hair_test_pose_of(hair_v3(0.02f * sinf(0.4f * (float)i), 0, 0),
-                                                                hair_v3(0, 1, 0), 0.3 * sin(0.3 * i));
-        hair_test_advance(living, &head, 1.0 / 60);
-    }
-    hair_test_read_guides(living);
 }
 
 // Set the members that can differ by group for one of three groups.
@@ -90,12 +78,12 @@ static void check_groups_alone(struct hair_test* test, hair_solver solver, bool 
     hair_test_live(test, &strands, &desc, &together);
     set_groups(&together);
     if (is_pinned) pin(&together);
-    swing(&together);
+    hair_test_swing(&together);
     for (uint32_t group = 0; group < 3; ++group) {
         physics = physics_of(group);
         hair_test_live(test, &strands, &desc, &alone);
         if (is_pinned) pin(&alone);
-        swing(&alone);
+        hair_test_swing(&alone);
         for (uint32_t g = 0; g < GUIDES; ++g) {
             bool is_equal = memcmp(together.positions + 48 * g, alone.positions + 48 * g, 48 * 4) == 0;
             if (is_equal != (mixed_groups[g] == group))
@@ -116,62 +104,12 @@ static void groups_move_like_instances_of_their_physics(void** state)
     check_groups_alone(*state, HAIR_SOLVER_FOLLOW, false);
 }
 
-#define SAMPLES 360
-#define MAX_BEAMS 3
-
-// Return the frequency with the largest amplitude in samples, by Hann's window.
-static double find_peak(const double* sample)
-{
-    double peak = 0, max = 0;
-    for (double hz = 0.5; hz < 30; hz += 0.01) {
-        double re = 0, im = 0;
-        for (int k = 0; k < SAMPLES; ++k) {
-            double weight = sample[k] * (1 - cos(2 * PI * (k + 0.5) / SAMPLES));
-            re += weight * cos(2 * PI * hz * k * STEP);
-            im += weight * sin(2 * PI * hz * k * STEP);
-        }
-        if (re * re + im * im > max) max = re * re + im * im, peak = hz;
-    }
-    return peak;
-}
-
-// Move the head by a millimetre at once. Measure at which frequencies the tips swing about rest.
-static void measure_frequencies(struct hair_test_living* living, double hz[MAX_BEAMS])
-{
-    static double sample[MAX_BEAMS][SAMPLES];
-    struct hair_reference_rod_pose head = hair_test_pose_of(hair_v3(0, 0, 1e-3f), hair_v3(0, 1, 0), 0);
-    for (int k = 0; k < SAMPLES; ++k) {
-        hair_test_advance(living, &head, STEP);
-        hair_test_read_guides(living);
-        for (uint32_t g = 0; g < MAX_BEAMS; ++g) sample[g][k] = (double)hair_test_tip(living, g).z - 1e-3;
-    }
-    for (uint32_t g = 0; g < MAX_BEAMS; ++g) hz[g] = find_peak(sample[g]);
-}
-
-static struct hair_test_strands make_beams(const uint8_t groups[MAX_BEAMS])
-{
-    struct hair_test_strands strands = hair_test_strands_make(MAX_BEAMS, 9);
-    for (int g = 0; g < MAX_BEAMS; ++g)
-        hair_test_add_straight(&strands, 9, hair_v3(0.1f * (float)g, 0, 0), hair_v3(0, -1, 0), 0.03f);
-    strands.groups = groups;
-    return strands;
-}
-
-static hair_physics without_forces(void)
-{
-    hair_physics physics = hair_physics_default();
-    physics.gravity[1] = 0, physics.damping = 0;
-    physics.shape.frequency_root = physics.shape.frequency_tip = 0;
-    physics.sleep_threshold = 0;
-    return physics;
-}
-
 static void groups_swing_at_their_frequency(void** state)
 {
-    static const uint8_t groups[MAX_BEAMS] = {0, 5, 7};
-    struct hair_test_strands strands = make_beams(groups);
+    static const uint8_t groups[HAIR_TEST_BEAMS] = {0, 5, 7};
+    struct hair_test_strands strands = hair_test_beams(groups);
     struct hair_test_living living;
-    hair_physics physics = without_forces();
+    hair_physics physics = hair_test_without_forces();
     physics.fiber.youngs_modulus = 0;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, STEP / 4, &physics);
     hair_test_live(*state, &strands, &desc, &living);
@@ -182,8 +120,8 @@ static void groups_swing_at_their_frequency(void** state)
     }
     physics.shape.frequency_root = physics.shape.frequency_tip = 3;
     hair_test_ok(*state, hair_set_physics(living.hair, &physics)); // Group 0 has not been set.
-    double hz[MAX_BEAMS];
-    measure_frequencies(&living, hz);
+    double hz[HAIR_TEST_BEAMS];
+    hair_test_measure_frequencies(&living, hz);
     printf("%.3f, %.3f and %.3f Hz\n", hz[0], hz[1], hz[2]);
     hair_test_near("frequency of group", 0, hz[0], 3, 0.03);
     hair_test_near("frequency of group", 5, hz[1], 2, 0.02);
@@ -196,10 +134,10 @@ static void groups_swing_at_their_frequency(void** state)
 // mass at the tip lowers it.
 static void groups_bend_at_the_frequency_of_their_stiffness(void** state)
 {
-    static const uint8_t groups[MAX_BEAMS] = {0, 1, 2};
-    struct hair_test_strands strands = make_beams(groups);
+    static const uint8_t groups[HAIR_TEST_BEAMS] = {0, 1, 2};
+    struct hair_test_strands strands = hair_test_beams(groups);
     struct hair_test_living living;
-    hair_physics physics = without_forces();
+    hair_physics physics = hair_test_without_forces();
     physics.fiber.youngs_modulus = 4e8f;
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, STEP / 4, &physics);
     hair_test_live(*state, &strands, &desc, &living);
@@ -208,8 +146,8 @@ static void groups_bend_at_the_frequency_of_their_stiffness(void** state)
     hair_test_ok(*state, hair_set_group_physics(living.hair, 1, &own));
     own = physics, own.tip_mass = 1;
     hair_test_ok(*state, hair_set_group_physics(living.hair, 2, &own));
-    double hz[MAX_BEAMS];
-    measure_frequencies(&living, hz);
+    double hz[HAIR_TEST_BEAMS];
+    hair_test_measure_frequencies(&living, hz);
     // The first squared frequency of a beam of mass m with the mass M at its tip is near
     // 3 EI / (L^3 (M + 0.243 m)).
     printf("%.3f, %.3f and %.3f Hz\n", hz[0], hz[1], hz[2]);
@@ -226,7 +164,7 @@ static void check_decay(struct hair_test* test, hair_solver solver)
     static const float rate[3] = {1, 3, 0};
     struct hair_test_strands strands = make_strands(mixed_groups);
     struct hair_test_living living;
-    hair_physics physics = without_forces();
+    hair_physics physics = hair_test_without_forces();
     physics.gravity[1] = -9.81f, physics.root = HAIR_ROOT_FREE, physics.damping = rate[0];
     physics.shape.gravity_preload = 0;
     hair_desc desc = hair_test_rods(solver, HAIR_THREAD_MAPPING_AUTO, STEP / 4, &physics);
@@ -267,13 +205,6 @@ static void speeds_decay_at_the_damping_of_their_group(void** state)
     assert_true(hair_test_runs_of(gl, "_group_damping") > runs);
 }
 
-static uint64_t gpu_bytes(struct hair_test* test)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(test, hair_get_memory(test->context, &memory));
-    return memory.bytes;
-}
-
 // Check that groups whose physics are those of the instance give the same bits, bytes and rods as
 // no groups.
 static void equal_groups_give_the_bits_of_none(void** state)
@@ -282,10 +213,10 @@ static void equal_groups_give_the_bits_of_none(void** state)
     struct hair_test_living without, with;
     struct hair_test_strands strands = make_strands(NULL);
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, NULL);
-    uint64_t before = gpu_bytes(test);
+    uint64_t before = hair_test_bytes(test);
     hair_test_live(test, &strands, &desc, &without);
-    swing(&without);
-    uint64_t bytes = gpu_bytes(test) - before;
+    hair_test_swing(&without);
+    uint64_t bytes = hair_test_bytes(test) - before;
     strands.groups = mixed_groups;
     hair_test_live(test, &strands, &desc, &with);
     hair_physics physics = with.physics, other = physics;
@@ -297,10 +228,10 @@ static void equal_groups_give_the_bits_of_none(void** state)
     hair_test_ok(test, hair_set_group_physics(with.hair, 1, NULL));
     hair_test_ok(test, hair_set_group_physics(with.hair, 6, NULL));
     uint32_t runs = hair_test_runs_of(&test->context->gl, "_group_damping");
-    swing(&with);
+    hair_test_swing(&with);
     assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_damping"), runs);
     assert_int_equal(with.hair->sim.rod, rods);
-    assert_int_equal(gpu_bytes(test) - before, 2 * bytes);
+    assert_int_equal(hair_test_bytes(test) - before, 2 * bytes);
     assert_memory_equal(with.positions, without.positions, 3 * with.vertices * sizeof(float));
     hair_test_die(&with);
     hair_test_die(&without);
@@ -316,14 +247,14 @@ static void groups_keep_their_physics(void** state)
     hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, NULL);
     hair_test_live(test, &strands, &desc, &living);
     set_groups(&living);
-    swing(&living);
+    hair_test_swing(&living);
     size_t size = 0;
     hair_test_ok(test, hair_save(living.hair, NULL, 0, &size));
     void* bytes = malloc(size);
     hair_test_ok(test, hair_save(living.hair, bytes, size, &size));
-    swing(&living);
+    hair_test_swing(&living);
     hair_test_ok(test, hair_load(living.hair, bytes, size));
-    swing(&living);
+    hair_test_swing(&living);
     assert_memory_equal(living.positions, living.before, 3 * living.vertices * sizeof(float));
     free(bytes);
 

@@ -84,6 +84,9 @@ hair_groom_desc hair_test_groom_desc(const struct hair_test_host* host,
     desc.strand_vertices = strands->vertices;
     desc.strand_count = strands->count;
     desc.strand_groups = strands->groups;
+    desc.strand_attributes = strands->attributes;
+    desc.strand_attribute_count = strands->attribute_count;
+    if (strands->scalp) hair_test_set_scalp(&desc, strands->scalp);
     return desc;
 }
 

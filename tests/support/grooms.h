@@ -13,6 +13,9 @@ struct hair_test_strands {
     uint32_t* vertices;
     uint32_t count, vertex_count;
     const uint8_t* groups; // Groups of the strands. NULL puts all into group 0.
+    const hair_strand_attribute* attributes;
+    uint32_t attribute_count;
+    const struct hair_test_scalp* scalp; // Scalp for maps of attributes, or NULL.
 };
 
 // Return an empty list with room for `count` strands of at most `max` vertices.

@@ -102,7 +102,8 @@ const struct hair_test_member* hair_test_find_member(const char* owner, const ch
     for (size_t i = 0; i < member_count; ++i)
         if (strcmp(members[i].owner, owner) == 0 && strcmp(members[i].name, name) == 0) return &members[i];
     const char* dot = strchr(name, '.');
-    return dot && strcmp(owner, "hair_map_set") == 0 ? hair_test_find_member("hair_map", dot + 1) : NULL;
+    bool has_maps = strcmp(owner, "hair_map_set") == 0 || strcmp(owner, "hair_strand_attribute") == 0;
+    return dot && has_maps ? hair_test_find_member("hair_map", dot + 1) : NULL;
 }
 
 // Find the next enumerator before `end`, and its length. Comments are skipped.

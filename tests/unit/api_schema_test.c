@@ -158,7 +158,7 @@ static bool has_rows(const char* owner)
 }
 
 // Check that every member of a struct that applications fill in has a row. The rest of hair_buffers
-// are results, and a row of hair_map_set stands for each member of a hair_map.
+// are results, and rows of other structs stand for each member of a hair_map.
 static void every_member_of_the_headers_is_in_the_table(void** state)
 {
     (void)state;

@@ -152,7 +152,7 @@ static void sagging_guide_keeps_its_rest_strain_when_pinned(void** state)
     hair_test_rod_write(f, HAIR_SOLVER_DIRECT, 1.0 / 240);
     assert_int_equal(f->report.sagging, 1);
     struct hair_rod* rod = calloc(MAX, sizeof *rod);
-    hair_rods_pin(&f->guide, f->rest, f->borne, &resolved_pin, 1, &f->physics, NULL, HAIR_SOLVER_DIRECT, 0,
+    hair_rods_pin(&f->guide, f->rest, f->borne, &resolved_pin, 0, 1, &f->physics, HAIR_SOLVER_DIRECT, 0,
                   1.0 / 240, rod);
     for (uint32_t i = 0; i < 32; ++i) assert_memory_equal(&rod[i].strain, &f->rod[i].strain, 16);
     free(rod);

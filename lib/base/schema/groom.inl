@@ -31,6 +31,22 @@ UINT(hair_map_set, thickness.height, 0, 0, 16384, 0, 1024, LINEAR, "",
 #undef GROUP
 #define GROUP ""
 END
+BEGIN(hair_strand_attribute)
+ENUM(hair_strand_attribute, kind, HAIR_STRAND_ATTRIBUTE_STIFFNESS, "Property that the factors multiply.", "stiffness",
+      "damping", "shape_frequency", "gravity_preload")
+POINTER(hair_strand_attribute, strand_values, "Factor of each strand.")
+#undef GROUP
+#define GROUP "map"
+ENUM(hair_strand_attribute, map.source, HAIR_MAP_SOURCE_NONE,
+      "Source of the values of a map.", "none", "image", "vertices", "triangles")
+POINTER(hair_strand_attribute, map.values, "Values of the source.")
+UINT(hair_strand_attribute, map.width, 0, 0, 16384, 0, 1024, LINEAR, "",
+      "Width of the image, in texels, at least 1.")
+UINT(hair_strand_attribute, map.height, 0, 0, 16384, 0, 1024, LINEAR, "",
+      "Height of the image, in texels, at least 1.")
+#undef GROUP
+#define GROUP ""
+END
 BEGIN(hair_groom_desc)
 POINTER(hair_groom_desc, host, "Callbacks.")
 POINTER(hair_groom_desc, positions,
@@ -68,4 +84,6 @@ ENUM(hair_groom_desc, solver, HAIR_SOLVER_DIRECT, "Solver for which `physics` pr
       "direct", "accurate", "follow", "redblack")
 POINTER(hair_groom_desc, tasks, "Threads on which the guides are prepared.")
 POINTER(hair_groom_desc, strand_groups, "Group of each strand, such as beard, brows or undercoat.")
+POINTER(hair_groom_desc, strand_attributes, "Attributes of strands, strand_attribute_count of them.")
+UINT(hair_groom_desc, strand_attribute_count, 0, 0, 32, 0, 32, LINEAR, "", "Number of attributes.")
 END

@@ -1,0 +1,260 @@
+// groom_attributes_test.c - attributes of strands by strand and by map, and their refusals.
+#include "tests/support/grooms.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <cmocka.h>
+
+#include "lib/base/schema.h"
+#include "lib/rod/prepared.h"
+
+#define COUNT 300
+#define CELLS 8
+#define VERTICES ((CELLS + 1) * (CELLS + 1))
+
+static struct hair_test_host test;
+
+// Fur on a scalp of 1 m, with two attributes of the same kind, one of strands and one map.
+struct furry {
+    struct hair_test_strands strands;
+    struct hair_test_scalp scalp;
+    hair_groom_desc desc;
+    hair_strand_attribute attributes[2];
+    float of_strands[COUNT], of_vertices[VERTICES], of_triangles[2 * CELLS * CELLS], uvs[2 * VERTICES];
+};
+
+static void prepare(struct furry* furry, hair_strand_attribute_kind kind)
+{
+    furry->strands = hair_test_fur(COUNT);
+    furry->scalp = hair_test_scalp_make(CELLS, 1);
+    furry->desc = hair_test_groom_desc(&test, &furry->strands);
+    hair_test_set_scalp(&furry->desc, &furry->scalp);
+    for (int i = 0; i < 2; ++i) {
+        furry->attributes[i] = hair_strand_attribute_default();
+        furry->attributes[i].kind = kind;
+    }
+    for (uint32_t i = 0; i < COUNT; ++i) furry->of_strands[i] = 1 + 0.01f * (float)i;
+    for (uint32_t i = 0; i < VERTICES; ++i) {
+        const float* p = furry->scalp.positions + 3 * (size_t)i;
+        furry->of_vertices[i] = 1 + 2 * p[0];
+        furry->uvs[2 * i] = p[0], furry->uvs[2 * i + 1] = p[2];
+    }
+    for (uint32_t i = 0; i < 2 * CELLS * CELLS; ++i) furry->of_triangles[i] = 0.5f * (float)i;
+    furry->attributes[0].strand_values = furry->of_strands;
+    furry->attributes[1].map.source = HAIR_MAP_SOURCE_VERTICES;
+    furry->attributes[1].map.values = furry->of_vertices;
+    furry->desc.scalp_uvs = furry->uvs;
+    furry->desc.strand_attributes = furry->attributes;
+    furry->desc.strand_attribute_count = 2;
+}
+
+static void finish(struct furry* furry)
+{
+    hair_test_strands_free(&furry->strands);
+    hair_test_scalp_free(&furry->scalp);
+}
+
+static float root_x(const hair_groom* groom, uint32_t guide)
+{
+    return groom->rest[groom->guides[guide].first].position.x;
+}
+
+static void guides_have_products_of_strand_and_map(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DAMPING);
+    float image[4] = {3, 5, 3, 5};
+    for (int source = HAIR_MAP_SOURCE_IMAGE; source <= HAIR_MAP_SOURCE_TRIANGLES; ++source) {
+        hair_map* map = &furry.attributes[1].map;
+        map->source = (hair_map_source)source;
+        if (source == HAIR_MAP_SOURCE_IMAGE) map->values = image, map->width = map->height = 2;
+        if (source == HAIR_MAP_SOURCE_VERTICES) map->values = furry.of_vertices;
+        if (source == HAIR_MAP_SOURCE_TRIANGLES) map->values = furry.of_triangles;
+        hair_groom* groom = hair_test_groom_of(&furry.desc);
+        float max = 0;
+        assert_int_equal(groom->info.guide_count, COUNT);
+        for (uint32_t g = 0; g < COUNT; ++g) {
+            const struct hair_guide_factors* factors = &groom->guide_factors[g];
+            float x = root_x(groom, g), z = groom->rest[groom->guides[g].first].position.z;
+            float u = x * CELLS - floorf(x * CELLS), v = z * CELLS - floorf(z * CELLS);
+            uint32_t cell = (uint32_t)(x * CELLS) + CELLS * (uint32_t)(z * CELLS);
+            float value = 3 + 2 * fminf(fmaxf(x * 2 - 0.5f, 0), 1);
+            if (source == HAIR_MAP_SOURCE_VERTICES) value = 1 + 2 * x;
+            if (source == HAIR_MAP_SOURCE_TRIANGLES) value = (float)cell + (u + v > 1 ? 0.5f : 0);
+            float product = fminf(value * furry.of_strands[g], 100);
+            assert_float_equal(factors->damping, product, 1e-3);
+            assert_true(factors->stiffness == 1 && factors->shape_frequency == 1 &&
+                        factors->gravity_preload == 1);
+            max = fmaxf(max, factors->damping);
+        }
+        assert_true(groom->max_factors.damping == max && groom->min_factors.damping < max);
+        hair_groom_destroy(groom);
+    }
+    finish(&furry);
+}
+
+// Check that chosen guides have the values of their strands, also after strands have been dropped.
+static void values_stay_with_their_strands(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_STIFFNESS);
+    hair_import import = hair_import_default();
+    import.keep_fraction = 0.3f, import.strand_vertices = 5;
+    furry.desc.import = &import;
+    furry.desc.strand_set = HAIR_STRAND_SET_FULL;
+    furry.desc.guide_count = 20;
+    furry.desc.strand_attribute_count = 1;
+    for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++])
+        furry.of_strands[i] = furry.strands.positions[3 * first];
+    hair_groom* groom = hair_test_groom_of(&furry.desc);
+    assert_true(groom->info.strand_count < COUNT / 2);
+    for (uint32_t g = 0; g < groom->info.guide_count; ++g)
+        assert_true(groom->guide_factors[g].stiffness == root_x(groom, g));
+    hair_groom_destroy(groom);
+    finish(&furry);
+}
+
+// Check the rods that a groom prepares for physics, whose tips have the damping.
+static void prepared_rods_have_the_factors(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DAMPING);
+    hair_physics physics = hair_physics_default();
+    furry.desc.physics = &physics;
+    hair_groom* groom = hair_test_groom_of(&furry.desc);
+    for (uint32_t g = 0; g < COUNT; ++g) {
+        const struct hair_guide* guide = &groom->guides[g];
+        float damping = groom->prepared->rod[guide->first + guide->count - 1].factor_euler.w;
+        assert_true(damping == 4 * groom->guide_factors[g].damping && damping > 4);
+    }
+    hair_groom_destroy(groom);
+    finish(&furry);
+}
+
+static const hair_member* find_member(const struct hair_schema* schema, const char* name)
+{
+    for (uint32_t i = 0; i < schema->count; ++i)
+        if (strcmp(schema->member[i].name, name) == 0) return &schema->member[i];
+    return NULL;
+}
+
+static void products_stay_within_the_ranges_of_physics(void** state)
+{
+    (void)state;
+    static const struct hair_guide_factors most = {100, 100, 100, 100};
+    const struct hair_schema schema = hair_schema_of_hair_physics();
+    hair_physics physics = hair_physics_default();
+    physics.fiber.youngs_modulus = 9e11f, physics.damping = 900, physics.shape.gravity_preload = 0.9f;
+    physics.shape.frequency_root = physics.shape.frequency_tip = 20;
+    physics = hair_physics_multiply(&physics, &most);
+    const struct {
+        const char* name;
+        float value;
+    } checks[] = {{"fiber.youngs_modulus", physics.fiber.youngs_modulus},
+                  {"damping", physics.damping},
+                  {"shape.frequency_root", physics.shape.frequency_root},
+                  {"shape.frequency_tip", physics.shape.frequency_tip},
+                  {"shape.gravity_preload", physics.shape.gravity_preload}};
+    for (size_t i = 0; i < sizeof checks / sizeof *checks; ++i)
+        assert_true(checks[i].value == (float)find_member(&schema, checks[i].name)->max);
+}
+
+static void assert_refused(const hair_groom_desc* desc, const char* words)
+{
+    hair_groom* groom = NULL;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_ERROR_ARGUMENT);
+    assert_null(groom);
+    assert_int_equal(test.errors, 1);
+    if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
+    test.errors = 0;
+}
+
+static void invalid_attributes_are_refused_by_index_and_range(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
+    furry.of_strands[17] = 100.5f;
+    assert_refused(&furry.desc,
+                   "hair_groom_desc.strand_attributes[0].strand_values[17] is 100.5, not in [0, 100]");
+    furry.of_strands[17] = NAN;
+    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[0].strand_values[17] is");
+    furry.of_strands[17] = 1;
+    furry.of_vertices[80] = -1;
+    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[1].map.values[80] is -1, not in [0, 100]");
+    furry.of_vertices[80] = 1;
+    furry.uvs[9] = INFINITY;
+    assert_refused(&furry.desc, "scalp_uvs: vertex 4 has inf");
+    furry.uvs[9] = 0;
+    furry.attributes[1].map.source = HAIR_MAP_SOURCE_IMAGE;
+    assert_refused(&furry.desc, "strand_attributes[1].map is an image of 0 by 0, not of [1, 16384] each");
+    furry.attributes[1].map.width = furry.attributes[1].map.height = 9;
+    furry.desc.scalp_uvs = NULL;
+    assert_refused(&furry.desc, "scalp_uvs is NULL but strand_attributes[1].map is an image");
+    furry.attributes[1].map.values = NULL;
+    assert_refused(&furry.desc, "strand_attributes[1].map.values is NULL");
+    furry.attributes[0].kind = (hair_strand_attribute_kind)99;
+    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[0].kind is 99, not in [0, ");
+    furry.attributes[0].header.version = 0;
+    hair_groom* none = NULL;
+    assert_int_equal(hair_groom_create(&furry.desc, &none), HAIR_ERROR_VERSION);
+    test.errors = 0;
+    furry.desc.strand_attributes = NULL;
+    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes is NULL but strand_attribute_count is 2");
+    furry.desc.strand_attribute_count = 33;
+    assert_refused(&furry.desc, "hair_groom_desc.strand_attribute_count is 33, not in [0, 32]");
+    finish(&furry);
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
+    for (uint32_t i = 0; i < 3 * furry.scalp.triangle_count; ++i) furry.scalp.triangles[i] = 0;
+    furry.desc.strand_set = HAIR_STRAND_SET_FULL;
+    assert_refused(&furry.desc, "scalp_triangles: none of 128 has three different corners");
+    furry.desc.strand_attribute_count = 1;
+    hair_groom_destroy(hair_test_groom_of(&furry.desc));
+    hair_groom_desc bald = hair_test_groom_desc(&test, &furry.strands);
+    bald.strand_attributes = furry.attributes, bald.strand_attribute_count = 2;
+    assert_refused(&bald, "hair_groom_desc.scalp_positions is NULL but strand_attributes[1].map is not");
+    finish(&furry);
+}
+
+static void refused_allocations_of_attributes_leak_nothing(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_STIFFNESS);
+    hair_groom* groom = NULL;
+    uint32_t refuse = 0;
+    hair_result result = HAIR_ERROR_MEMORY;
+    while (result == HAIR_ERROR_MEMORY) {
+        test.refuse = test.allocations + ++refuse;
+        result = hair_groom_create(&furry.desc, &groom);
+        test.errors = 0;
+        if (result) assert_int_equal(test.blocks, 0);
+    }
+    test.refuse = 0;
+    assert_int_equal(result, HAIR_OK);
+    assert_true(refuse > 20);
+    hair_groom_destroy(groom);
+    finish(&furry);
+}
+
+#define TEST(function) HAIR_TEST_WITH_HOST(function, &test)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(guides_have_products_of_strand_and_map),
+        TEST(values_stay_with_their_strands),
+        TEST(prepared_rods_have_the_factors),
+        TEST(products_stay_within_the_ranges_of_physics),
+        TEST(invalid_attributes_are_refused_by_index_and_range),
+        TEST(refused_allocations_of_attributes_leak_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
