@@ -88,11 +88,21 @@ HAIR_DESC(hair_cut_info)
 /// longest strand that moves with it. hair_get_lengths() before the call tells lengths with which
 /// hair_set_lengths() lets hair grow again.
 ///
+/// Pieces are free strands, with the shape and the velocity that the strands have now. They have
+/// the look, the physics, the colliders and the ambient wind of the hair, and fall until colliders
+/// hold them. They have the solver of the hair, or HAIR_SOLVER_DIRECT in place of
+/// HAIR_SOLVER_REDBLACK. They cost as much as hair of so many strands. Most of the time of the call
+/// is that of their hair_create(). Wherever their field does not reach, single strands may sink
+/// into colliders that hold their guides.
+///
 /// @param cut Shape.
 /// @param info Receives the effect, and comes from hair_cut_info_default(). NULL disables it.
+/// @param pieces Receives an instance of what falls off, or NULL if nothing longer than 3 mm does.
+///     The application steps, draws and destroys it. NULL discards what falls off.
 /// Errors: HAIR_ERROR_ARGUMENT, also with HAIR_THREAD_MAPPING_FEEDBACK, HAIR_ERROR_MEMORY,
 ///     HAIR_ERROR_OPENGL, HAIR_ERROR_VERSION.
 /// OpenGL: required. Waits for the GPU.
-HAIR_API hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_info* info);
+HAIR_API hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_info* info,
+                              hair_instance** pieces);
 
 #endif

@@ -1,5 +1,5 @@
 // cut.c - public calls that cut hair and let it grow.
-#include "lib/api/api.h"
+#include "lib/api/pieces.h"
 #include "lib/collide/cutter.h"
 
 // Check a range of guides.
@@ -83,6 +83,8 @@ struct cut {
     hair_vec4* vertices; // Followers as they are drawn.
     float *guide, *follower;
     float* needed; // Fraction of each guide that its followers need.
+    struct hair_piece* pieces; // Ends of followers that are cut off. NULL if they are discarded.
+    uint32_t piece_count;
     hair_cut_info info;
 };
 
@@ -128,26 +130,23 @@ static void keep_guides(struct cut* cut, uint32_t follower)
 }
 
 // Cut a follower where its vertices first meet the shape.
-static void cut_follower(struct cut* cut, const struct hair_cutter* cutter, const hair_vec4* vertex,
-                         uint32_t segments, float* fraction)
+static void cut_follower(struct cut* cut, const struct hair_cutter* cutter, uint32_t follower,
+                         uint32_t segments)
 {
-    double lost = 0;
-    float t = 0;
-    bool is_cut = false;
-    for (uint32_t k = 0; k < segments; ++k) {
-        hair_vec3 from = hair_load3(&vertex[k].x), to = hair_load3(&vertex[k + 1].x);
-        double length = (double)hair_distance(from, to);
-        if (is_cut) {
-            lost += length;
-        } else if (hair_cutter_meets(cutter, from, to, &t)) {
-            is_cut = true;
-            lost = length * (double)(1 - t);
-            *fraction *= ((float)k + t) / (float)segments;
-        }
+    const hair_vec4* vertex = cut->vertices + (size_t)follower * (segments + 1);
+    struct hair_piece piece = {.follower = follower, .fraction = cut->follower[follower]};
+    for (; piece.segment < segments; ++piece.segment) {
+        hair_vec3 from = hair_load3(&vertex[piece.segment].x);
+        if (hair_cutter_meets(cutter, from, hair_load3(&vertex[piece.segment + 1].x), &piece.t)) break;
     }
+    if (piece.segment == segments) return;
+    const struct hair_piece_source source = {.hair = cut->hair, .vertices = cut->vertices};
+    double lost = hair_piece_length(&source, &piece);
     if (!(lost > 0)) return;
+    cut->follower[follower] *= ((float)piece.segment + piece.t) / (float)segments;
     ++cut->info.strands;
     cut->info.length += lost;
+    if (cut->pieces) cut->pieces[cut->piece_count++] = piece;
 }
 
 static void cut_followers(struct cut* cut)
@@ -158,9 +157,7 @@ static void cut_followers(struct cut* cut)
     struct hair_cutter cutter = hair_cutter_from(cut->desc, hair->sim.head_at_last_step.position);
     for (uint32_t i = 0; i < followers; ++i) {
         cut->follower[i] = lengths->guides ? lengths->follower_fraction[i] : 1;
-        if (is_in_groups(cut, hair->groom->followers[i].guide0))
-            cut_follower(cut, &cutter, cut->vertices + (size_t)i * (segments + 1), segments,
-                         &cut->follower[i]);
+        if (is_in_groups(cut, hair->groom->followers[i].guide0)) cut_follower(cut, &cutter, i, segments);
         keep_guides(cut, i);
     }
     for (uint32_t g = 0; g < hair->sim.guides; ++g) {
@@ -188,17 +185,35 @@ static hair_result read_strands(struct cut* cut)
     return hair_check_lost(hair->context, HAIR_OK);
 }
 
-static hair_result cut_strands(struct cut* cut)
+static hair_result use_lengths(struct cut* cut)
 {
     hair_instance* hair = cut->hair;
-    HAIR_TRY(read_strands(cut));
-    cut_guides(cut);
-    cut_followers(cut);
-    if (!cut->info.strands && !cut->info.guides) return HAIR_OK;
     hair_enter(hair);
     hair_result result = hair_sim_set_strand_lengths(&hair->sim, cut->guide, cut->follower);
     if (!result) invalidate(hair);
     return hair_leave(hair->context, result);
+}
+
+// Cut the strands. `pieces` receives an instance of what falls off, or NULL. NULL discards it.
+static hair_result cut_strands(struct cut* cut, hair_instance** pieces)
+{
+    hair_instance* hair = cut->hair;
+    hair_instance* made = NULL;
+    if (pieces) {
+        cut->pieces = hair_alloc(&hair->context->host, hair->groom->info.follower_count, sizeof *cut->pieces);
+        if (!cut->pieces) return hair_fail_memory(&hair->context->host, "the pieces of cut hair");
+    }
+    HAIR_TRY(read_strands(cut));
+    cut_guides(cut);
+    cut_followers(cut);
+    struct hair_piece_source source = {hair, cut->states, cut->vertices, cut->pieces, cut->piece_count};
+    if (pieces) HAIR_TRY(hair_pieces_create(&source, &made));
+    hair_result result = cut->info.strands || cut->info.guides ? use_lengths(cut) : HAIR_OK;
+    if (result)
+        hair_destroy(made);
+    else if (pieces)
+        *pieces = made;
+    return result;
 }
 
 static hair_result check_cut(const hair_instance* hair, const hair_cut_desc* desc)
@@ -210,7 +225,8 @@ static hair_result check_cut(const hair_instance* hair, const hair_cut_desc* des
     return HAIR_OK;
 }
 
-hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_info* info)
+hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_info* info,
+                     hair_instance** pieces)
 {
     HAIR_TRY(hair_check_instance(hair));
     const hair_host* host = &hair->context->host;
@@ -220,12 +236,13 @@ hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_inf
     HAIR_TRY(check_cut(hair, &own));
     HAIR_TRY(check_changes(hair));
     struct cut work = {.hair = hair, .desc = &own, .info = hair_cut_info_default()};
-    hair_result result = cut_strands(&work);
+    hair_result result = cut_strands(&work, pieces);
     hair_free(host, work.states);
     hair_free(host, work.vertices);
     hair_free(host, work.guide);
     hair_free(host, work.needed);
     hair_free(host, work.follower);
+    hair_free(host, work.pieces);
     if (result || !info) return result;
     return HAIR_COPY_OUT(host, hair_cut_info, &work.info, info);
 }

@@ -121,7 +121,7 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
         return hair_fail(&host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.tasks has no function run");
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
     hair_groom* groom = NULL;
-    HAIR_TRY(hair_groom_build(&host, &own, &import, &groom));
+    HAIR_TRY(hair_groom_build(&host, &own, &import, NULL, &groom));
     hair_result result = own.physics ? prepare_rods(groom, &physics, own.solver) : HAIR_OK;
     if (result)
         hair_groom_release(groom);

@@ -108,8 +108,21 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_free(builder->host, builder->map_fraction);
 }
 
+// Move the strands of guides and followers out of the builder.
+static hair_result take_origin(struct hair_groom_builder* builder, struct hair_groom_origin* origin)
+{
+    uint32_t count = builder->candidate_count;
+    HAIR_ASSERT(builder->strand_of && builder->place);
+    origin->follower = hair_alloc(builder->host, count, sizeof *origin->follower);
+    if (!origin->follower) return hair_fail_memory(builder->host, "the strands of followers");
+    for (uint32_t i = 0; i < count; ++i) origin->follower[builder->place[i]] = builder->strand_of[i];
+    origin->guide = builder->chosen;
+    builder->chosen = NULL;
+    return HAIR_OK;
+}
+
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
-                             hair_groom** out)
+                             struct hair_groom_origin* origin, hair_groom** out)
 {
     struct hair_groom* groom = hair_alloc(host, 1, sizeof *groom);
     if (!groom) return hair_fail_memory(host, "a groom");
@@ -119,6 +132,7 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
     struct hair_groom_builder builder = {
         .host = &groom->host, .desc = desc, .import = import, .groom = groom};
     hair_result result = build_groom(&builder);
+    if (!result && origin) result = take_origin(&builder, origin);
     free_builder(&builder);
     if (result)
         hair_groom_release(groom);

@@ -41,10 +41,16 @@ struct hair_groom {
     void (*free_prepared)(const hair_host* host, struct hair_prepared_rods* prepared);
 };
 
-// Build a groom. `desc` is complete and checked, except the contents of its arrays. On failure *out
-// is untouched.
+// Strands that the guides and followers of a groom of full strands are made of, after the repairs.
+struct hair_groom_origin {
+    uint32_t *guide, *follower;
+};
+
+// Build a groom. `desc` is complete and checked, except the contents of its arrays. `origin`
+// receives arrays that the caller frees, also on failure. NULL disables it. On failure *out is
+// untouched.
 hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
-                             hair_groom** out);
+                             struct hair_groom_origin* origin, hair_groom** out);
 // Return the size of followers and of their shapes.
 size_t hair_groom_follower_bytes(const struct hair_groom* groom);
 // Add a reference. Any thread. Return `groom`.

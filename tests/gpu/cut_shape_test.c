@@ -1,52 +1,10 @@
 // cut_shape_test.c - hair that is cut by a plane, a capsule or the stroke of a blade, where it is
 // drawn.
-#include "tests/support/scene.h"
+#include "tests/support/cut_scene.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "tests/support/grooms.h"
-
-#define ROW 4 // Guides of a row. There are as many rows.
-#define GUIDES (ROW * ROW)
-#define HEIGHT 1.7f // Height of the roots, m.
-#define LENGTH 0.3f // Length of the guides, m.
-#define FRAME (1.0f / 60)
-
-// All drawn strands at one time.
-struct strands {
-    float* positions;
-    uint32_t count, vertices; // Number of strands, and of the vertices of each.
-};
-
-// Return a square of hanging strands. Every second one is in group 1.
-static struct hair_test_scene start(struct hair_test* test, hair_strand_set set, const hair_look* look,
-                                    const float transform[16])
-{
-    struct hair_test_scene scene = hair_test_scene_make(test, NULL);
-    struct hair_test_strands strands = hair_test_strands_make(GUIDES, 16);
-    uint8_t groups[GUIDES];
-    for (uint32_t i = 0; i < GUIDES; ++i) {
-        for (uint32_t k = 0; k < 16; ++k)
-            hair_store3(
-                strands.positions + 3 * strands.vertex_count++,
-                hair_v3(0.02f * (float)(i % ROW), HEIGHT - LENGTH * (float)k / 15, 0.02f * (float)(i / ROW)));
-        strands.vertices[strands.count++] = 16;
-        groups[i] = i % 2;
-    }
-    strands.groups = groups;
-    hair_groom_desc desc = hair_test_groom_desc(&test->host, &strands);
-    desc.strand_set = set;
-    desc.follower_count = 8 * GUIDES, desc.guide_count = 4;
-    scene.groom = hair_test_groom_of(&desc);
-    hair_desc of = hair_desc_default();
-    of.look = look;
-    if (transform) memcpy(of.transform, transform, sizeof of.transform);
-    hair_test_ok(test, hair_create(test->context, scene.groom, &of, &scene.hair));
-    hair_test_strands_free(&strands);
-    return scene;
-}
 
 static hair_look curly(void)
 {
@@ -55,38 +13,6 @@ static hair_look curly(void)
     look.curl.radius = 0.006f, look.curl.wavelength = 0.04f;
     look.strays.fraction = 1;
     return look;
-}
-
-static struct strands read_strands(const struct hair_test_scene* scene)
-{
-    struct strands out = {.count = scene->groom->info.follower_count};
-    uint32_t all;
-    hair_test_ok(scene->test, hair_read_positions(scene->hair, HAIR_READ_FOLLOWERS, NULL, 0, &all));
-    out.positions = calloc(all, 3 * sizeof *out.positions);
-    out.vertices = all / out.count;
-    hair_test_ok(scene->test,
-                 hair_read_positions(scene->hair, HAIR_READ_FOLLOWERS, out.positions, all, &all));
-    return out;
-}
-
-static hair_vec3 at(const struct strands* strands, uint32_t strand, uint32_t vertex)
-{
-    return hair_load3(strands->positions + 3 * ((size_t)strand * strands->vertices + vertex));
-}
-
-static double length_of(const struct strands* strands, uint32_t strand)
-{
-    double sum = 0;
-    for (uint32_t k = 0; k + 1 < strands->vertices; ++k)
-        sum += (double)hair_distance(at(strands, strand, k), at(strands, strand, k + 1));
-    return sum;
-}
-
-static double length_of_all(const struct strands* strands)
-{
-    double sum = 0;
-    for (uint32_t i = 0; i < strands->count; ++i) sum += length_of(strands, i);
-    return sum;
 }
 
 // Return the distance of a place from the shape, m. It is negative inside.
@@ -100,20 +26,10 @@ static double distance_from(const hair_cut_desc* cut, hair_vec3 p)
     return (double)hair_distance(arm, hair_scale(axis, along)) - (double)cut->radius;
 }
 
-static void swing(const struct hair_test_scene* scene, int frames)
-{
-    float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    for (int i = 0; i < frames; ++i) {
-        transform[12] = 0.05f * sinf(6 * FRAME * (float)i);
-        hair_test_ok(scene->test, hair_set_transform(scene->hair, transform));
-        hair_test_ok(scene->test, hair_step(scene->hair, FRAME));
-    }
-}
-
 static hair_cut_desc sloping_plane(void)
 {
     hair_cut_desc cut = hair_cut_desc_default();
-    cut.from[1] = HEIGHT - 0.6f * LENGTH;
+    cut.from[1] = HAIR_TEST_CUT_HEIGHT - 0.6f * HAIR_TEST_CUT_LENGTH;
     cut.normal[0] = 0.5f, cut.normal[1] = -1;
     return cut;
 }
@@ -123,7 +39,7 @@ static hair_cut_desc razor(void)
     hair_cut_desc cut = hair_cut_desc_default();
     cut.shape = HAIR_CUT_SHAPE_CAPSULE;
     cut.from[0] = -0.1f, cut.to[0] = 0.03f;
-    cut.from[1] = cut.to[1] = HEIGHT - 0.5f * LENGTH;
+    cut.from[1] = cut.to[1] = HAIR_TEST_CUT_HEIGHT - 0.5f * HAIR_TEST_CUT_LENGTH;
     cut.radius = 0.03f;
     return cut;
 }
@@ -134,26 +50,29 @@ static void cut_strands_end_at_the_shape(void** state)
     for (int i = 0; i < 8; ++i) {
         hair_cut_desc cut = i & 1 ? razor() : sloping_plane();
         hair_cut_info info = hair_cut_info_default();
-        struct hair_test_scene scene =
-            start(*state, i & 2 ? HAIR_STRAND_SET_FULL : HAIR_STRAND_SET_GUIDES, &looks[i >> 2], NULL);
-        swing(&scene, 30);
-        struct strands before = read_strands(&scene);
-        hair_test_ok(*state, hair_cut(scene.hair, &cut, &info));
-        struct strands after = read_strands(&scene);
+        struct hair_test_scene scene = hair_test_cut_scene(
+            *state, i & 2 ? HAIR_STRAND_SET_FULL : HAIR_STRAND_SET_GUIDES, NULL, &looks[i >> 2], NULL);
+        hair_test_cut_swing(&scene, 30);
+        struct hair_test_drawn before = hair_test_read_drawn(*state, scene.hair);
+        hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
+        struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
         uint32_t met = 0;
         double worst = 0, tip = 0;
         for (uint32_t s = 0; s < before.count; ++s) {
             bool meets = false;
             for (uint32_t k = 0; k < before.vertices; ++k) {
-                meets |= distance_from(&cut, at(&before, s, k)) <= 0;
-                worst = fmax(worst, -distance_from(&cut, at(&after, s, k)));
+                meets |= distance_from(&cut, hair_test_drawn_at(&before, s, k)) <= 0;
+                worst = fmax(worst, -distance_from(&cut, hair_test_drawn_at(&after, s, k)));
             }
             met += meets;
-            if (meets) tip = fmax(tip, fabs(distance_from(&cut, at(&after, s, before.vertices - 1))));
-            if (!meets && distance_from(&cut, at(&before, s, 0)) > 0 && !(i & 1))
-                assert_true(fabs(length_of(&after, s) / length_of(&before, s) - 1) < 1e-3);
+            if (meets)
+                tip =
+                    fmax(tip, fabs(distance_from(&cut, hair_test_drawn_at(&after, s, before.vertices - 1))));
+            if (!meets && distance_from(&cut, hair_test_drawn_at(&before, s, 0)) > 0 && !(i & 1))
+                assert_true(fabs(hair_test_drawn_length(&after, s) / hair_test_drawn_length(&before, s) - 1) <
+                            1e-3);
         }
-        double lost = length_of_all(&before) - length_of_all(&after);
+        double lost = hair_test_drawn_length_of_all(&before) - hair_test_drawn_length_of_all(&after);
         print_message(
             "    %u of %u strands are cut, %.1f um inside, tips within %.1f um, %.3f m lost (%.3f)\n", met,
             before.count, worst * 1e6, tip * 1e6, info.length, lost);
@@ -179,24 +98,26 @@ static void a_stroke_cuts_where_it_passes(void** state)
 {
     hair_look look = hair_look_default();
     look.strays.fraction = look.strays.tip_fraction = 0;
-    struct hair_test_scene scene = start(*state, HAIR_STRAND_SET_GUIDES, &look, NULL);
+    struct hair_test_scene scene = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, &look, NULL);
     hair_cut_desc cut = hair_cut_desc_default();
     hair_cut_info info = hair_cut_info_default();
     cut.shape = HAIR_CUT_SHAPE_BLADE;
     cut.from[0] = cut.last_from[0] = -0.1f, cut.to[0] = cut.last_to[0] = 0.03f;
-    cut.last_from[1] = cut.from[1] = HEIGHT - 0.2f, cut.last_to[1] = cut.to[1] = HEIGHT - 0.07f;
+    cut.last_from[1] = cut.from[1] = HAIR_TEST_CUT_HEIGHT - 0.2f,
+    cut.last_to[1] = cut.to[1] = HAIR_TEST_CUT_HEIGHT - 0.07f;
     cut.last_from[2] = cut.last_to[2] = cut.from[2] = cut.to[2] = -0.2f;
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info));
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
     assert_true(info.strands == 0 && info.guides == 0 && info.length == 0);
     assert_null(scene.hair->sim.lengths.guides);
     cut.from[2] = cut.to[2] = 0.2f;
-    struct strands before = read_strands(&scene);
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info));
-    struct strands after = read_strands(&scene);
+    struct hair_test_drawn before = hair_test_read_drawn(*state, scene.hair);
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
+    struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
     uint32_t met = 0;
     for (uint32_t s = 0; s < before.count; ++s) {
-        hair_vec3 tip = at(&after, s, after.vertices - 1), was = at(&before, s, after.vertices - 1);
-        float height = HEIGHT - 0.1f + tip.x;
+        hair_vec3 tip = hair_test_drawn_at(&after, s, after.vertices - 1),
+                  was = hair_test_drawn_at(&before, s, after.vertices - 1);
+        float height = HAIR_TEST_CUT_HEIGHT - 0.1f + tip.x;
         // The edge ends at x = 0.03 m. Strands there are left out.
         if (fabsf(was.x - 0.03f) < 1e-3f) continue;
         met += was.x < 0.03f;
@@ -211,16 +132,17 @@ static void a_stroke_cuts_where_it_passes(void** state)
 
 static void other_groups_are_not_cut(void** state)
 {
-    struct hair_test_scene scene = start(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL);
+    struct hair_test_scene scene = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
     hair_cut_desc cut = sloping_plane();
     hair_cut_info info = hair_cut_info_default();
     cut.groups = 2;
-    struct strands before = read_strands(&scene);
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info));
-    struct strands after = read_strands(&scene);
+    struct hair_test_drawn before = hair_test_read_drawn(*state, scene.hair);
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
+    struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
     float* fractions = lengths_of(&scene);
-    for (uint32_t g = 0; g < GUIDES; ++g) assert_true(g % 2 ? fractions[g] < 0.9f : fractions[g] == 1);
-    assert_int_equal(info.guides, GUIDES / 2);
+    for (uint32_t g = 0; g < HAIR_TEST_CUT_GUIDES; ++g)
+        assert_true(g % 2 ? fractions[g] < 0.9f : fractions[g] == 1);
+    assert_int_equal(info.guides, HAIR_TEST_CUT_GUIDES / 2);
     for (uint32_t s = 0; s < before.count; ++s) {
         uint32_t group = scene.groom->guides[scene.groom->followers[s].guide0].group;
         assert_true(group || memcmp(before.positions + 3 * (size_t)s * before.vertices,
@@ -236,15 +158,16 @@ static void a_cut_is_the_same_far_from_the_origin(void** state)
 {
     const float far = 4e6f;
     float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, far, 0, -far, 1};
-    struct hair_test_scene near = start(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL);
-    struct hair_test_scene away = start(*state, HAIR_STRAND_SET_GUIDES, NULL, transform);
+    struct hair_test_scene near = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
+    struct hair_test_scene away = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, transform);
     hair_cut_desc cut = hair_cut_desc_default();
     cut.from[1] = 1.5f;
-    hair_test_ok(*state, hair_cut(near.hair, &cut, NULL));
+    hair_test_ok(*state, hair_cut(near.hair, &cut, NULL, NULL));
     cut.from[0] = far, cut.from[2] = -far;
-    hair_test_ok(*state, hair_cut(away.hair, &cut, NULL));
+    hair_test_ok(*state, hair_cut(away.hair, &cut, NULL, NULL));
     float *a = lengths_of(&near), *b = lengths_of(&away);
-    for (uint32_t g = 0; g < GUIDES; ++g) assert_true(a[g] < 0.8f && fabsf(a[g] - b[g]) < 1e-5f);
+    for (uint32_t g = 0; g < HAIR_TEST_CUT_GUIDES; ++g)
+        assert_true(a[g] < 0.8f && fabsf(a[g] - b[g]) < 1e-5f);
     free(a), free(b);
     hair_test_scene_free(&near), hair_test_scene_free(&away);
 }
@@ -252,22 +175,22 @@ static void a_cut_is_the_same_far_from_the_origin(void** state)
 // A second cut at the same place finds nothing, and a cut above all roots leaves stubs.
 static void cuts_follow_each_other(void** state)
 {
-    struct hair_test_scene scene = start(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL);
+    struct hair_test_scene scene = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
     hair_cut_desc cut = sloping_plane();
     hair_cut_info first = hair_cut_info_default(), second = first;
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &first));
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &second));
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &first, NULL));
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &second, NULL));
     print_message("    %.3f m are lost, then %.6f m\n", first.length, second.length);
     assert_true(first.length > 1 && second.length < 1e-4 * first.length);
-    cut.from[1] = HEIGHT + 1;
+    cut.from[1] = HAIR_TEST_CUT_HEIGHT + 1;
     cut.normal[0] = 0;
-    hair_test_ok(*state, hair_cut(scene.hair, &cut, &second));
-    struct strands after = read_strands(&scene);
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &second, NULL));
+    struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
     float* fractions = lengths_of(&scene);
-    print_message("    %.6f of %.3f m are left\n", length_of_all(&after), second.length);
-    assert_true(length_of_all(&after) < 1e-3 * second.length);
-    for (uint32_t g = 0; g < GUIDES; ++g) assert_true(fractions[g] == 0);
-    hair_test_ok(*state, hair_set_lengths(scene.hair, 0, GUIDES, NULL));
+    print_message("    %.6f of %.3f m are left\n", hair_test_drawn_length_of_all(&after), second.length);
+    assert_true(hair_test_drawn_length_of_all(&after) < 1e-3 * second.length);
+    for (uint32_t g = 0; g < HAIR_TEST_CUT_GUIDES; ++g) assert_true(fractions[g] == 0);
+    hair_test_ok(*state, hair_set_lengths(scene.hair, 0, HAIR_TEST_CUT_GUIDES, NULL));
     assert_null(scene.hair->sim.lengths.guides);
     free(after.positions), free(fractions);
     hair_test_scene_free(&scene);
@@ -275,23 +198,23 @@ static void cuts_follow_each_other(void** state)
 
 static void wrong_cuts_are_refused_with_the_member(void** state)
 {
-    struct hair_test_scene scene = start(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL);
+    struct hair_test_scene scene = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
     hair_cut_desc cut = hair_cut_desc_default();
     hair_cut_info info = hair_cut_info_default();
     cut.normal[1] = 0;
-    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
                       "hair_cut_desc.normal is (0, 0, 0)");
     cut = sloping_plane();
     cut.from[2] = NAN;
-    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
                       "hair_cut_desc.from[2] is nan");
     cut.from[2] = 0, cut.shape = (hair_cut_shape)3;
-    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info), HAIR_ERROR_ARGUMENT,
+    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
                       "hair_cut_desc.shape is 3");
     cut = sloping_plane();
     info.header.version = 0;
-    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info), HAIR_ERROR_VERSION, "hair_cut_info");
-    assert_int_equal(hair_cut(NULL, &cut, NULL), HAIR_ERROR_ARGUMENT);
+    hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_VERSION, "hair_cut_info");
+    assert_int_equal(hair_cut(NULL, &cut, NULL, NULL), HAIR_ERROR_ARGUMENT);
     assert_null(scene.hair->sim.lengths.guides);
     hair_test_scene_free(&scene);
 }

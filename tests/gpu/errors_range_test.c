@@ -183,7 +183,7 @@ static hair_result use_hair_group_look(struct hair_test_scene* user, void* desc)
 }
 static hair_result use_hair_cut_desc(struct hair_test_scene* user, void* desc)
 {
-    return hair_cut(user->hair, desc, NULL);
+    return hair_cut(user->hair, desc, NULL, NULL);
 }
 static hair_result use_hair_wind(struct hair_test_scene* user, void* given)
 {
