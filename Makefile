@@ -113,7 +113,8 @@ gallery: setup ## build/gallery.png: pictures with captions of what the library 
 	@$(MAKE) -j$(JOBS) $(B)/hair-capture $(B)/hair-gallery
 	$(B)/hair-gallery -o build/gallery.png
 
-# The report shows measurements of this machine and stored measurements of others on one page.
+# The report shows measurements of this machine and stored measurements of others on one page. Packages of
+# Debian are for the Python of the system, which may not be the first one in the path.
 SUITES  := accuracy physics stability startup dispatch render shadow table paths scale bounds lod followers collision field wind skip
 MACHINE := build/bench/$(if $(device),device-$(device),here)
 bench: setup ## Every suite of hair-bench, into build/bench/
@@ -125,7 +126,7 @@ bench: setup ## Every suite of hair-bench, into build/bench/
 report: setup ## build/report/index.html: run time against error on one page, after make bench and make demo
 	@[ "$(SETUP)" = 0 ] || sh tools/setup.sh tools/report/packages.txt
 	@ls build/bench/*/*.json >/dev/null 2>&1 || $(MAKE) bench
-	python3 tools/report/report.py build/report/index.html build/bench/* $(wildcard .readme/*/) \
+	$(or $(wildcard /usr/bin/python3),python3) tools/report/report.py build/report/index.html build/bench/* $(wildcard .readme/*/) \
 	  $(if $(wildcard build/demo.png),--picture "build/demo.png=The demo: make demo") \
 	  $(if $(wildcard build/gallery.png),--picture "build/gallery.png=What the library does: make gallery") \
 	  $(if $(wildcard build/view.mp4),--picture "build/view.mp4=hair-view in use: make view-film")
