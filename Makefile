@@ -330,7 +330,7 @@ glsl: ## Compile every shader offline, without a GPU
 	     '-DHAIR_FIBRES=1 -DHAIR_USER_PIXELS=1 glsl/draw/strand.frag'; } | sort -u | \
 	  xargs -r -L 1 -P $(JOBS) glslc --target-env=opengl4.5 -Werror -fauto-map-locations -DHAIR_LINES_LEVEL=0 -Iglsl -o /dev/null
 
-check: rooms circles symbols hardened comments lines functions words arrays mutations amalgam formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
+check: rooms circles symbols hardened comments lines functions words arrays mutations amalgam port-version formatted ## Check the order of folders, circles of files, exported names, the one file of all and style
 rooms:
 	@awk -v order="$(ROOMS)" ' \
 	  BEGIN { n = split(order, r, " "); for (i = 1; i <= n; i++) rank[r[i]] = i } \
