@@ -7,10 +7,14 @@
 ANALYZED = $(filter-out $(if $(filter 1,$(hosts)),,tools/examples/vulkan_host.c),$(wildcard $(ROOMS:%=lib/%/*.c) lib/egl/*.c \
   tools/*.c tools/*/*.c))
 ANALYZE_FLAGS = -std=c17 -Iinclude -I. -I$(B)/tools/examples $(TOOL_CFLAGS) $(call packages,--cflags,sdl2)
-analyze: $(if $(filter 1,$(hosts)),$(VULKAN_SHADERS)) analyze-gcc analyze-tidy analyze-cppcheck ## Static analysis of lib/ and tools/ by gcc, clang-tidy and cppcheck
+analyze: $(if $(filter 1,$(hosts)),$(VULKAN_SHADERS)) analyze-gcc analyze-amalgam analyze-tidy analyze-cppcheck ## Static analysis of lib/ and tools/ by gcc, clang-tidy and cppcheck
 analyze-gcc:
 	@printf '%s\n' $(ANALYZED) | xargs -P $(JOBS) -I{} gcc $(ANALYZE_FLAGS) -O1 -Werror -fanalyzer \
 	  -Wno-analyzer-use-of-uninitialized-value -c {} -o /dev/null
+# Other checks of the compilers work only with optimization.
+analyze-amalgam: amalgam
+	@printf '%s\n' 'gcc -O1' 'gcc -O2' 'gcc -O3' 'gcc -Os' 'clang-14 -O2' | xargs -P $(JOBS) -I{} sh -c \
+	  '{} -std=c17 -Wall -Wextra -Wno-psabi -Werror -I$(AMALGAM) -c $(AMALGAM)/hair.c -o /dev/null'
 analyze-tidy:
 	@printf '%s\n' $(ANALYZED) | xargs -P $(JOBS) -I{} sh -c \
 	  'said=$$(clang-tidy-14 --quiet {} -- $(ANALYZE_FLAGS) 2>&1) || { echo "$$said"; exit 1; }'
@@ -30,7 +34,7 @@ test32: ## Compile what needs no OpenGL for 32 bits, without warnings
 	@printf '%s\n' $(BARE) | xargs -P $(JOBS) -I{} $(CC) -std=c17 $(WARN) -Wmissing-prototypes -m32 -msse2 -mfpmath=sse \
 	  -O2 -Iinclude -I. -c {} -o /dev/null
 
-.PHONY: analyze analyze-gcc analyze-tidy analyze-cppcheck clang tests test32
+.PHONY: analyze analyze-gcc analyze-amalgam analyze-tidy analyze-cppcheck clang tests test32
 
 # Supply ---------------------------------------------------------------------------------------------------
 

@@ -133,6 +133,7 @@ hair_result hair_find_groom_chunks(const struct hair_source* source,
                                    struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT])
 {
     struct groom_header header;
+    header.end = 0; // GCC does not see that a failed read leaves the function.
     HAIR_TRY(read_groom_header(source, &header));
     size_t at = HAIR_GROOMFILE_HEADER;
     uint32_t unknown = 0;

@@ -48,6 +48,7 @@ function define(path, name) {
 }
 BEGIN {
     print "// hair.c - libhair " version " in one file. Compile it as C17 with the folder of hair/ in the include path."
+    print "// GCC without -mavx prints a note about vectors as arguments, which -Wno-psabi hides. All of them are inlined."
     # The C library of Windows has other formats of numbers.
     print "#if defined(_WIN32) && !defined(__USE_MINGW_ANSI_STDIO)\n#define __USE_MINGW_ANSI_STDIO 1\n#endif"
     for (i = 1; i < ARGC; i++) {

@@ -17,7 +17,7 @@ $(CMOCKA)/cmocka.o:
 # Tests that call no OpenGL, and nothing of tools or of an operating system.
 WINDOWS_TESTS   = $(patsubst $(B)/%,%.c,$(filter-out $(shell grep -l '"tools/\|unistd\|sys/\|pthread\|locale.h\|timespec_get\|reference\|tests/fuzz' \
   $(wildcard tests/unit/*_test.c) | sed 's|\(.*\)\.c|$(B)/\1|'),$(PURE)))
-WINDOWS_SUPPORT := $(patsubst %,tests/support/%.c,cut files grooms handmade heads host meshes)
+WINDOWS_SUPPORT := $(patsubst %,tests/support/%.c,cut files groomfile grooms handmade heads host meshes seal)
 $(B)/support.a: $(WINDOWS_SUPPORT:%=$(B)/%.o)
 $(B)/wine/%.exe: $(B)/tests/unit/%.c.o $(B)/support.a $(B)/libhair.a $(CMOCKA)/cmocka.o
 	@mkdir -p $(@D)
