@@ -17,7 +17,7 @@
 
 static const char* const names[] = {
     "offscreen",    "shadows",      "level_of_detail",  "own_shader",   "many_heads",
-    "beads",        "hello_window", "clustered_lights", "bearded_head",
+    "beads",        "hello_window", "clustered_lights", "bearded_head", "sword_cut",
 #if HAIR_BULLET
     "bullet_world",
 #endif
