@@ -20,6 +20,9 @@
 /// Pins of vertices that are cut off end. A hair_set_pins() after the call pins tips instead.
 /// A target of a tip is on the segment between the targets of its neighbours in the groom.
 ///
+/// Cut hair has shaders of its own. hair_precompile() knows them once any hair is cut, so that an
+/// application may cut a guide behind a loading screen, and let it grow again.
+///
 /// The call computes the gravity preload of all guides again in the next hair_step(), which takes
 /// part of the time of hair_create().
 ///
@@ -55,16 +58,16 @@ typedef struct hair_cut_desc {
     hair_struct_header header;
     hair_cut_shape shape; ///< Shape of the cut. Default HAIR_CUT_SHAPE_PLANE.
     /// A point of the plane, or the first end of the axis or the edge, in the world.
-    float from[3]; ///< m. [-1e9, 1e9]. Default 0.
-    /// Second end of the axis or the edge, in the world. A capsule with `from` as `to` is a sphere.
-    float to[3]; ///< m. [-1e9, 1e9]. Default 0.
+    float start[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Second end of the axis or the edge, in the world. Equal ends make a capsule a sphere.
+    float end[3]; ///< m. [-1e9, 1e9]. Default 0.
     /// Normal of the plane in the world, of any length above 0. Hair on its side is cut off.
     float normal[3]; ///< [-1, 1]. Default (0, -1, 0).
     float radius; ///< Radius of the capsule. m. [0, 1e6]. Default 0.01.
-    /// Position of `from` at the begin of the stroke of a blade. Without a stroke it cuts nothing.
-    float last_from[3]; ///< m. [-1e9, 1e9]. Default 0.
-    /// Position of `to` at the begin of the stroke of a blade.
-    float last_to[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Position of `start` at the begin of the stroke of a blade. Without a stroke it cuts nothing.
+    float last_start[3]; ///< m. [-1e9, 1e9]. Default 0.
+    /// Position of `end` at the begin of the stroke of a blade.
+    float last_end[3]; ///< m. [-1e9, 1e9]. Default 0.
     /// Groups of strands that are cut. Bit i stands for group i.
     uint32_t groups; ///< [0, 255]. Default 255.
 } hair_cut_desc;

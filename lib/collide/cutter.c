@@ -13,18 +13,18 @@ static hair_vec3 from_origin(const float position[3], const double origin[3])
 struct hair_cutter hair_cutter_from(const hair_cut_desc* desc, const double origin[3])
 {
     return (struct hair_cutter){.shape = desc->shape,
-                                .from = from_origin(desc->from, origin),
-                                .to = from_origin(desc->to, origin),
-                                .last_from = from_origin(desc->last_from, origin),
-                                .last_to = from_origin(desc->last_to, origin),
+                                .start = from_origin(desc->start, origin),
+                                .end = from_origin(desc->end, origin),
+                                .last_start = from_origin(desc->last_start, origin),
+                                .last_end = from_origin(desc->last_end, origin),
                                 .normal = hair_normalize(hair_load3(desc->normal), hair_v3(0, -1, 0)),
                                 .radius = desc->radius};
 }
 
 static bool meets_plane(const struct hair_cutter* cutter, hair_vec3 a, hair_vec3 b, float* t)
 {
-    float at_a = hair_dot(hair_sub(a, cutter->from), cutter->normal);
-    float at_b = hair_dot(hair_sub(b, cutter->from), cutter->normal);
+    float at_a = hair_dot(hair_sub(a, cutter->start), cutter->normal);
+    float at_b = hair_dot(hair_sub(b, cutter->start), cutter->normal);
     if (at_a < 0 && at_b < 0) return false;
     *t = at_a < 0 ? at_a / (at_a - at_b) : 0;
     return true;
@@ -33,7 +33,7 @@ static bool meets_plane(const struct hair_cutter* cutter, hair_vec3 a, hair_vec3
 // Return the distance from the axis of a capsule.
 static float distance_from_axis(const struct hair_cutter* cutter, hair_vec3 p)
 {
-    hair_vec3 axis = hair_sub(cutter->to, cutter->from), arm = hair_sub(p, cutter->from);
+    hair_vec3 axis = hair_sub(cutter->end, cutter->start), arm = hair_sub(p, cutter->start);
     float squared = hair_dot(axis, axis);
     float along = squared > 0 ? fminf(fmaxf(hair_dot(arm, axis) / squared, 0), 1) : 0;
     return hair_distance(arm, hair_scale(axis, along));
@@ -88,8 +88,8 @@ static bool meets_triangle(const hair_vec3 corner[3], hair_vec3 a, hair_vec3 b, 
 
 static bool meets_blade(const struct hair_cutter* cutter, hair_vec3 a, hair_vec3 b, float* t)
 {
-    const hair_vec3 first[3] = {cutter->last_from, cutter->last_to, cutter->to};
-    const hair_vec3 second[3] = {cutter->last_from, cutter->to, cutter->from};
+    const hair_vec3 first[3] = {cutter->last_start, cutter->last_end, cutter->end};
+    const hair_vec3 second[3] = {cutter->last_start, cutter->end, cutter->start};
     float other;
     bool meets = meets_triangle(first, a, b, t);
     if (!meets_triangle(second, a, b, &other)) return meets;

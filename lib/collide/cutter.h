@@ -11,7 +11,7 @@
 // A shape of hair_cut_desc. Its positions are from an origin near the strands, m.
 struct hair_cutter {
     hair_cut_shape shape;
-    hair_vec3 from, to, last_from, last_to;
+    hair_vec3 start, end, last_start, last_end;
     hair_vec3 normal; // A unit vector.
     float radius;
 };

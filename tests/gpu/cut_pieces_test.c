@@ -14,7 +14,7 @@
 static hair_cut_desc level_plane(float kept)
 {
     hair_cut_desc cut = hair_cut_desc_default();
-    cut.from[1] = HAIR_TEST_CUT_HEIGHT - kept * HAIR_TEST_CUT_LENGTH;
+    cut.start[1] = HAIR_TEST_CUT_HEIGHT - kept * HAIR_TEST_CUT_LENGTH;
     return cut;
 }
 
@@ -99,7 +99,7 @@ static void pieces_start_where_the_hair_was(void** state)
             for (uint32_t k = 0; k < fallen.vertices; ++k) {
                 hair_vec3 at = hair_test_drawn_at(&fallen, s, k);
                 jump = fmax(jump, distance_from_strands(&before, at));
-                if (k == 0) top = fmax(top, fabs((double)(at.y - cut.from[1])));
+                if (k == 0) top = fmax(top, fabs((double)(at.y - cut.start[1])));
             }
         double all = hair_test_drawn_length_of_all(&before);
         double both = hair_test_drawn_length_of_all(&kept) + hair_test_drawn_length_of_all(&fallen);
@@ -256,7 +256,7 @@ static void crumbs_are_no_pieces_and_failures_change_nothing(void** state)
     hair_test_ok(test, hair_set_memory_limit(test->context, 0));
     assert_true(pieces == scene.hair && info.strands == 0);
     assert_null(scene.hair->sim.lengths.guides);
-    cut.from[1] = HAIR_TEST_CUT_HEIGHT - HAIR_TEST_CUT_LENGTH + 0.002f;
+    cut.start[1] = HAIR_TEST_CUT_HEIGHT - HAIR_TEST_CUT_LENGTH + 0.002f;
     hair_test_ok(test, hair_cut(scene.hair, &cut, &info, &pieces));
     assert_true(!pieces && info.strands > 0);
     free(drawn.positions);

@@ -18,7 +18,7 @@ static hair_look curly(void)
 // Return the distance of a place from the shape, m. It is negative inside.
 static double distance_from(const hair_cut_desc* cut, hair_vec3 p)
 {
-    hair_vec3 from = hair_load3(cut->from), axis = hair_sub(hair_load3(cut->to), from);
+    hair_vec3 from = hair_load3(cut->start), axis = hair_sub(hair_load3(cut->end), from);
     hair_vec3 arm = hair_sub(p, from);
     if (cut->shape == HAIR_CUT_SHAPE_PLANE)
         return -(double)hair_dot(arm, hair_normalize(hair_load3(cut->normal), hair_v3(0, -1, 0)));
@@ -29,7 +29,7 @@ static double distance_from(const hair_cut_desc* cut, hair_vec3 p)
 static hair_cut_desc sloping_plane(void)
 {
     hair_cut_desc cut = hair_cut_desc_default();
-    cut.from[1] = HAIR_TEST_CUT_HEIGHT - 0.6f * HAIR_TEST_CUT_LENGTH;
+    cut.start[1] = HAIR_TEST_CUT_HEIGHT - 0.6f * HAIR_TEST_CUT_LENGTH;
     cut.normal[0] = 0.5f, cut.normal[1] = -1;
     return cut;
 }
@@ -38,8 +38,8 @@ static hair_cut_desc razor(void)
 {
     hair_cut_desc cut = hair_cut_desc_default();
     cut.shape = HAIR_CUT_SHAPE_CAPSULE;
-    cut.from[0] = -0.1f, cut.to[0] = 0.03f;
-    cut.from[1] = cut.to[1] = HAIR_TEST_CUT_HEIGHT - 0.5f * HAIR_TEST_CUT_LENGTH;
+    cut.start[0] = -0.1f, cut.end[0] = 0.03f;
+    cut.start[1] = cut.end[1] = HAIR_TEST_CUT_HEIGHT - 0.5f * HAIR_TEST_CUT_LENGTH;
     cut.radius = 0.03f;
     return cut;
 }
@@ -102,14 +102,14 @@ static void a_stroke_cuts_where_it_passes(void** state)
     hair_cut_desc cut = hair_cut_desc_default();
     hair_cut_info info = hair_cut_info_default();
     cut.shape = HAIR_CUT_SHAPE_BLADE;
-    cut.from[0] = cut.last_from[0] = -0.1f, cut.to[0] = cut.last_to[0] = 0.03f;
-    cut.last_from[1] = cut.from[1] = HAIR_TEST_CUT_HEIGHT - 0.2f,
-    cut.last_to[1] = cut.to[1] = HAIR_TEST_CUT_HEIGHT - 0.07f;
-    cut.last_from[2] = cut.last_to[2] = cut.from[2] = cut.to[2] = -0.2f;
+    cut.start[0] = cut.last_start[0] = -0.1f, cut.end[0] = cut.last_end[0] = 0.03f;
+    cut.last_start[1] = cut.start[1] = HAIR_TEST_CUT_HEIGHT - 0.2f,
+    cut.last_end[1] = cut.end[1] = HAIR_TEST_CUT_HEIGHT - 0.07f;
+    cut.last_start[2] = cut.last_end[2] = cut.start[2] = cut.end[2] = -0.2f;
     hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
     assert_true(info.strands == 0 && info.guides == 0 && info.length == 0);
     assert_null(scene.hair->sim.lengths.guides);
-    cut.from[2] = cut.to[2] = 0.2f;
+    cut.start[2] = cut.end[2] = 0.2f;
     struct hair_test_drawn before = hair_test_read_drawn(*state, scene.hair);
     hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
     struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
@@ -161,9 +161,9 @@ static void a_cut_is_the_same_far_from_the_origin(void** state)
     struct hair_test_scene near = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
     struct hair_test_scene away = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, transform);
     hair_cut_desc cut = hair_cut_desc_default();
-    cut.from[1] = 1.5f;
+    cut.start[1] = 1.5f;
     hair_test_ok(*state, hair_cut(near.hair, &cut, NULL, NULL));
-    cut.from[0] = far, cut.from[2] = -far;
+    cut.start[0] = far, cut.start[2] = -far;
     hair_test_ok(*state, hair_cut(away.hair, &cut, NULL, NULL));
     float *a = lengths_of(&near), *b = lengths_of(&away);
     for (uint32_t g = 0; g < HAIR_TEST_CUT_GUIDES; ++g)
@@ -182,7 +182,7 @@ static void cuts_follow_each_other(void** state)
     hair_test_ok(*state, hair_cut(scene.hair, &cut, &second, NULL));
     print_message("    %.3f m are lost, then %.6f m\n", first.length, second.length);
     assert_true(first.length > 1 && second.length < 1e-4 * first.length);
-    cut.from[1] = HAIR_TEST_CUT_HEIGHT + 1;
+    cut.start[1] = HAIR_TEST_CUT_HEIGHT + 1;
     cut.normal[0] = 0;
     hair_test_ok(*state, hair_cut(scene.hair, &cut, &second, NULL));
     struct hair_test_drawn after = hair_test_read_drawn(*state, scene.hair);
@@ -205,10 +205,10 @@ static void wrong_cuts_are_refused_with_the_member(void** state)
     hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
                       "hair_cut_desc.normal is (0, 0, 0)");
     cut = sloping_plane();
-    cut.from[2] = NAN;
+    cut.start[2] = NAN;
     hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
-                      "hair_cut_desc.from[2] is nan");
-    cut.from[2] = 0, cut.shape = (hair_cut_shape)3;
+                      "hair_cut_desc.start[2] is nan");
+    cut.start[2] = 0, cut.shape = (hair_cut_shape)3;
     hair_test_refused(*state, hair_cut(scene.hair, &cut, &info, NULL), HAIR_ERROR_ARGUMENT,
                       "hair_cut_desc.shape is 3");
     cut = sloping_plane();

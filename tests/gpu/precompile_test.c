@@ -168,6 +168,13 @@ static void leave_out(struct fixture* f, hair_view* view)
     put_a_ball_into(f, view);
 }
 
+static void cut_hair(struct fixture* f, hair_view* view)
+{
+    const float half = 0.5f;
+    (void)view;
+    hair_test_ok(f->scene.test, hair_set_lengths(f->scene.hair, 0, 1, &half));
+}
+
 static void show_colliders(struct fixture* f, hair_view* view)
 {
     put_a_ball_into(f, view);
@@ -202,6 +209,8 @@ static const struct {
     {"velocities", HAIR_RENDER_PATH_TESSELLATION, show_motion},
     {"velocities beside colour, computed", HAIR_RENDER_PATH_COMPUTE, show_motion_beside_colour},
     {"colliders", HAIR_RENDER_PATH_TESSELLATION, show_colliders},
+    {"cut hair", HAIR_RENDER_PATH_TESSELLATION, cut_hair},
+    {"cut hair, computed", HAIR_RENDER_PATH_COMPUTE, cut_hair},
 };
 
 static uint32_t count_compiled(const struct fixture* f)

@@ -26,8 +26,19 @@ static double fraction(uint32_t* seed)
     return (double)(*seed >> 8) / (1 << 24);
 }
 
-// Set guides of different shapes and numbers of vertices. `curl` is the radius of a curl, m.
-// Return the number of vertices.
+// Cut a guide at a vertex. The tip keeps the length that is cut off.
+static void cut_guide(struct hair_guide* guide, uint32_t count)
+{
+    struct hair_rest* own = rest + guide->first;
+    float lost = 0;
+    for (uint32_t i = count - 1; i + 1 < guide->count; ++i) lost += own[i].position.w;
+    own[count - 1].position.w = lost;
+    guide->count = count;
+    guide->arc_length -= lost;
+}
+
+// Set guides of different shapes and numbers of vertices. Every third guide is cut. `curl` is the
+// radius of a curl, m. Return the number of vertices.
 static uint32_t set_guides(uint32_t* seed, double length, double curl, uint32_t vertices)
 {
     struct hair_test_rod* f = hair_test_rod_make();
@@ -50,7 +61,8 @@ static uint32_t set_guides(uint32_t* seed, double length, double curl, uint32_t 
         guides[k] = f->guide;
         guides[k].first = first;
         memcpy(rest + first, f->rest, count * sizeof *rest);
-        first += count;
+        if (k % 3 == 2) cut_guide(&guides[k], count / 2 + 1);
+        first += guides[k].count;
     }
     free(f);
     return first;

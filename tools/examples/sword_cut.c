@@ -38,12 +38,12 @@ static hair_instance* swing_blade(hair_instance* hair)
     hair_cut_desc stroke = hair_cut_desc_default();
     const float hilt[3] = {0.02f, 1.50f, 0}, point[3] = {0.5f, 1.68f, 0};
     stroke.shape = HAIR_CUT_SHAPE_BLADE;
-    memcpy(stroke.from, hilt, sizeof hilt);
-    memcpy(stroke.to, point, sizeof point);
-    memcpy(stroke.last_from, hilt, sizeof hilt);
-    memcpy(stroke.last_to, point, sizeof point);
-    stroke.last_from[2] = stroke.last_to[2] = 0.3f;
-    stroke.from[2] = stroke.to[2] = -0.3f;
+    memcpy(stroke.start, hilt, sizeof hilt);
+    memcpy(stroke.end, point, sizeof point);
+    memcpy(stroke.last_start, hilt, sizeof hilt);
+    memcpy(stroke.last_end, point, sizeof point);
+    stroke.last_start[2] = stroke.last_end[2] = 0.3f;
+    stroke.start[2] = stroke.end[2] = -0.3f;
     check(hair_cut(hair, &stroke, &info, &locks));
     printf("%u strands have lost %.1f m.\n", info.strands, info.length);
     return locks;

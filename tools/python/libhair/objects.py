@@ -248,6 +248,33 @@ class Hair:
         """Replace the pins, which are of Pin."""
         self._call(hair.hair_set_pins, _structs("hair_pin", pins), len(pins), ffi.sizeof("hair_pin"))
 
+    def lengths(self, count, first=0):
+        """Return the fractions of their lengths that `count` guides have."""
+        out = np.empty(count, dtype=np.float32)
+        self._call(hair.hair_get_lengths, first, count, pointer("float", out))
+        return out
+
+    def set_lengths(self, fractions, first=0):
+        """Cut guides from `first` on to fractions of their lengths in the groom, or let them grow to these."""
+        own = floats(fractions, 1, "fractions")
+        self._call(hair.hair_set_lengths, first, len(own), pointer("float", own))
+
+    def cut(self, shape=None, /, *, pieces=False, **members):
+        """Cut strands where they first meet a shape, which is a CutDesc or its members.
+
+        Return the numbers of cut strands and guides and the lost length as a dict, and what falls off as Hair
+        of free strands. The latter is None without `pieces`, or if nothing falls off.
+        """
+        desc = CLASSES["CutDesc"]() if shape is None else shape.copy()
+        desc.update(members)
+        info, out = new_desc("hair_cut_info"), ffi.new("hair_instance**")
+        self._call(hair.hair_cut, desc._c, info, out if pieces else ffi.NULL)
+        fallen = None
+        if out[0] != ffi.NULL:
+            fallen = Hair.__new__(Hair)
+            fallen._c, fallen.context, fallen._kept = out[0], self.context, []
+        return to_dict(info[0]), fallen
+
     @property
     def bounds(self):
         """The lower and the upper corner of the hair in the world."""

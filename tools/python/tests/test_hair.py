@@ -161,6 +161,30 @@ class HairTest(unittest.TestCase):
         with self.assertRaisesRegex(libhair.HairArgumentError, "gravity is 0,-5,0 for group 3 but 0,-9.81,0 for the"):
             hair.set_group_physics(3, physics)
 
+    def test_cut_hair_falls_and_grows_again(self):
+        hair = self.make()
+        guides = self.groom.info["guide_count"]
+        height = 1.5  # Below all roots.
+        cut = libhair.CutDesc(start=(0, height, 0), normal=(0, -1, 0))
+        info, pieces = hair.cut(cut, pieces=True)
+        self.assertGreater(info["strands"], 0)
+        self.assertGreater(info["length"], 0.1)
+        self.assertGreater(hair.read("followers")[:, 1].min(), height - 3e-3)
+        before = pieces.read("guides")
+        self.assertLess(before[:, 1].max(), height + 3e-3)
+        for _ in range(6):
+            pieces.step(1 / 60)
+        fallen = before[:, 1].mean() - pieces.read("guides")[:, 1].mean()
+        self.assertTrue(0.02 < fallen < 0.06, fallen)
+        pieces.close()
+        self.assertLess(hair.lengths(guides).min(), 1)
+        hair.set_lengths(np.ones(guides))
+        self.assertEqual(hair.lengths(guides).min(), 1)
+        self.assertEqual(hair.cut(shape="capsule", start=(0, 9, 0), end=(0, 9, 1)), ({"strands": 0,
+                         "guides": 0, "length": 0.0}, None))
+        with self.assertRaisesRegex(libhair.HairArgumentError, "fractions.1. is 2, not in"):
+            hair.set_lengths([1, 2])
+
     def test_followers_have_a_vertex_for_each_end_of_a_segment(self):
         hair = self.make(look=libhair.Look({"strand.segments": 8}))
         followers = hair.read("followers")
