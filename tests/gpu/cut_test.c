@@ -1,5 +1,5 @@
 // cut_test.c - hair that is cut and grows while it is simulated, by every solver and mapping.
-#include "tests/support/live_hair.h"
+#include "tests/support/cut_scene.h"
 #include "tests/support/ways.h"
 
 #include <math.h>
@@ -10,30 +10,7 @@
 
 #include "lib/api/api.h"
 
-#define FRAME (1.0f / 60)
-#define GUIDES 2
-
-static void live(struct hair_test* test, int way, struct hair_test_living* out)
-{
-    struct hair_test_strands strands = hair_test_straight_and_curl();
-    hair_desc desc = hair_test_way(way);
-    hair_test_live(test, &strands, &desc, out);
-    hair_test_strands_free(&strands);
-}
-
-static void shake(struct hair_test_living* living, int from, int to)
-{
-    for (int i = from; i < to; ++i) {
-        struct hair_reference_rod_pose head = hair_test_shaken(i * (double)FRAME);
-        hair_test_advance(living, &head, (double)FRAME);
-    }
-}
-
-static void set_lengths(struct hair_test_living* living, float straight, float curl)
-{
-    const float fractions[GUIDES] = {straight, curl};
-    hair_test_ok(living->test, hair_set_lengths(living->hair, 0, GUIDES, fractions));
-}
+#define GUIDES HAIR_TEST_CUT_CURL
 
 static struct hair_state* read_states(struct hair_test_living* living)
 {
@@ -77,11 +54,11 @@ static void a_cut_keeps_what_stays_and_its_motion(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
         struct hair_test_living living;
-        live(*state, way, &living);
-        shake(&living, 0, 20);
+        hair_test_cut_live(*state, way, &living);
+        hair_test_cut_shake(&living, 0, 20);
         struct hair_state* before = read_states(&living);
         const float fraction[GUIDES] = {0.4f, 0.62f};
-        set_lengths(&living, fraction[0], fraction[1]);
+        hair_test_cut_lengths(&living, fraction[0], fraction[1]);
         struct hair_state* after = read_states(&living);
         for (uint32_t g = 0; g < GUIDES; ++g) {
             const struct hair_guide* whole = &living.groom->guides[g];
@@ -103,7 +80,7 @@ static void a_cut_keeps_what_stays_and_its_motion(void** state)
             assert_true(fabs(kept / wanted - 1) < tolerance);
         }
         assert_true(max_displacement(after, living.vertices) <= max_displacement(before, living.vertices));
-        shake(&living, 20, 60);
+        hair_test_cut_shake(&living, 20, 60);
         hair_test_read_guides(&living); // All are finite.
         hair_solver_stats stats = hair_test_solver_stats(&living);
         assert_int_equal(stats.reset, 0);
@@ -116,9 +93,9 @@ static void a_cut_does_not_move_hair_at_rest(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
         struct hair_test_living living;
-        live(*state, way, &living);
+        hair_test_cut_live(*state, way, &living);
         hair_test_wait(&living, 120);
-        set_lengths(&living, 0.35f, 0.5f);
+        hair_test_cut_lengths(&living, 0.35f, 0.5f);
         hair_test_read_guides(&living);
         hair_test_wait(&living, 60);
         hair_test_read_guides(&living);
@@ -134,13 +111,13 @@ static void hair_that_grows_gains_no_speed(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
         struct hair_test_living living;
-        live(*state, way, &living);
-        set_lengths(&living, 0.2f, 0.2f);
+        hair_test_cut_live(*state, way, &living);
+        hair_test_cut_lengths(&living, 0.2f, 0.2f);
         for (int i = 0; i <= 40; ++i) {
             float fraction = fminf(0.2f + 0.02f * (float)i, 1);
-            shake(&living, i, i + 1);
+            hair_test_cut_shake(&living, i, i + 1);
             struct hair_state* before = read_states(&living);
-            set_lengths(&living, fraction, i == 20 ? 1 : fraction);
+            hair_test_cut_lengths(&living, fraction, i == 20 ? 1 : fraction);
             struct hair_state* after = read_states(&living);
             assert_true(max_displacement(after, living.vertices) <=
                         1.0001 * max_displacement(before, living.vertices));
@@ -151,7 +128,7 @@ static void hair_that_grows_gains_no_speed(void** state)
             }
             free(before), free(after);
         }
-        set_lengths(&living, 1, 1);
+        hair_test_cut_lengths(&living, 1, 1);
         assert_null(living.hair->sim.lengths.guides);
         assert_int_equal(living.hair->sim.lengths.follower, 0);
         hair_test_die(&living);
@@ -173,15 +150,15 @@ static void followers_keep_their_places(void** state)
 {
     struct hair_test_living living;
     hair_look look = hair_look_default();
-    live(*state, 0, &living);
+    hair_test_cut_live(*state, 0, &living);
     look.strand.segments = 32;
     look.curl.radius = 0.004f, look.curl.wavelength = 0.03f;
     look.strays.fraction = 1, look.strays.frizz_fraction = 1;
     hair_test_ok(*state, hair_set_look(living.hair, &look));
-    shake(&living, 0, 20);
+    hair_test_cut_shake(&living, 0, 20);
     uint32_t count, each = look.strand.segments + 1;
     float* whole = read_followers(&living, &count);
-    set_lengths(&living, 0.5f, 0.5f);
+    hair_test_cut_lengths(&living, 0.5f, 0.5f);
     float* half = read_followers(&living, &count);
     double off = 0;
     for (uint32_t f = 0; f < count / each; ++f)
@@ -191,7 +168,7 @@ static void followers_keep_their_places(void** state)
     print_message("    %u followers are within %.4f mm of their places\n", count / each, off * 1e3);
     assert_true(count >= 2 * each && off < 4e-4);
     free(whole), free(half);
-    set_lengths(&living, 0, 0);
+    hair_test_cut_lengths(&living, 0, 0);
     half = read_followers(&living, &count);
     for (uint32_t f = 0; f < count / each; ++f)
         assert_true(hair_distance(hair_load3(half + 3 * f * each),
@@ -212,13 +189,13 @@ static void hair_that_has_grown_again_is_as_it_was(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
         struct hair_test_living never, cut;
-        live(*state, way, &never), live(*state, way, &cut);
-        set_lengths(&cut, 0.3f, 0.7f);
-        shake(&cut, 0, 10), shake(&never, 0, 10);
+        hair_test_cut_live(*state, way, &never), hair_test_cut_live(*state, way, &cut);
+        hair_test_cut_lengths(&cut, 0.3f, 0.7f);
+        hair_test_cut_shake(&cut, 0, 10), hair_test_cut_shake(&never, 0, 10);
         hair_test_ok(*state, hair_set_lengths(cut.hair, 0, GUIDES, NULL));
         hair_test_ok(*state, hair_reset(cut.hair));
         hair_test_ok(*state, hair_reset(never.hair));
-        shake(&cut, 0, 30), shake(&never, 0, 30);
+        hair_test_cut_shake(&cut, 0, 30), hair_test_cut_shake(&never, 0, 30);
         hair_test_read_guides(&cut), hair_test_read_guides(&never);
         assert_memory_equal(cut.positions, never.positions, never.vertices * 3 * sizeof(float));
         if (cut.hair->sim.rods) {
@@ -233,9 +210,9 @@ static void hair_that_has_grown_again_is_as_it_was(void** state)
 static void lost_vertices_are_read_at_the_tip(void** state)
 {
     struct hair_test_living living;
-    live(*state, 0, &living);
-    shake(&living, 0, 10);
-    set_lengths(&living, 0.5f, 1);
+    hair_test_cut_live(*state, 0, &living);
+    hair_test_cut_shake(&living, 0, 10);
+    hair_test_cut_lengths(&living, 0.5f, 1);
     hair_test_read_guides(&living);
     uint32_t tip = tip_of(&living, 0), count = living.groom->guides[0].count;
     assert_true(tip + 1 < count);
@@ -244,65 +221,13 @@ static void lost_vertices_are_read_at_the_tip(void** state)
     hair_test_die(&living);
 }
 
-static void saved_lengths_continue_with_the_same_bits(void** state)
-{
-    struct hair_test* test = *state;
-    for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
-        struct hair_test_living saved, loaded;
-        size_t size = 0;
-        live(test, way, &saved), live(test, way, &loaded);
-        shake(&saved, 0, 10);
-        set_lengths(&saved, 0.45f, 0.8f);
-        shake(&saved, 10, 20);
-        hair_test_ok(test, hair_save(saved.hair, NULL, 0, &size));
-        unsigned char* bytes = malloc(size);
-        hair_test_ok(test, hair_save(saved.hair, bytes, size, &size));
-        shake(&saved, 20, 40);
-        hair_test_read_guides(&saved);
-        for (int twice = 0; twice < 2; ++twice) {
-            float fractions[GUIDES];
-            hair_test_ok(test, hair_load(loaded.hair, bytes, size));
-            hair_test_ok(test, hair_get_lengths(loaded.hair, 0, GUIDES, fractions));
-            assert_true(fractions[0] == 0.45f && fractions[1] == 0.8f);
-            shake(&loaded, 20, 40);
-            hair_test_read_guides(&loaded);
-            assert_memory_equal(saved.positions, loaded.positions, saved.vertices * 3 * sizeof(float));
-            set_lengths(&loaded, 0.7f, 0.1f);
-        }
-        free(bytes);
-        hair_test_die(&saved), hair_test_die(&loaded);
-    }
-}
-
-// A state of whole hair makes hair whole that is cut.
-static void state_of_whole_hair_makes_hair_whole(void** state)
-{
-    struct hair_test* test = *state;
-    struct hair_test_living whole, cut;
-    size_t size = 0;
-    live(test, 0, &whole), live(test, 0, &cut);
-    shake(&whole, 0, 10);
-    hair_test_ok(test, hair_save(whole.hair, NULL, 0, &size));
-    unsigned char* bytes = malloc(size);
-    hair_test_ok(test, hair_save(whole.hair, bytes, size, &size));
-    set_lengths(&cut, 0.3f, 0.4f);
-    shake(&cut, 0, 5);
-    hair_test_ok(test, hair_load(cut.hair, bytes, size));
-    assert_null(cut.hair->sim.lengths.guides);
-    shake(&whole, 10, 20), shake(&cut, 10, 20);
-    hair_test_read_guides(&whole), hair_test_read_guides(&cut);
-    assert_memory_equal(whole.positions, cut.positions, whole.vertices * 3 * sizeof(float));
-    free(bytes);
-    hair_test_die(&whole), hair_test_die(&cut);
-}
-
 // Guides at targets of the full weight have their tips on the segments of their targets.
 static void guides_at_targets_are_cut_and_grow(void** state)
 {
     struct hair_test_living living;
     hair_target_blend blend = hair_target_blend_default();
     blend.blend_time = 0;
-    live(*state, 0, &living);
+    hair_test_cut_live(*state, 0, &living);
     uint32_t count = living.vertices;
     float* targets = calloc(count, 3 * sizeof *targets);
     for (uint32_t i = 0; i < count; ++i) {
@@ -313,7 +238,7 @@ static void guides_at_targets_are_cut_and_grow(void** state)
     hair_test_ok(*state, hair_set_targets(living.hair, targets, count, 12, NULL));
     hair_test_wait(&living, 5);
     for (int grows = 0; grows < 2; ++grows) {
-        set_lengths(&living, grows ? 1 : 0.5f, grows ? 0.9f : 0.55f);
+        hair_test_cut_lengths(&living, grows ? 1 : 0.5f, grows ? 0.9f : 0.55f);
         hair_test_wait(&living, 1);
         struct hair_state* states = read_states(&living);
         for (uint32_t g = 0; g < GUIDES; ++g) {
@@ -342,7 +267,7 @@ static void guides_at_targets_are_cut_and_grow(void** state)
 static void pins_of_lost_vertices_end(void** state)
 {
     struct hair_test_living living;
-    live(*state, 0, &living);
+    hair_test_cut_live(*state, 0, &living);
     hair_pin pins[2] = {hair_pin_default(), hair_pin_default()};
     for (uint32_t i = 0; i < 2; ++i) {
         hair_vec4 place = living.groom->rest[4 + 10 * i].position;
@@ -351,11 +276,11 @@ static void pins_of_lost_vertices_end(void** state)
     }
     hair_test_ok(*state, hair_set_pins(living.hair, pins, 2, sizeof *pins));
     hair_test_wait(&living, 2);
-    set_lengths(&living, 0.5f, 1);
+    hair_test_cut_lengths(&living, 0.5f, 1);
     assert_int_equal(living.hair->sim.pins.count, 1);
     hair_test_wait(&living, 10);
     hair_test_read_guides(&living);
-    set_lengths(&living, 0, 0);
+    hair_test_cut_lengths(&living, 0, 0);
     hair_test_wait(&living, 10);
     hair_test_read_guides(&living);
     assert_int_equal(living.hair->sim.pins.count, 0);
@@ -367,7 +292,7 @@ static void wrong_lengths_are_refused_with_their_range(void** state)
     struct hair_test* test = *state;
     struct hair_test_living living;
     float f[GUIDES] = {0.5f, NAN};
-    live(test, 0, &living);
+    hair_test_cut_live(test, 0, &living);
     hair_instance* hair = living.hair;
     hair_test_refused(test, hair_set_lengths(hair, 0, 2, f), HAIR_ERROR_ARGUMENT, "fractions[1] is nan");
     f[1] = -0.1f;
@@ -404,8 +329,6 @@ int main(void)
         HAIR_TEST(hair_that_has_grown_again_is_as_it_was),
         HAIR_TEST(followers_keep_their_places),
         HAIR_TEST(lost_vertices_are_read_at_the_tip),
-        HAIR_TEST(saved_lengths_continue_with_the_same_bits),
-        HAIR_TEST(state_of_whole_hair_makes_hair_whole),
         HAIR_TEST(guides_at_targets_are_cut_and_grow),
         HAIR_TEST(pins_of_lost_vertices_end),
         HAIR_TEST(wrong_lengths_are_refused_with_their_range),

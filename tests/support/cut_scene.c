@@ -1,4 +1,4 @@
-// cut_scene.c - a square of hanging hair to cut, and all of its strands as they are drawn.
+// cut_scene.c - hair to cut: two guides, and a square of hanging hair whose drawn strands are read.
 #include "tests/support/cut_scene.h"
 
 #include <math.h>
@@ -6,9 +6,32 @@
 #include <string.h>
 
 #include "tests/support/grooms.h"
+#include "tests/support/ways.h"
 
 #define VERTICES 16
 #define FRAME (1.0f / 60)
+
+void hair_test_cut_live(struct hair_test* test, int way, struct hair_test_living* out)
+{
+    struct hair_test_strands strands = hair_test_straight_and_curl();
+    hair_desc desc = hair_test_way(way);
+    hair_test_live(test, &strands, &desc, out);
+    hair_test_strands_free(&strands);
+}
+
+void hair_test_cut_shake(struct hair_test_living* living, int from, int to)
+{
+    for (int i = from; i < to; ++i) {
+        struct hair_reference_rod_pose head = hair_test_shaken(i * (double)FRAME);
+        hair_test_advance(living, &head, (double)FRAME);
+    }
+}
+
+void hair_test_cut_lengths(struct hair_test_living* living, float straight, float curl)
+{
+    const float fractions[HAIR_TEST_CUT_CURL] = {straight, curl};
+    hair_test_ok(living->test, hair_set_lengths(living->hair, 0, HAIR_TEST_CUT_CURL, fractions));
+}
 
 struct hair_test_scene hair_test_cut_scene(struct hair_test* test, hair_strand_set set, const hair_desc* desc,
                                            const hair_look* look, const float transform[16])

@@ -1,13 +1,21 @@
-// cut_scene.h - a square of hanging hair to cut, and all of its strands as they are drawn.
+// cut_scene.h - hair to cut: two guides, and a square of hanging hair whose drawn strands are read.
 #ifndef HAIR_TESTS_SUPPORT_CUT_SCENE_H
 #define HAIR_TESTS_SUPPORT_CUT_SCENE_H
 
+#include "tests/support/live_hair.h"
 #include "tests/support/scene.h"
 
+#define HAIR_TEST_CUT_CURL 2 // Guides of hair_test_cut_live().
 #define HAIR_TEST_CUT_ROW 4 // Guides of a row. There are as many rows.
 #define HAIR_TEST_CUT_GUIDES (HAIR_TEST_CUT_ROW * HAIR_TEST_CUT_ROW)
 #define HAIR_TEST_CUT_HEIGHT 1.7f // Height of the roots, m.
 #define HAIR_TEST_CUT_LENGTH 0.3f // Length of the guides, m.
+
+// Make a straight guide and a curl, which a solver and mapping of ways.h moves.
+void hair_test_cut_live(struct hair_test* test, int way, struct hair_test_living* out);
+// Step from one frame of 1/60 s to another, while the head shakes.
+void hair_test_cut_shake(struct hair_test_living* living, int from, int to);
+void hair_test_cut_lengths(struct hair_test_living* living, float straight, float curl);
 
 // All drawn strands at one time.
 struct hair_test_drawn {
