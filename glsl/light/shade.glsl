@@ -4,6 +4,7 @@
 #include "light/shadow.glsl"
 #include "light/strand_color.glsl"
 #include "strands/group_look.glsl"
+#include "strands/strand_factors.glsl"
 #ifdef HAIR_FIBRES
 #include "light/multiple_scattering.glsl"
 #endif
@@ -26,7 +27,10 @@ struct hair_fragment {
 vec3 albedo_of(hair_fragment f) { return f.color; }
 
 // Return the factor of the variance of the longitudinal lobes, by the strand and its group.
-float find_variance(hair_fragment f) { return GROUP_FACTOR(f.group, variance) * variance_of(f.seed); }
+float find_variance(hair_fragment f)
+{
+    return GROUP_FACTOR(f.group, variance) * VARIANCE_FACTOR(f.strand) * variance_of(f.seed);
+}
 
 // Return the normal of the ribbon.
 vec3 normal_of(hair_fragment f)

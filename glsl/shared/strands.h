@@ -50,9 +50,18 @@ struct hair_strand_look {
     float     max_width; // Factor of the offsets, at least 1.
     float     curl_guide_spread, curl_variation;
     float     frizz_fraction;
-    hair_uint unused0, unused1;
+    hair_uint factor_slots; // Slots of the factors of strands, see strands/strand_factors.glsl.
+    hair_uint factor_count; // Number of factors per follower.
 };
 HAIR_SIZE(hair_strand_look)
+
+// Factors of single strands.
+#define HAIR_FACTOR_CLUMP 0
+#define HAIR_FACTOR_CURL_RADIUS 1
+#define HAIR_FACTOR_CURL_TURNS 2
+#define HAIR_FACTOR_FRIZZ 3
+#define HAIR_FACTOR_VARIANCE 4 // Variance of the longitudinal lobes.
+#define HAIR_FACTORS 5
 
 #define HAIR_STRAND_GROUPS 8 // HAIR_MAX_STRAND_GROUPS.
 

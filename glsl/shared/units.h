@@ -65,6 +65,8 @@
 #define HAIR_UNIT_BODY 19
 #define HAIR_UNIT_OCCLUSION 23  // The application's depth, for occlusion culling.
 #define HAIR_UNIT_LENGTH 24 // float per follower. Fraction of its length that is left.
+// hair_strand_look.factor_count floats per follower. Factors of single strands.
+#define HAIR_UNIT_STRAND_FACTOR 25
 // Gusts of standard deviation 1. For passes that evaluate the wind, in place of the distance field.
 #define HAIR_UNIT_GUST 8
 // The application's wind velocities, m/s. In place of HAIR_UNIT_COLLIDER.

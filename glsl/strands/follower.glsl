@@ -24,6 +24,7 @@ float whole_t(float t) { return t; }
 hair_follower fetch_follower(uint number)
 {
     hair_follower follower = fetch_whole(number);
+    note_fetched(number);
 #ifdef HAIR_LENGTHS
     kept = clamp(texelFetch(length_texture, int(number)).x, 1e-4, 1.0);
 #endif
@@ -113,7 +114,8 @@ hair_point interpolate(hair_follower follower, float t, repair r, bool beyond)
     guide_point g0      = fetch_guide(follower.guide0, u, beyond);
     vec4        frame   = fetch_frame(follower.guide0, u);
     float       length_ = follower.length_ratio * fetch_length(follower.guide0);
-    vec2        clump = GROUP_FACTOR(group_of(follower), clump) * curve_at(HAIR_CURVE_CLUMP, v);
+    vec2        clump = GROUP_FACTOR(group_of(follower), clump) * STRAND_FACTOR(HAIR_FACTOR_CLUMP) *
+                        curve_at(HAIR_CURVE_CLUMP, v);
     vec2        width = curve_at(HAIR_CURVE_CLUMP_WIDTH, v);
 
     vec3 offset = s * s * s * follower.offset[0].xyz + 3.0 * s * s * v * follower.offset[1].xyz +

@@ -4,6 +4,7 @@
 #include "random.glsl"
 #include "strands/group_look.glsl"
 #include "strands/spline.glsl"
+#include "strands/strand_factors.glsl"
 
 // Intervals of a stray over the length.
 #define STRAY_WAVES 6.0
@@ -61,7 +62,8 @@ aside kink(uint group, uint seed, float t, float length_)
 {
     if (random_pair(seed + 4u).x >= draw.strand.frizz_fraction) return aside(vec2(0.0), vec2(0.0));
     return scaled(wander(seed + 0x55555555u, t, length_ * draw.strand.kinks),
-                  GROUP_FACTOR(group, frizz) * curve_at(HAIR_CURVE_FRIZZ, t));
+                  GROUP_FACTOR(group, frizz) * STRAND_FACTOR(HAIR_FACTOR_FRIZZ) *
+                      curve_at(HAIR_CURVE_FRIZZ, t));
 }
 
 // Return the offset of a curl. Turns that are shorter along the strand have a smaller radius.
@@ -74,7 +76,7 @@ aside curl(uint group, uint guide, uint seed, float t, float length_, float rati
     float spread = draw.strand.curl_spread * (2.0 * own.y - 1.0);
     float shared_spread = draw.strand.curl_guide_spread * (2.0 * random_pair(guide + 0x2aaaaaaau).x - 1.0);
     float size   = (1.0 + spread) * (1.0 + shared_spread);
-    float turns  = GROUP_FACTOR(group, curl_turns) *
+    float turns  = GROUP_FACTOR(group, curl_turns) * STRAND_FACTOR(HAIR_FACTOR_CURL_TURNS) *
                    (length_ * draw.strand.curl_waves + draw.strand.curl_turns) / size;
     float places = float(HAIR_TURN_PLACES);
     aside wind   = scaled(wander(64u * guide + 0x71c71c71u, t * ratio, CURL_WAVES),
@@ -89,8 +91,8 @@ aside curl(uint group, uint guide, uint seed, float t, float length_, float rati
     if (lock.y < draw.strand.curl_left_fraction) c[1] = -c[1];
     aside a = aside(vec4(1.0, x, x * x, x * x * x) * c,
                     (turns + slower * wind.slope.x) * places * (vec4(0.0, 1.0, 2.0 * x, 3.0 * x * x) * c));
-    a = scaled(a, GROUP_FACTOR(group, curl_radius) * draw.strand.curl_radius * size *
-                      curve_at(HAIR_CURVE_CURL, t));
+    a = scaled(a, GROUP_FACTOR(group, curl_radius) * STRAND_FACTOR(HAIR_FACTOR_CURL_RADIUS) *
+                      draw.strand.curl_radius * size * curve_at(HAIR_CURVE_CURL, t));
     return scaled(a, vec2(1.0 + wind.at.y, wind.slope.y));
 }
 

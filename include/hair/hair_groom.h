@@ -74,9 +74,12 @@ HAIR_DESC(hair_map_set)
 
 // Attributes of strands ---------------------------------------------------------------------------
 
-/// Property of strands that a hair_strand_attribute multiplies. The first four belong to guides. A
-/// guide has the values of its strand and of the map at its root. HAIR_SOLVER_REDBLACK ignores
-/// them.
+/// Property of strands that a hair_strand_attribute multiplies.
+///
+/// The first four belong to guides. A guide has the values of its strand and of the map at its
+/// root. HAIR_SOLVER_REDBLACK ignores these four. They take no memory of the GPU. The five from
+/// HAIR_STRAND_ATTRIBUTE_CLUMP on take 2 bytes each per follower. The others change the groom when
+/// it is created, and take nothing more.
 typedef enum hair_strand_attribute_kind {
     /// Multiple of hair_physics.fiber.youngs_modulus. [0, 100].
     HAIR_STRAND_ATTRIBUTE_STIFFNESS = 0,
@@ -85,7 +88,19 @@ typedef enum hair_strand_attribute_kind {
     /// Multiple of hair_physics.shape.frequency_root and frequency_tip. [0, 100].
     HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY,
     /// Multiple of hair_physics.shape.gravity_preload. [0, 100].
-    HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD
+    HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD,
+    /// Multiple of the blend weight of locks. See hair_look.clump. [0, 1].
+    HAIR_STRAND_ATTRIBUTE_CLUMP,
+    /// Multiple of hair_look.curl.radius. [0, 4].
+    HAIR_STRAND_ATTRIBUTE_CURL_RADIUS,
+    /// Multiple of the number of turns of curls along the strand. [0, 4].
+    HAIR_STRAND_ATTRIBUTE_CURL_FREQUENCY,
+    /// Multiple of hair_look.strays.frizz. [0, 4].
+    HAIR_STRAND_ATTRIBUTE_FRIZZ,
+    /// Multiple of the roughness along the fibre. [0.2, 4].
+    HAIR_STRAND_ATTRIBUTE_ROUGHNESS,
+    /// Multiple of hair_look.strand.radius. [0, 4].
+    HAIR_STRAND_ATTRIBUTE_RADIUS
 } hair_strand_attribute_kind;
 
 /// Factor that differs from strand to strand, by strand, by a map on the scalp, or by both, which

@@ -10,6 +10,12 @@ struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind k
         [HAIR_STRAND_ATTRIBUTE_DAMPING] = {0, 100},
         [HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY] = {0, 100},
         [HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD] = {0, 100},
+        [HAIR_STRAND_ATTRIBUTE_CLUMP] = {0, 1},
+        [HAIR_STRAND_ATTRIBUTE_CURL_RADIUS] = {0, 4},
+        [HAIR_STRAND_ATTRIBUTE_CURL_FREQUENCY] = {0, 4},
+        [HAIR_STRAND_ATTRIBUTE_FRIZZ] = {0, 4},
+        [HAIR_STRAND_ATTRIBUTE_ROUGHNESS] = {0.2f, 4},
+        [HAIR_STRAND_ATTRIBUTE_RADIUS] = {0, 4},
     };
     _Static_assert(sizeof ranges / sizeof *ranges == HAIR_ATTRIBUTE_KINDS, "each kind has a range");
     HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);

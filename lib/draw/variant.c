@@ -27,6 +27,7 @@ static hair_gl_pass find_features(const struct hair_renderer* renderer, const st
     if (hair_look_is_styled(look)) features |= HAIR_GL_WITH(STYLED);
     if (hair_geometry_has_lengths(renderer->geometry)) features |= HAIR_GL_WITH(LENGTHS);
     if (renderer->geometry->groups.factors) features |= HAIR_GL_WITH(GROUP_LOOKS);
+    if (renderer->geometry->factors.texture) features |= HAIR_GL_WITH(STRAND_FACTORS);
     return features;
 }
 

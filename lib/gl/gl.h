@@ -47,7 +47,7 @@ typedef uint64_t hair_gl_pass;
 #define HAIR_GL_BIT(feature) ((hair_gl_pass)1 << (HAIR_GL_ROW_BITS + 2 + (feature)))
 #define HAIR_GL_WITH(feature) HAIR_GL_BIT(HAIR_GL_FEATURE_##feature)
 
-#define HAIR_GL_UNITS (HAIR_UNIT_LENGTH + 1)
+#define HAIR_GL_UNITS (HAIR_UNIT_STRAND_FACTOR + 1)
 
 #define HAIR_GL_DISPATCH_MS 1.9 // hair_gl.dispatch_ms, ms. The limit is 2 ms.
 #define HAIR_GL_TIMER_DEPTH 4 // Runs of a pass that may be in flight while the next is timed.

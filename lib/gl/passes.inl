@@ -73,6 +73,7 @@ FEATURE(LINES, "HAIR_LINES") // Lines. Otherwise ribbons.
 FEATURE(STYLED, "HAIR_STYLED") // The look kinks, curls or cuts followers.
 FEATURE(LENGTHS, "HAIR_LENGTHS") // Followers have been cut.
 FEATURE(GROUP_LOOKS, "HAIR_GROUP_LOOKS") // Groups of strands have factors of the look.
+FEATURE(STRAND_FACTORS, "HAIR_STRAND_FACTORS") // Single strands have factors of the look.
 FEATURE(ROOT_UV, "HAIR_ROOT_UV") // Strands have colours or positions on the scalp of their own.
 FEATURE(GROOM_COLORS, "HAIR_GROOM_COLORS") // Strands have the groom's colours.
 FEATURE(IDS, "HAIR_IDS") // Numbers in place of colour.
@@ -95,7 +96,7 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
         WITH(FEW_GUIDES) | WITH(GROUP_DAMPING)
 #define RECORDED_FEATURES STRAND_FEATURES | WITH(IMPULSES)
 // The shape of followers.
-#define STYLE_FEATURES WITH(STYLED) | WITH(LENGTHS) | WITH(GROUP_LOOKS)
+#define STYLE_FEATURES WITH(STYLED) | WITH(LENGTHS) | WITH(GROUP_LOOKS) | WITH(STRAND_FACTORS)
 #define DRAW_FEATURES \
     WITH(DEPTH) | WITH(FIBRES) | WITH(LINES) | STYLE_FEATURES | WITH(ROOT_UV) | \
         WITH(GROOM_COLORS) | WITH(IDS) | WITH(OPAQUE_SHADOWS) | WITH(ALPHA_COVERAGE) | WITH(WIDENED)
@@ -206,8 +207,8 @@ PASS(COMPOSE_TILES, "draw/compose_tiles", COLOR, RASTER_FEATURES | WITH(WIDENED)
 PASS(RESOLVE_TILES, "draw/resolve_tiles", COLOR, RASTER_FEATURES | WITH(MOTION_OUTPUT),
      "draw/resolve_tiles.vert draw/resolve_tiles.frag")
 PASS(SHADE, "draw/shade", COLOR,
-     WITH(FIBRES) | WITH(LENGTHS) | WITH(GROUP_LOOKS) | WITH(ROOT_UV) | WITH(GROOM_COLORS) |
-         WITH(OPAQUE_SHADOWS),
+     WITH(FIBRES) | WITH(LENGTHS) | WITH(GROUP_LOOKS) | WITH(STRAND_FACTORS) | WITH(ROOT_UV) |
+         WITH(GROOM_COLORS) | WITH(OPAQUE_SHADOWS),
      "HAIR_VERTEX_CACHE=1 draw/shade.comp")
 PASS(REFLECTANCE, "draw/reflectance", COLOR, WITH(GROOM_COLORS) | WITH(LENGTHS),
      "HAIR_VERTEX_CACHE=1 HAIR_USER_PIXELS=1 draw/shade.comp")

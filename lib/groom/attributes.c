@@ -19,39 +19,47 @@ static hair_result check_attribute_maps(const struct hair_groom_builder* builder
     return has_maps ? hair_check_uvs(builder) : HAIR_OK;
 }
 
-// Return whether attributes of guides have values, or maps if `is_map`.
-static bool has_guide_values(const struct hair_groom_builder* builder, bool is_map)
+bool hair_has_attribute(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                        bool is_map)
 {
     const hair_groom_desc* desc = builder->desc;
     for (uint32_t i = 0; i < desc->strand_attribute_count; ++i) {
         const hair_strand_attribute* attribute = &desc->strand_attributes[i];
         bool is_there =
             is_map ? attribute->map.source != HAIR_MAP_SOURCE_NONE : attribute->strand_values != NULL;
-        if (attribute->kind < GUIDE_KINDS && is_there) return true;
+        if (attribute->kind == kind && is_there) return true;
     }
     return false;
 }
 
-// Return the product of all maps of a kind at a point of the scalp.
-static float find_map_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
-                             const struct hair_scalp_point* scalp_point)
+float hair_find_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                       const struct hair_strand_mix* mix, const struct hair_scalp_point* scalp_point)
 {
     const hair_groom_desc* desc = builder->desc;
-    float factor = 1;
+    const struct hair_attribute_range range = hair_attribute_range_of(kind);
+    const float* of_strands = builder->strands.factors[kind];
+    float factor = of_strands ? 0 : 1;
+    for (int i = 0; of_strands && i < 3; ++i) factor += mix->weight[i] * of_strands[mix->strand[i]];
     for (uint32_t i = 0; i < desc->strand_attribute_count; ++i)
         if (desc->strand_attributes[i].kind == kind)
             factor *= hair_map_value(builder, &desc->strand_attributes[i].map, scalp_point);
-    return factor;
+    return fminf(fmaxf(factor, range.min), range.max);
 }
 
 // Return a factor of a guide. `scalp_point` is its root, which only maps need.
 static float find_guide_factor(const struct hair_groom_builder* builder, uint32_t guide,
                                hair_strand_attribute_kind kind, const struct hair_scalp_point* scalp_point)
 {
-    const struct hair_attribute_range range = hair_attribute_range_of(kind);
-    const float* of_strands = builder->strands.factors[kind];
-    float factor = of_strands ? of_strands[builder->chosen[guide]] : 1;
-    return fminf(fmaxf(factor * find_map_factor(builder, kind, scalp_point), range.min), range.max);
+    const struct hair_strand_mix mix = {{builder->chosen[guide], 0, 0}, {1, 0, 0}};
+    return hair_find_factor(builder, kind, &mix, scalp_point);
+}
+
+// Return whether attributes of guides have values, or maps if `is_map`.
+static bool has_guide_values(const struct hair_groom_builder* builder, bool is_map)
+{
+    for (int kind = 0; kind < GUIDE_KINDS; ++kind)
+        if (hair_has_attribute(builder, (hair_strand_attribute_kind)kind, is_map)) return true;
+    return false;
 }
 
 static void add_bounds(struct hair_groom* groom, const struct hair_guide_factors* factors)

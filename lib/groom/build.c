@@ -78,6 +78,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_build_patches(builder));
     HAIR_TRY(make_followers(builder));
     HAIR_TRY(hair_build_strand_attributes(builder));
+    HAIR_TRY(hair_build_follower_factors(builder));
     HAIR_TRY(hair_build_root_bindings(builder));
     hair_apply_thickness(builder);
     hair_measure_patches(builder->groom);
@@ -167,6 +168,7 @@ void hair_groom_release(hair_groom* groom)
     hair_free(&host, groom->patches);
     hair_free(&host, groom->colors);
     hair_free(&host, groom->guide_factors);
+    hair_free(&host, groom->factors);
     hair_root_bindings_release(groom->root_bindings);
     if (groom->prepared) groom->free_prepared(&host, groom->prepared);
     hair_free(&host, groom);

@@ -24,6 +24,11 @@ struct hair_groom {
     // rgb and an unused value at HAIR_STRAND_COLORS points of each follower. 65535 stands for 1.
     // NULL disables.
     uint16_t* colors;
+    // Factors of the look of each follower as half floats, factor_count of each. NULL if no
+    // attribute has them. See hair_strand_look for the slots.
+    uint16_t* factors;
+    uint32_t factor_slots, factor_count;
+    float max_follower_factors[HAIR_FACTORS]; // Maximum of all followers.
     // Factors of the physics of each guide, and the bounds of all. NULL if no attribute has them.
     struct hair_guide_factors* guide_factors;
     struct hair_guide_factors min_factors, max_factors;

@@ -67,6 +67,21 @@ static inline uint32_t hair_group_of(const struct hair_groom_builder* builder, u
     return builder->strands.groups ? builder->strands.groups[strand] : 0;
 }
 
+// Strands that a follower is made of, with their weights.
+struct hair_strand_mix {
+    uint32_t strand[3];
+    float weight[3];
+};
+struct hair_strand_mix hair_mix_of(const struct hair_groom_builder* builder, uint32_t candidate,
+                                   const struct hair_follower* follower);
+
+// Return whether any attribute of a kind has values of strands or, if `is_map`, a map.
+bool hair_has_attribute(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                        bool is_map);
+// Return the factor of a kind for a mix of strands. Only maps need `scalp_point`, the root.
+float hair_find_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                       const struct hair_strand_mix* mix, const struct hair_scalp_point* scalp_point);
+
 // Check a map, whose name in hair_groom_desc is `name`, and the texture coordinates for images.
 hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
                            float min, float max);
@@ -108,6 +123,8 @@ hair_result hair_guide_followers(struct hair_groom_builder* builder);
 hair_result hair_scalp_followers(struct hair_groom_builder* builder);
 // Give followers the radii and colours of strands.
 hair_result hair_build_strand_attributes(struct hair_groom_builder* builder);
+// Compute the factors of followers from the attributes of strands.
+hair_result hair_build_follower_factors(struct hair_groom_builder* builder);
 hair_result
 // Bind guides and followers to the scalp.
 hair_build_root_bindings(struct hair_groom_builder* builder);

@@ -7,16 +7,10 @@ _Static_assert(HAIR_STRAND_COLORS == HAIR_CURVE_INTERVALS + 1,
 
 #define THICKEST 4.0f // Maximum radius as a multiple of the mean.
 
-// Strands that a follower is made of, with their weights.
-struct mix {
-    uint32_t strand[3];
-    float weight[3];
-};
-
-static struct mix mix_of(const struct hair_groom_builder* builder, uint32_t candidate,
-                         const struct hair_follower* follower)
+struct hair_strand_mix hair_mix_of(const struct hair_groom_builder* builder, uint32_t candidate,
+                                   const struct hair_follower* follower)
 {
-    struct mix mix = {{0}, {1, 0, 0}};
+    struct hair_strand_mix mix = {{0}, {1, 0, 0}};
     if (builder->strand_of) {
         mix.strand[0] = builder->strand_of[candidate];
         return mix;
@@ -41,8 +35,8 @@ static float mean_radius(const struct hair_groom_builder* builder)
 
 // Scale the radius of a follower by the radii of its strands. Random variation is kept unless the
 // follower is itself a strand of the groom.
-static void widen_strand(const struct hair_groom_builder* builder, const struct mix* mix, float mean,
-                         struct hair_follower* follower)
+static void widen_strand(const struct hair_groom_builder* builder, const struct hair_strand_mix* mix,
+                         float mean, struct hair_follower* follower)
 {
     float radius = 0;
     for (int i = 0; i < 3; ++i) radius += mix->weight[i] * builder->strands.radii[mix->strand[i]];
@@ -50,7 +44,7 @@ static void widen_strand(const struct hair_groom_builder* builder, const struct 
     follower->offset[0].w = builder->strand_of ? fraction : fraction * follower->offset[0].w;
 }
 
-static void paint(const struct hair_groom_builder* builder, const struct mix* mix, uint16_t* out)
+static void paint(const struct hair_groom_builder* builder, const struct hair_strand_mix* mix, uint16_t* out)
 {
     for (uint32_t k = 0; k < HAIR_STRAND_COLORS; ++k)
         for (uint32_t c = 0; c < 3; ++c) {
@@ -75,7 +69,7 @@ hair_result hair_build_strand_attributes(struct hair_groom_builder* builder)
     for (uint32_t i = 0; i < builder->candidate_count; ++i) {
         HAIR_ASSERT(builder->place[i] < builder->candidate_count);
         struct hair_follower* follower = &groom->followers[builder->place[i]];
-        struct mix mix = mix_of(builder, i, follower);
+        struct hair_strand_mix mix = hair_mix_of(builder, i, follower);
         if (strands->radii) widen_strand(builder, &mix, mean, follower);
         if (strands->colors)
             paint(builder, &mix, groom->colors + 4 * HAIR_STRAND_COLORS * (size_t)builder->place[i]);

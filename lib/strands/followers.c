@@ -58,16 +58,21 @@ void hair_geometry_write_params(const struct hair_geometry* geometry, struct hai
     out->strand_fraction = 1;
     out->segment_fraction = 1;
     hair_look_write_curves(look, &out->strand);
+    out->strand.factor_slots = geometry->factors.slots;
+    out->strand.factor_count = geometry->factors.count;
     out->strand.max_offset = hair_geometry_max_offset(geometry);
 }
 
 float hair_geometry_max_offset(const struct hair_geometry* geometry)
 {
     const struct hair_group_look_buffer* groups = &geometry->groups;
+    const float* own = geometry->factors.max;
+    float curl = groups->factors ? groups->max_curl_radius : 1,
+          frizz = groups->factors ? groups->max_frizz : 1;
     hair_look look = geometry->look;
-    if (!groups->factors) return hair_look_max_offset(&look);
-    look.curl.radius *= groups->max_curl_radius;
-    for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) look.strays.frizz.at[i] *= groups->max_frizz;
+    if (!groups->factors && !geometry->factors.texture) return hair_look_max_offset(&look);
+    look.curl.radius *= curl * own[HAIR_FACTOR_CURL_RADIUS];
+    for (int i = 0; i <= HAIR_CURVE_INTERVALS; ++i) look.strays.frizz.at[i] *= frizz * own[HAIR_FACTOR_FRIZZ];
     return hair_look_max_offset(&look);
 }
 
@@ -93,6 +98,7 @@ void hair_geometry_bind(struct hair_geometry* geometry)
         if (textures[unit]) gl->BindTextureUnit(unit, textures[unit]);
     if (hair_geometry_has_lengths(geometry))
         gl->BindTextureUnit(HAIR_UNIT_LENGTH, geometry->lengths->follower_texture);
+    if (geometry->factors.texture) gl->BindTextureUnit(HAIR_UNIT_STRAND_FACTOR, geometry->factors.texture);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_DRAW, 1, &geometry->params);
     hair_geometry_bind_group_looks(geometry);
 }
@@ -106,6 +112,7 @@ hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_
 {
     if (hair_geometry_has_lengths(geometry)) pass = hair_gl_add_features(pass, HAIR_GL_WITH(LENGTHS));
     if (geometry->groups.factors) pass = hair_gl_add_features(pass, HAIR_GL_WITH(GROUP_LOOKS));
+    if (geometry->factors.texture) pass = hair_gl_add_features(pass, HAIR_GL_WITH(STRAND_FACTORS));
     return hair_look_is_styled(&geometry->look) ? hair_gl_add_features(pass, HAIR_GL_WITH(STYLED)) : pass;
 }
 

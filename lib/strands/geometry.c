@@ -3,6 +3,21 @@
 
 #include <string.h>
 
+// Create the buffer of factors of single strands, if the groom has any.
+static hair_result create_factors(struct hair_geometry* geometry, const struct hair_groom* groom)
+{
+    struct hair_gl* gl = geometry->gl;
+    struct hair_strand_factor_buffer* out = &geometry->factors;
+    for (int i = 0; i < HAIR_FACTORS; ++i) out->max[i] = groom->factors ? groom->max_follower_factors[i] : 1;
+    if (!groom->factors) return HAIR_OK;
+    out->slots = groom->factor_slots;
+    out->count = groom->factor_count;
+    HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "factors of strands",
+                            (size_t)geometry->followers * out->count * sizeof *groom->factors, groom->factors,
+                            &out->buffer));
+    return hair_gl_buffer_texture(gl, "factors of strands", GL_R16F, out->buffer, &out->texture);
+}
+
 hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl* gl,
                                  const struct hair_groom* groom, const struct hair_sim* sim,
                                  const hair_look* look, bool uses_prepass)
@@ -28,6 +43,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     HAIR_TRY(
         hair_geometry_make_followers(geometry, hair_groom_follower_bytes(groom), groom->followers, &made));
     hair_geometry_swap_followers(geometry, &made);
+    HAIR_TRY(create_factors(geometry, groom));
     HAIR_TRY(hair_gl_buffer(gl, HAIR_GL_CATEGORY_COLOR, "hair patches",
                             geometry->patches * sizeof *groom->patches, groom->patches, &geometry->patch));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_COLOR, "hair draw", sizeof(struct hair_draw_params),
@@ -47,6 +63,7 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     geometry->root_bindings = NULL;
     hair_geometry_free_followers(gl, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
+    hair_gl_free_array(gl, &geometry->factors.buffer, &geometry->factors.texture);
     hair_gl_free_buffer(gl, &geometry->groups.factors);
     hair_gl_free_buffer(gl, &geometry->params);
     hair_smooth_destroy(&geometry->smooth);

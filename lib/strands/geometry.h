@@ -23,6 +23,13 @@ struct hair_group_look_buffer {
     float max_curl_radius, max_frizz; // Maxima of all groups.
 };
 
+// Factors by which the looks of single strands differ from those of their groups.
+struct hair_strand_factor_buffer {
+    GLuint buffer, texture; // 0 if the groom has no such factors.
+    uint32_t slots, count; // See hair_strand_look.
+    float max[HAIR_FACTORS]; // Maximum of all followers. 1 without factors.
+};
+
 struct hair_geometry {
     struct hair_gl* gl;
     struct hair_smooth smooth; // Smoothed guides.
@@ -30,6 +37,7 @@ struct hair_geometry {
     hair_look look; // Look after hair_look_apply_wetness().
     struct hair_follower_buffer follower;
     struct hair_group_look_buffer groups;
+    struct hair_strand_factor_buffer factors;
     GLuint patch, patch_texture; // Buffer of patches, and its buffer texture.
     GLuint params; // Uniform buffer of hair_draw_params, which each user writes before its passes.
     uint32_t followers, patches, smooth_vertices, guides, shape_vertices;
@@ -94,7 +102,7 @@ uint32_t hair_geometry_chunk_count(const struct hair_geometry* geometry, double 
 void hair_geometry_write_params(const struct hair_geometry* geometry, struct hair_draw_params* out);
 // Return the maximum radius of strands in metres, before a level of detail widens them.
 double hair_geometry_max_radius(const struct hair_geometry* geometry);
-// Return the maximum distance that curls and frizz of all groups move a strand, in metres.
+// Return the maximum distance that curls and frizz of all followers move a strand, in metres.
 float hair_geometry_max_offset(const struct hair_geometry* geometry);
 // Bind the factors of groups, if there are any. Occlusion culling has its parameters in their slot.
 void hair_geometry_bind_group_looks(const struct hair_geometry* geometry);
@@ -102,8 +110,8 @@ void hair_geometry_bind_group_looks(const struct hair_geometry* geometry);
 void hair_geometry_bind(struct hair_geometry* geometry);
 // Return whether followers have been cut, which needs program variants.
 bool hair_geometry_has_lengths(const struct hair_geometry* geometry);
-// Return `pass` with the features that the look, the looks of groups and the lengths of followers
-// need.
+// Return `pass` with the features that the look, the looks of groups and of strands, and the
+// lengths of followers need.
 hair_gl_pass hair_geometry_add_style(const struct hair_geometry* geometry, hair_gl_pass pass);
 // Return whether displayed followers have met colliders, which needs program variants.
 bool hair_geometry_has_hits(const struct hair_geometry* geometry);

@@ -1,5 +1,7 @@
 // group_style_test.c - curls, frizz, locks and highlights of groups of strands in one instance,
 // measured in metres, turns per metre and radians.
+#include "tests/support/arcs.h"
+#include "tests/support/beams.h"
 #include "tests/support/passes.h"
 #include "tests/support/scene.h"
 
@@ -14,7 +16,6 @@
 #define FOLLOWERS 600
 #define SEGMENTS 40u
 #define EACH (SEGMENTS + 1)
-#define SIDE 240
 #define PI 3.14159265358979
 
 // Create straight guides, of which every second is in group 1.
@@ -159,107 +160,30 @@ static void clump_of_a_group_is_a_fraction_of_the_weight(void** state)
     hair_test_scene_free(&scene);
 }
 
-// Add strands of both groups that bend around the x axis towards the viewer, as arcs of 0.1 m.
-static struct hair_test_scene start_arcs(struct hair_test* test, const hair_look* look)
-{
-    static const uint8_t groups[2] = {0, 1};
-    struct hair_test_scene scene = hair_test_scene_make(test, NULL);
-    struct hair_test_strands strands = hair_test_strands_make(2, 32);
-    for (int g = 0; g < 2; ++g)
-        for (int k = 0; k < 32; ++k) {
-            float a = 1.2f - 2.4f * (float)k / 31;
-            hair_store3(strands.positions + 3 * strands.vertex_count++,
-                        hair_v3(0.05f * (float)g - 0.025f, 0.1f * sinf(a), 0.1f * cosf(a) - 0.1f));
-        }
-    for (int g = 0; g < 2; ++g) strands.vertices[strands.count++] = 32;
-    strands.groups = groups;
-    hair_groom_desc desc = hair_test_groom_desc(&test->host, &strands);
-    desc.guide_count = 2;
-    scene.groom = hair_test_groom_of(&desc);
-    hair_desc of = hair_desc_default();
-    of.look = look;
-    hair_test_ok(test, hair_create(test->context, scene.groom, &of, &scene.hair));
-    hair_test_strands_free(&strands);
-    return scene;
-}
-
-// Return the width of the highlight at half its height, in radians of the strand's direction. The
-// strand is in the left or in the right half of the picture.
-static double measure_highlight(const float* pixels, int half, double metres)
-{
-    double row[SIDE] = {0}, max = 0, low = 0, high = 0;
-    for (int y = 0; y < SIDE; ++y)
-        for (int x = 0; x < SIDE / 2; ++x)
-            row[y] = fmax(row[y], (double)pixels[4 * (y * SIDE + half * SIDE / 2 + x)]);
-    for (int y = 0; y < SIDE; ++y) max = fmax(max, row[y]);
-    for (int y = 1; y < SIDE; ++y) {
-        double at = y - 1 + (max / 2 - row[y - 1]) / (row[y] - row[y - 1]);
-        if (row[y - 1] < max / 2 && row[y] >= max / 2) low = at;
-        if (row[y - 1] >= max / 2 && row[y] < max / 2) high = at;
-    }
-    assert_true(max > 0 && low > 2 && high > low && high < SIDE - 2);
-    double middle = 0.5 * (SIDE - 1);
-    return asin((high - middle) * metres / 0.1) - asin((low - middle) * metres / 0.1);
-}
-
-// Return a depth texture without occluders. Occlusion culling then runs, and hides nothing.
-static GLuint make_far_depth(void)
-{
-    const float farthest = 1;
-    GLuint texture;
-    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-    glTextureStorage2D(texture, 1, GL_DEPTH_COMPONENT32F, SIDE, SIDE);
-    glClearTexImage(texture, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &farthest);
-    return texture;
-}
-
 static void highlight_is_as_wide_as_the_roughness_of_its_group(void** state)
 {
-    static float pixels[4 * SIDE * SIDE];
     for (int model = 0; model < 2; ++model) {
-        hair_look look = plain_look();
-        look.shading.model = model ? HAIR_SHADING_LINES : HAIR_SHADING_FIBRES;
-        look.strand.segments = 256, look.strand.radius = 3e-3f, look.color.spread = 0;
-        look.shading.cuticle_tilt_spread = look.shading.scattering = 0;
-        look.shading.roughness[0] = 0.1f;
-        look.shading.specular[0] = 0, look.shading.specular[1] = 4, look.shading.gloss[1] = 200;
-        for (int c = 0; c < 3; ++c) look.color.root[c] = look.color.tip[c] = model ? 0.05f : 0;
-        struct hair_test_scene scene = start_arcs(*state, &look);
+        struct hair_test_arcs arcs;
+        hair_test_arcs_start(*state, model == 1, NULL, &arcs);
+        struct hair_test* test = *state;
         hair_group_look group = hair_group_look_default();
-        hair_light light = hair_light_default();
-        hair_view view = hair_test_view_by(HAIR_RENDER_PATH_AUTO);
-        light.direction[0] = light.direction[1] = 0, light.direction[2] = 1;
-        view.lights = &light;
-        for (int c = 0; c < 3; ++c) view.ambient[c] = 0;
-        hair_test_set_orthographic(&view, 16, 3, 0);
-        view.occluder_depth = make_far_depth();
-        const uint32_t culled = hair_test_runs_of(&scene.test->context->gl, "cull_patches");
+        const uint32_t culled = hair_test_runs_of(&test->context->gl, "cull_patches");
         for (int path = 0; path < HAIR_TEST_PATHS; ++path) {
-            view.render_path = hair_test_paths[path];
+            double usual[2], rough[2];
             group.roughness = 1;
-            hair_test_ok(scene.test, hair_set_group_look(scene.hair, 1, &group));
-            hair_test_draw(&scene, &view, SIDE, SIDE, 0, pixels, NULL);
-            double metres = 2.0 / 16 / SIDE, own = measure_highlight(pixels, 1, metres);
-            hair_test_near("width", 0, measure_highlight(pixels, 0, metres), own, 0.02 * own);
+            hair_test_ok(test, hair_set_group_look(arcs.scene.hair, 1, &group));
+            hair_test_arcs_measure(&arcs, hair_test_paths[path], usual);
+            hair_test_near("width", 0, usual[0], usual[1], 0.02 * usual[1]);
             group.roughness = 2;
-            hair_test_ok(scene.test, hair_set_group_look(scene.hair, 1, &group));
-            hair_test_draw(&scene, &view, SIDE, SIDE, 0, pixels, NULL);
-            double other = measure_highlight(pixels, 0, metres), rough = measure_highlight(pixels, 1, metres);
-            printf("model %d, path %d: %.4f rad, rough %.4f rad\n", model, path, own, rough);
-            hair_test_near("width", 1, other, own, 0.02 * own);
-            hair_test_near("width", 2, rough, 2 * own, 0.1 * own);
+            hair_test_ok(test, hair_set_group_look(arcs.scene.hair, 1, &group));
+            hair_test_arcs_measure(&arcs, hair_test_paths[path], rough);
+            printf("model %d, path %d: %.4f rad, rough %.4f rad\n", model, path, usual[1], rough[1]);
+            hair_test_near("width", 1, rough[0], usual[1], 0.02 * usual[1]);
+            hair_test_near("width", 2, rough[1], 2 * usual[1], 0.1 * usual[1]);
         }
-        assert_true(hair_test_runs_of(&scene.test->context->gl, "cull_patches") > culled);
-        glDeleteTextures(1, &view.occluder_depth);
-        hair_test_scene_free(&scene);
+        assert_true(hair_test_runs_of(&test->context->gl, "cull_patches") > culled);
+        hair_test_arcs_free(&arcs);
     }
-}
-
-static uint64_t gpu_bytes(struct hair_test* test)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(test, hair_get_memory(test->context, &memory));
-    return memory.bytes;
 }
 
 static void factors_of_one_cost_no_memory_and_no_program(void** state)
@@ -271,19 +195,19 @@ static void factors_of_one_cost_no_memory_and_no_program(void** state)
     look.curl.radius = 0.004f;
     const uint32_t runs = hair_test_runs_of(&test->context->gl, "_group_looks");
     float* plain = read_with(&scene, &look, NULL);
-    const uint64_t bytes = gpu_bytes(test);
+    const uint64_t bytes = hair_test_bytes(test);
     float* same = read_with(&scene, &look, &group);
     assert_memory_equal(same, plain, 3 * sizeof *plain * FOLLOWERS * EACH);
-    assert_int_equal(gpu_bytes(test), bytes);
+    assert_int_equal(hair_test_bytes(test), bytes);
     assert_int_equal(hair_test_runs_of(&test->context->gl, "_group_looks"), runs);
     group.curl.radius = 2;
     free(read_with(&scene, &look, &group));
-    assert_int_equal(gpu_bytes(test), bytes + HAIR_STRAND_GROUPS * sizeof(struct hair_group_factors));
+    assert_int_equal(hair_test_bytes(test), bytes + HAIR_STRAND_GROUPS * sizeof(struct hair_group_factors));
     assert_true(hair_test_runs_of(&test->context->gl, "_group_looks") > runs);
     free(same);
     same = read_with(&scene, &look, NULL);
     assert_memory_equal(same, plain, 3 * sizeof *plain * FOLLOWERS * EACH);
-    assert_int_equal(gpu_bytes(test), bytes);
+    assert_int_equal(hair_test_bytes(test), bytes);
     free(plain), free(same);
     hair_test_scene_free(&scene);
 }

@@ -33,7 +33,8 @@ UINT(hair_map_set, thickness.height, 0, 0, 16384, 0, 1024, LINEAR, "",
 END
 BEGIN(hair_strand_attribute)
 ENUM(hair_strand_attribute, kind, HAIR_STRAND_ATTRIBUTE_STIFFNESS, "Property that the factors multiply.", "stiffness",
-      "damping", "shape_frequency", "gravity_preload")
+      "damping", "shape_frequency", "gravity_preload", "clump", "curl_radius", "curl_frequency", "frizz",
+      "roughness", "radius")
 POINTER(hair_strand_attribute, strand_values, "Factor of each strand.")
 #undef GROUP
 #define GROUP "map"
