@@ -237,9 +237,11 @@ static hair_vec3 root_to_tip(const struct hair_groom* groom, uint32_t guide)
 static bool are_parted(const struct hair_groom* groom, uint32_t i, uint32_t j)
 {
     hair_vec3 a = root_to_tip(groom, i), b = root_to_tip(groom, j);
-    float mean = 0.5f * (groom->guides[i].arc_length + groom->guides[j].arc_length);
-    if (hair_distance(a, b) > 0.6f * mean) return true;
-    float product = hair_length(a) * hair_length(b);
+    float one = groom->guides[i].arc_length, two = groom->guides[j].arc_length, shorter = fminf(one, two);
+    // Guides of different lengths that run in one direction are not parted.
+    hair_vec3 apart = hair_sub(hair_scale(a, shorter / one), hair_scale(b, shorter / two));
+    if (hair_length(apart) > 0.6f * shorter) return true;
+    float product = hair_length(a) * hair_length(b), mean = 0.5f * (one + two);
     // The tip of a curled guide tells little about its direction.
     if (product < 0.01f * mean * mean) return false;
     return hair_dot(a, b) < 0.342f * product; // More than 70 degrees.
