@@ -13,6 +13,12 @@ PICTURE("Bob", CLOSE FINE "--style bob")
 PICTURE("Short", CLOSE FINE "--style short")
 PICTURE("Ponytail", FINE "--scene ponytail --motion still --frames 0:1")
 
+ROW("Haircuts that are cut close or tied up")
+PICTURE("Fringe", CLOSE FINE "--style fringe")
+PICTURE("Fade", CLOSE FINE "--style fade")
+PICTURE("Bun", FINE "--scene bun --motion still --frames 0:1")
+PICTURE("Braid", FINE "--scene braid --motion still --frames 0:1")
+
 ROW("Curls: the strands of a lock turn together and drift apart towards their tips")
 PICTURE("Type 2b: waves of 20 mm", TYPE("2b", "200"))
 PICTURE("Type 3a: curls of 25 mm", TYPE("3a", "200"))

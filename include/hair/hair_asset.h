@@ -120,6 +120,10 @@ typedef enum hair_style {
     HAIR_STYLE_PONYTAIL,
     HAIR_STYLE_CURLY,
     HAIR_STYLE_AFRO,
+    HAIR_STYLE_FRINGE, ///< A bob without a parting, cut above the brows.
+    HAIR_STYLE_FADE, ///< Short hair that fades to stubble at the sides and the back.
+    HAIR_STYLE_BUN, ///< Hair that is wound into a coil at the back of the head.
+    HAIR_STYLE_BRAID, ///< Hair that is braided into three strands at the nape.
     HAIR_STYLE_COUNT
 } hair_style;
 

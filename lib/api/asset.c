@@ -90,6 +90,10 @@ const char* hair_style_name(hair_style style)
     case HAIR_STYLE_PONYTAIL: return "ponytail";
     case HAIR_STYLE_CURLY: return "curly";
     case HAIR_STYLE_AFRO: return "afro";
+    case HAIR_STYLE_FRINGE: return "fringe";
+    case HAIR_STYLE_FADE: return "fade";
+    case HAIR_STYLE_BUN: return "bun";
+    case HAIR_STYLE_BRAID: return "braid";
     case HAIR_STYLE_COUNT: break;
     }
     return NULL;

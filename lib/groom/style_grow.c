@@ -31,6 +31,7 @@ struct walk {
     float split; // turn rate to the front or the back of the shoulder, 1/m
     float floor; // height at which the hair is cut, m
     float face; // distance kept from the face, m
+    float fringe; // height at which hair over the forehead is cut, m, or 0
     float max; // maximum length, m
 };
 
@@ -42,7 +43,8 @@ struct hair_parting hair_style_parting(hair_style style)
     case HAIR_STYLE_LONG: return (struct hair_parting){1, 0.004f, 0.002f, -0.040f};
     case HAIR_STYLE_CURLY: return (struct hair_parting){1, -0.012f, -0.006f, -0.035f};
     case HAIR_STYLE_BOB: return (struct hair_parting){1, 0.026f, 0.014f, -0.040f};
-    case HAIR_STYLE_SHORT: return (struct hair_parting){1, 0.034f, 0.024f, -0.030f};
+    case HAIR_STYLE_SHORT:
+    case HAIR_STYLE_FADE: return (struct hair_parting){1, 0.034f, 0.024f, -0.030f};
     default: return (struct hair_parting){0};
     }
 }
@@ -138,13 +140,20 @@ static hair_vec3 step_clear_of_bust(const struct walk* walk, hair_vec3 p, hair_v
     return p;
 }
 
+// Return whether a point is over the face, below the fringe.
+static bool is_below_fringe(const struct walk* walk, hair_vec3 p)
+{
+    return p.y < walk->fringe && p.z > 0.035f && fabsf(p.x) < 0.056f;
+}
+
 static void run_walk(const struct walk* walk, hair_vec3 root, struct hair_style_path* path)
 {
     hair_vec3 p = root, normal = hair_skull_normal(root);
     hair_vec3 d = hair_normalize(hair_lerp(walk->comb, normal, walk->rise), normal);
     path->count = 0, path->length = 0;
     hair_style_path_add(path, p);
-    while (path->length < walk->max && path->count < HAIR_STYLE_PATH_POINTS && p.y > walk->floor) {
+    while (path->length < walk->max && path->count < HAIR_STYLE_PATH_POINTS && p.y > walk->floor &&
+           !is_below_fringe(walk, p)) {
         hair_vec3 last = p;
         d = hair_normalize(hair_add(d, hair_scale(pull(walk, p, path->length), STRIDE)), d);
         p = step_clear_of_bust(walk, p, d, path->length);
@@ -316,11 +325,63 @@ static void grow_afro(uint32_t guide, hair_vec3 root, float scale, uint32_t seed
     hair_style_path_add_curl(path, &curl);
 }
 
+// Return the direction away from the whorl, which hair without a parting has.
+static hair_vec3 comb_from_whorl(hair_vec3 p)
+{
+    hair_vec3 normal = hair_skull_normal(p), whorl = hair_style_whorl((struct hair_parting){0});
+    hair_vec3 away = hair_normalize(hair_tangential(hair_sub(p, whorl), normal), hair_v3(0, 0, 1));
+    return hair_normalize(hair_tangential(hair_add(away, hair_v3(0, -0.3f, 0)), normal), away);
+}
+
+// A bob without a parting. Hair of the forehead is cut above the brows.
+static void grow_fringe(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+{
+    float high = layer(root), front = hair_smooth(0.005f, 0.030f, root.z);
+    float cut = hair_mix(1.528f, 1.500f, hair_smooth(-0.07f, 0.04f, root.z));
+    struct walk walk = {
+        .comb = comb_from_whorl(root),
+        .rise = 0.16f,
+        .clearance = hair_mix(0.005f, hair_mix(0.017f, 0.012f, front), high) + uneven(root, 0.002f, seed),
+        .lift = 0.06f,
+        .gravity = 40,
+        .hold = 0.04f,
+        .inward = 22,
+        .inward_below = cut + 0.045f,
+        .floor = cut + 0.006f * hair_noise(root, 0.012f, seed + 1),
+        .face = hair_mix(0.004f, -0.06f, front),
+        .fringe = 1.628f + 0.005f * hair_noise(root, 0.012f, seed + 1),
+    };
+    run_cut(&walk, root, scale, 0.03f, path);
+}
+
+// Short hair whose sides and back fade to stubble towards the hairline.
+static void grow_fade(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path)
+{
+    float top = hair_smooth(1.615f, 1.705f, root.y + 0.15f * fmaxf(root.z, 0));
+    struct walk walk = {
+        .comb = comb_from_parting(hair_style_parting(HAIR_STYLE_FADE), root, 0.25f, 1.3f),
+        .rise = hair_mix(0.35f, 0.40f, top),
+        .clearance = hair_mix(0.002f, 0.012f, top) + top * 0.003f * hair_noise(root, 0.025f, seed),
+        .lift = 0.02f,
+        .gravity = 8,
+        .hold = 0.04f,
+        .press = 0.03f,
+    };
+    float length = 0.004f * powf(14, top) * (1 + 0.12f * hair_noise(root, 0.02f, seed + 1));
+    run_to(&walk, root, fmaxf(scale * length, 0.002f), path);
+}
+
 // -------------------------------------------------------------------------------------------------
 
 uint32_t hair_style_vertices(hair_style style)
 {
-    return style == HAIR_STYLE_CURLY || style == HAIR_STYLE_AFRO ? 64 : 32;
+    switch (style) {
+    case HAIR_STYLE_CURLY:
+    case HAIR_STYLE_AFRO:
+    case HAIR_STYLE_BUN:
+    case HAIR_STYLE_BRAID: return 64;
+    default: return 32;
+    }
 }
 
 void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
@@ -333,6 +394,10 @@ void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float sca
     case HAIR_STYLE_SHORT: grow_short(root, scale, seed, path); break;
     case HAIR_STYLE_PONYTAIL: hair_style_grow_ponytail(root, scale, seed, path); break;
     case HAIR_STYLE_CURLY: grow_curly(guide, root, scale, seed, path); break;
+    case HAIR_STYLE_FRINGE: grow_fringe(root, scale, seed, path); break;
+    case HAIR_STYLE_FADE: grow_fade(root, scale, seed, path); break;
+    case HAIR_STYLE_BUN: hair_style_grow_bun(root, scale, seed, path); break;
+    case HAIR_STYLE_BRAID: hair_style_grow_braid(root, scale, seed, path); break;
     default: grow_afro(guide, root, scale, seed, path); break;
     }
 }

@@ -18,7 +18,9 @@ uint32_t hair_style_vertices(hair_style style);
 void hair_style_grow(hair_style style, uint32_t guide, hair_vec3 root, float scale, uint32_t seed,
                      struct hair_style_path* path);
 
-// Grow a guide of the ponytail. Defined in style_ponytail.c.
+// Grow a guide that is tied up. Defined in style_tied.c.
 void hair_style_grow_ponytail(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path);
+void hair_style_grow_bun(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path);
+void hair_style_grow_braid(hair_vec3 root, float scale, uint32_t seed, struct hair_style_path* path);
 
 #endif

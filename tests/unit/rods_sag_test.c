@@ -114,7 +114,9 @@ static void built_in_haircuts_rest_as_groomed_or_as_reported(void** state)
             hair_groom* groom = haircut((hair_style)style, vertices);
             hair_physics physics = hair_physics_default();
             compare(hair_style_name((hair_style)style), groom, &physics);
-            if (vertices == 32) {
+            // Without pull, a bun and a braid unwind into one of several poses.
+            bool is_wound = style == HAIR_STYLE_BUN || style == HAIR_STYLE_BRAID;
+            if (vertices == 32 && !is_wound) {
                 physics.shape.frequency_root = physics.shape.frequency_tip = 0;
                 physics.fiber.flatness = 0.6f;
                 physics.tip_mass = 0.1f;

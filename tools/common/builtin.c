@@ -7,6 +7,9 @@
 // mm film.
 #define CAMERA "'camera': {'eye': [0.50, 1.60, 0.985], 'target': [0.0, 1.525, 0.0], 'fov': 24}"
 
+// The back of the head, seen from its left.
+#define BEHIND " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}"
+
 // A warm key light from the side puts highlights along the hair. A cool light from behind rims the
 // hair, and a weak one beside the camera fills the shadows of the face. A few strands fly away from
 // the others and break the outline, and some kink.
@@ -27,11 +30,18 @@ const struct hair_builtin hair_builtin_scenes[] = {
     {"demo", "{'style': 'long', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
              ", " STUDIO "}"},
     {"still", "{'style': 'long', 'motion': 'still', 'frames': 30, 'picture': 29, " CAMERA "}"},
-    {"ponytail",
-     "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
-     " 'camera': {'eye': [0.97, 1.66, -0.45], 'target': [0.0, 1.52, 0.0], 'fov': 27}, " STUDIO "}"},
+    {"ponytail", "{'style': 'ponytail', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
+                 ", " STUDIO "}"},
     {"afro", "{'style': 'afro', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45,"
              " 'camera': {'eye': [0.53, 1.62, 1.06], 'target': [0.0, 1.58, 0.0], 'fov': 24}, " STUDIO "}"},
+    {"fringe", "{'style': 'fringe', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
+               ", " STUDIO "}"},
+    {"fade", "{'style': 'fade', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 30, " CAMERA
+             ", " STUDIO "}"},
+    {"bun", "{'style': 'bun', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
+            ", " STUDIO "}"},
+    {"braid", "{'style': 'braid', 'motion': 'demo', 'settle': 0.5, 'frames': 120, 'picture': 45," BEHIND
+              ", " STUDIO "}"},
     {"fur", "{'fur': {'strands': 50000, 'length': 0.03, 'ball': 0.1}, 'motion': 'shake', 'frames': 60, "
             "'picture': 20,"
             " 'settings': {'clump.weight': '0,0,0.03,0.09,0.16,0.23,0.28,0.3', 'strand.radius': 1e-4, "
@@ -63,6 +73,10 @@ const struct hair_builtin hair_builtin_styles[] = {
     {"short", "{'shape.frequency_root': 10, 'shape.frequency_tip': 6, 'redblack.angular_hz': 8, " SMOOTH "}"},
     {"ponytail",
      "{'shape.frequency_root': 12, 'shape.frequency_tip': 1.5, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"fringe", "{'shape.frequency_root': 8, 'shape.frequency_tip': 4, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"fade", "{'shape.frequency_root': 12, 'shape.frequency_tip': 10, 'redblack.angular_hz': 8, " SMOOTH "}"},
+    {"bun", "{'shape.frequency_root': 12, 'shape.frequency_tip': 12, 'redblack.angular_hz': 8, " COILED "}"},
+    {"braid", "{'shape.frequency_root': 12, 'shape.frequency_tip': 2, 'redblack.angular_hz': 8, " COILED "}"},
     {"curly", "{'shape.frequency_root': 8, 'shape.frequency_tip': 3, 'redblack.angular_hz': 4, " CURLED "}"},
     {"afro", "{'shape.frequency_root': 12, 'shape.frequency_tip': 8, 'redblack.angular_hz': 8, " COILED "}"},
     {NULL, NULL},

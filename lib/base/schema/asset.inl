@@ -5,7 +5,8 @@ END
 BEGIN(hair_style_desc)
 POINTER(hair_style_desc, host, "Callbacks.")
 ENUM(hair_style_desc, style, HAIR_STYLE_LONG,
-      "Built-in haircuts, on the built-in scalp.", "long", "bob", "short", "ponytail", "curly", "afro")
+      "Built-in haircuts, on the built-in scalp.", "long", "bob", "short", "ponytail", "curly", "afro", "fringe",
+      "fade", "bun", "braid")
 UINT(hair_style_desc, guide_count, 166, 16, 4096, 64, 1024, LINEAR, "",
       "Number of guides, spread evenly over the scalp.")
 AUTO_UINT(hair_style_desc, strand_vertices, 0, 256, 0, 64, LINEAR, "",
