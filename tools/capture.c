@@ -5,6 +5,7 @@
 
 #include "tools/bullet/world.h"
 #include "tools/common/capture_options.h"
+#include "tools/common/cuts.h"
 #include "tools/common/dump.h"
 #include "tools/common/file.h"
 #include "tools/common/frame_hash.h"
@@ -37,6 +38,8 @@ struct capture {
     hair_shader* shader; // NULL uses the library's shading
     struct hair_world* world; // NULL if the scene has no Bullet objects
     hair_collider* colliders;
+    uint32_t collider_count;
+    struct hair_cut_pieces pieces;
     uint32_t collider_room;
     hair_collision_mesh* head[HEAD_MESHES]; // of the built-in head, NULL if none is drawn
     struct hair_render* render;
@@ -154,6 +157,7 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
         hair_head_rig_colliders(&capture->options.scene, capture->head, time, transform, capture->colliders);
     if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
     count += other_count;
+    capture->collider_count = count;
     return hair_set_colliders(capture->hair, capture->colliders, count, sizeof *capture->colliders);
 }
 
@@ -231,7 +235,10 @@ static hair_result step(struct capture* capture, uint32_t frame)
         result = hair_set_transform(capture->hair, transform);
         if (!result) result = set_colliders(capture, time, transform);
         if (!result) result = hair_playback_play(&capture->cache, capture->hair, (double)time);
-        if (!result) result = hair_step(capture->hair, 1 / (scene->fps * (float)parts));
+        float dt = 1 / (scene->fps * (float)parts);
+        if (!result) result = hair_step(capture->hair, dt);
+        if (!result)
+            result = hair_cuts_step(&capture->pieces, capture->colliders, capture->collider_count, dt);
     }
     return result;
 }
@@ -271,6 +278,15 @@ static void show_progress(const struct capture* capture, uint32_t done)
             done == end ? "\n" : "");
 }
 
+// Make the cuts of a frame.
+static int cut(struct capture* capture, uint32_t frame)
+{
+    hair_result result = hair_cuts_run(&capture->options.scene.cuts, frame, capture->hair, &capture->pieces);
+    if (capture->render)
+        hair_render_set_more_hair(capture->render, capture->pieces.at, capture->pieces.count);
+    return exit_for_settings(capture, hair_exit_for(result));
+}
+
 static int run_frames(struct capture* capture)
 {
     const struct hair_capture_options* options = &capture->options;
@@ -284,6 +300,7 @@ static int run_frames(struct capture* capture)
             glFinish();
             hair_clock_add(&capture->stats.step, hair_now() - before);
         }
+        if (!code) code = cut(capture, frame);
         if (!code && frame >= options->first) code = show(capture, frame);
         if (code) return code;
         show_progress(capture, frame + 1);
@@ -383,6 +400,7 @@ static int run(struct capture* capture)
 
 static void destroy(struct capture* capture)
 {
+    hair_cuts_destroy(&capture->pieces);
     hair_destroy(capture->hair);
     hair_world_destroy(capture->world);
     for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(capture->head[i]);

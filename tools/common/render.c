@@ -29,6 +29,8 @@ struct hair_render {
     GLuint shadow_sampler;
     GLuint nothing; // vertex array without vertices
     struct hair_render_mesh mesh;
+    hair_instance* const* more_hair;
+    uint32_t more_count;
     uint32_t frames; // drawn so far
     float shift[2]; // of the picture to the left and up, pixels
 };
@@ -114,6 +116,12 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
     hair_render_mesh_make(mesh, whole, &render->mesh);
 }
 
+void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count)
+{
+    render->more_hair = hair;
+    render->more_count = count;
+}
+
 // Frames ------------------------------------------------------------------------------------------
 
 // The picture, or one tile of it.
@@ -168,7 +176,10 @@ static hair_result draw_hair(const struct hair_render* render, const struct fram
     view.occluder_depth = pass == HAIR_PASS_COLOR ? frame->depth : 0;
     memcpy(view.view, matrices->view, sizeof view.view);
     memcpy(view.projection, matrices->projection, sizeof view.projection);
-    return hair_draw(frame->hair, &view);
+    hair_result result = hair_draw(frame->hair, &view);
+    for (uint32_t i = 0; i < render->more_count && !result; ++i)
+        result = hair_draw(render->more_hair[i], &view);
+    return result;
 }
 
 // Draw the shadow maps of light i, which are the depth of the mesh, the depth of hair and the

@@ -27,6 +27,10 @@ void hair_render_destroy(struct hair_render* render); // NULL is allowed.
 // Otherwise it bends at the neck.
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole);
 
+// Draw further hair in all following pictures, with the passes of the hair. The array must live as
+// long.
+void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count);
+
 // Draw the scene with its head at `transform`, and read the picture. The picture lives as long as
 // the renderer. With hair_render_desc.on_gpu, the picture has a size but no pixels.
 int hair_render_frame(struct hair_render* render, const struct hair_scene* scene, const float transform[16],

@@ -145,6 +145,11 @@ static bool read_wind(const place* json, const char* key, const json_t* value, v
     return hair_scene_read_wind(json, key, value, &scene->settings, &scene->wind);
 }
 
+static bool read_cuts(const place* json, const char* key, const json_t* value, void* out)
+{
+    return hair_scene_read_cuts(json, key, value, &((struct hair_scene*)out)->cuts);
+}
+
 static bool read_bullet(const place* json, const char* key, const json_t* value, void* out)
 {
     return hair_scene_read_bullet(json, key, value, &((struct hair_scene*)out)->bullet);
@@ -216,6 +221,7 @@ static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_BOOLEAN("head", AT(head)),
                               HAIR_OTHER("colliders", read_colliders),
                               HAIR_OTHER("bullet", read_bullet),
+                              HAIR_OTHER("cuts", read_cuts),
                               HAIR_OTHER("maps", read_maps),
                               HAIR_OTHER("motion", read_motion),
                               HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),

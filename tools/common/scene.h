@@ -8,6 +8,7 @@
 
 #include "tools/common/motion.h"
 #include "tools/common/scene_bullet.h"
+#include "tools/common/scene_cuts.h"
 #include "tools/common/scene_lights.h"
 #include "tools/common/scene_maps.h"
 #include "tools/common/scene_colliders.h"
@@ -45,6 +46,7 @@ struct hair_scene {
     uint32_t collider_count;
     struct hair_scene_collider colliders[HAIR_SCENE_COLLIDERS];
     struct hair_bullet_list bullet;
+    struct hair_scene_cuts cuts;
     struct hair_scene_maps maps;
     bool shadow; // settings.light casts a shadow
     struct hair_scene_lights lights; // in addition to settings.light

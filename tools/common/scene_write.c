@@ -187,6 +187,26 @@ static void put_lights(json_t* root, const struct hair_scene* scene)
     json_object_set_new(root, "lights", array);
 }
 
+static void put_cuts(json_t* root, const struct hair_scene_cuts* cuts)
+{
+    const hair_cut_desc usual = hair_cut_desc_default();
+    json_t* array = cuts->count ? json_array() : NULL;
+    for (uint32_t i = 0; i < cuts->count; ++i) {
+        const hair_cut_desc* desc = &cuts->at[i].desc;
+        json_t* out = json_pack("{s:i, s:s, s:b, s:i}", "frame", (int)cuts->at[i].frame, "shape",
+                                hair_scene_cut_shape((int)desc->shape), "pieces", cuts->at[i].pieces,
+                                "groups", (int)desc->groups);
+        put(out, "start", desc->start, usual.start, 3);
+        put(out, "end", desc->end, usual.end, 3);
+        put(out, "normal", desc->normal, usual.normal, 3);
+        put(out, "radius", &desc->radius, &usual.radius, 1);
+        put(out, "last_start", desc->last_start, usual.last_start, 3);
+        put(out, "last_end", desc->last_end, usual.last_end, 3);
+        json_array_append_new(array, out);
+    }
+    if (array) json_object_set_new(root, "cuts", array);
+}
+
 static void put_wind(json_t* root, const struct hair_scene_wind* wind)
 {
     if (!wind->count) return;
@@ -272,6 +292,7 @@ static json_t* scene_of(const char* tool, const struct hair_scene* scene, struct
     if (scene->pivot_is_said) json_object_set_new(root, "pivot", numbers_of(scene->motion.pivot, 3));
     put_colliders(root, scene);
     put_lights(root, scene);
+    put_cuts(root, &scene->cuts);
     put_wind(root, &scene->wind);
     put_picture(root, scene, usual);
     put_settings(root, scene, usual);
