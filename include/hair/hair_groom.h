@@ -100,7 +100,9 @@ typedef enum hair_strand_attribute_kind {
     /// Multiple of the roughness along the fibre. [0.2, 4].
     HAIR_STRAND_ATTRIBUTE_ROUGHNESS,
     /// Multiple of hair_look.strand.radius. [0, 4].
-    HAIR_STRAND_ATTRIBUTE_RADIUS
+    HAIR_STRAND_ATTRIBUTE_RADIUS,
+    /// Fraction of its length from the root on that a strand has. Guides have it too. [0.01, 1].
+    HAIR_STRAND_ATTRIBUTE_LENGTH
 } hair_strand_attribute_kind;
 
 /// Factor that differs from strand to strand, by strand, by a map on the scalp, or by both, which

@@ -5,7 +5,7 @@
 
 #define GUIDE_KINDS 4 // Kinds of attributes that belong to guides. They are the first.
 
-static hair_result check_attribute_maps(const struct hair_groom_builder* builder)
+hair_result hair_check_attribute_maps(const struct hair_groom_builder* builder)
 {
     const hair_groom_desc* desc = builder->desc;
     bool has_maps = false;
@@ -32,17 +32,25 @@ bool hair_has_attribute(const struct hair_groom_builder* builder, hair_strand_at
     return false;
 }
 
+float hair_find_map_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                           const struct hair_scalp_point* scalp_point)
+{
+    const hair_groom_desc* desc = builder->desc;
+    float factor = 1;
+    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i)
+        if (desc->strand_attributes[i].kind == kind)
+            factor *= hair_map_value(builder, &desc->strand_attributes[i].map, scalp_point);
+    return factor;
+}
+
 float hair_find_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
                        const struct hair_strand_mix* mix, const struct hair_scalp_point* scalp_point)
 {
-    const hair_groom_desc* desc = builder->desc;
     const struct hair_attribute_range range = hair_attribute_range_of(kind);
     const float* of_strands = builder->strands.factors[kind];
     float factor = of_strands ? 0 : 1;
     for (int i = 0; of_strands && i < 3; ++i) factor += mix->weight[i] * of_strands[mix->strand[i]];
-    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i)
-        if (desc->strand_attributes[i].kind == kind)
-            factor *= hair_map_value(builder, &desc->strand_attributes[i].map, scalp_point);
+    factor *= hair_find_map_factor(builder, kind, scalp_point);
     return fminf(fmaxf(factor, range.min), range.max);
 }
 
@@ -107,7 +115,6 @@ static hair_result fill_with_maps(struct hair_groom_builder* builder)
 hair_result hair_build_guide_factors(struct hair_groom_builder* builder)
 {
     struct hair_groom* groom = builder->groom;
-    HAIR_TRY(check_attribute_maps(builder));
     bool has_maps = has_guide_values(builder, true);
     if (!has_maps && !has_guide_values(builder, false)) return HAIR_OK;
     groom->guide_factors = hair_alloc(builder->host, groom->info.guide_count, sizeof *groom->guide_factors);

@@ -69,6 +69,8 @@ static hair_result build_groom(struct hair_groom_builder* builder)
 {
     HAIR_TRY(hair_build_strands(builder));
     HAIR_TRY(hair_build_scalp(builder));
+    HAIR_TRY(hair_shorten_strands(builder));
+    HAIR_TRY(hair_measure_strands(builder));
     HAIR_TRY(hair_build_guides(builder));
     HAIR_TRY(hair_build_rest(builder));
     HAIR_TRY(hair_build_guide_factors(builder));
@@ -95,6 +97,7 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_free(builder->host, builder->features);
     hair_free(builder->host, builder->scalp);
     hair_free(builder->host, builder->density);
+    hair_free(builder->host, builder->map_lengths);
     hair_free(builder->host, builder->chosen);
     hair_free(builder->host, builder->owner);
     hair_free(builder->host, builder->near);

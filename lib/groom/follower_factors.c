@@ -70,7 +70,7 @@ hair_result hair_build_follower_factors(struct hair_groom_builder* builder)
     bool has_radii = is_used(builder, HAIR_STRAND_ATTRIBUTE_RADIUS);
     if (has_map(builder) && !builder->scalp_points) return hair_fail_degenerate(builder);
     find_slots(builder);
-    if (!groom->factor_count && !has_radii) return HAIR_OK;
+    if (!groom->factor_count && !has_radii && !builder->map_lengths) return HAIR_OK;
     if (groom->factor_count) {
         groom->factors =
             hair_alloc(builder->host, builder->candidate_count, groom->factor_count * sizeof *groom->factors);
@@ -83,6 +83,7 @@ hair_result hair_build_follower_factors(struct hair_groom_builder* builder)
         const struct hair_scalp_point* root = builder->scalp_points ? &builder->scalp_points[i] : &nowhere;
         if (has_radii)
             follower->offset[0].w *= hair_find_factor(builder, HAIR_STRAND_ATTRIBUTE_RADIUS, &mix, root);
+        if (builder->map_lengths && !builder->strand_of) hair_shorten_follower(builder, &mix, root, follower);
         if (groom->factors)
             write_factors(builder, &mix, root, groom->factors + (size_t)groom->factor_count * place);
     }

@@ -34,6 +34,8 @@ struct hair_groom_builder {
     float* scalp; // xyz per vertex, in the space of the strands. NULL without a scalp.
     float* density; // mean over each triangle
 
+    float* map_lengths; // fraction of each strand's length by maps. NULL without such maps.
+
     uint32_t* chosen; // strand of each guide
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
     // First guide of each group, and the number of guides, only with HAIR_STRAND_SET_FULL.
@@ -82,6 +84,16 @@ bool hair_has_attribute(const struct hair_groom_builder* builder, hair_strand_at
 float hair_find_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
                        const struct hair_strand_mix* mix, const struct hair_scalp_point* scalp_point);
 
+// Return the product of all maps of a kind at a point of the scalp.
+float hair_find_map_factor(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
+                           const struct hair_scalp_point* scalp_point);
+// Shorten a grown follower where the map of lengths is shorter at its root than at its guides.
+void hair_shorten_follower(const struct hair_groom_builder* builder, const struct hair_strand_mix* mix,
+                           const struct hair_scalp_point* root, struct hair_follower* follower);
+
+// Check the maps of all attributes.
+hair_result hair_check_attribute_maps(const struct hair_groom_builder* builder);
+
 // Check a map, whose name in hair_groom_desc is `name`, and the texture coordinates for images.
 hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
                            float min, float max);
@@ -95,9 +107,12 @@ hair_result hair_fail_degenerate(const struct hair_groom_builder* builder);
 // Steps, in order. Each reports a failure by one sentence and leaves its results in the builder.
 hair_result hair_build_strands(struct hair_groom_builder* builder);
 hair_result hair_build_scalp(struct hair_groom_builder* builder);
+// Check the maps of attributes, and shorten strands by those of their length.
+hair_result hair_shorten_strands(struct hair_groom_builder* builder);
+hair_result hair_measure_strands(struct hair_groom_builder* builder);
 hair_result hair_build_guides(struct hair_groom_builder* builder);
 hair_result hair_build_rest(struct hair_groom_builder* builder);
-// Check the maps of attributes, and compute the factors of guides.
+// Compute the factors of guides.
 hair_result hair_build_guide_factors(struct hair_groom_builder* builder);
 // Sources of followers. The desc selects one: full strands (bind.c), the guides and the space
 // around them (generate.c), or the scalp (scalp.c). First all candidates are counted per root bin.

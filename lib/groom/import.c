@@ -71,7 +71,11 @@ static void measure_import(struct hair_groom_builder* builder)
 
 hair_result hair_build_strands(struct hair_groom_builder* builder)
 {
-    HAIR_TRY(import_strands(builder));
+    return import_strands(builder);
+}
+
+hair_result hair_measure_strands(struct hair_groom_builder* builder)
+{
     uint32_t count = builder->strands.strand_count;
     builder->first = hair_alloc(builder->host, count, sizeof *builder->first);
     builder->length = hair_alloc(builder->host, count, sizeof *builder->length);

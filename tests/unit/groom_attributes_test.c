@@ -5,10 +5,12 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
 
+#include "lib/asset/strands.h"
 #include "lib/base/schema.h"
 #include "lib/rod/prepared.h"
 
@@ -138,6 +140,76 @@ static void prepared_rods_have_the_factors(void** state)
     finish(&furry);
 }
 
+// Return the length of a follower at rest, m.
+static double follower_length(const struct hair_groom* groom, uint32_t follower)
+{
+    const struct hair_follower* f = &groom->followers[follower];
+    double sum = 0;
+    for (int i = 0; i < 200; ++i)
+        sum += (double)hair_distance(hair_test_single(groom, f, (float)i / 200),
+                                     hair_test_single(groom, f, (float)(i + 1) / 200));
+    return sum;
+}
+
+// Guides and full strands have the lengths of their strand times factor and map. Grown followers
+// have the fraction of the map at their root, or that of their guides where it is smaller.
+static void lengths_are_fractions_in_metres(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_LENGTH);
+    furry.desc.follower_count = 1000;
+    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = i % 3 ? 1 : 0.4f;
+    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = 0.2f + 0.8f * furry.scalp.positions[3 * i];
+    for (int set = 0; set < 2; ++set) {
+        furry.desc.strand_set = set ? HAIR_STRAND_SET_GUIDES : HAIR_STRAND_SET_FULL;
+        furry.desc.strand_attribute_count = 0;
+        hair_groom* whole = hair_test_groom_of(&furry.desc);
+        furry.desc.strand_attribute_count = 2;
+        hair_groom* groom = hair_test_groom_of(&furry.desc);
+        double off = 0;
+        for (uint32_t g = 0; set && g < COUNT; ++g) {
+            double wanted = (double)furry.of_strands[g] * (0.2 + 0.8 * (double)root_x(whole, g));
+            off = fmax(off, fabs((double)groom->guides[g].arc_length / (double)whole->guides[g].arc_length -
+                                 wanted));
+        }
+        printf("guides are %.1e off\n", off);
+        assert_true(off < 5e-3);
+        assert_int_equal(groom->info.follower_count, whole->info.follower_count);
+        double sum[2] = {0};
+        uint32_t shorter = 0;
+        for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+            const struct hair_follower* f = &groom->followers[i];
+            hair_vec3 root = hair_test_single(groom, f, 0);
+            sum[root.x > 0.5f] += follower_length(groom, i);
+            if (!set) continue;
+            double own = 0.2 + 0.8 * (double)root.x, mean = 0.2;
+            const uint32_t guides[3] = {f->guide0, f->guide1, f->guide2};
+            const float weights[3] = {1 - f->weight1 - f->weight2, f->weight1, f->weight2};
+            for (int k = 0; k < 3; ++k) mean += 0.8 * (double)(weights[k] * root_x(groom, guides[k]));
+            double ratio = (double)f->length_ratio / (double)whole->followers[i].length_ratio;
+            assert_float_equal(ratio, fmin(1, own / mean), 1e-3);
+            shorter += ratio < 0.95;
+        }
+        if (set) printf("%u followers are shorter than their guides\n", shorter);
+        assert_true(!set || shorter > 10);
+        double wanted[2] = {0};
+        for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++]) {
+            const float* p = furry.strands.positions + 3 * (size_t)first;
+            wanted[p[0] > 0.5f] += hair_strand_length(p, furry.strands.vertices[i]) *
+                                   (double)furry.of_strands[i] * (0.2 + 0.8 * (double)p[0]);
+        }
+        if (!set)
+            printf("set %d: %.1f and %.1f mm, not %.1f and %.1f mm\n", set, 1e3 * sum[0], 1e3 * sum[1],
+                   1e3 * wanted[0], 1e3 * wanted[1]);
+        for (int half = 0; half < 2 && set == 0; ++half)
+            assert_true(fabs(sum[half] / wanted[half] - 1) < 0.01);
+        hair_groom_destroy(groom);
+        hair_groom_destroy(whole);
+    }
+    finish(&furry);
+}
+
 static const hair_member* find_member(const struct hair_schema* schema, const char* name)
 {
     for (uint32_t i = 0; i < schema->count; ++i)
@@ -252,6 +324,7 @@ int main(void)
         TEST(guides_have_products_of_strand_and_map),
         TEST(values_stay_with_their_strands),
         TEST(prepared_rods_have_the_factors),
+        TEST(lengths_are_fractions_in_metres),
         TEST(products_stay_within_the_ranges_of_physics),
         TEST(invalid_attributes_are_refused_by_index_and_range),
         TEST(refused_allocations_of_attributes_leak_nothing),
