@@ -64,9 +64,9 @@ typedef struct hair_cut_desc {
     /// Normal of the plane in the world, of any length above 0. Hair on its side is cut off.
     float normal[3]; ///< [-1, 1]. Default (0, -1, 0).
     float radius; ///< Radius of the capsule. m. [0, 1e6]. Default 0.01.
-    /// Position of `start` at the begin of the stroke of a blade. Without a stroke it cuts nothing.
+    /// Position of `start` when the stroke of a blade begins. Without a stroke it cuts nothing.
     float last_start[3]; ///< m. [-1e9, 1e9]. Default 0.
-    /// Position of `end` at the begin of the stroke of a blade.
+    /// Position of `end` when the stroke of a blade begins.
     float last_end[3]; ///< m. [-1e9, 1e9]. Default 0.
     /// Groups of strands that are cut. Bit i stands for group i.
     uint32_t groups; ///< [0, 255]. Default 255.

@@ -7,8 +7,8 @@ VECTOR(hair_cut_desc, normal, 0, -1, 0, -1, 1, -1, 1, "",
       "Normal of the plane in the world, of any length above 0.")
 FLOAT(hair_cut_desc, radius, 0.01, 0, 1e6, 0, 0.5, LINEAR, "m", "Radius of the capsule.")
 VECTOR(hair_cut_desc, last_start, 0, 0, 0, -1e9, 1e9, -2, 2, "m",
-      "Position of `start` at the begin of the stroke of a blade.")
+      "Position of `start` when the stroke of a blade begins.")
 VECTOR(hair_cut_desc, last_end, 0, 0, 0, -1e9, 1e9, -2, 2, "m",
-      "Position of `end` at the begin of the stroke of a blade.")
+      "Position of `end` when the stroke of a blade begins.")
 UINT(hair_cut_desc, groups, 255, 0, 255, 0, 255, LINEAR, "", "Groups of strands that are cut.")
 END
