@@ -70,7 +70,8 @@ static void strands_drawn_follow_the_level_of_detail(void** state)
     double all = number_of("strands", "", "drawn");
     double few =
         number_of("strands", "--set lod=on --set lod.per_patch=off --set lod.strand_fraction=0.25", "drawn");
-    assert_true(all > 270 && all <= 300);
+    // The scalp is thinner at the hairline.
+    assert_true(all > 240 && all < 285);
     assert_true(few > 0.2 * all && few < 0.3 * all);
 }
 

@@ -36,6 +36,7 @@ static const struct {
     {HAIR_STRUCT_GROOM_DESC, "guide_count", "guides"},
     {HAIR_STRUCT_GROOM_DESC, "follower_count", "followers"},
     {HAIR_STRUCT_GROOM_DESC, "strand_count", NULL},
+    {HAIR_STRUCT_GROOM_DESC, "strand_attribute_count", NULL},
     {HAIR_STRUCT_GROOM_DESC, "strand_set", NULL},
     {HAIR_STRUCT_GROOM_DESC, "scalp_vertex_count", NULL},
     {HAIR_STRUCT_GROOM_DESC, "scalp_triangle_count", NULL},
