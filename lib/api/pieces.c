@@ -258,6 +258,18 @@ static hair_vec3 follower_velocity(const struct hair_piece_source* source, uint3
     return sum;
 }
 
+// Replace the state that creation wrote. The driver of an H100 lost what glNamedBufferSubData wrote
+// after a shader, so the GPU copies.
+static hair_result write_states(const struct hair_sim* sim, const struct hair_state* states)
+{
+    GLuint upload = 0;
+    size_t size = sim->guide_vertices * sizeof *states;
+    HAIR_TRY(hair_gl_buffer(sim->gl, HAIR_GL_CATEGORY_SOLVE, "motion of cut hair", size, states, &upload));
+    sim->gl->CopyNamedBufferSubData(upload, sim->state, 0, 0, (GLsizeiptr)size);
+    hair_gl_free_buffer(sim->gl, &upload);
+    return HAIR_OK;
+}
+
 // Give the guides of the pieces the velocities of the hair. What is drawn lies one substep behind
 // the state.
 static hair_result set_piece_motion(const struct hair_piece_source* source, const uint32_t* piece_of,
@@ -280,10 +292,10 @@ static hair_result set_piece_motion(const struct hair_piece_source* source, cons
             so_far += groom->rest[i].position.w;
         }
     }
-    sim->gl->NamedBufferSubData(sim->state, 0, (GLsizeiptr)(sim->guide_vertices * sizeof *states), states);
-    hair_geometry_invalidate_guides(&pieces->geometry);
+    hair_result result = write_states(sim, states);
+    if (!result) hair_geometry_invalidate_guides(&pieces->geometry);
     hair_free(&sim->gl->host, states);
-    return HAIR_OK;
+    return result;
 }
 
 // Give pieces the settings of the hair that creation does not take.
