@@ -180,8 +180,7 @@ static hair_result read_strands(struct cut* cut)
     if (!cut->states || !cut->guide || !cut->needed || !cut->follower)
         return hair_fail_memory(host, "the strands to cut");
     HAIR_TRY(hair_read_follower_vertices(hair, &cut->vertices));
-    hair->context->gl.GetNamedBufferSubData(hair->sim.state, 0, (GLsizeiptr)(vertices * sizeof *cut->states),
-                                            cut->states);
+    hair_gl_read(&hair->context->gl, hair->sim.state, vertices * sizeof *cut->states, cut->states);
     return hair_check_lost(hair->context, HAIR_OK);
 }
 

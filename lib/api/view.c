@@ -323,7 +323,7 @@ static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t coun
     struct hair_gl* gl = &hair->context->gl;
     float* copy = hair_alloc(&gl->host, count, stride * sizeof *copy);
     if (!copy) return hair_fail_memory(&gl->host, "the vertices to read");
-    gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)(count * stride * sizeof *copy), copy);
+    hair_gl_read(gl, buffer, count * stride * sizeof *copy, copy);
     copy_to_world(copy, stride, count, head, positions);
     hair_free(&gl->host, copy);
     return hair_check_lost(hair->context, HAIR_OK);

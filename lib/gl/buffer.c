@@ -150,6 +150,24 @@ hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const 
     return HAIR_OK;
 }
 
+void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out)
+{
+    HAIR_ASSERT(buffer && size > 0);
+    static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    GLuint copy = 0;
+    GLint64 got = 0;
+    // At the limit of memory, a buffer is read directly.
+    if (hair_gl_memory_allows(&gl->memory, size)) gl->CreateBuffers(1, &copy);
+    if (copy) {
+        gl->NamedBufferStorage(copy, (GLsizeiptr)size, NULL, access);
+        gl->GetNamedBufferParameteri64v(copy, GL_BUFFER_SIZE, &got);
+    }
+    bool has_copy = got == (GLint64)size;
+    if (has_copy) gl->CopyNamedBufferSubData(buffer, copy, 0, 0, (GLsizeiptr)size);
+    gl->GetNamedBufferSubData(has_copy ? copy : buffer, 0, (GLsizeiptr)size, out);
+    if (copy) gl->DeleteBuffers(1, &copy);
+}
+
 // Textures ----------------------------------------------------------------------------------------
 
 hair_result hair_gl_buffer_texture(struct hair_gl* gl, const char* label, GLenum format, GLuint buffer,

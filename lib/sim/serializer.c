@@ -133,7 +133,7 @@ void hair_serialize_buffer(struct hair_serializer* s, const char* name, GLuint b
         add_buffer(s, buffer, size);
         s->gl->CopyNamedBufferSubData(buffer, s->copies, 0, (GLintptr)s->at, (GLsizeiptr)size);
     } else if (s->write) {
-        s->gl->GetNamedBufferSubData(buffer, 0, (GLsizeiptr)size, s->write + s->at);
+        hair_gl_read(s->gl, buffer, size, s->write + s->at);
         hair_serialize_native(s->write + s->at, size);
     }
     if (s->read) {

@@ -142,7 +142,7 @@ static hair_result find_motion(struct hair_sim* sim, uint32_t found[HAIR_FOUND_C
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_MOTION_PARAMS, 1, &d->motion_params);
     gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_FOUND, 1, &d->found);
     hair_gl_run(gl, HAIR_GL_MOTION_OF_GUIDES, (sim->guides + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    gl->GetNamedBufferSubData(d->found, 0, HAIR_FOUND_COUNT * sizeof *found, found);
+    hair_gl_read(gl, d->found, HAIR_FOUND_COUNT * sizeof *found, found);
     return HAIR_OK;
 }
 
@@ -160,7 +160,7 @@ hair_result hair_sim_solver_stats(struct hair_sim* sim, hair_solver_stats* solve
     uint32_t count[HAIR_SOLVER_STATS_COUNT] = {0}, found[HAIR_FOUND_COUNT] = {0};
     struct hair_rods_report held = hair_sim_preload_report(sim);
     HAIR_TRY(find_motion(sim, found));
-    sim->gl->GetNamedBufferSubData(sim->solver_stats, 0, sizeof count, count);
+    hair_gl_read(sim->gl, sim->solver_stats, sizeof count, count);
     solver_stats->euler_fallbacks = count[HAIR_SOLVER_STATS_EULER_FALLBACKS];
     solver_stats->follow_fallbacks = count[HAIR_SOLVER_STATS_FOLLOW_FALLBACKS];
     solver_stats->reset = count[HAIR_SOLVER_STATS_RESET];

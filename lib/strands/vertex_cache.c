@@ -109,9 +109,7 @@ hair_result hair_geometry_read_vertex_cache(struct hair_geometry* geometry, hair
     hair_vec4* vertices = hair_alloc(&gl->host, count, sizeof *vertices);
     if (!vertices) return hair_fail_memory(&gl->host, "the followers to read");
     hair_result result = hair_geometry_ensure_vertex_cache(geometry, NULL);
-    if (!result)
-        gl->GetNamedBufferSubData(geometry->vertex_cache.position, 0, (GLsizeiptr)(count * sizeof *vertices),
-                                  vertices);
+    if (!result) hair_gl_read(gl, geometry->vertex_cache.position, count * sizeof *vertices, vertices);
     // Keep the memory only if drawing uses it.
     if (!kept) hair_geometry_free_vertex_cache(geometry);
     if (result) {

@@ -59,6 +59,7 @@ static void make_stub(struct stub* stub, const struct hair_fuzz_host* host, unsi
     struct hair_sim* sim = &stub->sim;
     stub->gl.host = host->host;
     stub->gl.GetNamedBufferSubData = get_buffer;
+    stub->gl.memory.limit = stub->gl.memory.bytes = 1; // Buffers are read without a copy.
     stub->guides[0].count = 4, stub->guides[1].count = VERTICES - 4;
     stub->groom.guides = stub->guides;
     stub->groom.info.follower_count = 3;
