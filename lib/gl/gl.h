@@ -361,7 +361,7 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
 hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                            GLuint* out, const void** mapped);
 
-// Read the beginning of a buffer, and wait for the GPU. The GPU copies into memory of the processor.
+// Read the beginning of a buffer, and wait for the GPU. The GPU copies to memory of the processor.
 // The driver of an H100 would move a buffer that is read there, where shaders are slow.
 void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out);
 
