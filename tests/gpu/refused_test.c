@@ -112,6 +112,8 @@ static void torture(struct user* user, hair_result (*call)(struct user*), struct
             assert_true(*of.done >= of.min);
             return;
         }
+        // Without memory for a copy, a save reads the buffer itself.
+        if (!result && call == save_and_load && of.done == &hair_test_refusal.creations) continue;
         if (result != HAIR_ERROR_MEMORY &&
             (result != HAIR_ERROR_OPENGL || of.done != &hair_test_refusal.creations))
             fail_msg("%u of %s: %s", n, of.what, hair_result_string(result));
