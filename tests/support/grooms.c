@@ -113,6 +113,16 @@ hair_groom* hair_test_groom_of(const hair_groom_desc* desc)
     return groom;
 }
 
+void hair_test_refuse_groom(struct hair_test_host* test, const hair_groom_desc* desc, const char* words)
+{
+    hair_groom* groom = NULL;
+    assert_int_equal(hair_groom_create(desc, &groom), HAIR_ERROR_ARGUMENT);
+    assert_null(groom);
+    assert_int_equal(test->errors, 1);
+    if (!strstr(test->sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test->sentence, words);
+    test->errors = 0;
+}
+
 static float unpack(uint32_t bits)
 {
     return (float)(int16_t)(bits & 0xffffu) / 32767;

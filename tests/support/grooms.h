@@ -45,6 +45,8 @@ void hair_test_set_scalp(hair_groom_desc* desc, const struct hair_test_scalp* sc
 
 // Create a groom. The test fails if this fails.
 hair_groom* hair_test_groom_of(const hair_groom_desc* desc);
+// Check that creation refuses a groom with one error, whose sentence has `words`. Forget the error.
+void hair_test_refuse_groom(struct hair_test_host* test, const hair_groom_desc* desc, const char* words);
 
 static inline hair_vec3 hair_test_xyz(hair_vec4 v)
 {

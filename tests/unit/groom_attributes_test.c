@@ -238,60 +238,57 @@ static void products_stay_within_the_ranges_of_physics(void** state)
         assert_true(checks[i].value == (float)find_member(&schema, checks[i].name)->max);
 }
 
-static void assert_refused(const hair_groom_desc* desc, const char* words)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_ERROR_ARGUMENT);
-    assert_null(groom);
-    assert_int_equal(test.errors, 1);
-    if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
-    test.errors = 0;
-}
-
 static void invalid_attributes_are_refused_by_index_and_range(void** state)
 {
     (void)state;
     struct furry furry;
     prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
     furry.of_strands[17] = 100.5f;
-    assert_refused(&furry.desc,
-                   "hair_groom_desc.strand_attributes[0].strand_values[17] is 100.5, not in [0, 100]");
+    hair_test_refuse_groom(
+        &test, &furry.desc,
+        "hair_groom_desc.strand_attributes[0].strand_values[17] is 100.5, not in [0, 100]");
     furry.of_strands[17] = NAN;
-    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[0].strand_values[17] is");
+    hair_test_refuse_groom(&test, &furry.desc, "hair_groom_desc.strand_attributes[0].strand_values[17] is");
     furry.of_strands[17] = 1;
     furry.of_vertices[80] = -1;
-    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[1].map.values[80] is -1, not in [0, 100]");
+    hair_test_refuse_groom(&test, &furry.desc,
+                           "hair_groom_desc.strand_attributes[1].map.values[80] is -1, not in [0, 100]");
     furry.of_vertices[80] = 1;
     furry.uvs[9] = INFINITY;
-    assert_refused(&furry.desc, "scalp_uvs: vertex 4 has inf");
+    hair_test_refuse_groom(&test, &furry.desc, "scalp_uvs: vertex 4 has inf");
     furry.uvs[9] = 0;
     furry.attributes[1].map.source = HAIR_MAP_SOURCE_IMAGE;
-    assert_refused(&furry.desc, "strand_attributes[1].map is an image of 0 by 0, not of [1, 16384] each");
+    hair_test_refuse_groom(&test, &furry.desc,
+                           "strand_attributes[1].map is an image of 0 by 0, not of [1, 16384] each");
     furry.attributes[1].map.width = furry.attributes[1].map.height = 9;
     furry.desc.scalp_uvs = NULL;
-    assert_refused(&furry.desc, "scalp_uvs is NULL but strand_attributes[1].map is an image");
+    hair_test_refuse_groom(&test, &furry.desc, "scalp_uvs is NULL but strand_attributes[1].map is an image");
     furry.attributes[1].map.values = NULL;
-    assert_refused(&furry.desc, "strand_attributes[1].map.values is NULL");
+    hair_test_refuse_groom(&test, &furry.desc, "strand_attributes[1].map.values is NULL");
     furry.attributes[0].kind = (hair_strand_attribute_kind)99;
-    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes[0].kind is 99, not in [0, ");
+    hair_test_refuse_groom(&test, &furry.desc,
+                           "hair_groom_desc.strand_attributes[0].kind is 99, not in [0, ");
     furry.attributes[0].header.version = 0;
     hair_groom* none = NULL;
     assert_int_equal(hair_groom_create(&furry.desc, &none), HAIR_ERROR_VERSION);
     test.errors = 0;
     furry.desc.strand_attributes = NULL;
-    assert_refused(&furry.desc, "hair_groom_desc.strand_attributes is NULL but strand_attribute_count is 2");
+    hair_test_refuse_groom(&test, &furry.desc,
+                           "hair_groom_desc.strand_attributes is NULL but strand_attribute_count is 2");
     furry.desc.strand_attribute_count = 33;
-    assert_refused(&furry.desc, "hair_groom_desc.strand_attribute_count is 33, not in [0, 32]");
+    hair_test_refuse_groom(&test, &furry.desc,
+                           "hair_groom_desc.strand_attribute_count is 33, not in [0, 32]");
     finish(&furry);
     prepare(&furry, HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD);
     for (uint32_t i = 0; i < 3 * furry.scalp.triangle_count; ++i) furry.scalp.triangles[i] = 0;
     furry.desc.strand_set = HAIR_STRAND_SET_FULL;
-    assert_refused(&furry.desc, "scalp_triangles: none of 128 has three different corners");
+    hair_test_refuse_groom(&test, &furry.desc, "scalp_triangles: none of 128 has three different corners");
     furry.desc.strand_attribute_count = 1;
     hair_groom_destroy(hair_test_groom_of(&furry.desc));
     hair_groom_desc bald = hair_test_groom_desc(&test, &furry.strands);
     bald.strand_attributes = furry.attributes, bald.strand_attribute_count = 2;
-    assert_refused(&bald, "hair_groom_desc.scalp_positions is NULL but strand_attributes[1].map is not");
+    hair_test_refuse_groom(&test, &bald,
+                           "hair_groom_desc.scalp_positions is NULL but strand_attributes[1].map is not");
     finish(&furry);
 }
 

@@ -65,16 +65,6 @@ static void free_grown(struct grown* grown)
     hair_test_scalp_free(&grown->scalp);
 }
 
-static void assert_refused(const hair_groom_desc* desc, const char* words)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_ERROR_ARGUMENT);
-    assert_null(groom);
-    assert_int_equal(test.errors, 1);
-    if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
-    test.errors = 0;
-}
-
 static hair_map image(const float* values, uint32_t width, uint32_t height)
 {
     return (hair_map){HAIR_MAP_SOURCE_IMAGE, values, width, height};
@@ -275,35 +265,36 @@ static void invalid_maps_are_refused_by_set_index_and_range(void** state)
     prepare(&grown, 100, 0);
     hair_map_set* set = &grown.set[0];
     grown.desc.map_sets[1] = &grown.set[1];
-    assert_refused(&grown.desc, "map_sets[0] is NULL but [1] is not");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[0] is NULL but [1] is not");
     grown.desc.map_sets[0] = set;
     set->density = (hair_map){HAIR_MAP_SOURCE_VERTICES, NULL, 0, 0};
-    assert_refused(&grown.desc, "map_sets[0].density.values is NULL");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[0].density.values is NULL");
     set->density.source = (hair_map_source)7;
-    assert_refused(&grown.desc, "map_sets[0].density.source is 7, not in [0, 3]");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[0].density.source is 7, not in [0, 3]");
     set->density = (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
     values[7] = 1.5f;
-    assert_refused(&grown.desc, "map_sets[0].density.values[7] is 1.5, not in [0, 1]");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[0].density.values[7] is 1.5, not in [0, 1]");
     values[7] = NAN;
-    assert_refused(&grown.desc, "map_sets[0].density.values[7] is");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[0].density.values[7] is");
     values[7] = 0;
     grown.set[1].thickness = image(values, 4, 2);
     values[6] = 4.5f;
     set->density = (hair_map){0};
-    assert_refused(&grown.desc, "map_sets[1].thickness.values[6] is 4.5, not in [0, 4]");
+    hair_test_refuse_groom(&test, &grown.desc, "map_sets[1].thickness.values[6] is 4.5, not in [0, 4]");
     grown.set[1].thickness = image(values, 0, 2);
-    assert_refused(&grown.desc, "map_sets[1].thickness is an image of 0 by 2, not of [1, 16384] each");
+    hair_test_refuse_groom(&test, &grown.desc,
+                           "map_sets[1].thickness is an image of 0 by 2, not of [1, 16384] each");
     grown.set[1].thickness = image(values, 2, 1);
     grown.desc.scalp_uvs = NULL;
-    assert_refused(&grown.desc, "scalp_uvs is NULL but map_sets[1].thickness is an image");
+    hair_test_refuse_groom(&test, &grown.desc, "scalp_uvs is NULL but map_sets[1].thickness is an image");
     grown.desc.scalp_uvs = grown.uvs;
     grown.uvs[9] = INFINITY;
-    assert_refused(&grown.desc, "scalp_uvs: vertex 4 has inf, not in [-1e6, 1e6]");
+    hair_test_refuse_groom(&test, &grown.desc, "scalp_uvs: vertex 4 has inf, not in [-1e6, 1e6]");
     grown.desc.scalp_positions = NULL;
-    assert_refused(&grown.desc, "scalp_positions is NULL");
+    hair_test_refuse_groom(&test, &grown.desc, "scalp_positions is NULL");
     hair_groom_desc plain = hair_test_groom_desc(&test, &grown.strands);
     plain.map_sets[0] = set;
-    assert_refused(&plain, "scalp_positions is NULL but map_sets[0] is not");
+    hair_test_refuse_groom(&test, &plain, "scalp_positions is NULL but map_sets[0] is not");
     free_grown(&grown);
 }
 

@@ -14,16 +14,6 @@
 
 static struct hair_test_host test;
 
-static void assert_refused(const hair_groom_desc* desc, const char* words)
-{
-    hair_groom* groom = NULL;
-    assert_int_equal(hair_groom_create(desc, &groom), HAIR_ERROR_ARGUMENT);
-    assert_null(groom);
-    assert_int_equal(test.errors, 1);
-    if (!strstr(test.sentence, words)) fail_msg("\"%s\" does not say \"%s\"", test.sentence, words);
-    test.errors = 0;
-}
-
 // An example for each of the four sources of followers.
 struct example {
     struct hair_test_strands strands;
@@ -60,9 +50,10 @@ static void groom_without_a_usable_strand_is_refused(void** state)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 2;
-    assert_refused(&desc,
-                   "none of 2 strands can be used: 1 have fewer than two vertices left, 1 are too short; 1 "
-                   "vertices were not finite");
+    hair_test_refuse_groom(
+        &test, &desc,
+        "none of 2 strands can be used: 1 have fewer than two vertices left, 1 are too short; 1 "
+        "vertices were not finite");
 }
 
 static void vertex_count_overflow_is_refused(void** state)
@@ -75,7 +66,7 @@ static void vertex_count_overflow_is_refused(void** state)
     desc.positions = positions;
     desc.strand_vertices = vertices;
     desc.strand_count = 2;
-    assert_refused(&desc, "hair_groom_desc.strand_vertices add up to 4294967296");
+    hair_test_refuse_groom(&test, &desc, "hair_groom_desc.strand_vertices add up to 4294967296");
 }
 
 static void more_guides_than_262144_are_refused(void** state)
@@ -84,7 +75,7 @@ static void more_guides_than_262144_are_refused(void** state)
     struct hair_test_strands strands = hair_test_fur(HAIR_MAX_GUIDES + 1);
     hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
     desc.strand_set = HAIR_STRAND_SET_GUIDES;
-    assert_refused(&desc, "262145 guides, not in [1, 262144]");
+    hair_test_refuse_groom(&test, &desc, "262145 guides, not in [1, 262144]");
     hair_test_strands_free(&strands);
 }
 
@@ -98,15 +89,15 @@ static void invalid_scalp_is_refused_by_index_value_and_range(void** state)
     desc.scalp_density = density;
 
     density[7] = 1.5f;
-    assert_refused(&desc, "scalp_density[7] is 1.5, not in [0, 1]");
+    hair_test_refuse_groom(&test, &desc, "scalp_density[7] is 1.5, not in [0, 1]");
     density[7] = NAN;
-    assert_refused(&desc, "scalp_density[7] is");
+    hair_test_refuse_groom(&test, &desc, "scalp_density[7] is");
     density[7] = 1;
     example.scalp.triangles[5] = 25;
-    assert_refused(&desc, "scalp_triangles[5] is 25, not in [0, 24]");
+    hair_test_refuse_groom(&test, &desc, "scalp_triangles[5] is 25, not in [0, 24]");
     example.scalp.triangles[5] = 0;
     example.scalp.positions[10] = INFINITY;
-    assert_refused(&desc, "scalp_positions: vertex 3 is (");
+    hair_test_refuse_groom(&test, &desc, "scalp_positions: vertex 3 is (");
     free_example(&example);
 }
 
@@ -117,7 +108,7 @@ static void scalp_where_nothing_can_grow_is_refused(void** state)
     hair_groom_desc desc = example.desc[3];
     float density[25] = {0};
     desc.scalp_density = density;
-    assert_refused(&desc, "none of 32 has an area and a scalp_density above 0");
+    hair_test_refuse_groom(&test, &desc, "none of 32 has an area and a scalp_density above 0");
     free_example(&example);
 }
 
