@@ -186,13 +186,6 @@ static void struck_strand_gains_the_momentum_that_the_ball_loses(void** state)
     }
 }
 
-static uint64_t gpu_bytes(struct hair_test* test)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(test, hair_get_memory(test->context, &memory));
-    return memory.bytes;
-}
-
 // Without a record nothing is there. A record without colliders takes nothing either.
 static void contacts_cost_nothing_unless_recorded(void** state)
 {
@@ -205,15 +198,15 @@ static void contacts_cost_nothing_unless_recorded(void** state)
     hair_test_ok(f.test, hair_record_contacts(hair, 0));
     set_collider(&f, &plane);
     hair_test_wait(&f.living, 2);
-    uint64_t before = gpu_bytes(f.test);
+    uint64_t before = hair_test_gpu_bytes(f.test);
     assert_int_equal(hair->memory.bytes[HAIR_GL_CATEGORY_IMPULSES], 0);
     hair_test_ok(f.test, hair_record_contacts(hair, 1));
     hair_test_wait(&f.living, 2);
     assert_true(hair->memory.bytes[HAIR_GL_CATEGORY_IMPULSES] > 0);
     hair_test_ok(f.test, hair_record_contacts(hair, 0));
-    assert_int_equal(gpu_bytes(f.test), before);
+    assert_int_equal(hair_test_gpu_bytes(f.test), before);
     hair_test_wait(&f.living, 1);
-    assert_int_equal(gpu_bytes(f.test), before);
+    assert_int_equal(hair_test_gpu_bytes(f.test), before);
     finish(&f);
 }
 
@@ -272,7 +265,7 @@ static void wrong_requests_for_contacts_are_refused(void** state)
     hair_collider plane = hair_test_body(HAIR_SHAPE_PLANE, 0, -0.02f, 0);
     set_collider(&f, &plane);
     hair_test_ok(test, hair_record_contacts(hair, 1));
-    hair_test_ok(test, hair_set_memory_limit(test->context, gpu_bytes(test) + 100));
+    hair_test_ok(test, hair_set_memory_limit(test->context, hair_test_gpu_bytes(test) + 100));
     hair_test_refused(test, hair_step(hair, 1.0f / 60), HAIR_ERROR_MEMORY, "hair impulse");
     hair_test_ok(test, hair_set_memory_limit(test->context, 0));
     hair_test_wait(&f.living, 1);

@@ -203,21 +203,14 @@ static void color_of_a_group_replaces_those_of_groom_and_look(void** state)
     }
 }
 
-static uint64_t gpu_bytes(struct hair_test* test)
-{
-    hair_memory memory = hair_memory_default();
-    hair_test_ok(test, hair_get_memory(test->context, &memory));
-    return memory.bytes;
-}
-
 // Check that the reflectance of hair_get_buffers() follows, and that default looks take no memory.
 static void colors_of_groups_are_in_buffers_and_cost_nothing_unused(void** state)
 {
     hair_look look = plain_look();
     struct hair_test_scene scene = start(*state, &look, false);
-    uint64_t before = gpu_bytes(scene.test);
+    uint64_t before = hair_test_gpu_bytes(scene.test);
     for (uint32_t g = 0; g < GROUPS; ++g) set_radius(&scene, g, 1);
-    assert_int_equal(gpu_bytes(scene.test), before);
+    assert_int_equal(hair_test_gpu_bytes(scene.test), before);
     for (int is_red = 0; is_red < 2; ++is_red) {
         hair_buffers got = hair_buffers_default();
         uint16_t half[4 * 9 * GROUPS];
@@ -288,14 +281,14 @@ static void wrong_looks_of_groups_are_refused(void** state)
     hair_test_ok(test, hair_get_group_look(scene.hair, 5, &got));
     assert_true(got.radius == 2 && got.color.enabled);
     // Without memory for the colours, the followers made for the radius are given up too.
-    uint64_t bytes = gpu_bytes(test), followers = 96 * GROUPS + 16 * HAIR_SHAPE_TEXELS(4) * GROUPS;
+    uint64_t bytes = hair_test_gpu_bytes(test), followers = 96 * GROUPS + 16 * HAIR_SHAPE_TEXELS(4) * GROUPS;
     own.radius = 3, own.color.tip[2] = 1;
     hair_test_ok(test, hair_set_memory_limit(test->context, bytes + followers));
     hair_test_refused(test, hair_set_group_look(scene.hair, 1, &own), HAIR_ERROR_MEMORY, "hair colours");
     hair_test_ok(test, hair_set_memory_limit(test->context, 0));
     hair_test_ok(test, hair_get_group_look(scene.hair, 1, &got));
     assert_true(got.radius == 1 && !got.color.enabled);
-    assert_int_equal(gpu_bytes(test), bytes);
+    assert_int_equal(hair_test_gpu_bytes(test), bytes);
     assert_int_equal(hair_set_group_look(NULL, 0, NULL), HAIR_ERROR_ARGUMENT);
     assert_int_equal(hair_get_group_look(NULL, 0, &got), HAIR_ERROR_ARGUMENT);
     hair_test_scene_free(&scene);

@@ -64,6 +64,13 @@ uint32_t hair_test_blocks(const struct hair_test* test)
     return test->host.blocks - gl->programs - (gl->program != NULL);
 }
 
+uint64_t hair_test_gpu_bytes(struct hair_test* test)
+{
+    hair_memory memory = hair_memory_default();
+    hair_test_ok(test, hair_get_memory(test->context, &memory));
+    return memory.bytes;
+}
+
 // Return 1 for a program or a shader that is not deleted. Mesa keeps the program of the last draw
 // until the next draw, and a program keeps its shaders.
 static uint32_t is_kept(GLuint name)

@@ -41,6 +41,8 @@ int hair_test_end(void** state);
 // Return the number of blocks that the host has lent, without those that the context keeps for
 // passes used so far.
 uint32_t hair_test_blocks(const struct hair_test* test);
+// Return the memory of the GPU that the context has in use, in bytes.
+uint64_t hair_test_gpu_bytes(struct hair_test* test);
 // Count the OpenGL objects that are not deleted, by trying all names.
 uint32_t hair_test_count_objects(void);
 
