@@ -76,6 +76,9 @@ HAIR_DESC(hair_map_set)
 
 /// Property of strands that a hair_strand_attribute multiplies.
 ///
+/// Colours of strands are hair_groom_desc.colors, and a map of colours on the scalp is
+/// hair_view.color_texture.
+///
 /// The first four belong to guides. A guide has the values of its strand and of the map at its
 /// root. HAIR_SOLVER_REDBLACK ignores these four. They take no memory of the GPU. The five from
 /// HAIR_STRAND_ATTRIBUTE_CLUMP on take 2 bytes each per follower. The others change the groom when
@@ -102,7 +105,10 @@ typedef enum hair_strand_attribute_kind {
     /// Multiple of hair_look.strand.radius. [0, 4].
     HAIR_STRAND_ATTRIBUTE_RADIUS,
     /// Fraction of its length from the root on that a strand has. Guides have it too. [0.01, 1].
-    HAIR_STRAND_ATTRIBUTE_LENGTH
+    HAIR_STRAND_ATTRIBUTE_LENGTH,
+    /// Probability that a follower exists. The followers that exist are the same as without the
+    /// attribute, unless they grow around guides without a scalp. All guides exist. [0, 1].
+    HAIR_STRAND_ATTRIBUTE_DENSITY
 } hair_strand_attribute_kind;
 
 /// Factor that differs from strand to strand, by strand, by a map on the scalp, or by both, which

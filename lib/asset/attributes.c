@@ -17,6 +17,7 @@ struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind k
         [HAIR_STRAND_ATTRIBUTE_ROUGHNESS] = {0.2f, 4},
         [HAIR_STRAND_ATTRIBUTE_RADIUS] = {0, 4},
         [HAIR_STRAND_ATTRIBUTE_LENGTH] = {0.01f, 1},
+        [HAIR_STRAND_ATTRIBUTE_DENSITY] = {0, 1},
     };
     _Static_assert(sizeof ranges / sizeof *ranges == HAIR_ATTRIBUTE_KINDS, "each kind has a range");
     HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 
 #define HAIR_STRAND_MAX_VERTICES 256
-#define HAIR_ATTRIBUTE_KINDS 11 // Number of values of hair_strand_attribute_kind.
+#define HAIR_ATTRIBUTE_KINDS 12 // Number of values of hair_strand_attribute_kind.
 #define HAIR_MAX_ATTRIBUTES 32 // Maximum of hair_groom_desc.strand_attribute_count.
 #define HAIR_STRAND_COLORS 8 // Number of points with a colour, at even distances from root to tip.
 

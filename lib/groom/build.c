@@ -76,6 +76,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_build_guide_factors(builder));
     HAIR_TRY(count_candidates(builder));
     HAIR_TRY(hair_build_scalp_points(builder));
+    HAIR_TRY(hair_thin_candidates(builder));
     HAIR_TRY(hair_build_maps(builder));
     HAIR_TRY(hair_build_patches(builder));
     HAIR_TRY(make_followers(builder));
@@ -106,6 +107,7 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_free(builder->host, builder->bin_centres);
     hair_free(builder->host, builder->strand_of);
     hair_free(builder->host, builder->place);
+    hair_free(builder->host, builder->number);
     hair_free(builder->host, builder->scalp_points);
     hair_free(builder->host, builder->map_density);
     hair_free(builder->host, builder->map_thickness);

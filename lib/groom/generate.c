@@ -78,7 +78,7 @@ hair_result hair_guide_followers(struct hair_groom_builder* builder)
         for (uint32_t i = 0; i < count; ++i) {
             uint32_t candidate = builder->bin_first[guide] + i;
             HAIR_ASSERT(builder->place[candidate] < groom->info.follower_count);
-            uint32_t random = hair_candidate_random(builder, candidate);
+            uint32_t random = hair_candidate_random(builder, hair_candidate_number(builder, candidate));
             hair_vec3 offset = spiral(i, count, builder->desc->clump_radius, turn);
             struct hair_follower* follower = &groom->followers[builder->place[candidate]];
             *follower = builder->desc->follower_count ? hair_grown_follower(guide, offset, &random)

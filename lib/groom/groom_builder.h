@@ -55,6 +55,7 @@ struct hair_groom_builder {
     bool is_scattered;
     uint32_t* strand_of; // strand of each candidate, only with HAIR_STRAND_SET_FULL
     uint32_t* place; // follower of each candidate
+    uint32_t* number; // of each candidate before some were removed. NULL if none was.
 
     // Closest point on the scalp of each candidate. NULL without a scalp that has a usable
     // triangle.
@@ -74,6 +75,9 @@ struct hair_strand_mix {
     uint32_t strand[3];
     float weight[3];
 };
+// Return the mix of the strands of guides. The weight of guide 0 is the rest to 1.
+struct hair_strand_mix hair_mix_guides(const struct hair_groom_builder* builder, const uint32_t guide[3],
+                                       float weight1, float weight2);
 struct hair_strand_mix hair_mix_of(const struct hair_groom_builder* builder, uint32_t candidate,
                                    const struct hair_follower* follower);
 
@@ -123,6 +127,8 @@ hair_result hair_scalp_candidates(struct hair_groom_builder* builder);
 // Find the closest point on the scalp of all candidates. The candidates of scalp.c have theirs
 // already.
 hair_result hair_build_scalp_points(struct hair_groom_builder* builder);
+// Remove candidates by the attributes of density.
+hair_result hair_thin_candidates(struct hair_groom_builder* builder);
 // Read the maps for all candidates.
 hair_result hair_build_maps(struct hair_groom_builder* builder);
 // Scale the radii of followers by the maps.
@@ -136,6 +142,8 @@ void hair_shape_follower(const struct hair_groom_builder* builder, uint32_t stra
 void hair_shape_guide(struct hair_groom* groom, uint32_t guide, const struct hair_guide_spline* spline);
 hair_result hair_guide_followers(struct hair_groom_builder* builder);
 hair_result hair_scalp_followers(struct hair_groom_builder* builder);
+// Write the guides between which each candidate of scalp.c will grow.
+hair_result hair_scalp_mixes(struct hair_groom_builder* builder, struct hair_strand_mix* out);
 // Give followers the radii and colours of strands.
 hair_result hair_build_strand_attributes(struct hair_groom_builder* builder);
 // Compute the factors of followers from the attributes of strands.
@@ -163,6 +171,11 @@ hair_vec3 hair_candidate_root(const struct hair_groom_builder* builder, uint32_t
 hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide);
 hair_vec3 hair_scalp_corner(const struct hair_groom_builder* builder, uint32_t triangle, uint32_t corner);
 
+// Return the number of a candidate before attributes removed some.
+static inline uint32_t hair_candidate_number(const struct hair_groom_builder* builder, uint32_t candidate)
+{
+    return builder->number ? builder->number[candidate] : candidate;
+}
 // Return the seed of a candidate's random choices.
 uint32_t hair_candidate_random(const struct hair_groom_builder* builder, uint32_t candidate);
 

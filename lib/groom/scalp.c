@@ -283,40 +283,49 @@ static struct hair_follower grow_follower(const struct hair_groom* groom, const 
     return follower;
 }
 
-static void grow_triangle(const struct scalp* scalp, uint32_t triangle)
+// Find the guides around a candidate. `root` receives its root.
+static struct trio find_candidate_trio(const struct scalp* scalp, uint32_t candidate, uint32_t* random,
+                                       hair_vec3* root)
 {
-    struct hair_groom_builder* builder = scalp->builder;
-    const uint32_t* vertex = builder->desc->scalp_triangles + 3 * (size_t)triangle;
-    struct trio corners = {
-        .guide = {scalp->guide_at[vertex[0]], scalp->guide_at[vertex[1]], scalp->guide_at[vertex[2]]}};
-    bool rooted = corners.guide[0] != NONE && corners.guide[1] != NONE && corners.guide[2] != NONE;
-
-    for (uint32_t i = 0; i < builder->bin_candidates[triangle]; ++i) {
-        uint32_t candidate = builder->bin_first[triangle] + i;
-        uint32_t random = hair_candidate_random(builder, candidate);
-        const float* weight = builder->scalp_points[candidate].weight;
-        hair_vec3 root = {0};
-        for (uint32_t k = 0; k < 3; ++k)
-            root = hair_add(root, hair_scale(hair_scalp_corner(builder, triangle, k), weight[k]));
-
-        struct trio trio = corners;
-        if (rooted)
-            for (int k = 0; k < 3; ++k) trio.weight[k] = weight[k];
-        else
-            trio = find_trio(scalp, root);
-        draw_first(&trio, &random);
-        if (is_mixed(builder->groom, &trio)) {
-            trio = find_trio_in_group(scalp, root, trio.guide[0]);
-            draw_first(&trio, &random);
-        }
-        respect_partings(builder->groom, &trio);
-        HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
-        builder->groom->followers[builder->place[candidate]] =
-            grow_follower(builder->groom, &trio, root, &random);
+    const struct hair_groom_builder* builder = scalp->builder;
+    const struct hair_scalp_point* point = &builder->scalp_points[candidate];
+    const uint32_t* vertex = builder->desc->scalp_triangles + 3 * (size_t)point->triangle;
+    struct trio trio;
+    bool rooted = true;
+    *root = (hair_vec3){0};
+    for (uint32_t k = 0; k < 3; ++k) {
+        *root = hair_add(*root, hair_scale(hair_scalp_corner(builder, point->triangle, k), point->weight[k]));
+        trio.guide[k] = scalp->guide_at[vertex[k]];
+        trio.weight[k] = point->weight[k];
+        rooted &= trio.guide[k] != NONE;
     }
+    if (!rooted) trio = find_trio(scalp, *root);
+    draw_first(&trio, random);
+    if (is_mixed(builder->groom, &trio)) {
+        trio = find_trio_in_group(scalp, *root, trio.guide[0]);
+        draw_first(&trio, random);
+    }
+    respect_partings(builder->groom, &trio);
+    return trio;
 }
 
-static hair_result generate_followers(struct scalp* scalp)
+// Grow the follower of a candidate, or only write its guides if there is `mixes`.
+static void grow_candidate(const struct scalp* scalp, uint32_t candidate, struct hair_strand_mix* mixes)
+{
+    struct hair_groom_builder* builder = scalp->builder;
+    uint32_t random = hair_candidate_random(builder, hair_candidate_number(builder, candidate));
+    hair_vec3 root;
+    struct trio trio = find_candidate_trio(scalp, candidate, &random, &root);
+    if (mixes) {
+        mixes[candidate] = hair_mix_guides(builder, trio.guide, trio.weight[1], trio.weight[2]);
+        return;
+    }
+    HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
+    builder->groom->followers[builder->place[candidate]] =
+        grow_follower(builder->groom, &trio, root, &random);
+}
+
+static hair_result grow_all(struct scalp* scalp, struct hair_strand_mix* mixes)
 {
     const struct hair_groom_builder* builder = scalp->builder;
     uint32_t guides = builder->groom->info.guide_count;
@@ -326,19 +335,24 @@ static hair_result generate_followers(struct scalp* scalp)
         hair_kd_tree_build(builder->host, (struct hair_point_set){scalp->points, 3}, guides, &scalp->roots));
     for (uint32_t i = 0; i < builder->desc->scalp_vertex_count; ++i)
         scalp->guide_at[i] = find_guide_at(scalp, i);
-    for (uint32_t i = 0; i < builder->bin_count; ++i) grow_triangle(scalp, i);
+    for (uint32_t i = 0; i < builder->candidate_count; ++i) grow_candidate(scalp, i, mixes);
     hair_kd_tree_free(builder->host, &scalp->roots);
     return HAIR_OK;
 }
 
-hair_result hair_scalp_followers(struct hair_groom_builder* builder)
+hair_result hair_scalp_mixes(struct hair_groom_builder* builder, struct hair_strand_mix* out)
 {
     struct scalp scalp = {.builder = builder};
     scalp.points = hair_alloc(builder->host, builder->groom->info.guide_count, 3 * sizeof *scalp.points);
     scalp.guide_at = hair_alloc(builder->host, builder->desc->scalp_vertex_count, sizeof *scalp.guide_at);
-    hair_result result = scalp.points && scalp.guide_at ? generate_followers(&scalp)
-                                                        : hair_fail_memory(builder->host, "followers");
+    hair_result result =
+        scalp.points && scalp.guide_at ? grow_all(&scalp, out) : hair_fail_memory(builder->host, "followers");
     hair_free(builder->host, scalp.points);
     hair_free(builder->host, scalp.guide_at);
     return result;
+}
+
+hair_result hair_scalp_followers(struct hair_groom_builder* builder)
+{
+    return hair_scalp_mixes(builder, NULL);
 }

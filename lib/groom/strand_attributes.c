@@ -7,23 +7,23 @@ _Static_assert(HAIR_STRAND_COLORS == HAIR_CURVE_INTERVALS + 1,
 
 #define THICKEST 4.0f // Maximum radius as a multiple of the mean.
 
+struct hair_strand_mix hair_mix_guides(const struct hair_groom_builder* builder, const uint32_t guide[3],
+                                       float weight1, float weight2)
+{
+    struct hair_strand_mix mix = {.weight = {1 - weight1 - weight2, weight1, weight2}};
+    for (int i = 0; i < 3; ++i) {
+        HAIR_ASSERT(guide[i] < builder->groom->info.guide_count);
+        mix.strand[i] = builder->chosen[guide[i]];
+    }
+    return mix;
+}
+
 struct hair_strand_mix hair_mix_of(const struct hair_groom_builder* builder, uint32_t candidate,
                                    const struct hair_follower* follower)
 {
-    struct hair_strand_mix mix = {{0}, {1, 0, 0}};
-    if (builder->strand_of) {
-        mix.strand[0] = builder->strand_of[candidate];
-        return mix;
-    }
-    HAIR_ASSERT(follower->guide0 < builder->groom->info.guide_count);
-    HAIR_ASSERT(follower->guide1 < builder->groom->info.guide_count);
-    HAIR_ASSERT(follower->guide2 < builder->groom->info.guide_count);
-    mix.strand[0] = builder->chosen[follower->guide0];
-    mix.strand[1] = builder->chosen[follower->guide1];
-    mix.strand[2] = builder->chosen[follower->guide2];
-    mix.weight[1] = follower->weight1, mix.weight[2] = follower->weight2;
-    mix.weight[0] = 1 - mix.weight[1] - mix.weight[2];
-    return mix;
+    const uint32_t guide[3] = {follower->guide0, follower->guide1, follower->guide2};
+    if (builder->strand_of) return (struct hair_strand_mix){{builder->strand_of[candidate]}, {1}};
+    return hair_mix_guides(builder, guide, follower->weight1, follower->weight2);
 }
 
 static float mean_radius(const struct hair_groom_builder* builder)

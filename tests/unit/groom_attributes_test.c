@@ -210,6 +210,84 @@ static void lengths_are_fractions_in_metres(void** state)
     finish(&furry);
 }
 
+// Return the mean of values of guides that a grown follower has, or the value of its root.
+static double mean_of(const hair_groom* groom, const struct hair_follower* f, const float* values)
+{
+    if (f->multi != 1) return (double)hair_test_single(groom, f, 0).z;
+    return (1 - (double)f->weight1 - (double)f->weight2) * (double)values[f->guide0] +
+           (double)f->weight1 * (double)values[f->guide1] + (double)f->weight2 * (double)values[f->guide2];
+}
+
+// Check that the followers of a groom are among those of a whole one, with their seeds and places.
+static void check_subset(const hair_groom* groom, const hair_groom* whole)
+{
+    uint32_t there = 0;
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i)
+        for (uint32_t k = 0; k < whole->info.follower_count; ++k)
+            there += groom->followers[i].seed == whole->followers[k].seed &&
+                     groom->followers[i].guide0 == whole->followers[k].guide0 &&
+                     hair_distance(hair_test_single(groom, &groom->followers[i], 1),
+                                   hair_test_single(whole, &whole->followers[k], 1)) == 0;
+    assert_int_equal(there, groom->info.follower_count);
+}
+
+// Densities are the product of the z coordinate of strands' roots and of a map that is x. Sums of
+// followers are within three standard deviations.
+static void densities_are_fractions_of_followers(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DENSITY);
+    for (uint32_t i = 0, first = 0; i < COUNT; first += furry.strands.vertices[i++])
+        furry.of_strands[i] = furry.strands.positions[3 * (size_t)first + 2];
+    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = furry.scalp.positions[3 * (size_t)i];
+    furry.desc.follower_count = 2000;
+    for (int set = 0; set < 2; ++set) {
+        furry.desc.strand_set = set ? HAIR_STRAND_SET_GUIDES : HAIR_STRAND_SET_FULL;
+        furry.desc.strand_attribute_count = 0;
+        hair_groom* whole = hair_test_groom_of(&furry.desc);
+        furry.desc.strand_attribute_count = 2;
+        hair_groom *groom = hair_test_groom_of(&furry.desc), *again = hair_test_groom_of(&furry.desc);
+        double wanted[2] = {0}, variance[2] = {0}, found[2] = {0};
+        for (uint32_t i = 0; i < whole->info.follower_count; ++i) {
+            const struct hair_follower* f = &whole->followers[i];
+            double x = (double)hair_test_single(whole, f, 0).x, own = x * mean_of(whole, f, furry.of_strands);
+            wanted[x > 0.5] += own, variance[x > 0.5] += own * (1 - own);
+        }
+        for (uint32_t i = 0; i < groom->info.follower_count; ++i)
+            ++found[hair_test_single(groom, &groom->followers[i], 0).x > 0.5f];
+        for (int half = 0; half < 2; ++half) {
+            printf("set %d: %.0f followers, not %.1f\n", set, found[half], wanted[half]);
+            assert_true(fabs(found[half] - wanted[half]) < 3 * sqrt(variance[half]));
+        }
+        assert_int_equal(groom->info.guide_count, whole->info.guide_count);
+        assert_int_equal(groom->info.follower_count, again->info.follower_count);
+        assert_memory_equal(groom->followers, again->followers, hair_groom_follower_bytes(groom));
+        check_subset(groom, whole);
+        hair_groom_destroy(groom), hair_groom_destroy(again), hair_groom_destroy(whole);
+    }
+    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = 0;
+    hair_test_refuse_groom(&test, &furry.desc, "densities leave none of 2000 followers");
+    finish(&furry);
+}
+
+// Followers around guides without a scalp have the density of their guide.
+static void guides_without_density_have_no_followers(void** state)
+{
+    (void)state;
+    struct furry furry;
+    prepare(&furry, HAIR_STRAND_ATTRIBUTE_DENSITY);
+    hair_groom_desc bald = hair_test_groom_desc(&test, &furry.strands);
+    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = (float)(i % 2);
+    bald.strand_attributes = furry.attributes, bald.strand_attribute_count = 1;
+    bald.strand_set = HAIR_STRAND_SET_GUIDES, bald.follower_count = 10 * COUNT;
+    hair_groom* groom = hair_test_groom_of(&bald);
+    assert_int_equal(groom->info.follower_count, 5 * COUNT);
+    for (uint32_t i = 0; i < 5 * COUNT; ++i) assert_int_equal(groom->followers[i].guide0 % 2, 1);
+    hair_groom_destroy(groom);
+    finish(&furry);
+}
+
 static const hair_member* find_member(const struct hair_schema* schema, const char* name)
 {
     for (uint32_t i = 0; i < schema->count; ++i)
@@ -292,11 +370,13 @@ static void invalid_attributes_are_refused_by_index_and_range(void** state)
     finish(&furry);
 }
 
-static void refused_allocations_of_attributes_leak_nothing(void** state)
+static void check_refusals(hair_strand_attribute_kind kind)
 {
-    (void)state;
     struct furry furry;
-    prepare(&furry, HAIR_STRAND_ATTRIBUTE_STIFFNESS);
+    prepare(&furry, kind);
+    for (uint32_t i = 0; i < COUNT; ++i) furry.of_strands[i] = 0.5f;
+    for (uint32_t i = 0; i < VERTICES; ++i) furry.of_vertices[i] = 1;
+    furry.desc.strand_set = HAIR_STRAND_SET_GUIDES, furry.desc.follower_count = 500;
     hair_groom* groom = NULL;
     uint32_t refuse = 0;
     hair_result result = HAIR_ERROR_MEMORY;
@@ -313,6 +393,13 @@ static void refused_allocations_of_attributes_leak_nothing(void** state)
     finish(&furry);
 }
 
+static void refused_allocations_of_attributes_leak_nothing(void** state)
+{
+    (void)state;
+    check_refusals(HAIR_STRAND_ATTRIBUTE_STIFFNESS);
+    check_refusals(HAIR_STRAND_ATTRIBUTE_DENSITY);
+}
+
 #define TEST(function) HAIR_TEST_WITH_HOST(function, &test)
 
 int main(void)
@@ -322,6 +409,8 @@ int main(void)
         TEST(values_stay_with_their_strands),
         TEST(prepared_rods_have_the_factors),
         TEST(lengths_are_fractions_in_metres),
+        TEST(densities_are_fractions_of_followers),
+        TEST(guides_without_density_have_no_followers),
         TEST(products_stay_within_the_ranges_of_physics),
         TEST(invalid_attributes_are_refused_by_index_and_range),
         TEST(refused_allocations_of_attributes_leak_nothing),

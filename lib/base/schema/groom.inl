@@ -34,7 +34,7 @@ END
 BEGIN(hair_strand_attribute)
 ENUM(hair_strand_attribute, kind, HAIR_STRAND_ATTRIBUTE_STIFFNESS, "Property that the factors multiply.", "stiffness",
       "damping", "shape_frequency", "gravity_preload", "clump", "curl_radius", "curl_frequency", "frizz",
-      "roughness", "radius", "length")
+      "roughness", "radius", "length", "density")
 POINTER(hair_strand_attribute, strand_values, "Factor of each strand.")
 #undef GROUP
 #define GROUP "map"
