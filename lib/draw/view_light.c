@@ -10,20 +10,25 @@ static bool needs_cache_of_a_part(const struct hair_renderer* renderer, const ha
            !hair_geometry_has_vertex_cache(renderer->geometry);
 }
 
+// Write the parameters of hair that casts shadows, also where hair is out of view or occluded.
+static void write_shadow_params(const struct hair_renderer* renderer, const struct hair_draw_plan* plan,
+                                const hair_view* view, struct hair_draw_params* out)
+{
+    hair_draw_write_params(renderer, plan->head, view, out);
+    out->culls = 0;
+    out->head_sphere.w = 0;
+}
+
 hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct hair_draw_plan* plan)
 {
     struct hair_draw_params drawn, all;
     bool part = needs_cache_of_a_part(renderer, plan->view);
-    hair_view whole = *plan->view;
-    hair_draw_write_params(renderer, plan->head, plan->view, &drawn);
-    drawn.culls = 0; // Hair that is out of view or occluded casts shadows too.
-    drawn.head_sphere.w = 0;
+    write_shadow_params(renderer, plan, plan->view, &drawn);
     all = drawn;
     if (plan->view->lod && !part) {
+        hair_view whole = *plan->view;
         whole.lod = NULL; // All views of a step share the grid.
-        hair_draw_write_params(renderer, plan->head, &whole, &all);
-        all.culls = 0;
-        all.head_sphere.w = 0;
+        write_shadow_params(renderer, plan, &whole, &all);
     }
     return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &all, &drawn,
                                             part);

@@ -63,13 +63,13 @@ void hair_lighting_write_params(const struct hair_lighting* lighting, const hair
     out->specular = (hair_vec4){look->shading.specular[0], look->shading.specular[1], look->shading.gloss[0],
                                 look->shading.gloss[1]};
     write_fibre(look, &out->fibre);
-    out->order = hair_lighting_order(lighting, look);
     hair_look_write_tint(look, &out->tint);
     if (!lighting->has_groom_colors) out->tint.groom_color = 0;
     if (!view) return;
     out->colored = view->pass == HAIR_PASS_COLOR;
     out->encode = (hair_uint)view->encode;
     out->light_values = hair_lighting_value_count(look, view);
+    if (out->colored && !out->light_values) out->order = hair_lighting_order(lighting, look);
     hair_lighting_write_lights(lighting->gl, look, head, view, out);
 }
 

@@ -59,7 +59,7 @@ static const char* path_of(const char* tuning, const char* use)
 
 static void check_texts(const struct hair_test_scene* scene, const char* tuning)
 {
-    char text[HAIR_TUNING_SIZE];
+    char text[HAIR_TUNING_SIZE + 1]; // with a space
     size_t size = strlen(tuning);
     for (size_t i = 0; i < size; ++i) {
         memcpy(text, tuning, i);

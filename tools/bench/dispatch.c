@@ -15,9 +15,9 @@
 #define SIDE 0.4f // side of the square of roots, m
 #define LIMIT_GPU 2.0 // ms
 #define LIMIT_SOFTWARE 100.0 // ms
-// Frames, of which the first compiles programs. All others have the same work.
+// Frames, of which the first ones compile programs. All others have the same work.
 #define FRAMES_GPU 6
-#define FRAMES_SOFTWARE 2
+#define FRAMES_SOFTWARE 3
 #define WIDTH 1920
 #define HEIGHT 1080
 
