@@ -92,8 +92,8 @@ HAIR_DESC(hair_cut_info)
 /// hair_set_lengths() lets hair grow again.
 ///
 /// Pieces are free strands, with the shape and the velocity that the strands have now. They have
-/// the look, the physics, the colliders and the ambient wind of the hair, and fall until colliders
-/// hold them. They have the solver of the hair, or HAIR_SOLVER_DIRECT in place of
+/// the look, the physics, the attributes, the colliders and the ambient wind of the hair, and fall
+/// until colliders hold them. They have the solver of the hair, or HAIR_SOLVER_DIRECT in place of
 /// HAIR_SOLVER_REDBLACK. They cost as much as hair of so many strands. Most of the time of the call
 /// is that of their hair_create(). Wherever their field does not reach, single strands may sink
 /// into colliders that hold their guides.

@@ -16,9 +16,15 @@
 // Number of guides per strand as a multiple of that of the hair. Pieces scatter.
 #define MORE_GUIDES 3
 
+// Attributes that pieces have from their strands. The shape of pieces has all others.
+static const hair_strand_attribute_kind kinds[] = {
+    HAIR_STRAND_ATTRIBUTE_STIFFNESS, HAIR_STRAND_ATTRIBUTE_DAMPING, HAIR_STRAND_ATTRIBUTE_ROUGHNESS};
+#define KINDS (sizeof kinds / sizeof *kinds)
+
 // Arrays from which the groom of pieces is made.
 struct arrays {
     float *positions, *radii, *colors;
+    float* factors[KINDS]; // NULL for an attribute that the strands do not have.
     uint32_t* vertices;
     uint8_t* groups;
     uint32_t vertex_count;
@@ -26,16 +32,11 @@ struct arrays {
     double start; // Mean place at which the pieces start, [0, 1].
 };
 
-static uint32_t segments_of(const struct hair_piece_source* source)
-{
-    return source->hair->geometry.look.strand.segments;
-}
-
 // Write the vertices of a piece as they are drawn. Return their number.
 static uint32_t copy_vertices(const struct hair_piece_source* source, const struct hair_piece* piece,
                               float out[3 * (HAIR_MAX_GUIDE_VERTICES + 1)])
 {
-    uint32_t segments = segments_of(source), count = 1;
+    uint32_t segments = hair_piece_segments(source), count = 1;
     const hair_vec4* vertex = source->vertices + (size_t)piece->follower * (segments + 1);
     hair_vec3 from = hair_load3(&vertex[piece->segment].x), to = hair_load3(&vertex[piece->segment + 1].x);
     hair_store3(out, hair_lerp(from, to, piece->t));
@@ -61,22 +62,59 @@ static void drop_short(struct hair_piece_source* source)
     source->count = kept;
 }
 
-// Return the fraction of the length of its follower at which a piece starts.
-static float start_of(const struct hair_piece_source* source, const struct hair_piece* piece)
-{
-    return piece->fraction * ((float)piece->segment + piece->t) / (float)segments_of(source);
-}
-
 // Write the colours of a piece at HAIR_STRAND_COLORS points.
 static void copy_colors(const struct hair_piece_source* source, const struct hair_piece* piece, float* out)
 {
     const uint16_t* from = source->hair->groom->colors + 4 * HAIR_STRAND_COLORS * (size_t)piece->follower;
-    float whole[3 * HAIR_STRAND_COLORS], start = start_of(source, piece);
+    float whole[3 * HAIR_STRAND_COLORS], start = hair_piece_start(source, piece);
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k)
         for (int c = 0; c < 3; ++c) whole[3 * k + c] = (float)from[4 * k + c] / 65535;
     for (int k = 0; k < HAIR_STRAND_COLORS; ++k)
         hair_strand_color_at(whole, start + (piece->fraction - start) * (float)k / (HAIR_STRAND_COLORS - 1),
                              out + 3 * (size_t)k);
+}
+
+// Return whether the strands have an attribute.
+static bool has_kind(const struct hair_groom* groom, hair_strand_attribute_kind kind)
+{
+    const struct hair_guide_factors *min = &groom->min_factors, *max = &groom->max_factors;
+    if (kind == HAIR_STRAND_ATTRIBUTE_ROUGHNESS) return groom->factor_slots >> 4 * HAIR_FACTOR_VARIANCE & 15;
+    if (!groom->guide_factors) return false;
+    return kind == HAIR_STRAND_ATTRIBUTE_STIFFNESS ? min->stiffness != 1 || max->stiffness != 1
+                                                   : min->damping != 1 || max->damping != 1;
+}
+
+// Return the factor of a follower, or the mean of its guides.
+static float find_factor(const struct hair_groom* groom, uint32_t follower, hair_strand_attribute_kind kind)
+{
+    const uint32_t stride = sizeof *groom->guide_factors / sizeof(float);
+    if (kind == HAIR_STRAND_ATTRIBUTE_ROUGHNESS)
+        return sqrtf(hair_groom_follower_factor(groom, follower, HAIR_FACTOR_VARIANCE));
+    const float* first = kind == HAIR_STRAND_ATTRIBUTE_STIFFNESS ? &groom->guide_factors->stiffness
+                                                                 : &groom->guide_factors->damping;
+    return hair_groom_follower_mean(groom, follower, first, stride);
+}
+
+static hair_result alloc_factors(const struct hair_piece_source* source, struct arrays* out)
+{
+    const hair_host* host = &source->hair->context->host;
+    for (size_t k = 0; k < KINDS; ++k) {
+        if (!has_kind(source->hair->groom, kinds[k])) continue;
+        out->factors[k] = hair_alloc(host, source->count, sizeof *out->factors[k]);
+        if (!out->factors[k]) return hair_fail_memory(host, "the attributes of cut hair");
+    }
+    return HAIR_OK;
+}
+
+// Write the factors of piece i within the ranges of their kinds.
+static void copy_factors(const struct hair_piece_source* source, uint32_t i, struct arrays* out)
+{
+    for (size_t k = 0; k < KINDS; ++k) {
+        struct hair_attribute_range range = hair_attribute_range_of(kinds[k]);
+        if (!out->factors[k]) continue;
+        float factor = find_factor(source->hair->groom, source->pieces[i].follower, kinds[k]);
+        out->factors[k][i] = fminf(fmaxf(factor, range.min), range.max);
+    }
 }
 
 static hair_result alloc_arrays(const struct hair_piece_source* source, struct arrays* out)
@@ -89,9 +127,9 @@ static hair_result alloc_arrays(const struct hair_piece_source* source, struct a
     out->radii = hair_alloc(host, count, sizeof *out->radii);
     out->groups = hair_alloc(host, count, sizeof *out->groups);
     if (has_colors) out->colors = hair_alloc(host, count, 3 * HAIR_STRAND_COLORS * sizeof *out->colors);
-    return out->positions && out->vertices && out->radii && out->groups && (out->colors || !has_colors)
-               ? HAIR_OK
-               : hair_fail_memory(host, "the pieces of cut hair");
+    if (!out->positions || !out->vertices || !out->radii || !out->groups || (has_colors && !out->colors))
+        return hair_fail_memory(host, "the pieces of cut hair");
+    return alloc_factors(source, out);
 }
 
 static void fill_arrays(const struct hair_piece_source* source, struct arrays* out)
@@ -111,7 +149,8 @@ static void fill_arrays(const struct hair_piece_source* source, struct arrays* o
         out->radii[i] = follower->offset[0].w;
         out->groups[i] = (uint8_t)groom->guides[follower->guide0].group;
         out->radius += (double)out->radii[i] / source->count;
-        out->start += (double)start_of(source, piece) / source->count;
+        out->start += (double)hair_piece_start(source, piece) / source->count;
+        copy_factors(source, i, out);
         if (out->colors) copy_colors(source, piece, out->colors + 3 * HAIR_STRAND_COLORS * (size_t)i);
     }
 }
@@ -123,6 +162,7 @@ static void free_arrays(const hair_host* host, struct arrays* arrays)
     hair_free(host, arrays->radii);
     hair_free(host, arrays->groups);
     hair_free(host, arrays->colors);
+    for (size_t k = 0; k < KINDS; ++k) hair_free(host, arrays->factors[k]);
 }
 
 // Return the number of guides of the pieces.
@@ -135,12 +175,44 @@ static uint32_t count_piece_guides(const struct hair_piece_source* source)
     return wanted < source->count ? wanted : source->count;
 }
 
+// Write the attributes of the groom. Return their number.
+static uint32_t write_attributes(const struct arrays* arrays, hair_strand_attribute out[KINDS])
+{
+    uint32_t count = 0;
+    for (size_t k = 0; k < KINDS; ++k) {
+        if (!arrays->factors[k]) continue;
+        out[count] = hair_strand_attribute_default();
+        out[count].kind = kinds[k];
+        out[count++].strand_values = arrays->factors[k];
+    }
+    return count;
+}
+
+// Give the followers of pieces the seeds and the root uvs of their strands.
+static hair_result copy_roots(const struct hair_piece_source* source, const struct hair_groom_origin* origin,
+                              struct hair_groom* groom)
+{
+    const struct hair_groom* from = source->hair->groom;
+    if (from->root_uvs) {
+        groom->root_uvs = hair_alloc(&groom->host, groom->info.follower_count, 2 * sizeof *groom->root_uvs);
+        if (!groom->root_uvs) return hair_fail_memory(&groom->host, "the places of roots");
+    }
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
+        uint32_t follower = source->pieces[origin->follower[i]].follower;
+        groom->followers[i].seed = from->followers[follower].seed;
+        for (size_t k = 0; groom->root_uvs && k < 2; ++k)
+            groom->root_uvs[2 * (size_t)i + k] = from->root_uvs[2 * (size_t)follower + k];
+    }
+    return HAIR_OK;
+}
+
 static hair_result make_piece_groom(const struct hair_piece_source* source, const struct arrays* arrays,
                                     struct hair_groom_origin* origin, hair_groom** out)
 {
     const hair_host* host = &source->hair->context->host;
     hair_groom_desc desc = hair_groom_desc_default();
     hair_import import = hair_import_default();
+    hair_strand_attribute attributes[KINDS];
     desc.positions = arrays->positions;
     desc.strand_vertices = arrays->vertices;
     desc.strand_count = source->count;
@@ -149,14 +221,12 @@ static hair_result make_piece_groom(const struct hair_piece_source* source, cons
     desc.colors = arrays->colors, desc.color_count = arrays->colors ? HAIR_STRAND_COLORS : 0;
     desc.guide_count = count_piece_guides(source);
     desc.guide_vertices = MAX_VERTICES;
+    desc.strand_attribute_count = write_attributes(arrays, attributes), desc.strand_attributes = attributes;
     if (source->hair->groom->tasks.run) desc.tasks = &source->hair->groom->tasks;
     HAIR_TRY(hair_groom_build(host, &desc, &import, origin, out));
     HAIR_ASSERT((*out)->info.strand_count == source->count);
     (*out)->head_sphere = (hair_vec4){0, 0, 0, 0};
-    for (uint32_t i = 0; i < (*out)->info.follower_count; ++i)
-        (*out)->followers[i].seed =
-            source->hair->groom->followers[source->pieces[origin->follower[i]].follower].seed;
-    return HAIR_OK;
+    return copy_roots(source, origin, *out);
 }
 
 // Return a curve along a piece that starts at `start` of the strand.
@@ -224,80 +294,6 @@ static hair_result make_piece_instance(const struct hair_piece_source* source, c
     return hair_create(hair->context, groom, &desc, out);
 }
 
-// Return the velocity of a guide at a fraction of its length in the groom, m/s.
-static hair_vec3 guide_velocity(const struct hair_piece_source* source, uint32_t g, float fraction)
-{
-    const struct hair_sim* sim = &source->hair->sim;
-    const struct hair_groom* groom = source->hair->groom;
-    const struct hair_guide* guide = (sim->lengths.guides ? sim->lengths.guides : groom->guides) + g;
-    const struct hair_rest* rest = (sim->lengths.guides ? sim->lengths.rest : groom->rest) + guide->first;
-    const struct hair_state* at = source->states + guide->first;
-    float left = fraction * groom->guides[g].arc_length;
-    uint32_t k = 0;
-    for (; k + 2 < guide->count && left > rest[k].position.w; ++k) left -= rest[k].position.w;
-    float t = fminf(fmaxf(left / rest[k].position.w, 0), 1);
-    hair_vec3 moved = hair_lerp(hair_load3(&at[k].displacement.x), hair_load3(&at[k + 1].displacement.x), t);
-    return hair_scale(moved, sim->last_substep > 0 ? (float)(1 / sim->last_substep) : 0);
-}
-
-// Return the velocity of a follower at a fraction of its length, m/s. See glsl/shared/groom.h.
-static hair_vec3 follower_velocity(const struct hair_piece_source* source, uint32_t follower, float fraction)
-{
-    const struct hair_follower* f = &source->hair->groom->followers[follower];
-    const uint32_t guides[3] = {f->guide0, f->guide1, f->guide2};
-    float u = f->multi < 0 ? fraction : fminf(fraction * f->length_ratio, 1);
-    if (f->multi == 0) return guide_velocity(source, f->guide0, u);
-    const float weights[3] = {f->multi < 0 ? f->offset[1].w : 1 - f->weight1 - f->weight2, f->weight1,
-                              f->weight2};
-    hair_vec3 sum = f->multi < 0 ? guide_velocity(source, f->guide0, 0) : hair_v3(0, 0, 0);
-    for (int i = 0; i < 3; ++i) {
-        hair_vec3 own = guide_velocity(source, guides[i], u);
-        if (f->multi < 0) own = hair_sub(own, guide_velocity(source, guides[i], 0));
-        sum = hair_add(sum, hair_scale(own, weights[i]));
-    }
-    return sum;
-}
-
-// Replace the state that creation wrote. The driver of an H100 lost what glNamedBufferSubData wrote
-// after a shader, so the GPU copies.
-static hair_result write_states(const struct hair_sim* sim, const struct hair_state* states)
-{
-    GLuint upload = 0;
-    size_t size = sim->guide_vertices * sizeof *states;
-    HAIR_TRY(hair_gl_buffer(sim->gl, HAIR_GL_CATEGORY_SOLVE, "motion of cut hair", size, states, &upload));
-    sim->gl->CopyNamedBufferSubData(upload, sim->state, 0, 0, (GLsizeiptr)size);
-    hair_gl_free_buffer(sim->gl, &upload);
-    return HAIR_OK;
-}
-
-// Give the guides of the pieces the velocities of the hair. What is drawn lies one substep behind
-// the state.
-static hair_result set_piece_motion(const struct hair_piece_source* source, const uint32_t* piece_of,
-                                    hair_instance* pieces)
-{
-    struct hair_sim* sim = &pieces->sim;
-    const struct hair_groom* groom = pieces->groom;
-    struct hair_state* states = hair_alloc(&sim->gl->host, sim->guide_vertices, sizeof *states);
-    if (!states) return hair_fail_memory(&sim->gl->host, "the motion of cut hair");
-    for (uint32_t g = 0; g < sim->guides; ++g) {
-        const struct hair_guide* guide = &groom->guides[g];
-        const struct hair_piece* piece = &source->pieces[piece_of[g]];
-        float from = start_of(source, piece), so_far = 0;
-        for (uint32_t i = guide->first; i < guide->first + guide->count; ++i) {
-            float at = from + (piece->fraction - from) * fminf(so_far / guide->arc_length, 1);
-            hair_vec3 moved = hair_scale(follower_velocity(source, piece->follower, at), (float)sim->substep);
-            hair_vec3 place = hair_add(hair_load3(&groom->rest[i].position.x), moved);
-            states[i].position = (hair_vec4){place.x, place.y, place.z, i == guide->first ? 1 : 0};
-            states[i].displacement = (hair_vec4){moved.x, moved.y, moved.z, 0};
-            so_far += groom->rest[i].position.w;
-        }
-    }
-    hair_result result = write_states(sim, states);
-    if (!result) hair_geometry_invalidate_guides(&pieces->geometry);
-    hair_free(&sim->gl->host, states);
-    return result;
-}
-
 // Give pieces the settings of the hair that creation does not take.
 static hair_result copy_piece_settings(const hair_instance* hair, hair_instance* pieces)
 {
@@ -320,13 +316,13 @@ static hair_result make_pieces(struct hair_piece_source* source, struct arrays* 
     hair_instance* pieces = NULL;
     HAIR_TRY(alloc_arrays(source, arrays));
     fill_arrays(source, arrays);
-    HAIR_TRY(make_piece_groom(source, arrays, origin, &groom));
-    hair_result result = make_piece_instance(source, arrays, groom, &pieces);
+    hair_result result = make_piece_groom(source, arrays, origin, &groom);
+    if (!result) result = make_piece_instance(source, arrays, groom, &pieces);
     hair_groom_release(groom);
     HAIR_TRY(result);
     hair_enter_unprofiled(pieces);
     result = copy_piece_settings(source->hair, pieces);
-    if (!result) result = set_piece_motion(source, origin->guide, pieces);
+    if (!result) result = hair_pieces_set_motion(source, origin->guide, pieces);
     result = hair_leave(pieces->context, result);
     if (result)
         hair_destroy(pieces);

@@ -21,6 +21,19 @@ struct hair_piece_source {
     uint32_t count;
 };
 
+// Return the number of drawn segments of a follower.
+static inline uint32_t hair_piece_segments(const struct hair_piece_source* source)
+{
+    return source->hair->geometry.look.strand.segments;
+}
+// Return the fraction of the length of its follower at which a piece starts.
+static inline float hair_piece_start(const struct hair_piece_source* source, const struct hair_piece* piece)
+{
+    return piece->fraction * ((float)piece->segment + piece->t) / (float)hair_piece_segments(source);
+}
+// Give the guides of pieces the velocities of the hair. `piece_of` has the piece of each guide.
+hair_result hair_pieces_set_motion(const struct hair_piece_source* source, const uint32_t* piece_of,
+                                   hair_instance* pieces);
 // Return the length of a piece as it is drawn, m.
 double hair_piece_length(const struct hair_piece_source* source, const struct hair_piece* piece);
 // Create an instance of the pieces, which move as the hair does. `out` receives NULL if all pieces

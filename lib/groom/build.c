@@ -175,6 +175,7 @@ void hair_groom_release(hair_groom* groom)
     hair_free(&host, groom->guide_factors);
     hair_free(&host, groom->factors);
     hair_root_bindings_release(groom->root_bindings);
+    hair_free(&host, groom->root_uvs);
     if (groom->prepared) groom->free_prepared(&host, groom->prepared);
     hair_free(&host, groom);
 }

@@ -54,16 +54,23 @@ void hair_groom_cut_guide(const struct hair_groom* groom, uint32_t guide, float 
     rest[k + 1].position.w = fmaxf(whole->arc_length - out->arc_length, FLT_MIN);
 }
 
-float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t follower,
-                                   const float* guide_fraction)
+float hair_groom_follower_mean(const struct hair_groom* groom, uint32_t follower, const float* guide_values,
+                               uint32_t stride)
 {
     const struct hair_follower* f = &groom->followers[follower];
-    float own = guide_fraction[f->guide0];
+    float own = guide_values[(size_t)stride * f->guide0];
     if (f->multi == 0) return own;
     float w1 = f->weight1, w2 = f->weight2, w0 = f->multi < 0 ? f->offset[1].w : 1 - w1 - w2;
     float sum = w0 + w1 + w2;
     if (!(sum > 0)) return own;
-    // Weights that are rounded must not shorten a follower of guides that are whole.
-    float all = own + (w1 * (guide_fraction[f->guide1] - own) + w2 * (guide_fraction[f->guide2] - own)) / sum;
-    return fminf(fmaxf(all, 0), 1);
+    // Weights that are rounded must not change the value of equal guides.
+    float other1 = guide_values[(size_t)stride * f->guide1],
+          other2 = guide_values[(size_t)stride * f->guide2];
+    return own + (w1 * (other1 - own) + w2 * (other2 - own)) / sum;
+}
+
+float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t follower,
+                                   const float* guide_fraction)
+{
+    return fminf(fmaxf(hair_groom_follower_mean(groom, follower, guide_fraction, 1), 0), 1);
 }

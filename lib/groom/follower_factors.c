@@ -89,3 +89,11 @@ hair_result hair_build_follower_factors(struct hair_groom_builder* builder)
     }
     return HAIR_OK;
 }
+
+float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follower, int factor)
+{
+    uint32_t slot = groom->factor_slots >> 4 * factor & 15;
+    if (!slot) return 1;
+    uint32_t half = groom->factors[(size_t)groom->factor_count * follower + slot - 1];
+    return half ? ldexpf((float)(1024 + (half & 1023)), (int)(half >> 10) - 25) : 0;
+}

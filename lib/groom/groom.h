@@ -39,6 +39,7 @@ struct hair_groom {
     uint32_t map_sets;
     // NULL without a scalp that has a triangle with three different corners.
     struct hair_root_bindings* root_bindings;
+    float* root_uvs; // uv of the root of each follower. NULL without scalp uvs.
     hair_tasks tasks; // threads of the application. A NULL `run` means the calling thread.
     // The guides as rods, prepared for physics, and the function that frees them. NULL if they are
     // not prepared.
@@ -70,9 +71,15 @@ void hair_groom_release(hair_groom* groom);
 // the length that is cut off, m.
 void hair_groom_cut_guide(const struct hair_groom* groom, uint32_t guide, float fraction,
                           struct hair_guide* out, struct hair_rest* rest);
+// Return the weighted mean of values of the guides of a follower, which are `stride` floats apart.
+float hair_groom_follower_mean(const struct hair_groom* groom, uint32_t follower, const float* guide_values,
+                               uint32_t stride);
 // Return the fraction of its length that a follower has beside guides with the given fractions.
 float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t follower,
                                    const float* guide_fraction);
+
+// Return a factor of a follower, HAIR_FACTOR_CLUMP or another. The factor is 1 without an attribute.
+float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follower, int factor);
 
 // Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);

@@ -20,7 +20,6 @@ void hair_root_bindings_release(struct hair_root_bindings* root_bindings)
     hair_host host = root_bindings->host;
     hair_free(&host, root_bindings->positions);
     hair_free(&host, root_bindings->binding);
-    hair_free(&host, root_bindings->uv);
     hair_free(&host, root_bindings);
 }
 
@@ -108,9 +107,10 @@ hair_result hair_build_root_bindings(struct hair_groom_builder* builder)
            3 * (size_t)root_bindings->vertex_count * sizeof *root_bindings->positions);
     bind_followers(builder, root_bindings->binding + info->guide_count);
     if (builder->desc->scalp_uvs) {
-        root_bindings->uv = hair_alloc(builder->host, info->follower_count, 2 * sizeof *root_bindings->uv);
-        if (!root_bindings->uv) return hair_fail_memory(builder->host, "the places of roots");
-        place_followers(builder, root_bindings->uv);
+        float* uvs = hair_alloc(builder->host, info->follower_count, 2 * sizeof *uvs);
+        if (!uvs) return hair_fail_memory(builder->host, "the places of roots");
+        place_followers(builder, uvs);
+        builder->groom->root_uvs = uvs;
     }
     return bind_guides(builder, root_bindings->binding);
 }

@@ -15,7 +15,6 @@ struct hair_root_bindings {
     uint32_t count; // guides, then followers
     float* positions; // xyz per vertex of the scalp, in the space of the strands
     struct hair_root_binding* binding;
-    float* uv; // of the root of each follower. NULL without scalp UVs.
 };
 
 // Add a reference. Any thread. NULL is ignored. Return `root_bindings`.

@@ -32,7 +32,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
     geometry->shape_vertices = groom->shape_vertices;
     geometry->patches = groom->info.patch_count;
     geometry->map_sets = groom->map_sets;
-    geometry->root_bindings = hair_root_bindings_retain(groom->root_bindings);
+    geometry->root_uvs = groom->root_uvs;
     for (uint32_t i = 0; i < geometry->patches; ++i)
         if (groom->patches[i].count > geometry->max_isolines)
             geometry->max_isolines = groom->patches[i].count;
@@ -59,8 +59,6 @@ void hair_geometry_destroy(struct hair_geometry* geometry)
     hair_geometry_free_vertex_cache(geometry);
     hair_geometry_free_history(geometry, &geometry->guide_history);
     hair_geometry_free_uvs(geometry);
-    hair_root_bindings_release(geometry->root_bindings);
-    geometry->root_bindings = NULL;
     hair_geometry_free_followers(gl, &geometry->follower);
     hair_gl_free_array(gl, &geometry->patch, &geometry->patch_texture);
     hair_gl_free_array(gl, &geometry->factors.buffer, &geometry->factors.texture);

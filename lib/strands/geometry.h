@@ -52,8 +52,7 @@ struct hair_geometry {
     // Vertices of followers and smoothed guides, for the application. Its frames are not those of
     // views.
     struct hair_vertex_history host_history, guide_history;
-    // Root bindings to the scalp. NULL if there is no scalp.
-    struct hair_root_bindings* root_bindings;
+    const float* root_uvs; // Root uvs of the groom. NULL if there are none.
     GLuint uv, uv_texture; // Root uvs. 0 until needed.
 };
 

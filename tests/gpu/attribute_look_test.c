@@ -1,5 +1,5 @@
-// attribute_look_test.c - curls, frizz, locks, highlights and radii that differ by attributes of
-// strands and by maps, measured in metres, turns per metre, radians and pixels.
+// attribute_look_test.c - curls, frizz, locks, highlights, radii and colours that differ by
+// attributes of strands and by maps, measured in metres, turns per metre, radians and pixels.
 #include "tests/support/arcs.h"
 #include "tests/support/beams.h"
 #include "tests/support/passes.h"
@@ -260,6 +260,68 @@ static void radius_is_a_factor_in_pixels(void** state)
     hair_test_scene_free(&scene);
 }
 
+// Make three white strands of 3 cm, which are rooted at 1/6, 1/2 and 5/6 of the width of a scalp.
+static struct hair_test_scene make_white(struct hair_test* test)
+{
+    static float uvs[50];
+    struct hair_test_scene scene = hair_test_scene_make(test, NULL);
+    struct hair_test_strands strands = hair_test_strands_make(3, 4);
+    struct hair_test_scalp scalp = hair_test_scalp_make(4, 0.3f);
+    hair_look look = plain_look();
+    hair_desc desc = hair_desc_default();
+    for (int g = 0; g < 3; ++g)
+        hair_test_add_straight(&strands, 4, hair_v3(0.1f * (float)(g - 1), 0.015f, 0), hair_v3(0, -1, 0),
+                               0.03f);
+    for (uint32_t i = 0; i < 25; ++i) {
+        uvs[2 * i] = scalp.positions[3 * i] / 0.3f;
+        scalp.positions[3 * i] -= 0.15f, scalp.positions[3 * i + 2] -= 0.15f;
+    }
+    strands.scalp = &scalp;
+    hair_groom_desc groom = hair_test_groom_desc(&test->host, &strands);
+    groom.strand_set = HAIR_STRAND_SET_FULL, groom.scalp_uvs = uvs, groom.guide_count = 3;
+    scene.groom = hair_test_groom_of(&groom);
+    look.strand.radius = 5e-3f, look.strand.taper = hair_curve_line(1, 1), desc.look = &look;
+    look.shading.model = HAIR_SHADING_LINES, look.color.spread = 0;
+    look.shading.specular[0] = look.shading.specular[1] = 0;
+    for (int c = 0; c < 3; ++c) look.color.root[c] = look.color.tip[c] = 1;
+    hair_test_ok(test, hair_create(test->context, scene.groom, &desc, &scene.hair));
+    hair_test_scalp_free(&scalp);
+    hair_test_strands_free(&strands);
+    return scene;
+}
+
+static void strands_have_the_colour_of_the_map_at_their_root(void** state)
+{
+    static const float colors[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static float white[4 * SIDE * SIDE], pixels[4 * SIDE * SIDE];
+    struct hair_test_scene scene = make_white(*state);
+    GLuint map;
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glTextureStorage2D(map, 1, GL_RGB32F, 3, 1);
+    glTextureSubImage2D(map, 0, 0, 0, 3, 1, GL_RGB, GL_FLOAT, colors);
+    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    for (int path = 0; path < HAIR_TEST_PATHS; ++path) {
+        hair_view view = hair_test_view_by(hair_test_paths[path]);
+        hair_test_set_orthographic(&view, 6, 3, 0);
+        hair_test_draw(&scene, &view, SIDE, SIDE, 0, white, NULL);
+        view.color_texture = map;
+        hair_test_draw(&scene, &view, SIDE, SIDE, 0, pixels, NULL);
+        double off = 0;
+        int count[3] = {0};
+        for (int i = 0; i < SIDE * SIDE; ++i) {
+            const float *was = white + 4 * (size_t)i, *now = pixels + 4 * (size_t)i;
+            int third = 3 * (i % SIDE) / SIDE;
+            count[third] += was[3] > 0.9f && was[0] > 0.1f;
+            for (int c = 0; c < 3; ++c)
+                off = fmax(off, fabs((double)now[c] - (double)(was[c] * colors[3 * third + c])));
+        }
+        printf("path %d: %d, %d and %d pixels are %.1e off\n", path, count[0], count[1], count[2], off);
+        assert_true(count[0] > 100 && count[1] > 100 && count[2] > 100 && off < 1e-6);
+    }
+    glDeleteTextures(1, &map);
+    hair_test_scene_free(&scene);
+}
+
 // Check that kinds that shaders do not read take no memory and no program, and that the others take
 // 2 bytes each.
 static void factors_cost_two_bytes_of_each_follower(void** state)
@@ -308,6 +370,7 @@ int main(void)
         HAIR_TEST(locks_have_the_weight_of_the_map_and_the_strands),
         HAIR_TEST(highlight_is_as_wide_as_the_roughness_of_its_strand),
         HAIR_TEST(radius_is_a_factor_in_pixels),
+        HAIR_TEST(strands_have_the_colour_of_the_map_at_their_root),
         HAIR_TEST(factors_cost_two_bytes_of_each_follower),
     };
     if (hair_test_skips()) return 0;

@@ -282,7 +282,7 @@ static void root_uvs_are_those_of_the_groom(void** state)
     hair_desc desc = hair_desc_default();
     hair_test_ok(test, hair_create(test->context, scene.groom, &desc, &scene.hair));
     hair_buffers got = get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
-    const float* expected = scene.groom->root_bindings->uv;
+    const float* expected = scene.groom->root_uvs;
     float* uv = malloc(8 * (size_t)got.root_uv.count);
     assert_true(got.root_uv.is_per_strand && got.root_uv.format == GL_RG32F);
     assert_int_equal(got.root_uv.count, scene.groom->info.follower_count);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "lib/asset/strands.h"
+#include "tests/support/grooms.h"
 #include "tests/support/ways.h"
 
 #define FRAME (1.0f / 60)
@@ -215,6 +216,85 @@ static void pieces_keep_groups_radii_and_colours(void** state)
     hair_test_scene_free(&scene);
 }
 
+// Attributes that are linear in the number of the strand, as red is, on a scalp at the roots.
+struct linear {
+    hair_strand_attribute attributes[3];
+    float values[2][HAIR_TEST_CUT_GUIDES], uvs[50];
+    struct hair_test_scalp scalp;
+    hair_groom_desc desc;
+};
+
+static void fill_linear(struct linear* linear)
+{
+    static const hair_strand_attribute_kind kinds[3] = {
+        HAIR_STRAND_ATTRIBUTE_STIFFNESS, HAIR_STRAND_ATTRIBUTE_ROUGHNESS, HAIR_STRAND_ATTRIBUTE_DAMPING};
+    linear->desc = hair_groom_desc_default();
+    linear->scalp = hair_test_scalp_make(4, 0.06f);
+    for (uint32_t i = 0; i < linear->scalp.vertex_count; ++i) {
+        float* p = linear->scalp.positions + 3 * (size_t)i;
+        linear->uvs[2 * i] = p[0] / 0.06f, linear->uvs[2 * i + 1] = p[2] / 0.06f;
+        p[1] = HAIR_TEST_CUT_HEIGHT;
+    }
+    for (int i = 0; i < HAIR_TEST_CUT_GUIDES; ++i) {
+        linear->values[0][i] = 1 + (float)i / HAIR_TEST_CUT_GUIDES;
+        linear->values[1][i] = 2 - (float)i / HAIR_TEST_CUT_GUIDES;
+    }
+    for (int k = 0; k < 3; ++k) {
+        linear->attributes[k] = hair_strand_attribute_default();
+        linear->attributes[k].kind = kinds[k];
+        linear->attributes[k].strand_values = linear->values[k == 2];
+    }
+    hair_test_set_scalp(&linear->desc, &linear->scalp);
+    linear->desc.scalp_uvs = linear->uvs;
+    linear->desc.strand_attributes = linear->attributes, linear->desc.strand_attribute_count = 3;
+}
+
+// Return the root uv of the strand with a seed.
+static const float* uv_of(const hair_groom* groom, uint32_t seed)
+{
+    for (uint32_t i = 0; i < groom->info.follower_count; ++i)
+        if (groom->followers[i].seed == seed) return groom->root_uvs + 2 * (size_t)i;
+    return NULL;
+}
+
+static void pieces_keep_the_attributes_of_their_strands(void** state)
+{
+    struct linear linear;
+    hair_look look = straight_look();
+    fill_linear(&linear);
+    for (int set = 0; set < 2; ++set) {
+        struct hair_test_scene scene = hair_test_cut_scene_with(
+            *state, set ? HAIR_STRAND_SET_FULL : HAIR_STRAND_SET_GUIDES, NULL, &look, NULL, &linear.desc);
+        hair_cut_desc cut = level_plane(0.5f);
+        hair_instance* pieces = cut_off(&scene, &cut);
+        const hair_groom* groom = pieces->groom;
+        double off[3] = {0};
+        uint32_t own = 0;
+        assert_non_null(groom->guide_factors);
+        for (uint32_t f = 0; f < groom->info.follower_count; ++f) {
+            const struct hair_follower* follower = &groom->followers[f];
+            float red = color_of(groom, f, 0).x;
+            float roughness = sqrtf(hair_groom_follower_factor(groom, f, HAIR_FACTOR_VARIANCE));
+            const float* uv = uv_of(scene.groom, follower->seed);
+            assert_memory_equal(groom->root_uvs + 2 * (size_t)f, uv, 2 * sizeof *uv);
+            off[0] = fmax(off[0], fabs((double)(roughness - 1 - red)));
+            if (follower->multi != 0 || set) continue;
+            const struct hair_guide_factors* factors = &groom->guide_factors[follower->guide0];
+            off[1] = fmax(off[1], fabs((double)(factors->stiffness - 1 - red)));
+            off[2] = fmax(off[2], fabs((double)(factors->damping - 2 + red)));
+            ++own;
+        }
+        print_message(
+            "    roughness, stiffness and damping of %u pieces and %u guides: %.1e, %.1e, %.1e off\n",
+            groom->info.follower_count, own, off[0], off[1], off[2]);
+        assert_true(set || own > 8);
+        assert_true(off[0] < 2e-3 && off[1] < 1e-4 && off[2] < 1e-4);
+        hair_destroy(pieces);
+        hair_test_scene_free(&scene);
+    }
+    hair_test_scalp_free(&linear.scalp);
+}
+
 // Strands that swing do not stand on their tips.
 static void colliders_hold_pieces(void** state)
 {
@@ -270,6 +350,7 @@ int main(void)
         HAIR_TEST(pieces_start_with_the_velocity_of_the_hair),
         HAIR_TEST(pieces_fall_as_gravity_has_it),
         HAIR_TEST(pieces_keep_groups_radii_and_colours),
+        HAIR_TEST(pieces_keep_the_attributes_of_their_strands),
         HAIR_TEST(colliders_hold_pieces),
         HAIR_TEST(crumbs_are_no_pieces_and_failures_change_nothing),
     };

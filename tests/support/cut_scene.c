@@ -33,8 +33,25 @@ void hair_test_cut_lengths(struct hair_test_living* living, float straight, floa
     hair_test_ok(living->test, hair_set_lengths(living->hair, 0, HAIR_TEST_CUT_CURL, fractions));
 }
 
+// Copy the attributes and the scalp of a desc.
+static void add_attributes(const hair_groom_desc* from, hair_groom_desc* out)
+{
+    out->strand_attributes = from->strand_attributes;
+    out->strand_attribute_count = from->strand_attribute_count;
+    out->scalp_positions = from->scalp_positions, out->scalp_vertex_count = from->scalp_vertex_count;
+    out->scalp_triangles = from->scalp_triangles, out->scalp_triangle_count = from->scalp_triangle_count;
+    out->scalp_uvs = from->scalp_uvs;
+}
+
 struct hair_test_scene hair_test_cut_scene(struct hair_test* test, hair_strand_set set, const hair_desc* desc,
                                            const hair_look* look, const float transform[16])
+{
+    return hair_test_cut_scene_with(test, set, desc, look, transform, NULL);
+}
+
+struct hair_test_scene hair_test_cut_scene_with(struct hair_test* test, hair_strand_set set,
+                                                const hair_desc* desc, const hair_look* look,
+                                                const float transform[16], const hair_groom_desc* attributes)
 {
     struct hair_test_scene scene = hair_test_scene_make(test, NULL);
     struct hair_test_strands strands = hair_test_strands_make(HAIR_TEST_CUT_GUIDES, VERTICES);
@@ -57,6 +74,7 @@ struct hair_test_scene hair_test_cut_scene(struct hair_test* test, hair_strand_s
     groom.strand_set = set;
     groom.follower_count = 8 * HAIR_TEST_CUT_GUIDES, groom.guide_count = 4;
     groom.strand_radii = radii, groom.colors = colors, groom.color_count = 2;
+    if (attributes) add_attributes(attributes, &groom);
     scene.groom = hair_test_groom_of(&groom);
     hair_desc of = desc ? *desc : hair_desc_default();
     of.look = look;

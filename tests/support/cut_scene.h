@@ -27,6 +27,10 @@ struct hair_test_drawn {
 // colours of its own. NULL selects the default look, or the head at the origin.
 struct hair_test_scene hair_test_cut_scene(struct hair_test* test, hair_strand_set set, const hair_desc* desc,
                                            const hair_look* look, const float transform[16]);
+// Return the same with the attributes and the scalp of a desc. NULL adds none.
+struct hair_test_scene hair_test_cut_scene_with(struct hair_test* test, hair_strand_set set,
+                                                const hair_desc* desc, const hair_look* look,
+                                                const float transform[16], const hair_groom_desc* attributes);
 // Step frames of 1/60 s in which the head swings by 5 cm.
 void hair_test_cut_swing(const struct hair_test_scene* scene, int frames);
 
