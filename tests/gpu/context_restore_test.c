@@ -2,7 +2,16 @@
 // or destroyed.
 #include "tests/support/context_loss.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "lib/asset/strands.h"
+#include "tests/support/cut_scene.h"
+#include "tests/support/tessellated.h"
 #include "tests/support/trace.h"
+
+#define PICTURE_SIDE 64
+#define PICTURE_FRAMES 6
 
 static void restored_hair_is_at_most_two_steps_old(void** state)
 {
@@ -147,6 +156,66 @@ static void groom_may_be_destroyed_before_a_restoration(void** state)
     hair_test_loss_finish(&f);
 }
 
+// Values of each strand for all kinds of attributes, between a half and the whole of 1.
+static void fill_attributes(hair_strand_attribute* attributes,
+                            float values[HAIR_ATTRIBUTE_KINDS][HAIR_TEST_CUT_GUIDES])
+{
+    for (uint32_t k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k) {
+        for (uint32_t i = 0; i < HAIR_TEST_CUT_GUIDES; ++i) {
+            uint32_t random = hair_hash(100 * k + i);
+            values[k][i] = 0.5f + 0.5f * hair_random(&random);
+        }
+        attributes[k] = hair_strand_attribute_default();
+        attributes[k].kind = (hair_strand_attribute_kind)k;
+        attributes[k].strand_values = values[k];
+    }
+}
+
+// Shake the head in a frame, and draw.
+static void draw_frame(const struct hair_test_scene* scene, int frame, float* pixels)
+{
+    float transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0.02f * sinf((float)frame), 0, 0, 1};
+    hair_view view = hair_test_tessellated();
+    hair_test_set_orthographic(&view, 5, 3, -7.6f);
+    if (frame) {
+        hair_test_ok(scene->test, hair_set_transform(scene->hair, transform));
+        hair_test_ok(scene->test, hair_step(scene->hair, 1.0f / 60));
+    }
+    hair_test_draw(scene, &view, PICTURE_SIDE, PICTURE_SIDE, 0, pixels, NULL);
+    glFinish();
+}
+
+// Restored hair of all attributes looks as after one of its last steps, and moves on as before.
+static void restored_hair_has_its_attributes(void** state)
+{
+    static float pixels[PICTURE_FRAMES + 1][4 * PICTURE_SIDE * PICTURE_SIDE], now[sizeof *pixels / 4];
+    hair_strand_attribute attributes[HAIR_ATTRIBUTE_KINDS];
+    float values[HAIR_ATTRIBUTE_KINDS][HAIR_TEST_CUT_GUIDES];
+    struct hair_test* test = *state;
+    struct hair_test_restorable restorable;
+    hair_groom_desc desc = hair_groom_desc_default();
+    hair_look look = hair_look_default();
+    fill_attributes(attributes, values);
+    look.curl.radius = 0.004f, look.strays.frizz = hair_curve_line(0, 0.002f);
+    desc.strand_attributes = attributes, desc.strand_attribute_count = HAIR_ATTRIBUTE_KINDS;
+    hair_test_restorable_begin(test, &restorable);
+    struct hair_test_scene scene =
+        hair_test_cut_scene_with(test, HAIR_STRAND_SET_GUIDES, NULL, &look, NULL, &desc);
+    for (int i = 1; i <= PICTURE_FRAMES; ++i) draw_frame(&scene, i, pixels[i]);
+    hair_test_restorable_lose(test, &restorable);
+    hair_test_ok(test, hair_context_restore(test->context));
+    draw_frame(&scene, 0, now);
+    int frame = PICTURE_FRAMES;
+    while (frame && memcmp(pixels[frame], now, sizeof now) != 0) --frame;
+    print_message("    hair is restored as after step %d of %d\n", frame, PICTURE_FRAMES);
+    assert_true(frame >= PICTURE_FRAMES - 2);
+    for (int i = frame + 1; i <= PICTURE_FRAMES; ++i) draw_frame(&scene, i, now);
+    assert_memory_equal(now, pixels[PICTURE_FRAMES], sizeof now);
+    assert_true(memcmp(pixels[frame - 1], pixels[frame], sizeof now) != 0);
+    hair_test_scene_free(&scene);
+    hair_test_restorable_end(test, &restorable);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -158,6 +227,7 @@ int main(void)
         HAIR_TEST(settings_made_after_a_loss_are_kept),
         HAIR_TEST(restoration_needs_a_restorable_context),
         HAIR_TEST(groom_may_be_destroyed_before_a_restoration),
+        HAIR_TEST(restored_hair_has_its_attributes),
     };
     return hair_test_skips() ? 0 : cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
