@@ -1,5 +1,5 @@
-// piece_motion.c - motion of pieces, which start with the velocities of the guides that their strands
-// have followed.
+// piece_motion.c - motion of pieces, which start with the velocities of the guides that their
+// strands have followed.
 #include "lib/api/pieces.h"
 
 // Return the velocity of a guide at a fraction of its length in the groom, m/s.
@@ -48,7 +48,7 @@ static hair_result write_states(const struct hair_sim* sim, const struct hair_st
     return HAIR_OK;
 }
 
-// What is drawn lies one substep behind the state.
+// The drawn hair lies one substep behind the state.
 hair_result hair_pieces_set_motion(const struct hair_piece_source* source, const uint32_t* piece_of,
                                    hair_instance* pieces)
 {

@@ -78,7 +78,7 @@ float hair_groom_follower_mean(const struct hair_groom* groom, uint32_t follower
 float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t follower,
                                    const float* guide_fraction);
 
-// Return a factor of a follower, HAIR_FACTOR_CLUMP or another. The factor is 1 without an attribute.
+// Return a factor of a follower, HAIR_FACTOR_CLUMP or another. It is 1 without an attribute.
 float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follower, int factor);
 
 // Compute the reach and length of each patch from its followers.
