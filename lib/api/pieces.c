@@ -17,14 +17,14 @@
 #define MORE_GUIDES 3
 
 // Attributes that pieces have from their strands. The shape of pieces has all others.
-static const hair_strand_attribute_kind kinds[] = {
+static const hair_strand_attribute_kind piece_kinds[] = {
     HAIR_STRAND_ATTRIBUTE_STIFFNESS, HAIR_STRAND_ATTRIBUTE_DAMPING, HAIR_STRAND_ATTRIBUTE_ROUGHNESS};
-#define KINDS (sizeof kinds / sizeof *kinds)
+#define PIECE_KINDS (sizeof piece_kinds / sizeof *piece_kinds)
 
 // Arrays from which the groom of pieces is made.
 struct arrays {
     float *positions, *radii, *colors;
-    float* factors[KINDS]; // NULL for an attribute that the strands do not have.
+    float* factors[PIECE_KINDS]; // NULL for an attribute that the strands do not have.
     uint32_t* vertices;
     uint8_t* groups;
     uint32_t vertex_count;
@@ -98,8 +98,8 @@ static float find_factor(const struct hair_groom* groom, uint32_t follower, hair
 static hair_result alloc_factors(const struct hair_piece_source* source, struct arrays* out)
 {
     const hair_host* host = &source->hair->context->host;
-    for (size_t k = 0; k < KINDS; ++k) {
-        if (!has_kind(source->hair->groom, kinds[k])) continue;
+    for (size_t k = 0; k < PIECE_KINDS; ++k) {
+        if (!has_kind(source->hair->groom, piece_kinds[k])) continue;
         out->factors[k] = hair_alloc(host, source->count, sizeof *out->factors[k]);
         if (!out->factors[k]) return hair_fail_memory(host, "the attributes of cut hair");
     }
@@ -109,10 +109,10 @@ static hair_result alloc_factors(const struct hair_piece_source* source, struct 
 // Write the factors of piece i within the ranges of their kinds.
 static void copy_factors(const struct hair_piece_source* source, uint32_t i, struct arrays* out)
 {
-    for (size_t k = 0; k < KINDS; ++k) {
-        struct hair_attribute_range range = hair_attribute_range_of(kinds[k]);
+    for (size_t k = 0; k < PIECE_KINDS; ++k) {
+        struct hair_attribute_range range = hair_attribute_range_of(piece_kinds[k]);
         if (!out->factors[k]) continue;
-        float factor = find_factor(source->hair->groom, source->pieces[i].follower, kinds[k]);
+        float factor = find_factor(source->hair->groom, source->pieces[i].follower, piece_kinds[k]);
         out->factors[k][i] = fminf(fmaxf(factor, range.min), range.max);
     }
 }
@@ -162,7 +162,7 @@ static void free_arrays(const hair_host* host, struct arrays* arrays)
     hair_free(host, arrays->radii);
     hair_free(host, arrays->groups);
     hair_free(host, arrays->colors);
-    for (size_t k = 0; k < KINDS; ++k) hair_free(host, arrays->factors[k]);
+    for (size_t k = 0; k < PIECE_KINDS; ++k) hair_free(host, arrays->factors[k]);
 }
 
 // Return the number of guides of the pieces.
@@ -176,13 +176,13 @@ static uint32_t count_piece_guides(const struct hair_piece_source* source)
 }
 
 // Write the attributes of the groom. Return their number.
-static uint32_t write_attributes(const struct arrays* arrays, hair_strand_attribute out[KINDS])
+static uint32_t write_attributes(const struct arrays* arrays, hair_strand_attribute out[PIECE_KINDS])
 {
     uint32_t count = 0;
-    for (size_t k = 0; k < KINDS; ++k) {
+    for (size_t k = 0; k < PIECE_KINDS; ++k) {
         if (!arrays->factors[k]) continue;
         out[count] = hair_strand_attribute_default();
-        out[count].kind = kinds[k];
+        out[count].kind = piece_kinds[k];
         out[count++].strand_values = arrays->factors[k];
     }
     return count;
@@ -212,7 +212,7 @@ static hair_result make_piece_groom(const struct hair_piece_source* source, cons
     const hair_host* host = &source->hair->context->host;
     hair_groom_desc desc = hair_groom_desc_default();
     hair_import import = hair_import_default();
-    hair_strand_attribute attributes[KINDS];
+    hair_strand_attribute attributes[PIECE_KINDS];
     desc.positions = arrays->positions;
     desc.strand_vertices = arrays->vertices;
     desc.strand_count = source->count;
