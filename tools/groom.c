@@ -119,8 +119,39 @@ static void print_scalp(const hair_asset_info* info)
     printf("%-10s %u vertices, %u triangles%s%s", "scalp:", info->scalp_vertex_count,
            info->scalp_triangle_count, info->scalp_density ? ", density" : "",
            info->scalp_uvs ? ", texture coordinates" : "");
-    if (info->scalp_joints) printf(", %u joints", info->scalp_joint_count);
+    uint32_t sets = 0;
+    while (sets < 4 && info->map_sets[sets]) ++sets;
+    if (sets) printf(", %u map set%s", sets, sets == 1 ? "" : "s");
+    if (info->scalp_joints)
+        printf(", %u joints%s", info->scalp_joint_count, info->scalp_joint_names ? " with names" : "");
     printf("\n");
+}
+
+// Print each kind of attributes once, with how many maps it has.
+static void print_attributes(const hair_asset_info* info)
+{
+    printf("%-10s", "attributes:");
+    for (uint32_t i = 0; i < info->strand_attribute_count; ++i) {
+        hair_strand_attribute_kind kind = info->strand_attributes[i].kind;
+        uint32_t before = 0, maps = 0;
+        for (uint32_t k = 0; k < info->strand_attribute_count; ++k) {
+            if (info->strand_attributes[k].kind != kind) continue;
+            before += k < i;
+            maps += info->strand_attributes[k].map.source != HAIR_MAP_SOURCE_NONE;
+        }
+        if (before) continue;
+        printf("%s %s", i ? "," : "", hair_strand_attribute_name(kind));
+        if (info->strand_attributes[i].strand_values) printf(" of every strand");
+        if (maps) printf(" by %u map%s", maps, maps == 1 ? "" : "s");
+    }
+    printf("%s\n", info->strand_attribute_count ? "" : " none");
+}
+
+static void print_guides(const hair_asset_info* info)
+{
+    uint32_t guides = 0;
+    for (uint32_t i = 0; info->strand_guides && i < info->strand_count; ++i) guides += info->strand_guides[i];
+    if (info->strand_guides) printf("%-10s %u of the strands\n", "guides:", guides);
 }
 
 static void print_asset(const hair_asset_info* info)
@@ -139,6 +170,8 @@ static void print_asset(const hair_asset_info* info)
     printf("%-10s %s\n", "radii:", info->strand_radii ? "of every strand" : "none");
     printf("%-10s %s\n", "colours:", info->strand_colors ? "of every strand" : "none");
     printf("%-10s %s\n", "groups:", info->strand_groups ? "of every strand" : "none");
+    print_guides(info);
+    print_attributes(info);
     print_scalp(info);
     print_repairs(&info->import_stats);
 }

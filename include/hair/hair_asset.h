@@ -25,9 +25,9 @@ typedef enum hair_format {
     /// .tfx version 2, text. Read only.
     HAIR_FORMAT_TFX2,
     /// .groom, the format of this library. It holds all that a hair_asset has: strands with radii,
-    /// groups and colours, and the scalp with density, texture coordinates and joints. Positions
-    /// are compressed, with errors of at most 1e-5 of the length of their strand. Roots are exact.
-    /// Colours are rounded by at most 1.6e-5. All other numbers are exact.
+    /// groups, colours and attributes, and the scalp with density, texture coordinates, maps and
+    /// joints. Positions are compressed, with errors of at most 1e-5 of the length of their strand.
+    /// Roots are exact. Colours are rounded by at most 1.6e-5. All other numbers are exact.
     HAIR_FORMAT_GROOM
 } hair_format;
 
@@ -69,10 +69,11 @@ HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* by
 /// OpenGL: not used. Any thread.
 HAIR_API uint64_t hair_asset_max_size(const void* bytes, size_t size);
 
-/// Create an asset from arrays, to write a file. Maps, physics, followers and the members of `desc`
-/// that choose guides are not used.
+/// Create an asset from arrays, to write a file. Physics, followers and the members of `desc` that
+/// choose guides are not used.
 ///
-/// @param desc Strands and scalp, of the members of hair_groom_desc. They are copied.
+/// @param desc Strands and scalp with attributes and maps, of the members of hair_groom_desc. They
+///     are copied. Values of attributes of one kind are multiplied.
 /// @param scalp_joints Joints of the scalp's vertices, as for hair_set_scalp_weights(). NULL if
 ///     there are none. The next two arguments must then be NULL and 0.
 /// @param scalp_weights Weights of the joints.
@@ -92,8 +93,8 @@ HAIR_API void hair_asset_destroy(hair_asset* asset);
 ///
 /// @param asset Asset to write.
 /// @param format HAIR_FORMAT_GROOM, HAIR_FORMAT_HAIR or HAIR_FORMAT_TFX4. Only the first has
-///     groups and the scalp. The strands of a .tfx file must all have 4, 8, 16, 32 or 64 vertices.
-///     Set hair_import.strand_vertices to resample them.
+///     groups, attributes and the scalp. The strands of a .tfx file must all have 4, 8, 16, 32 or
+///     64 vertices. Set hair_import.strand_vertices to resample them.
 /// @param bytes Receives the content of the file if `capacity` suffices. NULL only queries the
 ///     size.
 /// @param capacity Size of `bytes`. 0 if `bytes` is NULL.
@@ -198,6 +199,17 @@ typedef struct hair_asset_info {
     const uint16_t* scalp_joints; ///< See hair_set_scalp_weights(). NULL if there are none.
     const float* scalp_weights; ///< See hair_set_scalp_weights(). NULL if there are none.
     uint32_t scalp_joint_count; ///< See hair_set_scalp_weights(). 0 if there are none.
+    /// See hair_groom_desc.strand_attributes. The values of a kind are in its first attribute. NULL
+    /// if there are none.
+    const hair_strand_attribute* strand_attributes;
+    uint32_t strand_attribute_count; ///< Number of attributes.
+    const hair_map_set* map_sets[4]; ///< See hair_groom_desc.map_sets.
+    /// 1 for each strand that is a guide in the program that the haircut comes from, otherwise 0.
+    /// NULL if unknown. A groom chooses guides of its own.
+    const uint8_t* strand_guides;
+    /// Names of the scalp's joints in UTF-8, one after another, each with a byte 0 at its end. NULL
+    /// if unknown.
+    const char* scalp_joint_names;
 } hair_asset_info;
 HAIR_DESC(hair_asset_info)
 
@@ -207,7 +219,8 @@ HAIR_DESC(hair_asset_info)
 HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out);
 
 /// Set the strands, radii, colours, groups, strand_set and scalp of `desc` to those of an asset.
-/// Density and texture coordinates are set if the asset has them. Other members keep their values.
+/// Density, texture coordinates, maps and attributes are set if the asset has them. Other members
+/// keep their values.
 /// The asset must live until hair_groom_create() has returned.
 ///
 /// @param desc Desc to change, from hair_groom_desc_default().

@@ -127,6 +127,10 @@ typedef struct hair_strand_attribute {
 } hair_strand_attribute;
 HAIR_DESC(hair_strand_attribute)
 
+/// Return the name of a kind of attributes, such as "stiffness", or NULL beyond the last.
+/// OpenGL: not used. Any thread.
+HAIR_API const char* hair_strand_attribute_name(hair_strand_attribute_kind kind);
+
 // Grooms ------------------------------------------------------------------------------------------
 
 /// Meaning of the strands that a groom is made from.

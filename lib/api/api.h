@@ -130,6 +130,9 @@ hair_result hair_leave(hair_context* context, hair_result result);
 
 // Check that a desc has the arrays of strands, and all or nothing of a scalp.
 hair_result hair_check_groom_arrays(const hair_host* host, const hair_groom_desc* desc);
+// Copy the map sets of a desc into `own`, and let the desc point there. Their values are checked
+// later.
+hair_result hair_copy_map_sets(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS]);
 // Copy the attributes of a desc, and let it point at the copies. Their arrays are checked later.
 hair_result hair_copy_attributes(const hair_host* host, hair_groom_desc* desc,
                                  hair_strand_attribute own[HAIR_MAX_ATTRIBUTES]);

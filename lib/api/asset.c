@@ -39,10 +39,12 @@ hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp
     const struct hair_skin_arrays skin = {scalp_joints, scalp_weights, scalp_joint_count};
     hair_groom_desc own;
     hair_import import;
+    hair_map_set maps[HAIR_MAP_SETS];
     hair_strand_attribute attributes[HAIR_MAX_ATTRIBUTES];
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     HAIR_TRY(hair_check_groom_arrays(&host, &own));
+    HAIR_TRY(hair_copy_map_sets(&host, &own, maps));
     HAIR_TRY(hair_copy_attributes(&host, &own, attributes));
     HAIR_TRY(check_skin_pointers(&host, &own, &skin));
     if (!out) return hair_fail(&host, HAIR_ERROR_ARGUMENT, "out is NULL");
@@ -163,7 +165,12 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
         .scalp_joints = asset->scalp_joints,
         .scalp_weights = asset->scalp_weights,
         .scalp_joint_count = asset->scalp_joint_count,
+        .strand_attributes = asset->attribute_count ? asset->attributes : NULL,
+        .strand_attribute_count = asset->attribute_count,
+        .strand_guides = asset->strands.guides,
+        .scalp_joint_names = asset->joint_names,
     };
+    for (uint32_t i = 0; i < asset->map_set_count; ++i) info.map_sets[i] = &asset->map_sets[i];
     measure_strands(&asset->strands, &info);
     return HAIR_COPY_OUT(&asset->host, hair_asset_info, &info, out);
 }
@@ -188,5 +195,13 @@ hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* d
         desc->strand_groups = asset->strands.groups; // The desc of an older caller ends before.
     if (asset->scalp_density) desc->scalp_density = asset->scalp_density;
     if (asset->scalp_uvs) desc->scalp_uvs = asset->scalp_uvs;
+    for (uint32_t i = 0; asset->map_set_count && i < HAIR_MAP_SETS; ++i)
+        desc->map_sets[i] = i < asset->map_set_count ? &asset->map_sets[i] : NULL;
+    bool has_attributes = desc->header.size >= offsetof(hair_groom_desc, strand_attribute_count) +
+                                                   sizeof desc->strand_attribute_count;
+    if (asset->attribute_count && has_attributes) {
+        desc->strand_attributes = asset->attributes;
+        desc->strand_attribute_count = asset->attribute_count;
+    }
     return HAIR_OK;
 }

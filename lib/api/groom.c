@@ -36,8 +36,7 @@ static hair_result copy_map_set(const hair_host* host, const hair_map_set* set, 
     return hair_schema_copy_in(host, set, own, schema);
 }
 
-// Copy the map sets into `own` and let `desc` point there.
-static hair_result copy_maps(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
+hair_result hair_copy_map_sets(const hair_host* host, hair_groom_desc* desc, hair_map_set own[HAIR_MAP_SETS])
 {
     for (int i = 0; i < HAIR_MAP_SETS; ++i) {
         if (!desc->map_sets[i]) continue;
@@ -114,7 +113,7 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
     HAIR_TRY(HAIR_COPY_IN(&host, hair_groom_desc, desc, &own));
     HAIR_TRY(HAIR_COPY_IN_OR_DEFAULT(&host, hair_import, own.import, &import));
     HAIR_TRY(hair_check_groom_arrays(&host, &own));
-    HAIR_TRY(copy_maps(&host, &own, maps));
+    HAIR_TRY(hair_copy_map_sets(&host, &own, maps));
     HAIR_TRY(hair_copy_attributes(&host, &own, attributes));
     if (own.physics) HAIR_TRY(HAIR_COPY_IN(&host, hair_physics, own.physics, &physics));
     if (own.tasks && !own.tasks->run)
@@ -133,6 +132,11 @@ hair_result hair_groom_create(const hair_groom_desc* desc, hair_groom** out)
 void hair_groom_destroy(hair_groom* groom)
 {
     hair_groom_release(groom);
+}
+
+const char* hair_strand_attribute_name(hair_strand_attribute_kind kind)
+{
+    return (size_t)kind < HAIR_ATTRIBUTE_KINDS ? hair_attribute_name_of(kind) : NULL;
 }
 
 hair_result hair_groom_describe(const hair_groom* groom, hair_groom_info* out)

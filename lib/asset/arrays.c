@@ -158,23 +158,13 @@ static hair_result copy_array(const hair_host* host, const void* from, size_t co
     return HAIR_OK;
 }
 
-static hair_result check_uvs(const hair_host* host, const hair_groom_desc* desc)
-{
-    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count; ++i)
-        if (!(fabsf(desc->scalp_uvs[i]) <= 1e6f))
-            return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs[%zu] is %g, not in [-1e+06, 1e+06]", i,
-                             (double)desc->scalp_uvs[i]);
-    return HAIR_OK;
-}
-
 static hair_result copy_scalp(const hair_groom_desc* desc, const hair_import* import, hair_asset* asset)
 {
     const hair_host* host = &asset->host;
     size_t vertices = desc->scalp_vertex_count, triangles = desc->scalp_triangle_count;
     void *positions = NULL, *corners = NULL, *density = NULL, *uvs = NULL;
     HAIR_TRY(hair_scalp_check(host, desc));
-    HAIR_TRY(check_uvs(host, desc));
+    HAIR_TRY(hair_check_uvs(host, desc));
     hair_result result = copy_array(host, desc->scalp_positions, vertices, 12, &positions);
     if (!result) result = copy_array(host, desc->scalp_triangles, triangles, 12, &corners);
     if (!result) result = copy_array(host, desc->scalp_density, vertices, 4, &density);
@@ -229,6 +219,8 @@ static hair_result fill_asset(const hair_groom_desc* desc, const hair_import* im
     for (uint32_t i = 0; i < desc->strand_count; ++i) asset->file_vertices += desc->strand_vertices[i];
     HAIR_TRY(hair_strands_import(&asset->host, desc, import, &asset->strands, &asset->repairs));
     if (desc->scalp_positions) HAIR_TRY(copy_scalp(desc, import, asset));
+    if (desc->scalp_positions) HAIR_TRY(hair_asset_copy_maps(desc, asset));
+    hair_asset_link_factors(asset);
     return skin->joints ? copy_skin(skin, asset) : HAIR_OK;
 }
 

@@ -19,6 +19,23 @@ hair_result hair_scalp_check(const hair_host* host, const hair_groom_desc* desc)
 hair_result hair_scalp_place(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
                              float* positions);
 
+#define HAIR_MAX_MAP_SIDE 16384u // Maximum number of values along a side of an image.
+#define HAIR_MAX_MAP_THICKNESS 4.0f
+
+// Return the number of values of a map on a scalp.
+uint64_t hair_map_count_values(const hair_map* map, uint32_t vertices, uint32_t triangles);
+// Return the range of the values of maps of density, or of thickness.
+struct hair_attribute_range hair_map_range_of(int thickness);
+uint32_t hair_count_map_sets(const hair_groom_desc* desc);
+// Check the texture coordinates of a scalp.
+hair_result hair_check_uvs(const hair_host* host, const hair_groom_desc* desc);
+// Check all map sets, and texture coordinates.
+hair_result hair_check_map_sets(const hair_host* host, const hair_groom_desc* desc);
+// Check the maps of all attributes, and texture coordinates if there is one.
+hair_result hair_check_attribute_maps(const hair_host* host, const hair_groom_desc* desc);
+// Check and copy all maps of a desc, which has a scalp.
+hair_result hair_asset_copy_maps(const hair_groom_desc* desc, hair_asset* asset);
+
 // Joints of the vertices of a scalp, as for hair_set_scalp_weights(). NULL if there are none.
 struct hair_skin_arrays {
     const uint16_t* joints;

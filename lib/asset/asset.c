@@ -74,6 +74,7 @@ static hair_result decode(const struct hair_source* source, hair_asset* asset)
     asset->file_strands = asset->strands.strand_count;
     asset->file_vertices = asset->strands.vertex_count;
     HAIR_TRY(hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs));
+    hair_asset_link_factors(asset);
     return check_cleaned(source, asset);
 }
 
@@ -109,6 +110,12 @@ hair_result hair_asset_encode(const hair_asset* asset, hair_format format, void*
     return HAIR_OK;
 }
 
+// Free the values of a map, which belong to the asset.
+static void free_map(const hair_host* host, const hair_map* map)
+{
+    hair_free(host, (void*)(uintptr_t)map->values);
+}
+
 void hair_asset_free(hair_asset* asset)
 {
     if (!asset) return;
@@ -120,5 +127,11 @@ void hair_asset_free(hair_asset* asset)
     hair_free(&host, asset->scalp_uvs);
     hair_free(&host, asset->scalp_joints);
     hair_free(&host, asset->scalp_weights);
+    hair_free(&host, asset->joint_names);
+    for (uint32_t i = 0; i < asset->map_set_count; ++i) {
+        free_map(&host, &asset->map_sets[i].density);
+        free_map(&host, &asset->map_sets[i].thickness);
+    }
+    for (uint32_t i = 0; i < asset->attribute_count; ++i) free_map(&host, &asset->attributes[i].map);
     hair_free(&host, asset);
 }

@@ -1,27 +1,39 @@
-// attributes.c - factors of strands from the attributes of an application.
+// attributes.c - names and ranges of the attributes of strands, and factors of strands from the
+// attributes of an application.
 #include "lib/asset/arrays.h"
 
 #include <math.h>
 
+// Names are those of the values of hair_strand_attribute_kind. Files have them, too.
+static const struct kind {
+    const char* name;
+    struct hair_attribute_range range;
+} kinds[] = {
+    [HAIR_STRAND_ATTRIBUTE_STIFFNESS] = {"stiffness", {0, 100}},
+    [HAIR_STRAND_ATTRIBUTE_DAMPING] = {"damping", {0, 100}},
+    [HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY] = {"shape_frequency", {0, 100}},
+    [HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD] = {"gravity_preload", {0, 100}},
+    [HAIR_STRAND_ATTRIBUTE_CLUMP] = {"clump", {0, 1}},
+    [HAIR_STRAND_ATTRIBUTE_CURL_RADIUS] = {"curl_radius", {0, 4}},
+    [HAIR_STRAND_ATTRIBUTE_CURL_FREQUENCY] = {"curl_frequency", {0, 4}},
+    [HAIR_STRAND_ATTRIBUTE_FRIZZ] = {"frizz", {0, 4}},
+    [HAIR_STRAND_ATTRIBUTE_ROUGHNESS] = {"roughness", {0.2f, 4}},
+    [HAIR_STRAND_ATTRIBUTE_RADIUS] = {"radius", {0, 4}},
+    [HAIR_STRAND_ATTRIBUTE_LENGTH] = {"length", {0.01f, 1}},
+    [HAIR_STRAND_ATTRIBUTE_DENSITY] = {"density", {0, 1}},
+};
+_Static_assert(sizeof kinds / sizeof *kinds == HAIR_ATTRIBUTE_KINDS, "each kind has a range");
+
 struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind kind)
 {
-    static const struct hair_attribute_range ranges[] = {
-        [HAIR_STRAND_ATTRIBUTE_STIFFNESS] = {0, 100},
-        [HAIR_STRAND_ATTRIBUTE_DAMPING] = {0, 100},
-        [HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY] = {0, 100},
-        [HAIR_STRAND_ATTRIBUTE_GRAVITY_PRELOAD] = {0, 100},
-        [HAIR_STRAND_ATTRIBUTE_CLUMP] = {0, 1},
-        [HAIR_STRAND_ATTRIBUTE_CURL_RADIUS] = {0, 4},
-        [HAIR_STRAND_ATTRIBUTE_CURL_FREQUENCY] = {0, 4},
-        [HAIR_STRAND_ATTRIBUTE_FRIZZ] = {0, 4},
-        [HAIR_STRAND_ATTRIBUTE_ROUGHNESS] = {0.2f, 4},
-        [HAIR_STRAND_ATTRIBUTE_RADIUS] = {0, 4},
-        [HAIR_STRAND_ATTRIBUTE_LENGTH] = {0.01f, 1},
-        [HAIR_STRAND_ATTRIBUTE_DENSITY] = {0, 1},
-    };
-    _Static_assert(sizeof ranges / sizeof *ranges == HAIR_ATTRIBUTE_KINDS, "each kind has a range");
     HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);
-    return ranges[kind];
+    return kinds[kind].range;
+}
+
+const char* hair_attribute_name_of(hair_strand_attribute_kind kind)
+{
+    HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);
+    return kinds[kind].name;
 }
 
 static hair_result check_values(const hair_host* host, const hair_groom_desc* desc, uint32_t index)
@@ -61,4 +73,41 @@ hair_result hair_strands_copy_factors(const hair_host* host, const hair_groom_de
         HAIR_TRY(multiply_factors(host, &desc->strand_attributes[i], strands));
     }
     return HAIR_OK;
+}
+
+// Assets ------------------------------------------------------------------------------------------
+
+hair_strand_attribute* hair_asset_add_attribute(hair_asset* asset, hair_strand_attribute_kind kind)
+{
+    HAIR_ASSERT(asset->attribute_count < HAIR_MAX_ATTRIBUTES);
+    hair_strand_attribute* attribute = &asset->attributes[asset->attribute_count++];
+    *attribute = hair_strand_attribute_default();
+    attribute->kind = kind;
+    return attribute;
+}
+
+static hair_strand_attribute* find_attribute(hair_asset* asset, hair_strand_attribute_kind kind)
+{
+    for (uint32_t i = 0; i < asset->attribute_count; ++i)
+        if (asset->attributes[i].kind == kind) return &asset->attributes[i];
+    return NULL;
+}
+
+uint32_t hair_asset_count_attributes(hair_asset* asset)
+{
+    uint32_t count = asset->attribute_count;
+    for (int kind = 0; kind < HAIR_ATTRIBUTE_KINDS; ++kind)
+        count += asset->strands.factors[kind] && !find_attribute(asset, (hair_strand_attribute_kind)kind);
+    return count;
+}
+
+void hair_asset_link_factors(hair_asset* asset)
+{
+    for (int i = 0; i < HAIR_ATTRIBUTE_KINDS; ++i) {
+        hair_strand_attribute_kind kind = (hair_strand_attribute_kind)i;
+        if (!asset->strands.factors[i]) continue;
+        hair_strand_attribute* attribute = find_attribute(asset, kind);
+        if (!attribute) attribute = hair_asset_add_attribute(asset, kind);
+        attribute->strand_values = asset->strands.factors[i];
+    }
 }

@@ -58,6 +58,19 @@ static hair_result read_groom_groups(const struct hair_groom_chunk* chunk, struc
     return HAIR_OK;
 }
 
+static hair_result read_groom_guides(const struct hair_groom_chunk* chunk, struct hair_strands* strands)
+{
+    HAIR_TRY(hair_check_chunk_size(chunk, strands->strand_count));
+    for (size_t i = 0; i < strands->strand_count; ++i)
+        if (chunk->content[i] > 1)
+            return HAIR_FAIL_CHUNK(chunk, "has the number %u of strand %zu, not in [0, 1]", chunk->content[i],
+                                   i);
+    strands->guides = hair_alloc(chunk->source->host, strands->strand_count, sizeof *strands->guides);
+    if (!strands->guides) return hair_fail_memory(chunk->source->host, "the guides of a file");
+    memcpy(strands->guides, chunk->content, strands->strand_count);
+    return HAIR_OK;
+}
+
 hair_result hair_decode_groomfile(const struct hair_source* source, hair_asset* asset)
 {
     struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT] = {0};
@@ -76,16 +89,12 @@ hair_result hair_decode_groomfile(const struct hair_source* source, hair_asset* 
     if (chunks[HAIR_CHUNK_GROUPS].letters) HAIR_TRY(read_groom_groups(&chunks[HAIR_CHUNK_GROUPS], strands));
     if (chunks[HAIR_CHUNK_COLORS].letters)
         HAIR_TRY(hair_read_groom_colors(&chunks[HAIR_CHUNK_COLORS], strands));
-    return hair_read_groom_scalp(chunks, asset);
+    if (chunks[HAIR_CHUNK_GUIDES].letters) HAIR_TRY(read_groom_guides(&chunks[HAIR_CHUNK_GUIDES], strands));
+    HAIR_TRY(hair_read_groom_scalp(chunks, asset));
+    return hair_read_named_chunks(source, asset);
 }
 
 // Writing -----------------------------------------------------------------------------------------
-
-static unsigned char* write_floats(unsigned char* at, const float* values, size_t count)
-{
-    for (size_t i = 0; i < count; ++i) at = hair_write_float(at, values[i]);
-    return at;
-}
 
 static uint64_t write_strands_chunk(const hair_asset* asset, unsigned char* at)
 {
@@ -105,7 +114,7 @@ static uint64_t write_mesh(const hair_asset* asset, unsigned char* at)
     if (at) {
         at = hair_write_u32(at, asset->scalp_vertex_count);
         at = hair_write_u32(at, asset->scalp_triangle_count);
-        at = write_floats(at, asset->scalp_positions, 3 * vertices);
+        at = hair_write_floats(at, asset->scalp_positions, 3 * vertices);
         for (size_t i = 0; i < 3 * triangles; ++i) at = hair_write_u32(at, asset->scalp_triangles[i]);
     }
     return 8 + 12 * (uint64_t)(vertices + triangles);
@@ -117,17 +126,26 @@ static uint64_t write_joints(const hair_asset* asset, unsigned char* at)
     if (at) {
         at = hair_write_u32(at, asset->scalp_joint_count);
         for (size_t i = 0; i < 4 * vertices; ++i) at = hair_write_u16(at, asset->scalp_joints[i]);
-        write_floats(at, asset->scalp_weights, 4 * vertices);
+        hair_write_floats(at, asset->scalp_weights, 4 * vertices);
     }
     return 4 + 24 * (uint64_t)vertices;
+}
+
+// Write an array of bytes if there is one.
+static uint64_t write_bytes(const void* bytes, size_t size, unsigned char* at)
+{
+    if (at && bytes) memcpy(at, bytes, size);
+    return bytes ? size : 0;
 }
 
 // Write an array of floats if there is one.
 static uint64_t write_array(const float* values, size_t count, unsigned char* at)
 {
-    if (at && values) write_floats(at, values, count);
+    if (at && values) hair_write_floats(at, values, count);
     return values ? 4 * (uint64_t)count : 0;
 }
+
+#define CHUNKS (HAIR_CHUNK_COUNT + HAIR_NAMED_CHUNKS) // Maximum number of chunks of a file.
 
 // Write the content of a chunk. Return its size, or 0 if the asset has no such content. `at` of
 // NULL only measures.
@@ -138,21 +156,28 @@ static uint64_t write_content(const hair_asset* asset, int chunk, unsigned char*
     case HAIR_CHUNK_STRANDS: return write_strands_chunk(asset, at);
     case HAIR_CHUNK_CURVES: return hair_write_curves(strands, at);
     case HAIR_CHUNK_RADII: return write_array(strands->radii, strands->strand_count, at);
-    case HAIR_CHUNK_GROUPS:
-        if (at && strands->groups) memcpy(at, strands->groups, strands->strand_count);
-        return strands->groups ? strands->strand_count : 0;
+    case HAIR_CHUNK_GROUPS: return write_bytes(strands->groups, strands->strand_count, at);
+    case HAIR_CHUNK_GUIDES: return write_bytes(strands->guides, strands->strand_count, at);
+    case HAIR_CHUNK_JOINT_NAMES: return write_bytes(asset->joint_names, asset->joint_names_size, at);
     case HAIR_CHUNK_COLORS: return strands->colors ? hair_write_groom_colors(strands, at) : 0;
     case HAIR_CHUNK_SCALP: return asset->scalp_positions ? write_mesh(asset, at) : 0;
     case HAIR_CHUNK_DENSITY: return write_array(asset->scalp_density, asset->scalp_vertex_count, at);
     case HAIR_CHUNK_UVS: return write_array(asset->scalp_uvs, 2 * (size_t)asset->scalp_vertex_count, at);
-    default: return asset->scalp_joints ? write_joints(asset, at) : 0;
+    case HAIR_CHUNK_SKIN: return asset->scalp_joints ? write_joints(asset, at) : 0;
+    default: return hair_write_named_chunk(asset, (uint32_t)chunk - HAIR_CHUNK_COUNT, at);
     }
+}
+
+static const char* letters_of(int chunk)
+{
+    return chunk < HAIR_CHUNK_COUNT ? hair_groom_letters[chunk]
+                                    : hair_named_letters((uint32_t)chunk - HAIR_CHUNK_COUNT);
 }
 
 hair_result hair_size_groomfile(const hair_asset* asset, size_t* size)
 {
     uint64_t sum = HAIR_GROOMFILE_HEADER;
-    for (int i = 0; i < HAIR_CHUNK_COUNT; ++i) {
+    for (int i = 0; i < CHUNKS; ++i) {
         uint64_t content = write_content(asset, i, NULL);
         if (content) sum += HAIR_GROOMFILE_CHUNK + content;
     }
@@ -169,10 +194,10 @@ void hair_encode_groomfile(const hair_asset* asset, unsigned char* bytes)
     unsigned char* at = bytes + HAIR_GROOMFILE_HEADER;
     uint32_t chunks = 0;
     hair_crc_init(&crc);
-    for (int i = 0; i < HAIR_CHUNK_COUNT; ++i) {
+    for (int i = 0; i < CHUNKS; ++i) {
         uint64_t size = write_content(asset, i, at + HAIR_GROOMFILE_CHUNK);
         if (!size) continue;
-        memcpy(at, hair_groom_letters[i], 4);
+        memcpy(at, letters_of(i), 4);
         hair_write_u64(at + 4, size);
         uint32_t sum = hair_crc_add(&crc, 0, at, 12);
         hair_write_u32(at + 12, hair_crc_add(&crc, sum, at + HAIR_GROOMFILE_CHUNK, (size_t)size));

@@ -21,12 +21,17 @@
 //   DENS  f32 density of followers at each vertex of the scalp.
 //   TEXC  f32[2] texture coordinates of each vertex of the scalp.
 //   SKIN  u32 joints, u16[4] joints of each vertex of the scalp, f32[4] weights of each.
-//
-// STRD and CURV are required. Readers skip chunks of unknown letters. The library skips two chunks
-// that hair-convert writes, and says so:
-//
-//   GUID  u8 1 for each strand that is a guide, otherwise 0. Sets of guides do not have it.
 //   JNTN  Names of the joints of SKIN in UTF-8, each followed by a byte 0.
+//   GUID  u8 1 for each strand that is a guide, otherwise 0. Sets of guides do not have it.
+//   ATTR  char[32] name, f32 factor of each strand. The name is that of a value of
+//         hair_strand_attribute_kind, such as "stiffness", filled up with bytes 0.
+//   MAPS  char[32] name, u32 index, u32 source, u32 width, u32 height, f32 values. The source is
+//         that of hair_map. The name is "set_density" or "set_thickness", and the index that of a
+//         map set, or the name is that of a kind, and the index is 0.
+//
+// STRD and CURV are required. ATTR and MAPS may stand again, ATTR with another name. Maps of one
+// kind multiply each other. A map of source 0 has no values. A set with no other map has one for
+// its density. Readers skip chunks of unknown letters or names.
 //
 #ifndef HAIR_ASSET_GROOMFILE_H
 #define HAIR_ASSET_GROOMFILE_H
@@ -49,9 +54,17 @@ enum hair_groom_letters {
     HAIR_CHUNK_DENSITY,
     HAIR_CHUNK_UVS,
     HAIR_CHUNK_SKIN,
+    HAIR_CHUNK_JOINT_NAMES,
+    HAIR_CHUNK_GUIDES,
     HAIR_CHUNK_COUNT
 };
 extern const char hair_groom_letters[HAIR_CHUNK_COUNT][5];
+
+// Letters of the chunks that may stand several times, with names.
+#define HAIR_GROOM_FACTORS "ATTR"
+#define HAIR_GROOM_MAP "MAPS"
+// Maximum number of these chunks that an asset is written as.
+#define HAIR_NAMED_CHUNKS (HAIR_ATTRIBUTE_KINDS + 2 * HAIR_MAP_SETS + HAIR_MAX_ATTRIBUTES)
 
 // A chunk of a file being read.
 struct hair_groom_chunk {
@@ -71,6 +84,10 @@ struct hair_groom_chunk {
 hair_result hair_find_groom_chunks(const struct hair_source* source,
                                    struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT]);
 
+// Allocate floats and read them from byte `at` of the content. Fail unless they are in a range.
+hair_result hair_read_groom_floats(const struct hair_groom_chunk* chunk, size_t at, size_t count,
+                                   struct hair_attribute_range range, float** out);
+
 // Fail unless the content of a chunk has exactly this size.
 hair_result hair_check_chunk_size(const struct hair_groom_chunk* chunk, uint64_t size);
 
@@ -87,8 +104,17 @@ hair_result hair_read_groom_colors(const struct hair_groom_chunk* chunk, struct 
 // Read the chunks of the scalp among all chunks.
 hair_result hair_read_groom_scalp(const struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT], hair_asset* asset);
 
+// Read the chunks with names of a file whose chunks are whole, after strands and scalp.
+hair_result hair_read_named_chunks(const struct hair_source* source, hair_asset* asset);
+
+// Return the letters of a chunk with a name, of HAIR_NAMED_CHUNKS.
+const char* hair_named_letters(uint32_t index);
+// Write its content, as below. Return 0 if the asset has no such content.
+uint64_t hair_write_named_chunk(const hair_asset* asset, uint32_t index, unsigned char* at);
+
 // Write the content of a chunk. Return its size. `at` of NULL only measures.
 uint64_t hair_write_curves(const struct hair_strands* strands, unsigned char* at);
 uint64_t hair_write_groom_colors(const struct hair_strands* strands, unsigned char* at);
+unsigned char* hair_write_floats(unsigned char* at, const float* values, size_t count);
 
 #endif

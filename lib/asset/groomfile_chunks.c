@@ -3,8 +3,8 @@
 #include "lib/asset/track.h"
 #include "lib/base/crc.h"
 
-const char hair_groom_letters[HAIR_CHUNK_COUNT][5] = {"STRD", "CURV", "RADI", "GRUP", "COLR",
-                                                      "SCLP", "DENS", "TEXC", "SKIN"};
+const char hair_groom_letters[HAIR_CHUNK_COUNT][5] = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP",
+                                                      "DENS", "TEXC", "SKIN", "JNTN", "GUID"};
 
 bool hair_is_groomfile(const unsigned char* bytes, size_t size)
 {
@@ -26,6 +26,27 @@ hair_result hair_check_chunk_size(const struct hair_groom_chunk* chunk, uint64_t
 {
     if (chunk->size == size) return HAIR_OK;
     return HAIR_FAIL_CHUNK(chunk, "has %zu bytes, not %llu", chunk->size, (unsigned long long)size);
+}
+
+hair_result hair_read_groom_floats(const struct hair_groom_chunk* chunk, size_t at, size_t count,
+                                   struct hair_attribute_range range, float** out)
+{
+    HAIR_ASSERT(at + 4 * count <= chunk->size);
+    float* values = *out = hair_alloc(chunk->source->host, count, sizeof *values);
+    if (!values) return hair_fail_memory(chunk->source->host, "the numbers of a file");
+    for (size_t i = 0; i < count; ++i) {
+        values[i] = hair_read_float(chunk->content + at + 4 * i);
+        if (!(values[i] >= range.min && values[i] <= range.max)) // NaN fails too.
+            return HAIR_FAIL_CHUNK(chunk, "has the number %g, not in [%g, %g]", (double)values[i],
+                                   (double)range.min, (double)range.max);
+    }
+    return HAIR_OK;
+}
+
+unsigned char* hair_write_floats(unsigned char* at, const float* values, size_t count)
+{
+    for (size_t i = 0; i < count; ++i) at = hair_write_float(at, values[i]);
+    return at;
 }
 
 // Header and list of chunks -----------------------------------------------------------------------
@@ -115,6 +136,7 @@ static hair_result add_chunk(const struct hair_source* source, size_t at, size_t
     int i = 0;
     char letters[5];
     read_letters(source->bytes + at, letters);
+    if (!strcmp(letters, HAIR_GROOM_FACTORS) || !strcmp(letters, HAIR_GROOM_MAP)) return HAIR_OK;
     while (i < HAIR_CHUNK_COUNT && strcmp(hair_groom_letters[i], letters) != 0) ++i;
     if (i == HAIR_CHUNK_COUNT) {
         if (!(*unknown)++)

@@ -7,21 +7,6 @@
 #define MAX_COUNT 4194304 // Maximum number of vertices and of triangles, as of hair_groom_desc.
 #define MAX_JOINTS 65536
 
-// Allocate floats and read them. Fail unless they are in a range.
-static hair_result read_floats(const struct hair_groom_chunk* chunk, size_t at, size_t count, float min,
-                               float max, float** out)
-{
-    float* values = *out = hair_alloc(chunk->source->host, count, sizeof *values);
-    if (!values) return hair_fail_memory(chunk->source->host, "the scalp of a file");
-    for (size_t i = 0; i < count; ++i) {
-        values[i] = hair_read_float(chunk->content + at + 4 * i);
-        if (!(values[i] >= min && values[i] <= max)) // NaN fails too.
-            return HAIR_FAIL_CHUNK(chunk, "has the number %g, not in [%g, %g]", (double)values[i],
-                                   (double)min, (double)max);
-    }
-    return HAIR_OK;
-}
-
 static hair_result read_triangles(const struct hair_groom_chunk* chunk, size_t at, hair_asset* asset)
 {
     size_t corners = 3 * (size_t)asset->scalp_triangle_count;
@@ -46,7 +31,8 @@ static hair_result read_mesh(const struct hair_groom_chunk* chunk, hair_asset* a
                                vertices, triangles, MAX_COUNT, MAX_COUNT);
     HAIR_TRY(hair_check_chunk_size(chunk, 8 + 12 * ((uint64_t)vertices + triangles)));
     float limit = 2 * FARTHEST / chunk->source->import->scale;
-    HAIR_TRY(read_floats(chunk, 8, 3 * (size_t)vertices, -limit, limit, &asset->scalp_positions));
+    HAIR_TRY(hair_read_groom_floats(chunk, 8, 3 * (size_t)vertices,
+                                    (struct hair_attribute_range){-limit, limit}, &asset->scalp_positions));
     for (size_t i = 0; i < vertices; ++i) {
         float* p = asset->scalp_positions + 3 * i;
         hair_vec3 at = hair_import_point(chunk->source->import, hair_load3(p));
@@ -87,8 +73,52 @@ static hair_result read_joints(const struct hair_groom_chunk* chunk, hair_asset*
     if (!asset->scalp_joints) return hair_fail_memory(chunk->source->host, "the scalp of a file");
     for (size_t i = 0; i < 4 * vertices; ++i)
         asset->scalp_joints[i] = (uint16_t)hair_read_u16(chunk->content + 4 + 2 * i);
-    HAIR_TRY(read_floats(chunk, 4 + 8 * vertices, 4 * vertices, 0, 1, &asset->scalp_weights));
+    HAIR_TRY(hair_read_groom_floats(chunk, 4 + 8 * vertices, 4 * vertices,
+                                    (struct hair_attribute_range){0, 1}, &asset->scalp_weights));
     return check_joints(chunk, asset);
+}
+
+// Return the length of the character of UTF-8 at the beginning of bytes, or 0.
+static size_t measure_utf8(const unsigned char* at, size_t size)
+{
+    static const uint32_t min[5] = {0, 0, 0x80, 0x800, 0x10000};
+    size_t length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3 : at[0] >> 3 == 30 ? 4 : 0;
+    if (length <= 1) return length;
+    uint32_t character = at[0] & (0x7fu >> length);
+    if (length > size) return 0;
+    for (size_t i = 1; i < length; ++i) {
+        if (at[i] >> 6 != 2) return 0;
+        character = character << 6 | (at[i] & 63u);
+    }
+    bool is_surrogate = character >> 11 == 0xd800 >> 11;
+    return character >= min[length] && character <= 0x10ffff && !is_surrogate ? length : 0;
+}
+
+static bool is_utf8(const unsigned char* bytes, size_t size)
+{
+    for (size_t at = 0, length; at < size; at += length) {
+        length = measure_utf8(bytes + at, size - at);
+        if (!length) return false;
+    }
+    return true;
+}
+
+static hair_result read_joint_names(const struct hair_groom_chunk* chunk, hair_asset* asset)
+{
+    if (!asset->scalp_joint_count)
+        return HAIR_FAIL_CHUNK(chunk, "needs a chunk \"%s\"", hair_groom_letters[HAIR_CHUNK_SKIN]);
+    uint32_t names = 0;
+    for (size_t i = 0; i < chunk->size; ++i) names += chunk->content[i] == 0;
+    if (names != asset->scalp_joint_count || chunk->content[chunk->size - 1])
+        return HAIR_FAIL_CHUNK(chunk, "has %u names that end in a byte 0, not %u", names,
+                               asset->scalp_joint_count);
+    if (!is_utf8(chunk->content, chunk->size))
+        return HAIR_FAIL_CHUNK(chunk, "has a name that is not %s", "UTF-8");
+    asset->joint_names = hair_alloc(chunk->source->host, chunk->size, 1);
+    if (!asset->joint_names) return hair_fail_memory(chunk->source->host, "the names of joints");
+    memcpy(asset->joint_names, chunk->content, chunk->size);
+    asset->joint_names_size = chunk->size;
+    return HAIR_OK;
 }
 
 hair_result hair_read_groom_scalp(const struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT], hair_asset* asset)
@@ -101,11 +131,15 @@ hair_result hair_read_groom_scalp(const struct hair_groom_chunk chunks[HAIR_CHUN
             return HAIR_FAIL_CHUNK(&chunks[i], "needs a chunk \"%s\"", hair_groom_letters[HAIR_CHUNK_SCALP]);
     if (density->letters) {
         HAIR_TRY(hair_check_chunk_size(density, 4 * (uint64_t)vertices));
-        HAIR_TRY(read_floats(density, 0, vertices, 0, 1, &asset->scalp_density));
+        HAIR_TRY(hair_read_groom_floats(density, 0, vertices, (struct hair_attribute_range){0, 1},
+                                        &asset->scalp_density));
     }
     if (uvs->letters) {
         HAIR_TRY(hair_check_chunk_size(uvs, 8 * (uint64_t)vertices));
-        HAIR_TRY(read_floats(uvs, 0, 2 * vertices, -1e6f, 1e6f, &asset->scalp_uvs));
+        HAIR_TRY(hair_read_groom_floats(uvs, 0, 2 * vertices, (struct hair_attribute_range){-1e6f, 1e6f},
+                                        &asset->scalp_uvs));
     }
-    return chunks[HAIR_CHUNK_SKIN].letters ? read_joints(&chunks[HAIR_CHUNK_SKIN], asset) : HAIR_OK;
+    if (chunks[HAIR_CHUNK_SKIN].letters) HAIR_TRY(read_joints(&chunks[HAIR_CHUNK_SKIN], asset));
+    const struct hair_groom_chunk* names = &chunks[HAIR_CHUNK_JOINT_NAMES];
+    return names->letters ? read_joint_names(names, asset) : HAIR_OK;
 }

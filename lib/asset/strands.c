@@ -17,6 +17,7 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     hair_free(host, strands->radii);
     hair_free(host, strands->colors);
     hair_free(host, strands->groups);
+    hair_free(host, strands->guides);
     for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k) hair_free(host, strands->factors[k]);
     memset(strands, 0, sizeof *strands);
 }
@@ -60,11 +61,12 @@ struct kept {
     uint32_t strands, vertices;
 };
 
-// Keep the radius, the group, the factors and the colours of a strand.
+// Keep what a strand has beside its vertices.
 static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
 {
     if (strands->radii) strands->radii[kept] = strands->radii[strand];
     if (strands->groups) strands->groups[kept] = strands->groups[strand];
+    if (strands->guides) strands->guides[kept] = strands->guides[strand];
     for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k)
         if (strands->factors[k]) strands->factors[k][kept] = strands->factors[k][strand];
     if (strands->colors)
@@ -241,11 +243,12 @@ static hair_result shrink(const hair_host* host, void** memory, size_t count, si
 static hair_result shrink_all(const hair_host* host, struct hair_strands* strands)
 {
     void *positions = strands->positions, *vertices = strands->vertices, *radii = strands->radii,
-         *colors = strands->colors, *groups = strands->groups;
+         *colors = strands->colors, *groups = strands->groups, *guides = strands->guides;
     hair_result result = shrink(host, &positions, strands->vertex_count, 3 * sizeof(float));
     if (!result) result = shrink(host, &vertices, strands->strand_count, sizeof(uint32_t));
     if (!result) result = shrink(host, &radii, strands->strand_count, sizeof(float));
     if (!result) result = shrink(host, &groups, strands->strand_count, sizeof *strands->groups);
+    if (!result) result = shrink(host, &guides, strands->strand_count, sizeof *strands->guides);
     if (!result)
         result = shrink(host, &colors, strands->strand_count, 3 * HAIR_STRAND_COLORS * sizeof(float));
     strands->positions = positions;
@@ -253,6 +256,7 @@ static hair_result shrink_all(const hair_host* host, struct hair_strands* strand
     strands->radii = radii;
     strands->colors = colors;
     strands->groups = groups;
+    strands->guides = guides;
     for (int k = 0; k < HAIR_ATTRIBUTE_KINDS && !result; ++k) {
         void* factors = strands->factors[k];
         result = shrink(host, &factors, strands->strand_count, sizeof(float));

@@ -22,6 +22,7 @@ struct hair_strands {
     uint32_t vertex_count;
     // Factor of each strand, by hair_strand_attribute_kind. NULL if all are 1.
     float* factors[HAIR_ATTRIBUTE_KINDS];
+    uint8_t* guides; // 1 for each strand that is a guide, otherwise 0. NULL if unknown.
 };
 
 // Range of the factors of an attribute.
@@ -29,6 +30,8 @@ struct hair_attribute_range {
     float min, max;
 };
 struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind kind);
+// Return the name of a kind, such as "stiffness".
+const char* hair_attribute_name_of(hair_strand_attribute_kind kind);
 
 // Return an imported point in metres, +y up. Only proper rotations are used, so nothing is
 // mirrored.

@@ -1,23 +1,7 @@
 // attributes.c - factors of guides, from values of their strands and from maps on the scalp.
 #include "lib/groom/surface.h"
 
-#include <stdio.h>
-
 #define GUIDE_KINDS 4 // Kinds of attributes that belong to guides. They are the first.
-
-hair_result hair_check_attribute_maps(const struct hair_groom_builder* builder)
-{
-    const hair_groom_desc* desc = builder->desc;
-    bool has_maps = false;
-    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i) {
-        struct hair_attribute_range range = hair_attribute_range_of(desc->strand_attributes[i].kind);
-        char name[48];
-        snprintf(name, sizeof name, "strand_attributes[%u].map", i);
-        has_maps |= desc->strand_attributes[i].map.source != HAIR_MAP_SOURCE_NONE;
-        HAIR_TRY(hair_check_map(builder, name, &desc->strand_attributes[i].map, range.min, range.max));
-    }
-    return has_maps ? hair_check_uvs(builder) : HAIR_OK;
-}
 
 bool hair_has_attribute(const struct hair_groom_builder* builder, hair_strand_attribute_kind kind,
                         bool is_map)

@@ -95,13 +95,6 @@ float hair_find_map_factor(const struct hair_groom_builder* builder, hair_strand
 void hair_shorten_follower(const struct hair_groom_builder* builder, const struct hair_strand_mix* mix,
                            const struct hair_scalp_point* root, struct hair_follower* follower);
 
-// Check the maps of all attributes.
-hair_result hair_check_attribute_maps(const struct hair_groom_builder* builder);
-
-// Check a map, whose name in hair_groom_desc is `name`, and the texture coordinates for images.
-hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
-                           float min, float max);
-hair_result hair_check_uvs(const struct hair_groom_builder* builder);
 // Return the value of a map at a point of the scalp. A map without a source has no point.
 float hair_map_value(const struct hair_groom_builder* builder, const hair_map* map,
                      const struct hair_scalp_point* scalp_point);

@@ -1,80 +1,6 @@
 // maps.c - density and thickness of hair, read from maps on the scalp.
+#include "lib/asset/arrays.h"
 #include "lib/groom/groom_builder.h"
-
-#include <stdio.h>
-
-// Maximum number of values along a side of an image.
-#define LARGEST 16384u
-// Maximum value of a thickness map.
-#define THICKEST 4.0f
-
-static uint32_t count_sets(const hair_groom_desc* desc)
-{
-    uint32_t count = 0;
-    while (count < HAIR_MAP_SETS && desc->map_sets[count]) ++count;
-    return count;
-}
-
-static uint64_t count_values(const hair_groom_desc* desc, const hair_map* map)
-{
-    switch (map->source) {
-    case HAIR_MAP_SOURCE_NONE: break;
-    case HAIR_MAP_SOURCE_IMAGE: return (uint64_t)map->width * map->height;
-    case HAIR_MAP_SOURCE_VERTICES: return desc->scalp_vertex_count;
-    case HAIR_MAP_SOURCE_TRIANGLES: return desc->scalp_triangle_count;
-    }
-    return 0;
-}
-
-hair_result hair_check_map(const struct hair_groom_builder* builder, const char* name, const hair_map* map,
-                           float min, float max)
-{
-    const hair_host* host = builder->host;
-    const hair_groom_desc* desc = builder->desc;
-    HAIR_ASSERT((uint32_t)map->source <= HAIR_MAP_SOURCE_TRIANGLES);
-    if (map->source == HAIR_MAP_SOURCE_NONE) return HAIR_OK;
-    if (!map->values) return hair_fail(host, HAIR_ERROR_ARGUMENT, "hair_groom_desc.%s.values is NULL", name);
-    if (map->source == HAIR_MAP_SOURCE_IMAGE) {
-        if (map->width - 1 >= LARGEST || map->height - 1 >= LARGEST)
-            return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.%s is an image of %u by %u, not of [1, %u] each", name,
-                             map->width, map->height, LARGEST);
-        if (!desc->scalp_uvs)
-            return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs is NULL but %s is an image", name);
-    }
-    uint64_t count = count_values(desc, map);
-    for (uint64_t i = 0; i < count; ++i)
-        if (!(map->values[i] >= min && map->values[i] <= max)) // NaN fails too.
-            return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.%s.values[%llu] is %g, not in [%g, %g]", name,
-                             (unsigned long long)i, (double)map->values[i], (double)min, (double)max);
-    return HAIR_OK;
-}
-
-hair_result hair_check_uvs(const struct hair_groom_builder* builder)
-{
-    const hair_groom_desc* desc = builder->desc;
-    for (size_t i = 0; desc->scalp_uvs && i < 2 * (size_t)desc->scalp_vertex_count; ++i)
-        if (!(fabsf(desc->scalp_uvs[i]) <= 1e6f))
-            return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
-                             "hair_groom_desc.scalp_uvs: vertex %zu has %g, not in [-1e6, 1e6]", i / 2,
-                             (double)desc->scalp_uvs[i]);
-    return HAIR_OK;
-}
-
-static hair_result check_maps(const struct hair_groom_builder* builder, uint32_t sets)
-{
-    const hair_groom_desc* desc = builder->desc;
-    for (uint32_t i = 0; i < sets; ++i) {
-        char name[48];
-        snprintf(name, sizeof name, "map_sets[%u].density", i);
-        HAIR_TRY(hair_check_map(builder, name, &desc->map_sets[i]->density, 0, 1));
-        snprintf(name, sizeof name, "map_sets[%u].thickness", i);
-        HAIR_TRY(hair_check_map(builder, name, &desc->map_sets[i]->thickness, 0, THICKEST));
-    }
-    return hair_check_uvs(builder);
-}
 
 // Find the values before and after a coordinate along a side. `fraction` is the weight of the
 // second value.
@@ -148,11 +74,11 @@ hair_result hair_fail_degenerate(const struct hair_groom_builder* builder)
 
 hair_result hair_build_maps(struct hair_groom_builder* builder)
 {
-    uint32_t sets = count_sets(builder->desc);
+    uint32_t sets = hair_count_map_sets(builder->desc);
     uint32_t count = builder->candidate_count;
     builder->groom->map_sets = sets;
     if (sets == 0) return HAIR_OK;
-    HAIR_TRY(check_maps(builder, sets));
+    HAIR_TRY(hair_check_map_sets(builder->host, builder->desc));
     if (!builder->scalp_points) return hair_fail_degenerate(builder);
     builder->map_density = hair_alloc(builder->host, count, sizeof *builder->map_density);
     builder->map_thickness = hair_alloc(builder->host, count, sizeof *builder->map_thickness);

@@ -1,4 +1,5 @@
 // shorten.c - strands and followers that attributes make shorter when a groom is made.
+#include "lib/asset/arrays.h"
 #include "lib/groom/surface.h"
 
 #include <string.h>
@@ -77,7 +78,7 @@ static hair_result shorten_by_map(struct hair_groom_builder* builder)
 
 hair_result hair_shorten_strands(struct hair_groom_builder* builder)
 {
-    HAIR_TRY(hair_check_attribute_maps(builder));
+    HAIR_TRY(hair_check_attribute_maps(builder->host, builder->desc));
     if (hair_has_attribute(builder, HAIR_STRAND_ATTRIBUTE_LENGTH, true)) return shorten_by_map(builder);
     if (hair_has_attribute(builder, HAIR_STRAND_ATTRIBUTE_LENGTH, false)) shorten_all(builder, NULL);
     return HAIR_OK;

@@ -120,6 +120,40 @@ static bool are_equal_bytes(const void* a, const void* b, size_t size)
     return !a == !b && (!a || !memcmp(a, b, size));
 }
 
+static void check_equal_maps(const hair_asset* asset, const hair_map* a, const hair_map* b)
+{
+    const size_t counts[] = {0, (size_t)a->width * a->height, asset->scalp_vertex_count,
+                             asset->scalp_triangle_count};
+    HAIR_FUZZ_CHECK(a->source == b->source && a->source <= HAIR_MAP_SOURCE_TRIANGLES);
+    HAIR_FUZZ_CHECK(a->width == b->width && a->height == b->height && !a->values == !a->source);
+    HAIR_FUZZ_CHECK(are_equal_bytes(a->values, b->values, counts[a->source] * sizeof(float)));
+    for (size_t i = 0; i < counts[a->source]; ++i) HAIR_FUZZ_CHECK(a->values[i] >= 0 && a->values[i] <= 100);
+}
+
+// Check that guides, names of joints, attributes and maps are equal.
+static void check_equal_named(const hair_asset* a, const hair_asset* b)
+{
+    size_t count = a->strands.strand_count;
+    HAIR_FUZZ_CHECK(are_equal_bytes(a->strands.guides, b->strands.guides, count));
+    HAIR_FUZZ_CHECK(a->joint_names_size == b->joint_names_size);
+    HAIR_FUZZ_CHECK(are_equal_bytes(a->joint_names, b->joint_names, a->joint_names_size));
+    HAIR_FUZZ_CHECK(a->map_set_count == b->map_set_count && a->attribute_count == b->attribute_count);
+    HAIR_FUZZ_CHECK(a->map_set_count <= HAIR_MAP_SETS && a->attribute_count <= HAIR_MAX_ATTRIBUTES);
+    for (uint32_t i = 0; i < a->map_set_count; ++i) {
+        check_equal_maps(a, &a->map_sets[i].density, &b->map_sets[i].density);
+        check_equal_maps(a, &a->map_sets[i].thickness, &b->map_sets[i].thickness);
+    }
+    for (uint32_t i = 0; i < a->attribute_count; ++i) {
+        const hair_strand_attribute *p = &a->attributes[i], *q = &b->attributes[i];
+        struct hair_attribute_range range = hair_attribute_range_of(p->kind);
+        HAIR_FUZZ_CHECK(p->kind == q->kind && (p->strand_values || p->map.source));
+        HAIR_FUZZ_CHECK(are_equal_bytes(p->strand_values, q->strand_values, count * sizeof(float)));
+        for (size_t k = 0; p->strand_values && k < count; ++k)
+            HAIR_FUZZ_CHECK(p->strand_values[k] >= range.min && p->strand_values[k] <= range.max);
+        check_equal_maps(a, &p->map, &q->map);
+    }
+}
+
 // Write a .groom file. Check that the file is read as the same haircut, but for its errors.
 static void check_groom(const hair_asset* asset)
 {
@@ -147,6 +181,7 @@ static void check_groom(const hair_asset* asset)
     HAIR_FUZZ_CHECK(are_equal_bytes(asset->scalp_uvs, again->scalp_uvs, 8 * vertices));
     HAIR_FUZZ_CHECK(are_equal_bytes(asset->scalp_joints, again->scalp_joints, 8 * vertices));
     HAIR_FUZZ_CHECK(are_equal_bytes(asset->scalp_weights, again->scalp_weights, 16 * vertices));
+    check_equal_named(asset, again);
     destroy(&host, again);
     free(bytes);
 }
@@ -174,6 +209,13 @@ static void add(uint64_t* hash, const hair_asset* asset)
         hair_fuzz_add(hash, strands->groups[i]);
     if (asset->scalp_positions)
         hair_fuzz_add_floats(hash, asset->scalp_positions, 3 * (size_t)asset->scalp_vertex_count);
+    for (uint32_t i = 0; i < asset->attribute_count; ++i) {
+        const hair_strand_attribute* attribute = &asset->attributes[i];
+        hair_fuzz_add(hash, (uint32_t)attribute->kind);
+        if (attribute->strand_values)
+            hair_fuzz_add_floats(hash, attribute->strand_values, strands->strand_count);
+        if (attribute->map.values) hair_fuzz_add_floats(hash, attribute->map.values, 1);
+    }
     for (size_t i = 0; strands->colors && i < 3 * HAIR_STRAND_COLORS * (size_t)strands->strand_count; ++i)
         hair_fuzz_add(hash, (uint32_t)lrintf(strands->colors[i] * 1000));
 }

@@ -234,6 +234,13 @@ void hair_test_assert_fit(const struct hair_strands* strands)
     assert_int_equal(first, strands->vertex_count);
 }
 
+void hair_test_refuse_beginnings(struct hair_test_file file, bool (*survives)(const void*, size_t))
+{
+    for (size_t size = 0; size < file.size; ++size) assert_false(survives(file.bytes, size));
+    assert_true(survives(file.bytes, file.size));
+    free(file.bytes);
+}
+
 hair_asset* hair_test_read_file(struct hair_test_host* test, const hair_import* import,
                                 struct hair_test_file file)
 {

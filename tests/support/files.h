@@ -44,6 +44,9 @@ void hair_test_assert_fit(const struct hair_strands* strands);
 hair_result hair_test_read(struct hair_test_host* test, const hair_import* import, const void* bytes,
                            size_t size, hair_asset** out);
 
+// Check that `survives` accepts a file, and none of its beginnings. Free its bytes.
+void hair_test_refuse_beginnings(struct hair_test_file file, bool (*survives)(const void*, size_t));
+
 // Read a file that must be valid by hair_test_read(), and free its bytes.
 hair_asset* hair_test_read_file(struct hair_test_host* test, const hair_import* import,
                                 struct hair_test_file file);

@@ -24,8 +24,30 @@ static void fill_strands(float* positions, float* colors)
     for (int i = 0; i < 3 * HAIR_STRAND_COLORS * STRANDS; ++i) colors[i] = (float)(i * 37 % 101) / 100;
 }
 
-struct hair_test_file hair_test_groomfile(void)
+// Give an asset what chunks with names hold: two map sets, and attributes of three kinds.
+static void add_named(hair_asset* asset)
 {
+    static const float values[8] = {0, 0.25f, 0.5f, 1, 0.75f, 0.125f, 1, 0};
+    static float stiffness[STRANDS] = {0.5f, 1, 2, 100}, length[STRANDS] = {1, 0.5f, 0.25f, 0.01f};
+    asset->map_set_count = 2;
+    for (int i = 0; i < 2; ++i) asset->map_sets[i] = hair_map_set_default();
+    asset->map_sets[1].density = (hair_map){HAIR_MAP_SOURCE_IMAGE, values, 4, 2};
+    asset->map_sets[1].thickness = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, values + 2, 0, 0};
+    hair_asset_add_attribute(asset, HAIR_STRAND_ATTRIBUTE_FRIZZ)->map =
+        (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
+    hair_asset_add_attribute(asset, HAIR_STRAND_ATTRIBUTE_LENGTH)->map =
+        (hair_map){HAIR_MAP_SOURCE_IMAGE, values + 1, 1, 5};
+    hair_asset_add_attribute(asset, HAIR_STRAND_ATTRIBUTE_FRIZZ)->map =
+        (hair_map){HAIR_MAP_SOURCE_IMAGE, values, 2, 2};
+    asset->strands.factors[HAIR_STRAND_ATTRIBUTE_STIFFNESS] = stiffness;
+    asset->strands.factors[HAIR_STRAND_ATTRIBUTE_LENGTH] = length;
+}
+
+static struct hair_test_file write_groomfile(bool has_all)
+{
+    // A byte 0 follows the last name.
+    static char names[] = "hip\0neck\0head\0h\xc3\xa4r\0\xf0\x9f\xa6\xb1";
+    static uint8_t guides[STRANDS] = {1, 0, 1, 1};
     static uint32_t vertices[STRANDS] = {3, 2, 4, 3}, triangles[6] = {0, 1, 2, 2, 1, 3};
     static uint8_t groups[STRANDS] = {0, 7, 3, 0};
     static float positions[3 * VERTICES], colors[3 * HAIR_STRAND_COLORS * STRANDS],
@@ -45,13 +67,31 @@ struct hair_test_file hair_test_groomfile(void)
                         .scalp_triangle_count = 2,
                         .scalp_joint_count = 5};
     fill_strands(positions, colors);
+    if (has_all) {
+        asset.strands.guides = guides;
+        asset.joint_names = names;
+        asset.joint_names_size = sizeof names;
+        add_named(&asset);
+    }
     return hair_test_write_file(&asset, HAIR_FORMAT_GROOM);
+}
+
+struct hair_test_file hair_test_groomfile(void)
+{
+    return write_groomfile(true);
+}
+
+struct hair_test_file hair_test_old_groomfile(void)
+{
+    return write_groomfile(false);
 }
 
 size_t hair_test_find_chunk(const struct hair_test_file* file, const char* letters)
 {
     size_t at = 32;
-    while (at + 16 <= file->size && memcmp(file->bytes + at, letters, 4) != 0)
+    const char* name = letters[4] ? letters + 5 : "";
+    while (at + 16 <= file->size && (memcmp(file->bytes + at, letters, 4) != 0 ||
+                                     memcmp(file->bytes + at + 16, name, strlen(name)) != 0))
         at += 16 + (size_t)hair_read_u64(file->bytes + at + 4);
     if (at + 16 > file->size) fail_msg("there is no chunk %s", letters);
     return at;

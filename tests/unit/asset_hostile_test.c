@@ -55,17 +55,9 @@ static void truncated_binary_files_are_refused(void** state)
     (void)state;
     for (uint32_t arrays = 2; arrays < 32; ++arrays) {
         if (!(arrays & 2)) continue;
-        struct hair_test_file file = hair_test_hair(arrays);
-        for (size_t size = 0; size < file.size; ++size) assert_false(survives(file.bytes, size));
-        assert_true(survives(file.bytes, file.size));
-        free(file.bytes);
+        hair_test_refuse_beginnings(hair_test_hair(arrays), survives);
     }
-    for (size_t i = 0; i < 2; ++i) {
-        struct hair_test_file file = formats[i].make();
-        for (size_t size = 0; size < file.size; ++size) assert_false(survives(file.bytes, size));
-        assert_true(survives(file.bytes, file.size));
-        free(file.bytes);
-    }
+    for (size_t i = 0; i < 2; ++i) hair_test_refuse_beginnings(formats[i].make(), survives);
 }
 
 static void truncated_text_file_is_refused(void** state)

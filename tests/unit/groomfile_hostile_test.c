@@ -47,10 +47,7 @@ static void refuse(struct hair_test_file file, const char* text)
 static void truncated_files_are_refused(void** state)
 {
     (void)state;
-    struct hair_test_file file = hair_test_groomfile();
-    for (size_t size = 0; size < file.size; ++size) assert_false(survives(file.bytes, size));
-    assert_true(survives(file.bytes, file.size));
-    free(file.bytes);
+    hair_test_refuse_beginnings(hair_test_groomfile(), survives);
 }
 
 // Every bit is in a checksum, but those of the last number of the header.
@@ -121,12 +118,36 @@ static void malformed_chunks_are_refused(void** state)
         {"SKIN", 0, 0, "has 0 joints, not in [1, 65536]"},
         {"SKIN", 0, 4, "has the joint 4 of vertex 2, not in [0, 3]"},
         {"SKIN", 36, 0x3f000000, "has weights of vertex 0 whose sum is 0.5, not in [0.99, 1.01]"},
+        {"JNTN", 0, 0x00706900, "has 6 names that end in a byte 0, not 5"},
+        {"JNTN", 20, 0x01b1a6ff, "has 4 names that end in a byte 0, not 5"},
+        {"JNTN", 14, 0x7273c368, "has a name that is not UTF-8"},
+        {"GUID", 0, 0x00010200, "has the number 2 of strand 1, not in [0, 1]"},
+        {"ATTR stiffness", 32, 0xbf800000, "has the number -1, not in [0, 100]"},
+        {"ATTR stiffness", 36, 0x7fc00000, "has the number nan, not in [0, 100]"},
+        {"ATTR length", 44, 0, "has the number 0, not in [0.01, 1]"},
+        {"ATTR length", 36, 0x7f800000, "has the number inf, not in [0.01, 1]"},
+        {"MAPS set_density", 32, 4, "has the index 4, not in [0, 3]"},
+        {"MAPS set_density", 32, 0xffffffff, "has the index 4294967295, not in [0, 3]"},
+        {"MAPS set_density", 36, 4, "has the source 4, not in [0, 3]"},
+        {"MAPS set_density", 36, 2, "has 48 bytes, not 64"},
+        {"MAPS set_density", 36, 1, "is an image of 0 by 0 values"},
+        {"MAPS set_density", 40, 16385, "is of 16385 by 0 values, not of [0, 16384] each"},
+        {"MAPS set_density", 44, 0xffffffff, "is of 0 by 4294967295 values, not of [0, 16384] each"},
+        {"MAPS set_thickness", 36, 0, "has 56 bytes, not 48"},
+        {"MAPS set_thickness", 36, 2, "has 56 bytes, not 64"},
+        {"MAPS set_thickness", 48, 0x40800001, "has the number 4, not in [0, 4]"},
+        {"MAPS set_thickness", 52, 0x7fc00000, "has the number nan, not in [0, 4]"},
+        {"MAPS length", 32, 1, "has the index 1, not 0"},
+        {"MAPS length", 36, 0, "is a map of \"length\" without a source"},
+        {"MAPS length", 40, 16384, "has 68 bytes, not 327728"},
+        {"MAPS length", 44, 0, "is an image of 1 by 0 values"},
+        {"MAPS frizz", 60, 0x40a00000, "has the number 5, not in [0, 4]"},
     };
     for (size_t i = 0; i < sizeof wrongs / sizeof *wrongs; ++i) {
         struct hair_test_file file = hair_test_groomfile();
         char chunk[64];
         size_t at = hair_test_find_chunk(&file, wrongs[i].letters);
-        snprintf(chunk, sizeof chunk, "the chunk \"%s\" at byte %zu ", wrongs[i].letters, at);
+        snprintf(chunk, sizeof chunk, "the chunk \"%.4s\" at byte %zu ", wrongs[i].letters, at);
         hair_test_set_u32(&file, at + 16 + wrongs[i].at, wrongs[i].value);
         refuse(file, wrongs[i].text);
         if (!strstr(test.sentence, chunk)) fail_msg("\"%s\" lacks \"%s\"", test.sentence, chunk);
@@ -136,7 +157,23 @@ static void malformed_chunks_are_refused(void** state)
 static void chunks_of_another_size_are_refused(void** state)
 {
     (void)state;
-    static const char letters[][5] = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN"};
+    static const char* const letters[] = {"STRD",
+                                          "CURV",
+                                          "RADI",
+                                          "GRUP",
+                                          "COLR",
+                                          "SCLP",
+                                          "DENS",
+                                          "TEXC",
+                                          "SKIN",
+                                          "JNTN",
+                                          "GUID",
+                                          "ATTR stiffness",
+                                          "ATTR length",
+                                          "MAPS set_density",
+                                          "MAPS set_thickness",
+                                          "MAPS length",
+                                          "MAPS frizz"};
     for (size_t i = 0; i < sizeof letters / sizeof *letters; ++i) {
         struct hair_test_file file = hair_test_groomfile();
         size_t size = (size_t)hair_read_u64(file.bytes + hair_test_find_chunk(&file, letters[i]) + 4);
@@ -146,8 +183,50 @@ static void chunks_of_another_size_are_refused(void** state)
             file = hair_test_groomfile();
             hair_test_resize_chunk(&file, letters[i], left < size ? left : size,
                                    left < size ? (int)left - (int)size : 1);
-            refuse(file, letters[i]);
+            char text[5] = {0};
+            memcpy(text, letters[i], 4);
+            refuse(file, text);
         }
+    }
+}
+
+// Check that a file is refused after a chunk has got the letters or the name of another.
+static void refuse_changed(const char* letters, size_t at, const char* changed, const char* text)
+{
+    struct hair_test_file file = hair_test_groomfile();
+    unsigned char* to = file.bytes + hair_test_find_chunk(&file, letters) + at;
+    memset(to, 0, at ? 32 : 4);
+    memcpy(to, changed, strlen(changed));
+    refuse(file, text);
+}
+
+static void chunks_with_names_are_refused_twice_or_without_others(void** state)
+{
+    (void)state;
+    refuse_changed("ATTR length", 16, "stiffness", "has the name \"stiffness\" again");
+    refuse_changed("MAPS set_thickness", 16, "set_density", "is the map \"set_density\" of set 1 again");
+    refuse_changed("ATTR length", 16, "a_name_without_an_end_of_32_byte", "name that does not end within 32");
+    refuse_changed("TEXC", 0, "TEXX", " needs a chunk \"TEXC\"");
+    refuse_changed("SKIN", 0, "SKIX", "the chunk \"JNTN\" at byte");
+}
+
+// Write 33 maps of one kind, or 32 and factors of another kind.
+static void files_with_too_many_attributes_are_refused(void** state)
+{
+    (void)state;
+    for (uint32_t has_factors = 0; has_factors < 2; ++has_factors) {
+        struct hair_test_file file = hair_test_groomfile();
+        size_t begin = hair_test_find_chunk(&file, "MAPS frizz"),
+               size = 16 + (size_t)hair_read_u64(file.bytes + begin + 4);
+        unsigned char chunk[256];
+        assert_true(size <= sizeof chunk);
+        memcpy(chunk, file.bytes + begin, size);
+        if (has_factors) hair_write_u32(file.bytes + hair_test_find_chunk(&file, "MAPS length"), 0x45455245);
+        for (uint32_t i = 0; i < 30; ++i) hair_test_put(&file, chunk, size);
+        hair_write_u32(file.bytes + 12, hair_read_u32(file.bytes + 12) + 30);
+        hair_write_u64(file.bytes + 16, file.size);
+        refuse(file, has_factors ? " make 34 attributes, more than 32"
+                                 : "is one of more than 32 maps of attributes");
     }
 }
 
@@ -234,7 +313,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
         assert_int_equal(result, HAIR_ERROR_MEMORY);
         assert_int_equal(test.blocks, 0);
     }
-    assert_in_range(failures, 12, 20);
+    assert_in_range(failures, 20, 30);
     free(file.bytes);
 }
 
@@ -264,6 +343,8 @@ int main(void)
         TEST(flipped_bits_with_valid_checksums_are_refused_or_read),
         TEST(malformed_chunks_are_refused),
         TEST(chunks_of_another_size_are_refused),
+        TEST(chunks_with_names_are_refused_twice_or_without_others),
+        TEST(files_with_too_many_attributes_are_refused),
         TEST(malformed_lists_of_chunks_are_refused),
         TEST(memory_of_reading_is_bounded),
         TEST(every_refused_allocation_is_an_error_and_leaks_nothing),

@@ -44,6 +44,36 @@ static void checksums_are_those_of_zlib(void** state)
     assert_int_equal(parts, 0xcbf43926);
 }
 
+// Check the names of joints, and the attributes and maps, by hair_asset_describe().
+static void check_named(const hair_asset* asset)
+{
+    static const hair_strand_attribute_kind kinds[4] = {
+        HAIR_STRAND_ATTRIBUTE_FRIZZ, HAIR_STRAND_ATTRIBUTE_LENGTH, HAIR_STRAND_ATTRIBUTE_FRIZZ,
+        HAIR_STRAND_ATTRIBUTE_STIFFNESS};
+    hair_asset_info info = hair_asset_info_default();
+    assert_int_equal(hair_asset_describe(asset, &info), HAIR_OK);
+    assert_string_equal(info.scalp_joint_names, "hip");
+    assert_string_equal(info.scalp_joint_names + 14, "h\xc3\xa4r");
+    assert_int_equal(info.strand_attribute_count, 4);
+    for (int i = 0; i < 4; ++i) assert_int_equal(info.strand_attributes[i].kind, kinds[i]);
+    assert_null(info.strand_attributes[0].strand_values);
+    assert_memory_equal(info.strand_attributes[1].strand_values, ((const float[]){1, 0.5f, 0.25f, 0.01f}),
+                        16);
+    assert_memory_equal(info.strand_attributes[3].strand_values, ((const float[]){0.5f, 1, 2, 100}), 16);
+    assert_int_equal(info.strand_attributes[0].map.source, HAIR_MAP_SOURCE_VERTICES);
+    assert_float_equal(info.strand_attributes[0].map.values[2], 0.5f, 0);
+    assert_int_equal(info.strand_attributes[1].map.height, 5);
+    assert_float_equal(info.strand_attributes[1].map.values[4], 0.125f, 0);
+    assert_int_equal(info.strand_attributes[3].map.source, HAIR_MAP_SOURCE_NONE);
+    assert_non_null(info.map_sets[0]);
+    assert_int_equal(info.map_sets[0]->density.source, HAIR_MAP_SOURCE_NONE);
+    assert_int_equal(info.map_sets[1]->density.width, 4);
+    assert_float_equal(info.map_sets[1]->density.values[5], 0.125f, 0);
+    assert_int_equal(info.map_sets[1]->thickness.source, HAIR_MAP_SOURCE_TRIANGLES);
+    assert_float_equal(info.map_sets[1]->thickness.values[1], 1, 0);
+    assert_null(info.map_sets[2]);
+}
+
 static void everything_is_read_as_it_was_written(void** state)
 {
     (void)state;
@@ -66,6 +96,8 @@ static void everything_is_read_as_it_was_written(void** state)
     assert_float_equal(asset->scalp_uvs[7], 1, 0);
     assert_int_equal(asset->scalp_joints[11], 4);
     assert_float_equal(asset->scalp_weights[5], 0.5f, 0);
+    assert_memory_equal(asset->strands.guides, ((const uint8_t[]){1, 0, 1, 1}), 4);
+    check_named(asset);
     struct hair_test_file again = hair_test_write_file(asset, HAIR_FORMAT_GROOM);
     assert_int_equal(again.size, first.size);
     assert_memory_equal(again.bytes, first.bytes, first.size);
@@ -138,6 +170,68 @@ static void arrays_are_written_and_make_a_groom_with_groups(void** state)
     hair_asset_destroy(again);
 }
 
+// Attributes of one kind, and maps of both sets, go from arrays to a file and to a groom.
+static void attributes_and_maps_of_arrays_reach_a_groom(void** state)
+{
+    (void)state;
+    static const float values[] = {2, 60, 0.5f, 50}, density[] = {0, 1, 0.5f}, length[] = {0.5f};
+    hair_groom_desc desc = arrays_desc(), next = hair_groom_desc_default();
+    hair_strand_attribute attributes[3];
+    hair_map_set set = hair_map_set_default();
+    set.density = (hair_map){HAIR_MAP_SOURCE_VERTICES, density, 0, 0};
+    for (int i = 0; i < 3; ++i) attributes[i] = hair_strand_attribute_default();
+    attributes[0].strand_values = values;
+    attributes[1].kind = HAIR_STRAND_ATTRIBUTE_LENGTH;
+    attributes[1].map = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, length, 0, 0};
+    attributes[2].strand_values = values + 2;
+    desc.strand_attributes = attributes;
+    desc.strand_attribute_count = 3;
+    desc.map_sets[0] = &set;
+    hair_asset* asset = NULL;
+    hair_groom* groom[2] = {0};
+    hair_groom_info made[2] = {hair_groom_info_default(), hair_groom_info_default()};
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_OK);
+    hair_asset* again = read_groom(hair_test_write_file(asset, HAIR_FORMAT_GROOM));
+    next.host = &test.host;
+    assert_int_equal(hair_asset_to_groom_desc(again, &next), HAIR_OK);
+    assert_int_equal(next.strand_attribute_count, 2);
+    assert_int_equal(next.strand_attributes[0].kind, HAIR_STRAND_ATTRIBUTE_LENGTH);
+    assert_float_equal(next.strand_attributes[0].map.values[0], 0.5f, 0);
+    assert_float_equal(next.strand_attributes[1].strand_values[0], 1, 0);
+    assert_float_equal(next.strand_attributes[1].strand_values[1], 100, 0); // It is limited.
+    assert_memory_equal(next.map_sets[0]->density.values, density, sizeof density);
+    desc.follower_count = next.follower_count = 100;
+    assert_int_equal(hair_groom_create(&desc, &groom[0]), HAIR_OK);
+    assert_int_equal(hair_groom_create(&next, &groom[1]), HAIR_OK);
+    for (int i = 0; i < 2; ++i) assert_int_equal(hair_groom_describe(groom[i], &made[i]), HAIR_OK);
+    assert_float_equal(made[1].length[2], made[0].length[2], 1e-5);
+    assert_float_equal(made[1].length[2], 0.5f * 0.3f, 1e-5);
+    for (int i = 0; i < 2; ++i) hair_groom_destroy(groom[i]);
+    hair_asset_destroy(asset);
+    hair_asset_destroy(again);
+}
+
+static void wrong_attributes_and_maps_make_no_asset(void** state)
+{
+    (void)state;
+    static const float wrong[] = {1, NAN, 5};
+    hair_groom_desc desc = arrays_desc();
+    hair_strand_attribute attribute = hair_strand_attribute_default();
+    hair_map_set set = hair_map_set_default();
+    hair_asset* asset = NULL;
+    attribute.map = (hair_map){HAIR_MAP_SOURCE_VERTICES, wrong, 0, 0};
+    desc.strand_attributes = &attribute;
+    desc.strand_attribute_count = 1;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "strand_attributes[0].map.values[1] is nan, not in [0, 100]"));
+    attribute.map = (hair_map){HAIR_MAP_SOURCE_NONE, NULL, 0, 0};
+    set.thickness = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, wrong + 2, 0, 0};
+    desc.map_sets[0] = &set;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "map_sets[0].thickness.values[0] is 5, not in [0, 4]"));
+    assert_null(asset);
+}
+
 // Check a sentence of hair_asset_create() for joints.
 static void refuse_joints(const uint16_t* joints, const float* weights, uint32_t count, const char* text)
 {
@@ -165,7 +259,7 @@ static void wrong_arrays_make_no_asset(void** state)
     hair_groom_desc desc = arrays_desc();
     desc.scalp_uvs = far;
     assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
-    assert_non_null(strstr(test.sentence, "scalp_uvs[1] is nan"));
+    assert_non_null(strstr(test.sentence, "scalp_uvs: vertex 0 has nan"));
     desc = arrays_desc();
     desc.positions = NULL;
     assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
@@ -196,10 +290,17 @@ static void import_turns_and_scales_strands_and_scalp(void** state)
     assert_float_equal(asset->strands.positions[4], 0, 0);
     assert_float_equal(asset->strands.positions[5], -0.05f, 1e-6);
     assert_float_equal(asset->scalp_positions[7], 0.5f, 0);
-    // A strand keeps its group. The x of a root is half the index of its strand.
+    // A strand keeps its group, its factors and whether it is a guide. The x of a root is half the
+    // index of its strand.
     static const uint8_t groups[4] = {0, 7, 3, 0};
     float second = asset->strands.positions[3 * (size_t)asset->strands.vertices[0]];
-    assert_int_equal(asset->strands.groups[1], groups[(int)lroundf(2 * second)]);
+    int old = (int)lroundf(2 * second);
+    assert_int_equal(asset->strands.groups[1], groups[old]);
+    assert_int_equal(asset->strands.guides[1], old != 1);
+    assert_float_equal(asset->attributes[1].strand_values[1],
+                       old ? (old == 3 ? 0.01f : 1.0f / (float)(2 * old)) : 1, 0);
+    assert_ptr_equal(asset->attributes[1].strand_values,
+                     asset->strands.factors[HAIR_STRAND_ATTRIBUTE_LENGTH]);
     hair_asset_free(asset);
 }
 
@@ -261,7 +362,8 @@ static void positions_are_within_1e_5_of_the_length(void** state)
 static void damaged_chunks_are_named_with_their_byte(void** state)
 {
     (void)state;
-    static const char letters[][5] = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN"};
+    static const char letters[][5] = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS",
+                                      "TEXC", "SKIN", "JNTN", "GUID", "ATTR", "MAPS"};
     for (size_t i = 0; i < sizeof letters / sizeof *letters; ++i) {
         struct hair_test_file file = hair_test_groomfile();
         char text[128];
@@ -286,12 +388,16 @@ static void unknown_chunks_and_any_order_are_read(void** state)
     hair_test_put(&other, file.bytes + radii, file.size - radii);
     hair_test_put(&other, "NEWS\3\0\0\0\0\0\0\0....abc", 19);
     hair_test_put(&other, file.bytes + 32, radii - 32);
-    hair_write_u32(other.bytes + 12, hair_read_u32(other.bytes + 12) + 1);
+    // Chunks of a later library have the names of kinds that this library lacks.
+    hair_test_put(&other, "ATTR\46\0\0\0\0\0\0\0....", 16);
+    hair_test_put(&other, "shine\n\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0......", 38);
+    hair_write_u32(other.bytes + 12, hair_read_u32(other.bytes + 12) + 2);
     hair_write_u64(other.bytes + 16, other.size);
     hair_test_seal(other.bytes, other.size);
     uint32_t warnings = test.warnings;
     hair_asset* again = read_groom(other);
-    assert_int_equal(test.warnings, warnings + 1);
+    assert_int_equal(test.warnings, warnings + 2);
+    check_named(again);
     assert_memory_equal(asset->strands.positions, again->strands.positions, 12 * 12);
     assert_memory_equal(asset->strands.groups, again->strands.groups, 4);
     hair_asset_free(asset);
@@ -314,25 +420,30 @@ static void files_of_other_versions_are_refused(void** state)
     refuse(file, "conversion of line ends");
 }
 
-// A committed file of version 1 must be read by all later versions, and is what version 1 writes.
-static void committed_file_of_version_1_is_read(void** state)
+// Committed files of version 1 must be read by all later versions, and are what version 1 writes.
+// The second has the chunks that came later.
+static void committed_files_of_version_1_are_read(void** state)
 {
     (void)state;
-    unsigned char bytes[1024];
-    FILE* file = fopen("tests/fuzz/corpus/groomfile/whole", "rb");
-    assert_non_null(file);
-    size_t size = fread(bytes, 1, sizeof bytes, file);
-    fclose(file);
-    hair_import import = hair_test_import();
-    hair_asset* asset = NULL;
-    assert_int_equal(hair_test_read(&test, &import, bytes, size, &asset), HAIR_OK);
-    assert_int_equal(asset->strands.vertex_count, 12);
-    assert_int_equal(asset->scalp_joint_count, 5);
-    struct hair_test_file own = hair_test_groomfile();
-    assert_int_equal(own.size, size);
-    assert_memory_equal(own.bytes, bytes, size);
-    hair_asset_free(asset);
-    free(own.bytes);
+    static const char* const paths[] = {"tests/fuzz/corpus/groomfile/whole",
+                                        "tests/fuzz/corpus/groomfile/named"};
+    for (int i = 0; i < 2; ++i) {
+        unsigned char bytes[2048];
+        FILE* file = fopen(paths[i], "rb");
+        assert_non_null(file);
+        size_t size = fread(bytes, 1, sizeof bytes, file);
+        fclose(file);
+        hair_import import = hair_test_import();
+        hair_asset* asset = NULL;
+        assert_int_equal(hair_test_read(&test, &import, bytes, size, &asset), HAIR_OK);
+        assert_int_equal(asset->strands.vertex_count, 12);
+        assert_int_equal(asset->scalp_joint_count, 5);
+        struct hair_test_file own = i ? hair_test_groomfile() : hair_test_old_groomfile();
+        assert_int_equal(own.size, size);
+        assert_memory_equal(own.bytes, bytes, size);
+        hair_asset_free(asset);
+        free(own.bytes);
+    }
 }
 
 // A lock of 25 vertices in waves of 2 cm, 30 cm long, with noise.
@@ -396,13 +507,15 @@ int main(void)
         TEST(checksums_are_those_of_zlib),
         TEST(everything_is_read_as_it_was_written),
         TEST(arrays_are_written_and_make_a_groom_with_groups),
+        TEST(attributes_and_maps_of_arrays_reach_a_groom),
+        TEST(wrong_attributes_and_maps_make_no_asset),
         TEST(wrong_arrays_make_no_asset),
         TEST(import_turns_and_scales_strands_and_scalp),
         TEST(positions_are_within_1e_5_of_the_length),
         TEST(damaged_chunks_are_named_with_their_byte),
         TEST(unknown_chunks_and_any_order_are_read),
         TEST(files_of_other_versions_are_refused),
-        TEST(committed_file_of_version_1_is_read),
+        TEST(committed_files_of_version_1_are_read),
         TEST(head_of_100000_strands_is_small_and_loads_fast),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
