@@ -190,17 +190,15 @@ hair_result hair_size_groomfile(const hair_asset* asset, size_t* size)
 
 void hair_encode_groomfile(const hair_asset* asset, unsigned char* bytes)
 {
-    struct hair_crc_table crc;
     unsigned char* at = bytes + HAIR_GROOMFILE_HEADER;
     uint32_t chunks = 0;
-    hair_crc_init(&crc);
     for (int i = 0; i < CHUNKS; ++i) {
         uint64_t size = write_content(asset, i, at + HAIR_GROOMFILE_CHUNK);
         if (!size) continue;
         memcpy(at, letters_of(i), 4);
         hair_write_u64(at + 4, size);
-        uint32_t sum = hair_crc_add(&crc, 0, at, 12);
-        hair_write_u32(at + 12, hair_crc_add(&crc, sum, at + HAIR_GROOMFILE_CHUNK, (size_t)size));
+        uint32_t sum = hair_crc_add(0, at, 12);
+        hair_write_u32(at + 12, hair_crc_add(sum, at + HAIR_GROOMFILE_CHUNK, (size_t)size));
         at += HAIR_GROOMFILE_CHUNK + size;
         ++chunks;
     }
@@ -208,6 +206,6 @@ void hair_encode_groomfile(const hair_asset* asset, unsigned char* bytes)
     hair_write_u32(bytes + 8, HAIR_GROOMFILE_VERSION);
     hair_write_u32(bytes + 12, chunks);
     hair_write_u64(bytes + 16, (uint64_t)(at - bytes));
-    hair_write_u32(bytes + 24, hair_crc_add(&crc, 0, bytes, 24));
+    hair_write_u32(bytes + 24, hair_crc_add(0, bytes, 24));
     hair_write_u32(bytes + 28, 0);
 }

@@ -14,10 +14,8 @@ bool hair_is_groomfile(const unsigned char* bytes, size_t size)
 uint64_t hair_max_size_of_groomfile(const unsigned char* bytes, size_t size)
 {
     if (size < HAIR_GROOMFILE_HEADER) return HAIR_GROOMFILE_HEADER;
-    struct hair_crc_table crc;
-    hair_crc_init(&crc);
     uint64_t claimed = hair_read_u64(bytes + 16);
-    bool is_whole = hair_read_u32(bytes + 24) == hair_crc_add(&crc, 0, bytes, 24);
+    bool is_whole = hair_read_u32(bytes + 24) == hair_crc_add(0, bytes, 24);
     bool is_allowed = claimed >= HAIR_GROOMFILE_HEADER && claimed <= HAIR_GROOMFILE_MAX_BYTES;
     return is_whole && is_allowed ? claimed : HAIR_GROOMFILE_HEADER;
 }
@@ -54,7 +52,6 @@ unsigned char* hair_write_floats(unsigned char* at, const float* values, size_t 
 struct groom_header {
     uint32_t chunks;
     size_t end; // of the file
-    struct hair_crc_table crc;
 };
 
 static hair_result check_end(const struct hair_source* source, struct groom_header* header)
@@ -82,8 +79,7 @@ static hair_result read_groom_header(const struct hair_source* source, struct gr
         return hair_fail(
             source->host, HAIR_ERROR_FILE,
             "bytes at byte 5 are not 13, 10, 26: a conversion of line ends has damaged the file");
-    hair_crc_init(&header->crc);
-    uint32_t crc = hair_read_u32(source->bytes + 24), own = hair_crc_add(&header->crc, 0, source->bytes, 24);
+    uint32_t crc = hair_read_u32(source->bytes + 24), own = hair_crc_add(0, source->bytes, 24);
     if (crc != own)
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the checksum at byte 24 is 0x%08x, but that of the header is 0x%08x", crc, own);
@@ -120,8 +116,8 @@ static hair_result check_chunk(const struct hair_source* source, const struct gr
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the chunk \"%s\" at byte %zu has %llu bytes, but the file ends at byte %zu",
                          letters, at, (unsigned long long)size, header->end);
-    uint32_t crc = hair_read_u32(bytes + 12), own = hair_crc_add(&header->crc, 0, bytes, 12);
-    own = hair_crc_add(&header->crc, own, bytes + HAIR_GROOMFILE_CHUNK, (size_t)size);
+    uint32_t crc = hair_read_u32(bytes + 12), own = hair_crc_add(0, bytes, 12);
+    own = hair_crc_add(own, bytes + HAIR_GROOMFILE_CHUNK, (size_t)size);
     if (crc != own)
         return hair_fail(source->host, HAIR_ERROR_FILE,
                          "the chunk \"%s\" at byte %zu is damaged: its checksum is 0x%08x, not 0x%08x",
@@ -154,8 +150,7 @@ static hair_result add_chunk(const struct hair_source* source, size_t at, size_t
 hair_result hair_find_groom_chunks(const struct hair_source* source,
                                    struct hair_groom_chunk chunks[HAIR_CHUNK_COUNT])
 {
-    struct groom_header header;
-    header.end = 0; // GCC does not see that a failed read leaves the function.
+    struct groom_header header = {0};
     HAIR_TRY(read_groom_header(source, &header));
     size_t at = HAIR_GROOMFILE_HEADER;
     uint32_t unknown = 0;

@@ -5,13 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-// Checksums of every byte, followed by 0 to 7 bytes of 0.
-struct hair_crc_table {
-    uint32_t at[8][256];
-};
-void hair_crc_init(struct hair_crc_table* table);
-
 // Continue the checksum `crc` with `bytes`. Return the new checksum. A checksum begins with 0.
-uint32_t hair_crc_add(const struct hair_crc_table* table, uint32_t crc, const void* bytes, size_t size);
+uint32_t hair_crc_add(uint32_t crc, const void* bytes, size_t size);
 
 #endif

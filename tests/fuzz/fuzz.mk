@@ -26,6 +26,7 @@ FUZZ_TOOLS.bench_arguments   := file
 FUZZ_TOOLS.scene             := file $(FUZZ_SCENE)
 FUZZ_TOOLS.capture_arguments := file $(FUZZ_SCENE) capture_options
 # Maximum length of an input in bytes, 1024 by default. Short inputs make many runs per second.
+FUZZ_MAX.groomfile         := 1536
 FUZZ_MAX.save              := 4096
 FUZZ_MAX.scene             := 2048
 FUZZ_MAX.groom_arguments   := 256
