@@ -222,6 +222,8 @@ def _fit_to_scalp(groom, options, report):
         temporary = temporary_name(options.bones)
         tfxmesh.write_bones(mesh.joint_names, joints, weights, temporary)
         os.replace(temporary, options.bones)
+    if groom.scalp and (groom.scalp.density is not None or groom.scalp.maps):
+        report.lose("the density and the maps of the scalp", "--scalp replaces the scalp")
     groom.scalp = mesh
     return groom
 

@@ -7,6 +7,7 @@ import dataclasses
 
 import numpy as np
 
+from hairconvert.names import FACTORS
 from hairconvert.report import InputError
 
 MAX_STRANDS = 1 << 24  # The limits of the library.
@@ -19,9 +20,9 @@ GROOM, STRAND, VERTEX = "groom", "strand", "vertex"
 KNOWN = {"width": (1, "f"), "color": (3, "f"), "opacity": (1, "f"), "roughness": (1, "f"),
          "root_uv": (2, "f"), "group": (1, "iub"), "group_name": (1, "U"), "guide": (1, "iub"),
          "id": (1, "iu"), "closest_guides": (0, "iu"), "guide_weights": (0, "f"),
-         "vertex_uv": (2, "f"), "tfx_thickness": (1, "f")}
+         "vertex_uv": (2, "f"), "tfx_thickness": (1, "f"), **{f: (1, "fiub") for f in FACTORS}}
 OF_STRANDS = ("root_uv", "group", "group_name", "guide", "id", "closest_guides", "guide_weights",
-              "tfx_thickness")
+              "tfx_thickness", *FACTORS)
 
 
 @dataclasses.dataclass

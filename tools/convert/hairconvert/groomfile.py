@@ -5,7 +5,7 @@ import zlib
 
 import numpy as np
 
-from hairconvert import tracks
+from hairconvert import names, tracks
 from hairconvert.binary import Bytes, load
 from hairconvert.groom import (STRAND, VERTEX, Attribute, Groom, check_counts, find_places,
                                fractions, lengths)
@@ -21,6 +21,9 @@ MAX_JOINTS, MAX_SCALP = 65536, 4194304  # joints, and vertices or triangles of a
 MAX_ERROR, UNIT = 1e-5, 1.15e-5  # of the length of a strand
 BIAS, MIN_STEP, MAX_STEP = 128, 64, 160
 KNOWN = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN", "GUID", "JNTN"}
+NAMED = {"ATTR", "MAPS"}  # chunks that may stand several times, with names
+NAME, MAP_HEADER = 32, 48  # bytes of a name, and before the values of a map
+IMAGE, VERTICES, TRIANGLES = 1, 2, 3  # sources of maps
 
 
 class Chunk:
@@ -66,8 +69,10 @@ def read(data, options, report):
         groom.attributes["group"] = Attribute(STRAND, _read_groups(chunks["GRUP"], len(counts)))
     if "COLR" in chunks:
         groom.attributes["color"] = _read_colors(chunks["COLR"], groom)
+    for chunk in chunks.get("ATTR", []):
+        _read_factors(chunk, groom, report)
     if "SCLP" in chunks:
-        groom.scalp = check_mesh(_read_scalp(chunks, report), report)
+        groom.scalp = check_mesh(_read_scalp(chunks), report)
     return groom
 
 
@@ -76,10 +81,13 @@ def read_mesh(path, name, report):
     chunks = _find_chunks(Bytes(load(path)), report)
     if "SCLP" not in chunks:
         raise InputError('the file has no chunk "SCLP", the scalp')
-    return _read_scalp(chunks, report)
+    mesh = _read_scalp(chunks)
+    if mesh.density is not None or mesh.maps:
+        report.lose("the density and the maps of the scalp", "files of meshes have none")
+    return mesh
 
 
-def _read_scalp(chunks, report):
+def _read_scalp(chunks):
     chunk = chunks["SCLP"]
     vertices, triangles = (int(n) for n in chunk.array(0, 2, "<u4"))
     chunk.check_size(8 + 12 * (vertices + triangles))
@@ -101,8 +109,36 @@ def _read_scalp(chunks, report):
         if "JNTN" in chunks:
             mesh.joint_names = _read_names(chunks["JNTN"], joints)
     if "DENS" in chunks:
-        report.lose("the density of the scalp", "meshes have none here")
+        chunks["DENS"].check_size(4 * vertices)
+        mesh.density = chunks["DENS"].array(0, vertices, "<f4")
+    for chunk in chunks.get("MAPS", []):
+        source, width, height = (int(n) for n in chunk.array(NAME + 4, 3, "<u4"))
+        counts = {0: 0, IMAGE: width * height, VERTICES: vertices, TRIANGLES: triangles}
+        if source not in counts:
+            chunk.refuse(f"has the source {source}, not in [0, {TRIANGLES}]")
+        chunk.check_size(MAP_HEADER + 4 * counts[source])
+        mesh.maps.append(chunk.data)
     return mesh
+
+
+def _read_factors(chunk, groom, report):
+    """Read an attribute of strands, whose name is in the chunk."""
+    name = bytes(chunk.array(0, NAME, "u1")).split(b"\0")[0].decode("ascii", "replace")
+    ours = f"hair_{name}"
+    if ours not in names.FACTORS:
+        report.lose(f"the attribute {name}", "the name is unknown")
+        return
+    if ours in groom.attributes:
+        chunk.refuse(f'has the name "{name}" again')
+    chunk.check_size(NAME + 4 * len(groom.counts))
+    values, (low, high) = chunk.array(NAME, len(groom.counts), "<f4"), names.FACTORS[ours]
+    if not _is_within(values, low, high):
+        chunk.refuse(f"has a factor of {name} that is not in [{low}, {high}]")
+    groom.attributes[ours] = Attribute(STRAND, values.astype(np.float32))
+
+
+def _is_within(values, low, high):
+    return bool(((values >= np.float32(low)) & (values <= np.float32(high))).all())
 
 
 def _find_chunks(file, report):
@@ -130,9 +166,11 @@ def _find_chunks(file, report):
                              f"ends at byte {size}")
         if crc != zlib.crc32(data[at + CHUNK:end], zlib.crc32(data[at:at + 12])):
             raise InputError(f'the chunk "{letters}" at byte {at} is damaged')
-        if letters in chunks:
+        if letters in chunks and letters in KNOWN:
             raise InputError(f'the chunk "{letters}" stands again at byte {at}')
-        if letters in KNOWN:
+        if letters in NAMED:
+            chunks.setdefault(letters, []).append(Chunk(letters, at, data[at + CHUNK:end]))
+        elif letters in KNOWN:
             chunks[letters] = Chunk(letters, at, data[at + CHUNK:end])
         else:
             report.say(f'the chunk "{letters}" is unknown and not read')
@@ -202,11 +240,11 @@ def _read_guides(chunk, strands):
 
 def _read_names(chunk, count):
     """Return the names of joints, each of which ends in a byte 0."""
-    names = chunk.data.split(b"\0")
-    if len(names) != count + 1 or names[-1]:
+    joints = chunk.data.split(b"\0")
+    if len(joints) != count + 1 or joints[-1]:
         chunk.refuse(f"does not have {count} names that end in a byte 0")
     try:
-        return [name.decode() for name in names[:-1]]
+        return [name.decode() for name in joints[:-1]]
     except UnicodeDecodeError:
         chunk.refuse("has a name that is not UTF-8")
 
@@ -251,10 +289,15 @@ def write(groom, path, options, report):
         chunks.append(("GUID", (guide != 0).astype("u1").tobytes()))
     if groom.scalp:
         chunks += _write_scalp(groom.scalp, report)
+    for name in names.FACTORS:
+        if name in groom.attributes:
+            chunks += _write_factors(groom, name, report)
+    if groom.scalp:
+        chunks += _write_maps(groom.scalp, report)
     for name in groom.attributes:
-        if name not in ("guide", "width", "group", "color"):
+        if name not in ("guide", "width", "group", "color", *names.FACTORS):
             report.lose(f"the attribute {name}", "a .groom file holds only widths, groups, "
-                        "colours and guides")
+                        "colours, guides and factors of the library")
     _write_chunks(path, chunks)
 
 
@@ -313,6 +356,8 @@ def _write_scalp(mesh, report):
                          f"more than {MAX_SCALP}")
     chunks = [("SCLP", struct.pack("<II", vertices, len(mesh.triangles))
                + mesh.points.astype("<f4").tobytes() + mesh.triangles.astype("<u4").tobytes())]
+    if mesh.density is not None:
+        chunks.append(("DENS", mesh.density.astype("<f4").tobytes()))
     if mesh.uv is not None and (np.abs(mesh.uv) <= 1e6).all():
         chunks.append(("TEXC", mesh.uv.astype("<f4").tobytes()))
     elif mesh.uv is not None:
@@ -327,9 +372,32 @@ def _write_scalp(mesh, report):
     return chunks
 
 
-def _write_names(names):
+def _write_factors(groom, name, report):
+    """Return the chunk of an attribute of strands, or none."""
+    values, (low, high) = groom.values(name, STRAND).astype("<f4"), names.FACTORS[name]
+    if not _is_within(values, low, high):
+        report.lose(f"the attribute {name}", f"a value is not in [{low}, {high}]")
+        return []
+    name = name.removeprefix("hair_").encode().ljust(NAME, b"\0")
+    return [("ATTR", name + values.tobytes())]
+
+
+def _write_maps(mesh, report):
+    """Return the chunks of the maps of a scalp. Triangles may have been left out since."""
+    kept = []
+    for content in mesh.maps:
+        source = struct.unpack_from("<I", content, NAME + 4)[0]
+        fits = len(content) == MAP_HEADER + 4 * len(mesh.triangles)
+        if (source == TRIANGLES and not fits) or (source == IMAGE and mesh.uv is None):
+            report.lose("a map of the scalp", "the mesh of the scalp is another")
+        else:
+            kept.append(("MAPS", content))
+    return kept
+
+
+def _write_names(joints):
     """Return the names of joints, of which each ends in a byte 0."""
-    return b"".join(n.replace("\0", "_").encode(errors="replace") + b"\0" for n in names)
+    return b"".join(n.replace("\0", "_").encode(errors="replace") + b"\0" for n in joints)
 
 
 def _write_radii(groom, report):

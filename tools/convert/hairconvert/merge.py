@@ -2,8 +2,11 @@
 
 import numpy as np
 
+from hairconvert import names
 from hairconvert.groom import GROOM, STRAND, VERTEX, Attribute, Groom, Motion, check_counts, widen
 
+# Values that mean nothing, where 0 would mean something: no guide, and no change by a factor.
+NOTHING = {"closest_guides": -1, **{f: 1 for f in names.FACTORS}}
 FINENESS = [GROOM, STRAND, VERTEX]
 
 
@@ -18,13 +21,13 @@ def collect(parts):
     return found
 
 
-def merge(parts, names, report):
+def merge(parts, part_names, report):
     """Return one groom of several. Without a group in the file, each part becomes a group."""
     if len(parts) == 1:
         return parts[0]
     if not any("group" in p.attributes for p in parts):
         report.say(f"the {len(parts)} curves of the file become groups")
-        for i, (part, name) in enumerate(zip(parts, names)):
+        for i, (part, name) in enumerate(zip(parts, part_names)):
             part.attributes["group"] = Attribute(GROOM, np.array([i], np.int32))
             part.attributes.setdefault("group_name", Attribute(GROOM, np.array([name])))
     _shift_guides(parts)
@@ -67,7 +70,7 @@ def _join(name, parts, report):
         if len(having) == len(parts) and (rows == rows[0]).all():
             return having[0]
         scope = STRAND
-    nothing = "-1" if name == "closest_guides" else "0 or empty"
+    nothing = NOTHING.get(name, "0 or empty")
     if len(having) < len(parts):
         report.say(f"the attribute {name} is {nothing} in {len(parts) - len(having)} of "
                    f"{len(parts)} curves, which do not have it")
@@ -77,8 +80,7 @@ def _join(name, parts, report):
         a = p.attributes.get(name)
         if a is None:
             empty = np.zeros((p.rows_of(scope), *having[0].values.shape[1:]), dtype)
-            # -1 names no guide, but 0 names the first strand.
-            values.append(empty - 1 if name == "closest_guides" else empty)
+            values.append(empty + NOTHING[name] if name in NOTHING else empty)
         else:
             values.append(widen(a, scope, p).astype(dtype, copy=False))
     return Attribute(scope, np.concatenate(values), having[0].role)

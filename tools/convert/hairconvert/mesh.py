@@ -21,6 +21,8 @@ class Mesh:
     joints: np.ndarray = None  # (n, 4) int64, indices of joint_names
     weights: np.ndarray = None  # (n, 4) float64, their sum is 1
     joint_names: list = dataclasses.field(default_factory=list)
+    density: np.ndarray = None  # (n,) fraction of followers
+    maps: list = dataclasses.field(default_factory=list)  # contents of chunks of .groom
     format: str = ""
     unit: float = None  # metres of a unit of the file, None if the file does not tell
     up: str = None  # axis of the file that points up

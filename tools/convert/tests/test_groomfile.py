@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import shutil
 import struct
 import subprocess
 import zlib
@@ -11,7 +12,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from hairconvert.groom import STRAND, VERTEX, Attribute, lengths
-from hairconvert.groomfile import Chunk, _read_names, _write_names
+from hairconvert import names
+from hairconvert.binary import Bytes
+from hairconvert.groomfile import Chunk, _find_chunks, _read_names, _write_names
 from hairconvert.meshes import read_mesh
 from hairconvert.report import InputError, Report
 from tests.test_mesh import make_gltf
@@ -140,8 +143,9 @@ class GroomFileTest(ConvertTest):
         path, said = self.write(groom, "a.groom")
         self.assert_same_attributes(groom, self.read(path), ["guide"])
         self.assertEqual(len(self.read(path, "--take", "guides").counts), 20)
-        # The library reads the strands, and says that the flags are not read.
-        self.assertIn("strands:   100, of 100", self.tool("info", path))
+        said = self.tool("info", path)
+        self.assertIn("strands:   100, of 100", said)
+        self.assertIn("guides:    20 of the strands", said)
         with open(path, "rb") as file:
             data = bytearray(file.read())
         at = data.index(b"GUID")
@@ -154,6 +158,74 @@ class GroomFileTest(ConvertTest):
             self.assertEqual(status, 4 if sentence else 0)
             self.assertIn(sentence, said)
 
+    def test_factors_go_through_usd_and_alembic_and_back_exactly(self):
+        groom = make_groom(uneven=True)
+        random = np.random.default_rng(8)
+        for name, (low, high) in names.FACTORS.items():
+            values = random.uniform(low, high, 100).astype(np.float32)
+            groom.attributes[name] = Attribute(STRAND, np.clip(values, np.float32(low), np.float32(high)))
+        path, said = self.write(groom, "a.groom")
+        self.assertEqual(said, [])
+        self.assertIn("attributes: stiffness of every strand, damping of every strand, shape_frequency",
+                      self.tool("info", path))
+        with open(path, "rb") as file:
+            data = file.read()
+        for other in ("a.usda", "a.abc"):
+            self.assertEqual(self.convert("convert", path, self.path(other))[0], 0)
+            self.assert_same_attributes(groom, self.read(self.path(other)), names.FACTORS)
+            self.assertEqual(self.convert("convert", self.path(other), self.path("b.groom"))[0], 0)
+            self.assert_same_attributes(groom, self.read(self.path("b.groom")), names.FACTORS)
+        at = data.index(b"ATTR")
+        for value, words in ((-1.0, "has a factor of stiffness that is not in [0, 100]"),
+                             (np.nan, "has a factor of stiffness that is not in [0, 100]")):
+            bad = bytearray(data)
+            bad[at + 48:at + 52] = struct.pack("<f", value)
+            self.seal(bad, at)
+            with open(self.path("c.groom"), "wb") as file:
+                file.write(bad)
+            status, said = self.convert("info", self.path("c.groom"))
+            self.assertEqual(status, 4)
+            self.assertIn(f'the chunk "ATTR" at byte {at} {words}', said)
+
+    def test_factors_that_the_library_refuses_or_does_not_know_are_told(self):
+        groom = make_groom()
+        groom.attributes["hair_clump"] = Attribute(STRAND, np.full(100, 2, np.float32))
+        groom.attributes["hair_shine"] = Attribute(STRAND, np.ones(100, np.float32))
+        groom.attributes["hair_frizz"] = Attribute("groom", np.array([3], np.int32))
+        path, said = self.write(groom, "a.groom")
+        self.assertTrue(any("hair_clump is not kept, because a value is not in [0, 1]" in s for s in said))
+        self.assertTrue(any("hair_shine is not kept" in s for s in said))
+        np.testing.assert_array_equal(self.read(path).attributes["hair_frizz"].values, np.full(100, 3))
+        with open(path, "rb") as file:
+            data = bytearray(file.read())
+        at = data.index(b"ATTR")
+        data[at + 16:at + 21] = b"shine"
+        self.seal(data, at)
+        with open(path, "wb") as file:
+            file.write(data)
+        self.assertNotIn("hair_frizz", self.read(path).attributes)
+        self.assertIn("the attribute shine is not kept, because the name is unknown",
+                      self.report.sentences)
+
+    def test_file_with_every_chunk_of_the_library_is_kept(self):
+        folder, path = os.path.dirname(__file__), self.path("named.groom")
+        shutil.copy(os.path.join(folder, "../../../tests/fuzz/corpus/groomfile/named"), path)
+        groom = self.read(path)
+        self.assertEqual(self.report.sentences, [])
+        self.assertEqual(len(groom.scalp.maps), 6)
+        np.testing.assert_array_equal(groom.attributes["hair_stiffness"].values, [0.5, 1, 2, 100])
+        status, said = self.convert("convert", path, self.path("a.groom"))
+        self.assertEqual(status, 0)
+        self.assertNotIn("not kept", said)
+        a, b = self.tool("info", path), self.tool("info", self.path("a.groom"))
+        # A file of guides only needs no flags.
+        self.assertEqual(a.replace("guides:    3 of the strands\n", ""), b)
+        chunks = [_find_chunks(Bytes(open(p, "rb").read()), Report()) for p in (path, self.path("a.groom"))]
+        for letters in ("DENS", "TEXC", "JNTN"):
+            self.assertEqual(chunks[0][letters].data, chunks[1][letters].data, letters)
+        for letters in ("ATTR", "MAPS"):
+            self.assertEqual([c.data for c in chunks[0][letters]], [c.data for c in chunks[1][letters]])
+
     def seal(self, data, at):
         """Write the checksum of the chunk at a byte."""
         end = at + 16 + struct.unpack_from("<Q", data, at + 4)[0]
@@ -163,10 +235,10 @@ class GroomFileTest(ConvertTest):
     def test_wrong_names_of_joints_are_refused(self):
         chunk = Chunk("JNTN", 7, b"hip\0head\0")
         self.assertEqual(_read_names(chunk, 2), ["hip", "head"])
-        for names, count, words in ((b"hip\0", 2, "does not have 2 names"), (b"hip", 1, "1 names"),
+        for joints, count, words in ((b"hip\0", 2, "does not have 2 names"), (b"hip", 1, "1 names"),
                                     (b"", 1, "1 names"), (b"\xff\0", 1, "not UTF-8")):
             with self.assertRaisesRegex(InputError, f'chunk "JNTN" at byte 7.*{words}'):
-                _read_names(Chunk("JNTN", 7, names), count)
+                _read_names(Chunk("JNTN", 7, joints), count)
         self.assertEqual(_write_names(["a\0b", "\ud800"]), b"a_b\0?\0")
 
     def test_long_strands_need_an_option(self):
