@@ -11,10 +11,12 @@
 // hair_vec4[] per smoothed vertex. xyz: position from the head's origin, m. w: length from the
 // root, m.
 #define HAIR_BIND_POSITION 3
-// hair_vec4[] per smoothed vertex. xyz: unit tangent. w: stretch of the segment.
-#define HAIR_BIND_TANGENT 4
-// hair_vec4[] per smoothed vertex. Unit quaternion, y along the strand.
-#define HAIR_BIND_FRAME 5
+// uvec2[] per smoothed vertex. Unit quaternion, y along the strand, and stretch of the segment. See
+// strands/packed_frame.glsl.
+#define HAIR_BIND_FRAME 4
+#define HAIR_FRAME_STRETCH 2e-4 // Unit of the stretch, which is at most 127 units.
+// hair_vec4[] per smoothed vertex. xyz: unit tangent. Of strands/guide_tangents.comp.
+#define HAIR_BIND_TANGENT 5
 // hair_vec4[] per smoothed vertex. Guides at rest, from the root and in the root frame, m. Of
 // strands/displace.comp, in place of HAIR_BIND_SOLVER_STATS. It writes the displacements of guides
 // behind the positions of smoothed guides.
@@ -109,8 +111,7 @@
 // Read-only buffers of hit.comp with HAIR_HIT_GROUP and of the pass that writes the vertex cache.
 // They have these in place of textures of guides and followers.
 #define HAIR_BIND_STORED_POSITION 0 // hair_vec4[] per smoothed vertex, as at HAIR_BIND_POSITION.
-#define HAIR_BIND_STORED_TANGENT 1  // hair_vec4[] per smoothed vertex, as at HAIR_BIND_TANGENT.
-#define HAIR_BIND_STORED_FRAME 2    // hair_vec4[] per smoothed vertex, as at HAIR_BIND_FRAME.
+#define HAIR_BIND_STORED_FRAME 1    // uvec2[] per smoothed vertex, as at HAIR_BIND_FRAME.
 #define HAIR_BIND_STORED_FOLLOWER 6 // hair_follower[] per follower.
 
 // Buffers of the vertex cache of followers.

@@ -5,8 +5,7 @@
 // Texture units. Vertex and tessellation stages use them because OpenGL guarantees those stages no
 // storage buffers.
 #define HAIR_UNIT_POSITION 0
-#define HAIR_UNIT_TANGENT 1
-#define HAIR_UNIT_FRAME 2
+#define HAIR_UNIT_FRAME 1 // uvec2 per vertex, as at HAIR_BIND_FRAME.
 // hair_follower[] as unsigned integers, because float textures may flush small integers to 0.
 #define HAIR_UNIT_FOLLOWER 3
 #define HAIR_UNIT_PATCH 4    // hair_patch[], unsigned.

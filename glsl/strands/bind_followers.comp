@@ -3,10 +3,11 @@
 // roots. One thread per follower.
 #version 450 core
 #include "sim/scalp_buffers.glsl"
+#include "strands/packed_frame.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_POSITION) uniform samplerBuffer position_texture;
-layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
+layout(binding = HAIR_UNIT_FRAME) uniform usamplerBuffer frame_texture;
 layout(std430, binding = HAIR_BIND_FOLLOWER) buffer follower_buffer { hair_follower follower[]; };
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
 
@@ -26,7 +27,8 @@ void main()
     float w1 = follower[i].weight1, w2 = follower[i].weight2;
     vec3 blended =
         (1.0 - w1 - w2) * first + w1 * root_of(follower[i].guide1) + w2 * root_of(follower[i].guide2);
-    vec4  back    = quat_conjugate(texelFetch(frame_texture, int(g * on.smooth_vertices)));
+    uvec2 frame   = texelFetch(frame_texture, int(g * on.smooth_vertices)).xy;
+    vec4  back    = quat_conjugate(unpack_frame(frame));
     vec3  single = rotate(back, root - first), own = rotate(back, root - blended);
     // Values that are not finite come from the application. Guides did not follow them either.
     if (!is_sound(vec4(single, 0.0)) || !is_sound(vec4(own, 0.0))) return;

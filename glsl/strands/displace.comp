@@ -9,6 +9,7 @@
 #include "shared.h"
 #include "workgroup.glsl"
 #include "rotation.glsl"
+#include "strands/packed_frame.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 // Standard deviations of the Gaussian in the length of a guide, and its reach in them.
@@ -16,7 +17,7 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 #define REACH 2.5
 
 layout(std430, binding = HAIR_BIND_POSITION) buffer position_buffer { vec4 smooth_position[]; };
-layout(std430, binding = HAIR_BIND_FRAME) readonly buffer frame_buffer { vec4 smooth_frame[]; };
+layout(std430, binding = HAIR_BIND_FRAME) readonly buffer frame_buffer { uvec2 smooth_frame[]; };
 layout(std430, binding = HAIR_BIND_GUIDE_SHAPE) readonly buffer guide_shape_buffer { vec4 guide_shape[]; };
 layout(std140, binding = HAIR_BIND_STEP) uniform step_buffer { hair_step_params params; };
 
@@ -37,7 +38,7 @@ void main()
     uint first = g * params.smooth_vertices;
     int  last  = int(params.smooth_vertices) - 1;
     vec3 root  = smooth_position[first].xyz;
-    vec4 frame = smooth_frame[first];
+    vec4 frame = unpack_frame(smooth_frame[first]);
     for (int k = int(gl_LocalInvocationID.x); k <= last; k += HAIR_GROUP_SIZE)
         raw[k] = smooth_position[first + uint(k)].xyz - root -
                  rotate(frame, guide_shape[first + uint(k)].xyz);

@@ -3,6 +3,7 @@
 // buffers to the stages that draw.
 #include "shared.h"
 #include "strands/position_texture.glsl"
+#include "strands/packed_frame.glsl"
 
 // It has the shapes of followers too, see hair_follower.
 layout(binding = HAIR_UNIT_FOLLOWER) uniform usamplerBuffer follower_texture;
@@ -12,29 +13,22 @@ layout(std430, binding = HAIR_BIND_STORED_POSITION) readonly restrict buffer pos
 {
     vec4 stored_position[];
 };
-layout(std430, binding = HAIR_BIND_STORED_TANGENT) readonly restrict buffer tangent_buffer
-{
-    vec4 stored_tangent[];
-};
 layout(std430, binding = HAIR_BIND_STORED_FRAME) readonly restrict buffer frame_buffer
 {
-    vec4 stored_frame[];
+    uvec2 stored_frame[];
 };
 layout(std430, binding = HAIR_BIND_STORED_FOLLOWER) readonly restrict buffer follower_buffer {
     hair_follower stored_follower[];
 };
 
 vec4          fetch_position(int at) { return stored_position[at]; }
-vec4          fetch_tangent(int at) { return stored_tangent[at]; }
-vec4          fetch_turn(int at) { return stored_frame[at]; }
+vec4          fetch_turn(int at) { return unpack_frame(stored_frame[at]); }
 hair_follower fetch_whole(uint number) { return stored_follower[number]; }
 #else
-layout(binding = HAIR_UNIT_TANGENT) uniform samplerBuffer tangent_texture;
-layout(binding = HAIR_UNIT_FRAME) uniform samplerBuffer frame_texture;
+layout(binding = HAIR_UNIT_FRAME) uniform usamplerBuffer frame_texture;
 
 vec4 fetch_position(int at) { return texelFetch(position_texture, at); }
-vec4 fetch_tangent(int at) { return texelFetch(tangent_texture, at); }
-vec4 fetch_turn(int at) { return texelFetch(frame_texture, at); }
+vec4 fetch_turn(int at) { return unpack_frame(texelFetch(frame_texture, at).xy); }
 
 hair_follower fetch_whole(uint number)
 {

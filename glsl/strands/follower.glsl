@@ -65,8 +65,8 @@ guide_point fetch_guide(uint number, float u, bool beyond)
     guide_place place = find_place(number, u);
     vec4        a     = fetch_position(place.at);
     vec4        b     = fetch_position(place.at + 1);
-    vec3        ta    = fetch_tangent(place.at).xyz;
-    vec3        tb    = fetch_tangent(place.at + 1).xyz;
+    vec3        ta    = tangent_of(fetch_turn(place.at));
+    vec3        tb    = tangent_of(fetch_turn(place.at + 1));
     vec4        p     = mix(a, b, place.fraction);
     vec3        t     = direction_or(mix(ta, tb, place.fraction), ta);
     float       more  = max(u - 1.0, 0.0) * b.w;

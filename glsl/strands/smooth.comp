@@ -1,5 +1,5 @@
-// smooth.comp - smoothed guides, once per step: buffers of position, length, tangent and frame that
-// all drawing code reads (Tariq 2010). One work group per guide, params.smooth_vertices samples at
+// smooth.comp - smoothed guides, once per step: buffers of position, length and frame that all
+// drawing code reads (Tariq 2010). One work group per guide, params.smooth_vertices samples at
 // equal distances.
 //
 // The curve is a cubic Hermite spline through the vertices. Its tangents are those of the parabola
@@ -10,6 +10,7 @@
 #include "sim/buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
 #include "strands/frames.glsl"
+#include "strands/packed_frame.glsl"
 #include "sim/root_transforms.glsl"
 
 shared vec3  vertex[HAIR_GUIDE_THREADS];
@@ -110,7 +111,7 @@ void main()
 
         uint to             = g * params.smooth_vertices + k;
         smooth_position[to] = vec4(point, s);
-        smooth_tangent[to]  = vec4(tangent, l / max(rest_length, 1e-12) - 1.0);
-        smooth_frame[to]    = quat_multiply(quat_between(segment_direction[j], tangent), scan_frame[j]);
+        vec4 frame          = quat_multiply(quat_between(segment_direction[j], tangent), scan_frame[j]);
+        smooth_frame[to]    = pack_frame(frame, l / max(rest_length, 1e-12) - 1.0);
     }
 }

@@ -69,8 +69,8 @@ HAIR_DESC(hair_buffers)
 /// The buffers have the vertices that hair_read_positions() reads. Only the attributes that are
 /// asked for are computed, and only if they are not up to date. Vertices of followers are those of
 /// HAIR_RENDER_PATH_CACHED, and take the same memory. Colours take 8 bytes per vertex, indices of
-/// strands 4, and previous positions 16, beside those of motion vectors. Memory that no call or
-/// view uses for 240 frames is freed.
+/// strands 4, tangents of guides 16, and previous positions 16, beside those of motion vectors.
+/// Memory that no call or view uses for 240 frames is freed.
 ///
 /// Do not write to the buffers. Names and contents are valid until the next call for this instance
 /// that needs OpenGL. Draw with them, or copy them, before that. The previous frame is the last of

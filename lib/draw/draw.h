@@ -39,6 +39,7 @@ enum hair_draw_resource {
     HAIR_RESOURCE_STRAND_INDEX,
     HAIR_RESOURCE_HOST_HISTORY,
     HAIR_RESOURCE_GUIDE_HISTORY,
+    HAIR_RESOURCE_GUIDE_TANGENTS,
     HAIR_RESOURCES
 };
 
@@ -215,12 +216,13 @@ void hair_draw_free_occlusion(struct hair_renderer* renderer);
 
 // Write the buffers of smoothed guides, which must be up to date, or of followers, whose collision
 // must be up to date. `out` has the attributes wanted and the number of the frame.
-hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct hair_pose* head,
-                                 hair_buffers* out);
+hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct hair_sim* sim,
+                                 const struct hair_pose* head, hair_buffers* out);
 hair_result hair_draw_get_followers(struct hair_renderer* renderer, const struct hair_pose* head,
                                     hair_buffers* out);
 void hair_draw_free_reflectance(struct hair_renderer* renderer);
 void hair_draw_free_strand_index(struct hair_renderer* renderer);
+void hair_draw_free_guide_tangents(struct hair_renderer* renderer);
 
 // Blending state of the application. Functions of blend.c.
 struct hair_blend {

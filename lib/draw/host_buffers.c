@@ -101,8 +101,13 @@ static void write_previous(const struct hair_vertex_history* history, GLuint now
     memcpy(out->prev_rotation, rotation, sizeof rotation);
 }
 
-hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct hair_pose* head,
-                                 hair_buffers* out)
+void hair_draw_free_guide_tangents(struct hair_renderer* renderer)
+{
+    hair_smooth_free_tangents(&renderer->geometry->smooth);
+}
+
+hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct hair_sim* sim,
+                                 const struct hair_pose* head, hair_buffers* out)
 {
     struct hair_geometry* geometry = renderer->geometry;
     struct hair_strand_index* index = &renderer->host.guide_index;
@@ -120,8 +125,11 @@ hair_result hair_draw_get_guides(struct hair_renderer* renderer, const struct ha
     }
     if (out->attributes & HAIR_ATTRIBUTE_POSITION)
         out->position = buffer_of(geometry->smooth.buffer[0], 0, 16, GL_RGB32F, count);
-    if (out->attributes & HAIR_ATTRIBUTE_TANGENT)
-        out->tangent = buffer_of(geometry->smooth.buffer[1], 0, 16, GL_RGB32F, count);
+    if (out->attributes & HAIR_ATTRIBUTE_TANGENT) {
+        mark_used(renderer, HAIR_RESOURCE_GUIDE_TANGENTS);
+        HAIR_TRY(hair_smooth_ensure_tangents(&geometry->smooth, sim));
+        out->tangent = buffer_of(geometry->smooth.tangent, 0, 16, GL_RGB32F, count);
+    }
     return HAIR_OK;
 }
 

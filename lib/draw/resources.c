@@ -103,6 +103,7 @@ static const struct {
     [HAIR_RESOURCE_STRAND_INDEX] = {NULL, hair_draw_free_strand_index},
     [HAIR_RESOURCE_HOST_HISTORY] = {NULL, free_host_history},
     [HAIR_RESOURCE_GUIDE_HISTORY] = {NULL, free_guide_history},
+    [HAIR_RESOURCE_GUIDE_TANGENTS] = {NULL, hair_draw_free_guide_tangents},
 };
 
 // Find the resources that a plan needs.

@@ -166,6 +166,7 @@ PASS(FEEDBACK_BEND_BLACK, "sim/feedback_bend_black", SOLVE, 0, "HAIR_PHASE=5 sim
 PASS(FEEDBACK_COLLIDE, "sim/feedback_collide", SOLVE, 0, "HAIR_PHASE=6 sim/feedback.vert")
 PASS(FEEDBACK_END, "sim/feedback_end", SOLVE, 0, "HAIR_PHASE=7 sim/feedback.vert")
 PASS(SMOOTH, "strands/smooth", SMOOTH, SIZES | WITH(SKINNED) | WITH(TARGETS), "strands/smooth.comp")
+PASS(GUIDE_TANGENTS, "strands/guide_tangents", SMOOTH, 0, "strands/guide_tangents.comp")
 PASS(DISPLACE, "strands/displace", SMOOTH, 0, "strands/displace.comp")
 PASS(EXPAND, "strands/expand", EXPAND, WITH(HITS) | STYLE_FEATURES,
      "HAIR_STORED=1 HAIR_EVERY_FOLLOWER=1 strands/expand.comp")

@@ -82,7 +82,7 @@ static void run_collision(struct hair_geometry* geometry, const struct hair_coll
     int by_group = !follower_collision->prepass && !gl->software;
     uint32_t each = by_group ? HAIR_HIT_FOLLOWERS : HAIR_GROUP_SIZE;
     if (by_group) {
-        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 3, geometry->smooth.buffer);
+        gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_POSITION, 2, geometry->smooth.buffer);
         gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_STORED_FOLLOWER, 1,
                             &geometry->follower.buffer);
     }

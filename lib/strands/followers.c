@@ -88,7 +88,7 @@ void hair_geometry_bind(struct hair_geometry* geometry)
     struct hair_gl* gl = geometry->gl;
     GLuint textures[] = {geometry->smooth.texture[0],
                          geometry->smooth.texture[1],
-                         geometry->smooth.texture[2],
+                         0,
                          geometry->follower.texture,
                          geometry->patch_texture,
                          0,

@@ -170,6 +170,16 @@ static void guides_are_those_that_are_read_back(void** state)
     read_components(got.tangent, 3, tangents);
     for (uint32_t i = 0; i < got.tangent.count; ++i)
         hair_test_near("length", i, (double)hair_length(hair_load3(tangents + 3 * i)), 1, 1e-5);
+    hair_vec4* y = malloc(sizeof *y * got.tangent.count);
+    hair_vec4* frames = malloc(sizeof *frames * got.tangent.count);
+    hair_test_read_frames(scene.hair, y, frames);
+    for (uint32_t i = 0; i < got.tangent.count; ++i) {
+        hair_test_near("x", i, (double)tangents[3 * i], (double)y[i].x, 1e-6);
+        hair_test_near("y", i, (double)tangents[3 * i + 1], (double)y[i].y, 1e-6);
+        hair_test_near("z", i, (double)tangents[3 * i + 2], (double)y[i].z, 1e-6);
+    }
+    free(y);
+    free(frames);
     free(tangents);
     hair_test_scene_free(&scene);
 }
@@ -356,22 +366,24 @@ static void only_what_is_asked_for_is_computed_and_kept(void** state)
     hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
     uint64_t first = bytes_of(&scene);
     hair_buffers got = get(&scene, HAIR_READ_SMOOTH, HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_TANGENT);
-    assert_int_equal(bytes_of(&scene), first);
+    uint64_t tangents = 16ull * got.tangent.count;
+    assert_int_equal(bytes_of(&scene), first + tangents);
+    assert_int_equal(runs_of(&scene, "strands/guide_tangents"), 1);
     assert_int_equal(runs_of(&scene, "strands/expand"), 0);
     for (int i = 0; i < 3; ++i) get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_POSITION);
     assert_int_equal(runs_of(&scene, "strands/expand"), 1);
     assert_int_equal(runs_of(&scene, "draw/reflectance"), 0);
     uint32_t vertices = (uint32_t)hair_geometry_count_vertices(&scene.hair->geometry);
-    assert_int_equal(bytes_of(&scene), first + 24ull * vertices);
+    assert_int_equal(bytes_of(&scene), first + tangents + 24ull * vertices);
     for (int i = 0; i < 3; ++i) {
         got = get(&scene, HAIR_READ_FOLLOWERS, HAIR_ATTRIBUTE_POSITION | HAIR_ATTRIBUTE_COLOR);
         hair_test_ok(scene.test, hair_step(scene.hair, 1.0f / 60));
     }
     assert_int_equal(runs_of(&scene, "draw/reflectance"), 1); // Colours do not move.
-    assert_int_equal(bytes_of(&scene), first + 32ull * vertices);
+    assert_int_equal(bytes_of(&scene), first + tangents + 32ull * vertices);
     assert_true(got.color.buffer && !got.strand.buffer && !got.prev_position.buffer && !got.radius.buffer);
     get(&scene, HAIR_READ_FOLLOWERS, FOLLOWER_ATTRIBUTES);
-    assert_int_equal(bytes_of(&scene), first + 52ull * vertices);
+    assert_int_equal(bytes_of(&scene), first + tangents + 52ull * vertices);
     // Unused memory is freed.
     for (int i = 0; i < 245; ++i) hair_test_ok(scene.test, hair_step(scene.hair, 1e-4f));
     get(&scene, HAIR_READ_SMOOTH, HAIR_ATTRIBUTE_POSITION);

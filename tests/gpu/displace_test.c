@@ -8,6 +8,7 @@
 #include "lib/api/api.h"
 #include "tests/reference/reference.h"
 #include "tests/support/grooms.h"
+#include "tests/support/scene.h"
 
 #define STRANDS 150
 #define GUIDES 9
@@ -47,8 +48,7 @@ static void read_guides(struct fixture* f)
     hair_gl_enter(gl);
     hair_geometry_ensure_guides(geometry, &f->hair->sim);
     gl->GetNamedBufferSubData(geometry->smooth.buffer[0], 0, (GLsizeiptr)(2 * size), f->drawn);
-    gl->GetNamedBufferSubData(geometry->smooth.buffer[1], 0, (GLsizeiptr)size, tangents);
-    gl->GetNamedBufferSubData(geometry->smooth.buffer[2], 0, (GLsizeiptr)size, frames);
+    hair_test_read_frames(f->hair, tangents, frames);
     hair_gl_leave(gl);
     for (size_t i = 0; i < vertices; ++i) {
         const float *p = &f->drawn[i].x, *t = &tangents[i].x, *q = &frames[i].x;

@@ -54,6 +54,36 @@ void hair_test_scene_set_state(const struct hair_test_scene* scene, const struct
     hair_gl_leave(gl);
 }
 
+// Return a signed number of some bits.
+static int signed_bits(uint64_t bits, int first, int count)
+{
+    return (int)((int64_t)(bits << (64 - first - count)) >> (64 - count));
+}
+
+void hair_test_read_frames(const hair_instance* hair, hair_vec4* tangent, hair_vec4* frame)
+{
+    const struct hair_smooth* smooth = &hair->geometry.smooth;
+    size_t size = smooth->vertices * sizeof(uint64_t);
+    uint64_t* packed = malloc(size);
+    assert_non_null(packed);
+    glGetNamedBufferSubData(smooth->buffer[1], 0, (GLsizeiptr)size, packed);
+    for (size_t i = 0; i < smooth->vertices; ++i) {
+        uint64_t bits = packed[i], largest = bits >> 54 & 3;
+        double q[4], squares = 0;
+        for (int k = 0, n = 0; k < 4; ++k) {
+            if (k == (int)largest) continue;
+            q[k] = sqrt(0.5) / 131071 * signed_bits(bits, 18 * n++, 18);
+            squares += q[k] * q[k];
+        }
+        q[largest] = sqrt(1 - squares);
+        frame[i] = (hair_vec4){(float)q[0], (float)q[1], (float)q[2], (float)q[3]};
+        hair_quat turn = {frame[i].x, frame[i].y, frame[i].z, frame[i].w};
+        hair_vec3 y = hair_rotate(turn, hair_v3(0, 1, 0));
+        tangent[i] = (hair_vec4){y.x, y.y, y.z, (float)HAIR_FRAME_STRETCH * (float)signed_bits(bits, 56, 8)};
+    }
+    free(packed);
+}
+
 struct hair_reference_sample* hair_test_scene_scatter(const struct hair_test_scene* scene)
 {
     const struct hair_groom* groom = scene->groom;

@@ -34,6 +34,8 @@ void hair_test_scene_free(struct hair_test_scene* scene);
 
 // Write the state of all guides, and smooth them.
 void hair_test_scene_set_state(const struct hair_test_scene* scene, const struct hair_state* state);
+// Read the frames of smoothed guides. Set `tangent` to their y axes, with the stretch in w.
+void hair_test_read_frames(const hair_instance* hair, hair_vec4* tangent, hair_vec4* frame);
 // Move the guides' vertices at random by up to 1 mm, and smooth them. Return the samples of the
 // reference, to be freed. Each guide has 2 * max_vertices - 1.
 struct hair_reference_sample* hair_test_scene_scatter(const struct hair_test_scene* scene);
