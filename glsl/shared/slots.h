@@ -23,7 +23,7 @@
 #define HAIR_BIND_GUIDE_SHAPE 6
 // Buffers of the rod solvers, in place of those of smoothed vertices, which they neither read nor
 // write.
-#define HAIR_BIND_ROD 3     // hair_rod[] per guide vertex. Read-only.
+#define HAIR_BIND_ROD 3     // hair_vec4[]. Rods, see sim/rod_buffers.glsl. Read-only.
 #define HAIR_BIND_HISTORY 4 // hair_history[] per guide vertex.
 // hair_vec4[] per guide vertex. Frame of its segment, unit quaternion, y along the segment.
 #define HAIR_BIND_MATERIAL 5

@@ -6,7 +6,7 @@ float guide_damping, guide_keep, guide_kick;
 
 void load_damping()
 {
-    guide_damping = rod[guide_first + guide_count - 1u].factor_euler.w;
+    guide_damping = damping_of(guide_number);
     float h = params.gravity.w, x = guide_damping * h;
     guide_keep = exp(-x);
     // The series is used where x is small, because rounding spoils the difference.

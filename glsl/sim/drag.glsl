@@ -30,7 +30,7 @@ void feel_air(uint i, vec3 before, float fraction, vec3 hv)
     float h     = SUBSTEP;
     vec3  after = GET(edge);
     vec3  sum   = (i > 0u ? before : after) + (i + 1u < guide_count ? after : before);
-    float size  = length(sum), beside = i > 0u ? rod[guide_first + i - 1u].segment.x : 0.0;
+    float size  = length(sum), beside = i > 0u ? rod_segment(guide_first + i - 1u).x : 0.0;
     along       = size > 1e-3 ? sum / size : vec3(0.0, 1.0, 0.0);
     vec3  air   = h * air_at(root_then + GET(place), substep_number), past = air - hv;
     float faces = dot(past, along), across = length(past - faces * along);

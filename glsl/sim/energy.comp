@@ -32,7 +32,7 @@ vec3 along_of(vec4 q) { return rotate(q, vec3(0.0, 1.0, 0.0)); }
 // Add the energy of a vertex that is not held.
 void add_vertex(uint i, vec3 root, bool has_rate, inout vec4 sum)
 {
-    float over_mass = rod[i].segment.y;
+    float over_mass = rod_segment(i).y;
     if (over_mass == 0.0) return;
     vec3  at = state[i].position.xyz, hv = has_rate ? history[i].rate.xyz : state[i].displacement.xyz;
     float fall = dot(params.gravity.xyz, at - root), mass = 1.0 / over_mass;
@@ -40,19 +40,18 @@ void add_vertex(uint i, vec3 root, bool has_rate, inout vec4 sum)
     sum.y -= mass * fall;
     grain += LENGTH_GRAIN * mass * abs(fall);
     vec3 away = rotate(params.rotation_now, rest[i].position.xyz) - at;
-    sum.w += 0.5 * mass * rod[i].segment.z * dot(away, away);
+    sum.w += 0.5 * mass * rod_segment(i).z * dot(away, away);
 }
 
 #ifdef HAIR_MIXED
 // Return the difference of the hinge's turn from rest, between the frames of segments i-1 and i. w
-// is its energy. mixed.glsl has the equations.
-vec4 bend_of(uint i, vec4 before)
+// is its energy. `ratio` is the hinge's own. mixed.glsl has the equations.
+vec4 bend_of(uint i, vec4 before, vec3 ratio)
 {
-    vec4  q = quat_multiply(quat_conjugate(before), material[i]), strain = rod[i].strain;
+    vec4  q = quat_multiply(quat_conjugate(before), material[i]), strain = rod_strain(i);
     q *= q.w < 0.0 ? -1.0 : 1.0;
     vec3  off = 2.0 * q.xyz - strain.xyz;
-    float real = 2.0 * q.w - rod[i].segment.w;
-    vec3  ratio = rod[i].factor_euler.xyz;
+    float real = 2.0 * q.w - rod_segment(i).w;
     return vec4(off, 0.5 * strain.w * (dot(off, ratio * off) + ratio.z * real * real));
 }
 #else
@@ -61,7 +60,7 @@ vec4 bend_of(uint i, vec4 before)
 vec4 bend_of(uint i, vec3 before)
 {
     vec3 off = normalize(state[i + 1u].position.xyz - state[i].position.xyz) - before;
-    return vec4(off, 0.5 * rod[i].strain.w * dot(off, off));
+    return vec4(off, 0.5 * rod_strain(i).w * dot(off, off));
 }
 #endif
 
@@ -70,13 +69,14 @@ void add_bending(uint g, uint first, uint count, inout vec4 sum)
     vec4 scalp = quat_multiply(params.rotation_now, guide[g].root_frame);
     for (uint i = first; i + 1u < first + count; ++i) {
 #ifdef HAIR_MIXED
-        vec4 bend = bend_of(i, i > first ? material[i - 1u] : scalp);
+        vec3 ratio = i > first ? params.ratio.xyz : root_ratio_of(g);
+        vec4 bend  = bend_of(i, i > first ? material[i - 1u] : scalp, ratio);
 #else
         vec4 bend = bend_of(i, i > first ? normalize(state[i].position.xyz - state[i - 1u].position.xyz)
                                          : along_of(scalp));
 #endif
         sum.z += bend.w;
-        grain += rod[i].strain.w * (length(bend.xyz) + TURN_GRAIN) * TURN_GRAIN;
+        grain += rod_strain(i).w * (length(bend.xyz) + TURN_GRAIN) * TURN_GRAIN;
     }
 }
 
@@ -103,11 +103,11 @@ void main()
     vec4 sum   = vec4(0.0);
     grain      = 0.0;
     // A free root falls, so that gravity's energy is relative to the head's origin.
-    if (rod[first].segment.y > 0.0) root = vec3(0.0);
+    if (rod_segment(first).y > 0.0) root = vec3(0.0);
     bool has_rate = state[first].position.w >= 2.0;
     for (uint i = first; i < first + count; ++i) add_vertex(i, root, has_rate, sum);
     add_bending(g, first, count, sum);
     energy[g].now    = sum;
     energy[g].window = next_window(energy[g].window, sum.x + sum.y + sum.z + sum.w, sum.x,
-                                   rod[first + count - 1u].factor_euler.w);
+                                   damping_of(g));
 }

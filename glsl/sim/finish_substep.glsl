@@ -103,7 +103,7 @@ bool accept(int method, bool waits, vec3 head_moved)
     if (!found.x) accept_impulses(method);
 #endif
 #ifdef LEAVES_WHIPS
-    bool whips = (all & 12u) == 4u && rod[guide_first + 1u].segment.w > 0.0;
+    bool whips = (all & 12u) == 4u && rod_segment(guide_first + 1u).w > 0.0;
     return !(found.x || whips);
 #elif defined(HAIR_PASS1)
     if (HAIR_SOLVER == SHAKE && COLLIDERS && !found.y) return !group_any(bvec2(turns || found.x, false)).x;

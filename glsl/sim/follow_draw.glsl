@@ -66,27 +66,28 @@ vec3 direction_above(uint k, vec3 leader, vec3 between, vec3 way, float len, boo
 void draw_strand_after_root(bool met)
 {
     vec4 turn   = turn_now;
-    vec3 last   = rotate(turn, rod[guide_first].factor_euler.xyz);
+    vec3 last   = rotate(turn, rod_factor_euler(guide_first).xyz);
     vec3 root   = root_is_free ? GET_AT(lever, 0u) + guide_kick * params.gravity.xyz : GET_AT(moved, 0u);
     vec3 leader = kept_above(0u, root, met);
     PUT_AT(handed, 0u, root);
     PUT_AT(moved, 0u, leader);
     vec4 swung = vec4(0.0, 0.0, 0.0, 1.0); // Turn of the segment before in this substep
     for (uint k = 0u; k + 1u < guide_count; ++k) {
-        hair_rod f       = rod[guide_first + k];
-        float    len     = f.segment.x;
-        vec3     between = GET_AT(place, k + 1u) - GET_AT(place, k), way = rotate(turn, f.factor_euler.xyz);
+        uint  at         = guide_first + k;
+        vec4  strain     = rod_strain(at), segment = rod_segment(at), along = rod_factor_euler(at);
+        float len        = segment.x;
+        vec3  between = GET_AT(place, k + 1u) - GET_AT(place, k), way = rotate(turn, along.xyz);
         // Nothing determines the segment's angle.
-        if (dot(f.strain.xyz, f.strain.xyz) == 0.0) {
+        if (dot(strain.xyz, strain.xyz) == 0.0) {
             turn = quat_multiply(quat_between(way, normalize(between)), turn);
             way  = normalize(between);
         }
         vec3 inertial = GET_AT(lever, k), relative = GET_AT(lever, k + 1u) - inertial;
         vec3 felt = guide_kick * params.gravity.xyz + inertial - leader;
-        vec3 pull = guide_kick * rotate(turn, f.strain.xyz) + f.strain.w * felt -
-                    dot(felt, way) * rotate(turn, f.factor.xyz);
-        vec3 led  = f.segment.w * params.gravity.w * (rotate(swung, between) - between);
-        vec3 to   = between + (relative + led) / (1.0 + f.factor_euler.w * params.gravity.w) + len * pull;
+        vec3 pull = guide_kick * rotate(turn, strain.xyz) + strain.w * felt -
+                    dot(felt, way) * rotate(turn, rod_factor(at).xyz);
+        vec3 led  = segment.w * params.gravity.w * (rotate(swung, between) - between);
+        vec3 to   = between + (relative + led) / (1.0 + along.w * params.gravity.w) + len * pull;
         last      = is_direction(to, len) ? normalize(to) : last;
         // A contact does not turn the segments beyond it, so the turn is taken before contact.
         swung     = quat_between(direction_or(between, last), last);

@@ -8,11 +8,11 @@ LOCAL(vec3, plane); // Normal of the contact at the end of the last substep, or 
 void load()
 {
     bool pulled  = params.shape_frequency_root > 0.0 || params.shape_frequency_tip > 0.0;
-    root_is_free = rod[guide_first].segment.y > 0.0;
+    root_is_free = rod_segment(guide_first).y > 0.0;
     FOR_VERTICES(guide_count) {
         uint       at      = guide_first + min(i, guide_count - 1u);
         hair_state was     = state[at];
-        vec4       segment = rod[at].segment, contact = COLLIDERS ? material[at] : vec4(0.0);
+        vec4       segment = rod_segment(at), contact = COLLIDERS ? material[at] : vec4(0.0);
         local(plane) = contact.w == IS_PLANE ? contact.xyz : vec3(0.0);
         load_vertex(i, was, segment, pulled);
     }

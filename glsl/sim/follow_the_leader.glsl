@@ -14,7 +14,7 @@ void draw_along(uint k, uint leader, float len, inout vec3 last)
     PUT_AT(moved, k, moved_leader - between + len * last);
 }
 
-float length_of(uint k) { return rod[guide_first + k].segment.x; }
+float length_of(uint k) { return rod_segment(guide_first + k).x; }
 
 // Draw the vertices from `from` to `to`, each after the one before it (Mueller et al. 2012). `from`
 // is already at its place.
@@ -54,7 +54,7 @@ void draw_span(vec4 span, inout vec3 last)
 
 void draw_strand()
 {
-    float number = rod[guide_first].factor.w;
+    float number = pin_beyond(guide_first);
     vec3  last   = clamp_way;
     uint  from   = 0u;
     for (bool more = number > 0.0; more; number += 1.0) {

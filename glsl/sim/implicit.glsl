@@ -9,7 +9,7 @@ void substitute(bool euler)
         // Sums to subtract from the next row and from the one after it.
         vec3 one = vec3(0.0), two = vec3(0.0);
         for (uint k = 0u; k < guide_count; ++k) {
-            vec4 f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
+            vec4 f     = euler ? rod_factor_euler(guide_first + k) : rod_factor(guide_first + k);
             vec3 value = GET_AT(moved, k) - one;
             one        = two + f.y * value;
             two        = f.z * value;
@@ -17,7 +17,7 @@ void substitute(bool euler)
         }
         vec3 below = vec3(0.0), below_two = vec3(0.0);
         for (uint k = guide_count; k-- > 0u;) {
-            vec4 f     = euler ? rod[guide_first + k].factor_euler : rod[guide_first + k].factor;
+            vec4 f     = euler ? rod_factor_euler(guide_first + k) : rod_factor(guide_first + k);
             vec3 value = GET_AT(moved, k) - f.y * below - f.z * below_two;
             below_two  = below;
             below      = value;

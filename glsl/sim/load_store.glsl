@@ -6,23 +6,23 @@ void load()
     float rescale = params.substep_first == 0u ? params.rescale : 1.0;
     bool  pulled  = params.shape_frequency_root > 0.0 || params.shape_frequency_tip > 0.0;
     known         = rescale == 1.0 ? state[guide_first].position.w : min(state[guide_first].position.w, 1.0);
-    root_is_free  = rod[guide_first].segment.y > 0.0;
-    float tip     = rod[guide_first + guide_count - 1u].segment.y;
+    root_is_free  = rod_segment(guide_first).y > 0.0;
+    float tip     = rod_segment(guide_first + guide_count - 1u).y;
     heavy         = tip > 0.0 && tip * guide_length < 1.0;
 #ifdef HAIR_STIFF
-    float taken = rod[guide_first].segment.w;
+    float taken = rod_segment(guide_first).w;
     own_method  = taken == 2.0 ? EULER : taken == 1.0 ? BACK : SHAKE;
 #endif
 #ifdef SPLITS
-    whip_part = rod[guide_first + 1u].segment.w;
+    whip_part = rod_segment(guide_first + 1u).w;
 #endif
     FOR_VERTICES(guide_count) {
         // Request all reads before any value is used, because a GPU waits for all of them as long
         // as for one.
         uint       at       = guide_first + min(i, guide_count - 1u);
         hair_state was      = state[at];
-        vec4       segment  = rod[at].segment;
-        local(strain)         = rod[at].strain;
+        vec4       segment  = rod_segment(at);
+        local(strain)         = rod_strain(at);
 #ifdef KEEPS_RATES
         hair_history past   = history[at];
         local(rate)           = known < 2.0 ? was.displacement.xyz * rescale : past.rate.xyz;
@@ -47,8 +47,8 @@ void load()
 #endif
     }
 #ifdef HAIR_MIXED
-    root_is_clamped = rod[guide_first].strain.w > 0.0;
-    root_ratio      = rod[guide_first].factor_euler.xyz;
+    root_is_clamped = rod_strain(guide_first).w > 0.0;
+    root_ratio      = root_ratio_of(guide_number);
     GROUP_BARRIER;
     if (!are_aligned()) align_frames();
 #endif

@@ -19,8 +19,7 @@ bool taut;                // A span is stretched beyond its length.
 // Compliance added to a length, as a fraction of its own.
 #define GIVES_WAY 0.01
 
-// Return data of a pin by its number. rod[].factor.w has the number of the first pin after a
-// vertex, counted from 1.
+// Return data of a pin by its number. See pin_beyond().
 vec4 pin_place(float number) { return texelFetch(pin_texture, 2 * int(number) - 2); }
 vec4 pin_span(float number) { return texelFetch(pin_texture, 2 * int(number) - 1); }
 
@@ -29,7 +28,7 @@ vec4 pin_span(float number) { return texelFetch(pin_texture, 2 * int(number) - 1
 void load_pin(uint i)
 {
     uint  at   = guide_first + min(i, guide_count - 1u);
-    float here = rod[max(at, 1u) - 1u].factor.w, beyond = rod[at].factor.w;
+    float here = pin_beyond(max(at, 1u) - 1u), beyond = pin_beyond(at);
     local(target) = pin_place(max(here, 1.0));
     local(span)   = min(beyond, 1.0) * pin_span(max(beyond, 1.0));
 }
@@ -65,6 +64,6 @@ void give_length()
         float more  = given(local(span), apart);
         taut        = taut || more > GIVEN;
         local(gives)  = length(apart) > NEARLY * local(span).z ? GIVES_WAY : 0.0;
-        if (i + 1u < guide_count) local(rest_length) = more * rod[guide_first + i].segment.x;
+        if (i + 1u < guide_count) local(rest_length) = more * rod_segment(guide_first + i).x;
     }
 }

@@ -106,7 +106,7 @@ void predict(int method)
         // Fraction of the vertex's inertia that has weight. See lib/rod/tip_inertia.c.
         float fraction =
             heavy && i > 0u && i + 1u < guide_count
-                ? min(0.5 * (rod[guide_first + i - 1u].segment.x + local(rest_length)) * local(slack), 1.0)
+                ? min(0.5 * (rod_segment(guide_first + i - 1u).x + local(rest_length)) * local(slack), 1.0)
                 : 1.0;
 #ifdef HAIR_WIND
         vec3 before = BEFORE_VEC3(edge);

@@ -49,8 +49,9 @@ hair_result hair_get_buffers(hair_instance* hair, hair_read_source source, hair_
     hair_enter(hair);
     hair_draw_free_unused(&hair->renderer, hair->profiler.number);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
-    hair_result result = source == HAIR_READ_SMOOTH ? hair_draw_get_guides(&hair->renderer, &hair->sim, head, &own)
-                                                    : find_followers(hair, head, &own);
+    hair_result result = source == HAIR_READ_SMOOTH
+                             ? hair_draw_get_guides(&hair->renderer, &hair->sim, head, &own)
+                             : find_followers(hair, head, &own);
     HAIR_TRY(hair_leave(hair->context, result));
     hair_sim_set_unseen_time(&hair->sim, 0);
     return HAIR_COPY_OUT(host, hair_buffers, &own, out);

@@ -20,6 +20,8 @@ struct rod_work {
     struct hair_rod* new_rod;
     const struct hair_rod* rod;
     hair_vec4 *reduction, *last;
+    struct hair_rod_parts parts;
+    hair_vec4* packed;
     uint32_t all_rounds; // Rounds of all guides.
     uint32_t each; // Guides of a task.
     struct hair_rods_report report[MAX_TASKS];
@@ -278,19 +280,53 @@ hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const str
     return is_there ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
 }
 
+static void pack_task(uint32_t index, void* data)
+{
+    struct rod_work* work = data;
+    const struct hair_rod_source* source = work->source;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    hair_rods_pack(guides, index * work->each, count, source->count, source->vertices, work->rod, work->parts,
+                   work->packed);
+}
+
+hair_result hair_rods_pack_all(const struct hair_rod_source* source, const struct hair_rod* rod,
+                               struct hair_rod_parts parts, size_t* count, hair_vec4** out)
+{
+    *count = hair_rods_packed_count(source->count, source->vertices, parts);
+    *out = hair_alloc(source->host, *count, sizeof **out);
+    if (!*out) return hair_fail_memory(source->host, "the guides as rods");
+    struct rod_work work = {.source = source, .rod = rod, .parts = parts, .packed = *out};
+    divide_guides(&work, pack_task);
+    return HAIR_OK;
+}
+
+// Write, reduce and pack the rods, whose memory is `rod`.
+static hair_result fill_rods(const struct hair_rod_source* source, struct hair_prepared_rods* p,
+                             struct hair_rod* rod)
+{
+    struct hair_rod_parts parts = {.has_factor_euler = !p->mixed, .has_factor = !p->mixed};
+    size_t count;
+    p->report.softened =
+        hair_rods_write_all(source, p->borne, &p->physics, p->solver, p->mixed, p->substep, rod);
+    HAIR_TRY(hair_rods_pack_all(source, rod, parts, &count, &p->rod));
+    if (p->solver == HAIR_SOLVER_FOLLOW) return HAIR_OK;
+    return hair_rods_reduce_all(source, rod, p->substep, &p->rounds, &p->reduction);
+}
+
 static hair_result fill(const struct hair_rod_source* source, struct hair_prepared_rods* p)
 {
     const hair_host* host = source->host;
     p->borne = hair_alloc(host, source->vertices, sizeof *p->borne);
-    p->rod = hair_alloc(host, source->vertices, sizeof *p->rod);
-    if (!p->borne || !p->rod) return hair_fail_memory(host, "the guides as rods");
+    if (!p->borne) return hair_fail_memory(host, "the guides as rods");
     HAIR_TRY(hair_rods_preload_all(source, &p->physics, p->borne, &p->report));
     p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
     p->substep = hair_rods_shared_substep(source, p->borne, &p->physics, p->solver, p->mixed);
-    p->report.softened =
-        hair_rods_write_all(source, p->borne, &p->physics, p->solver, p->mixed, p->substep, p->rod);
-    if (p->solver == HAIR_SOLVER_FOLLOW) return HAIR_OK;
-    return hair_rods_reduce_all(source, p->rod, p->substep, &p->rounds, &p->reduction);
+    struct hair_rod* rod = hair_alloc(host, source->vertices, sizeof *rod);
+    if (!rod) return hair_fail_memory(host, "the guides as rods");
+    hair_result result = fill_rods(source, p, rod);
+    hair_free(host, rod);
+    return result;
 }
 
 hair_result hair_prepared_rods_create(const struct hair_rod_source* source, const hair_physics* physics,

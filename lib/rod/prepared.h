@@ -3,7 +3,7 @@
 #define HAIR_ROD_PREPARED_H
 
 #include "lib/base/host.h"
-#include "lib/rod/rod.h"
+#include "lib/rod/packed_rods.h"
 
 // Guides, and the threads on which rods are computed from them.
 struct hair_rod_source {
@@ -48,6 +48,10 @@ void hair_rods_pin_all(const struct hair_rod_source* source, const struct hair_r
 hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const struct hair_rod* rod,
                                  double substep, uint32_t* rounds, hair_vec4** out);
 
+// Apply hair_rods_pack() to all guides, in memory of the host. Set *count to the number of vectors.
+hair_result hair_rods_pack_all(const struct hair_rod_source* source, const struct hair_rod* rod,
+                               struct hair_rod_parts parts, size_t* count, hair_vec4** out);
+
 // Rods for the physics that instances are created with, and for the solver's own substep.
 struct hair_prepared_rods {
     hair_physics physics;
@@ -56,7 +60,9 @@ struct hair_prepared_rods {
     struct hair_rods_report report;
     int mixed;
     double substep;
-    struct hair_rod* rod;
+    // Packed rods, with all factors unless the scheme is mixed. The vectors before the factors that
+    // the reduction replaces are packed rods too.
+    hair_vec4* rod;
     hair_vec4* reduction; // NULL if there are no implicit systems.
     uint32_t rounds;
 };

@@ -34,6 +34,33 @@ struct hair_resolved_pin {
 // strand bends most easily about x, the long axis of the section.
 void hair_rods_ratios(const hair_physics* physics, double ratio[3]);
 
+// A guide vertex as part of a rod, for the solvers of Kirchhoff's equations. All quantities are
+// divided by the mass of one metre of hair, which makes masses lengths. Follow-the-leader uses
+// strain and factors differently, with the symbols of lib/rod/follow_segments.c. Its strain holds K
+// r + a' and c, and its factor holds p, all divided by the inertia. Its factor_euler holds r and a
+// damping rate. Its segment.w is the part of this rate that acts against the turn of the segment
+// before, 1/s.
+struct hair_rod {
+    // xyz: rest strain 2 Im(conj(q_(i-1)) q_i) at vertex i, with q_i the frame of segment i. At the
+    // root q_(i-1) is the frame of the scalp. w: bending stiffness divided by the length that it
+    // acts over, m^3/s^2.
+    hair_vec4 strain;
+    // x: length of segment i, m. 0 for the tip. y: 1 / mass, 1/m. z: square of the angular
+    // frequency of the pull to the rest pose, 1/s^2. w of a first vertex: method of the accurate
+    // solver. 0 is explicit, 1 is BDF2, and 2 is implicit Euler, for a guide that a heavy tip pulls
+    // taut. w of a second vertex: longest part of a substep when the guide whips, a power of two. 0
+    // if no part is short enough. w of every vertex in the mixed scheme: 2 w0, twice the real part
+    // of conj(q_(i-1)) q_i at rest. 0 for the tip.
+    hair_vec4 segment;
+    // Row of L D L^T of the implicit system of the solver's own method. x: 1/D. y: L(i+1,i). z:
+    // L(i+2,i). w: number of the first pin beyond this vertex, counted from 1. 0 if there is none.
+    hair_vec4 factor;
+    // Row of L D L^T of implicit Euler, the fallback method. In the mixed scheme, xyz: stiffness
+    // about the axes of the section, as multiples of strain.w. w of the tip: rate at which the
+    // guide's velocities decay, 1/s.
+    hair_vec4 factor_euler;
+};
+
 // Gravity preload of a guide vertex, by which the guide holds its groom.
 struct hair_rod_borne {
     double stress[3]; // Derivative of the vertex's energy by its strain in the groom.

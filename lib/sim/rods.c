@@ -17,12 +17,22 @@
 // falls back to another method when the head shakes over colliders.
 #define CONTACT_MARGIN 1.6
 
-static bool is_stiff(const struct hair_sim* sim, const struct hair_rod* rod)
+// Return whether the accurate solver does not solve all guides explicitly.
+static bool is_stiff(const struct hair_sim* sim, const hair_vec4* packed)
 {
     if (sim->solver != HAIR_SOLVER_ACCURATE) return false;
     for (uint32_t i = 0; i < sim->guides; ++i)
-        if (rod[sim->rods->groom->guides[i].first].segment.w != 0) return true;
+        if (packed[2 * (size_t)sim->rods->groom->guides[i].first + 1].w != 0) return true;
     return false;
+}
+
+// Return the members of packed rods that the programs read.
+static struct hair_rod_parts find_parts(const struct hair_sim* sim, bool is_mixed)
+{
+    bool is_reduced = !sim->by_thread && sim->solver != HAIR_SOLVER_FOLLOW;
+    return (struct hair_rod_parts){.has_factor_euler = !is_mixed,
+                                   .has_factor = !is_mixed && !is_reduced,
+                                   .has_pins = sim->pins.count > 0};
 }
 
 static struct hair_rod_source source_of(const struct hair_sim* sim)
@@ -154,17 +164,14 @@ static double find_substep(const struct hair_sim* sim, int mixed, int had_contac
     return substep;
 }
 
-// Upload rods to the buffers of a set. The set has the simulation's buffer of forces and turns
-// where there is one.
-static hair_result upload_rods(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
+// Upload packed rods to the buffers of a set. The set has the simulation's buffer of forces and
+// turns where there is one.
+static hair_result upload_rods(struct hair_sim* sim, const hair_vec4* packed, size_t count,
+                               struct hair_rod_set* out)
 {
-    const struct hair_prepared_rods* p = sim->rods->groom->prepared;
-    if (p && rod == p->rod && !sim->by_thread)
-        HAIR_TRY(upload_reduction(sim, p->reduction, p->rounds, out));
-    else
-        HAIR_TRY(make_reduction(sim, rod, out));
-    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", sim->guide_vertices * sizeof *rod,
-                             rod, &out->rod));
+    out->stiff = is_stiff(sim, packed);
+    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair rods", count * sizeof *packed, packed,
+                             &out->rod));
     if (out->mixed) out->bend = sim->bend;
     if (!out->mixed || out->bend) return HAIR_OK;
     return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &out->bend);
@@ -227,8 +234,13 @@ static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair
         hair_rods_write_all(&source, rods->borne, &sim->physics, sim->solver, out->mixed, out->substep, rod);
     hair_rods_pin_all(&source, rods->borne, sim->pins.resolved_pin, sim->pins.count, &sim->physics,
                       sim->solver, out->mixed, out->substep, rod);
-    out->stiff = is_stiff(sim, rod);
-    return upload_rods(sim, rod, out);
+    HAIR_TRY(make_reduction(sim, rod, out));
+    size_t count;
+    hair_vec4* packed = NULL;
+    HAIR_TRY(hair_rods_pack_all(&source, rod, find_parts(sim, out->mixed), &count, &packed));
+    hair_result result = upload_rods(sim, packed, count, out);
+    hair_free(source.host, packed);
+    return result;
 }
 
 // Upload the rods of the groom.
@@ -238,8 +250,12 @@ static hair_result take_rods(struct hair_sim* sim, const struct hair_prepared_ro
     out->mixed = prepared->mixed;
     out->substep = prepared->substep;
     out->softened = prepared->report.softened;
-    out->stiff = is_stiff(sim, prepared->rod);
-    return upload_rods(sim, prepared->rod, out);
+    bool has_reduction = !sim->by_thread && prepared->reduction;
+    HAIR_TRY(upload_reduction(sim, has_reduction ? prepared->reduction : NULL, prepared->rounds, out));
+    struct hair_rod_parts parts = find_parts(sim, prepared->mixed);
+    HAIR_ASSERT(!parts.has_pins);
+    return upload_rods(sim, prepared->rod, hair_rods_packed_count(sim->guides, sim->guide_vertices, parts),
+                       out);
 }
 
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.

@@ -19,7 +19,6 @@ static const struct {
     }
     STRUCT(hair_guide),
     STRUCT(hair_rest),
-    STRUCT(hair_rod),
     STRUCT(hair_state),
     STRUCT(hair_history),
     STRUCT(hair_capsule),
@@ -234,7 +233,7 @@ static void pass_buffers_are_those_of_shared_h(void** state)
     STEP(pass), STORAGE(pass, "guide_buffer", GUIDE, sizeof(struct hair_guide)),                             \
         STORAGE(pass, "rest_buffer", REST, sizeof(struct hair_rest)),                                        \
         STORAGE(pass, "state_buffer", STATE, sizeof(struct hair_state)),                                     \
-        STORAGE(pass, "rod_buffer", ROD, sizeof(struct hair_rod)),                                           \
+        STORAGE(pass, "rod_buffer", ROD, sizeof(hair_vec4)),                                                 \
         STORAGE(pass, "history_buffer", HISTORY, sizeof(struct hair_history)),                               \
         STORAGE(pass, "solver_stats_buffer", SOLVER_STATS, sizeof(hair_uint))
         STEP(HAIR_GL_REDBLACK),
@@ -255,7 +254,7 @@ static void pass_buffers_are_those_of_shared_h(void** state)
         STORAGE(HAIR_GL_DIRECT, "reduction_buffer", REDUCTION, sizeof(hair_vec4)),
         ROD(HAIR_GL_MIXED_SOLVER | THREAD | HAIR_GL_SIZE(1)),
         STORAGE(HAIR_GL_MIXED_SOLVER | COLLIDERS, "material_buffer", MATERIAL, sizeof(hair_vec4)),
-        STORAGE(HAIR_GL_FOLLOW | COLLIDERS | HAIR_GL_SIZE(2), "rod_buffer", ROD, sizeof(struct hair_rod)),
+        STORAGE(HAIR_GL_FOLLOW | COLLIDERS | HAIR_GL_SIZE(2), "rod_buffer", ROD, sizeof(hair_vec4)),
         STORAGE(HAIR_GL_FOLLOW | COLLIDERS | HAIR_GL_SIZE(2), "material_buffer", MATERIAL, sizeof(hair_vec4)),
         STEP(HAIR_GL_ACCURATE),
         STEP(HAIR_GL_ACCURATE | THREAD | COLLIDERS),
