@@ -23,8 +23,8 @@
 /// Cut hair has shaders of its own. hair_precompile() knows them once any hair is cut, so that an
 /// application may cut a guide behind a loading screen, and let it grow again.
 ///
-/// The call computes the gravity preload of all guides again in the next hair_step(), which takes
-/// part of the time of hair_create().
+/// The next hair_step() computes the gravity preload of the changed guides again, and writes the
+/// rods of all guides. This takes part of the time of hair_create().
 ///
 /// @param first First guide, in the order of HAIR_READ_GUIDES.
 /// @param count Number of guides. `first` + `count` is at most hair_groom_info.guide_count.

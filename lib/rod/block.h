@@ -1,7 +1,8 @@
 // block.h - a block of guides as rods, one guide a lane.
 //
-// All guides of a block have the same number of vertices and the same physics. The functions of
-// the files block_*.h work on all lanes at once. See rod_shape.h for the shape of a single guide.
+// All guides of a block have the same number of vertices. Their physics differ at most by group and
+// by factors. The functions of the files block_*.h work on all lanes at once. See rod_shape.h for
+// the shape of a single guide.
 #ifndef HAIR_ROD_BLOCK_H
 #define HAIR_ROD_BLOCK_H
 
@@ -67,9 +68,11 @@ struct hair_block_vertex {
 struct hair_block {
     uint32_t count; // Number of vertices.
     double ratio[3];
-    double load[3]; // Gravity that the rest strain is to balance, m/s^2.
+    const hair_physics* physics[HAIR_LANES]; // Physics of each guide.
+    hair_physics own[HAIR_LANES]; // Physics that factors have changed.
+    struct hair_lanes3 load; // Gravity that the rest strain is to balance, m/s^2.
     bool is_round; // True if the section is round.
-    bool is_loaded; // True if the load is not 0.
+    bool is_loaded; // True if no load is 0. Otherwise all loads are 0.
     bool sags; // True if the guides hold another pose than their groom.
     bool is_own; // True if the rest shape of a search is the groom, not `rest`.
     hair_lanes weight; // Weight of all vertices but the root.
@@ -146,27 +149,33 @@ HAIR_LANES_INLINE struct hair_lanes4 hair_block_frame(struct hair_lanes4 rounded
     return hair_lanes_select4(size > 0, frame, q);
 }
 
-HAIR_LANES_INLINE void hair_block_find_masses(struct hair_block* b, const hair_physics* physics)
+HAIR_LANES_INLINE void hair_block_find_masses(struct hair_block* b)
 {
     struct hair_block_vertex* v = b->vertex;
-    hair_lanes total = {0}, so_far = {0};
-    double radius = (double)physics->fiber.radius, root = (double)physics->shape.stiffness_root;
-    double bend =
-        (double)physics->fiber.youngs_modulus * radius * radius / (4 * (double)physics->fiber.density);
-    double g = hair_dlength(hair_dload(physics->gravity));
+    hair_lanes total = {0}, so_far = {0}, bend, root, tip, tip_mass;
+    double radius = (double)b->physics[0]->fiber.radius, density = (double)b->physics[0]->fiber.density;
+    double g = hair_dlength(hair_dload(b->physics[0]->gravity));
+    for (int k = 0; k < HAIR_LANES; ++k) {
+        const hair_physics* physics = b->physics[k];
+        bend[k] = (double)physics->fiber.youngs_modulus * radius * radius / (4 * density);
+        root[k] = (double)physics->shape.stiffness_root;
+        tip[k] = (double)physics->shape.stiffness_tip;
+        tip_mass[k] = (double)physics->tip_mass;
+    }
     for (uint32_t i = 0; i < b->count; ++i) {
         v[i].mass = i > 0 ? (v[i].length + v[i - 1].length) / 2 : v[i].length / 2;
         total += v[i].length;
     }
     const hair_lanes whole = total + b->cut_off, none = {0};
-    v[b->count - 1].mass += hair_lanes_select(b->cut_off > 0, none, (double)physics->tip_mass * total);
+    v[b->count - 1].mass += hair_lanes_select(b->cut_off > 0, none, tip_mass * total);
     b->weight = (hair_lanes){0};
     for (uint32_t i = 0; i < b->count; ++i) {
         hair_lanes fraction = so_far / whole;
-        v[i].material = bend * (root + fraction * ((double)physics->shape.stiffness_tip - root));
+        v[i].material = bend * (root + fraction * (tip - root));
         v[i].bend = v[i].material;
         for (int k = 0; k < HAIR_LANES; ++k)
-            v[i].pull[k] = hair_rod_pull_squared(physics, (double)i / (b->count - 1) * (total[k] / whole[k]));
+            v[i].pull[k] =
+                hair_rod_pull_squared(b->physics[k], (double)i / (b->count - 1) * (total[k] / whole[k]));
         so_far += v[i].length;
         if (i > 0) b->weight += v[i].mass * g;
     }

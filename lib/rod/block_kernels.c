@@ -24,10 +24,9 @@ HAIR_LANES_INLINE void find_levers(struct hair_block* b)
 }
 
 // Compute the shape of the guides, whose rounded frames, vectors of segments and lengths are set.
-HAIR_LANES_INLINE void find_shape(struct hair_block* b, const hair_physics* physics,
-                                  const struct hair_lanes4* scalp)
+HAIR_LANES_INLINE void find_shape(struct hair_block* b, const struct hair_lanes4* scalp)
 {
-    hair_block_find_masses(b, physics);
+    hair_block_find_masses(b);
     hair_block_find_turns(b, *scalp);
     if (b->is_loaded) find_levers(b);
     hair_block_find_stiffness(b);
@@ -152,10 +151,9 @@ HAIR_LANES_INLINE void find_result(struct hair_block* b)
         function(b);                                                                                         \
     }
 #define KERNELS(suffix, target)                                                                              \
-    target static void find_shape_##suffix(struct hair_block* b, const hair_physics* physics,                \
-                                           const struct hair_lanes4* scalp)                                  \
+    target static void find_shape_##suffix(struct hair_block* b, const struct hair_lanes4* scalp)            \
     {                                                                                                        \
-        find_shape(b, physics, scalp);                                                                       \
+        find_shape(b, scalp);                                                                                \
     }                                                                                                        \
     KERNEL(prepare_groom, prepare_groom, suffix, target)                                                     \
     KERNEL(test_groom, test_groom, suffix, target)                                                           \

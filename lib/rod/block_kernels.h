@@ -7,9 +7,9 @@
 
 struct hair_block_kernels {
     // Compute the shape of the guides and the pose that equals the groom. The rounded frames, the
-    // vectors of segments in `place` and the lengths are set. Guides with a vertex that does not
-    // resist become inactive. `scalp` has the frames at the roots.
-    void (*find_shape)(struct hair_block*, const hair_physics*, const struct hair_lanes4* scalp);
+    // vectors of segments in `place`, the lengths and the physics are set. Guides with a vertex
+    // that does not resist become inactive. `scalp` has the frames at the roots.
+    void (*find_shape)(struct hair_block*, const struct hair_lanes4* scalp);
     // Prepare tests of the groom. The pose is the groom.
     void (*prepare_groom)(struct hair_block*);
     // Find where the groom can be held with the present stiffness.

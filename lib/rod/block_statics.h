@@ -78,7 +78,7 @@ HAIR_LANES_INLINE struct hair_lanes3 hair_block_add_load(const struct hair_block
                                                          hair_lanes gravity, struct hair_lanes3* load)
 {
     struct hair_lanes3 back = hair_lanes_subtract(v[1].place, v[1].pose.place),
-                       fall = {b->load[0] * gravity, b->load[1] * gravity, b->load[2] * gravity};
+                       fall = hair_lanes_scale(b->load, gravity);
     struct hair_lanes3 own = hair_lanes_add(fall, hair_lanes_scale(back, v[1].pull));
     *load = hair_lanes_add(*load, hair_lanes_scale(own, v[1].mass));
     return hair_lanes_rotate(hair_lanes_conjugate(v->pose.frame), *load);
@@ -128,7 +128,7 @@ HAIR_LANES_INLINE hair_lanes hair_block_add_energy(const struct hair_block* b, u
     struct hair_lanes3 back = hair_lanes_subtract(v[1].place, place);
     hair_lanes bent = r.x * u.x * u.x + r.y * u.y * u.y + r.z * (u.z * u.z + u.w * u.w);
     energy += v->stiffness / 2 * bent;
-    energy -= v[1].mass * b->gravity * (b->load[0] * place.x + b->load[1] * place.y + b->load[2] * place.z);
+    energy -= v[1].mass * b->gravity * (b->load.x * place.x + b->load.y * place.y + b->load.z * place.z);
     return energy + v[1].mass * v[1].pull / 2 * hair_lanes_dot(back, back);
 }
 

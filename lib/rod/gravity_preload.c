@@ -42,11 +42,9 @@
 #define ALIGNMENT (8 * HAIR_LANES) // Bytes of a vector.
 
 struct preload {
+    const struct hair_rods_preload* desc;
     const struct hair_guide* guides;
     const struct hair_rest* rest;
-    const hair_physics* physics;
-    struct hair_rod_borne* out;
-    struct hair_rods_report* report;
     const struct hair_block_kernels* run;
     struct hair_block* block;
     // Guides in the order of their numbers of vertices, those that need more stiffness, and those
@@ -56,17 +54,44 @@ struct preload {
     hair_lanes sag; // Distance from the groom, m.
 };
 
-// Load guides that have equal numbers of vertices, from the list. The last guide fills the rest of
-// the lanes. Return the number of guides.
+// Set the physics and the load of lane k. Return whether the load is not 0.
+static bool load_physics(struct preload* a, uint32_t k, uint32_t guide)
+{
+    struct hair_block* b = a->block;
+    const hair_physics* physics = a->desc->find_physics(a->desc->user, guide, &b->own[k]);
+    hair_dvec3 load = hair_dscale(hair_dload(physics->gravity), (double)physics->shape.gravity_preload);
+    b->physics[k] = physics;
+    b->load.x[k] = load.x, b->load.y[k] = load.y, b->load.z[k] = load.z;
+    // Only a clamped strand can balance gravity. A hinged strand hangs. A free one falls.
+    return physics->root == HAIR_ROOT_CLAMPED && hair_ddot(load, load) > 0;
+}
+
+// Choose guides that have equal numbers of vertices from the list. All of them have a load, or none
+// has one. The last guide fills the rest of the lanes. Return the number of guides.
+static uint32_t fill_lanes(struct preload* a, const uint32_t* list, uint32_t count)
+{
+    struct hair_block* b = a->block;
+    uint32_t lanes = 0;
+    b->count = a->guides[list[0]].count;
+    for (; lanes < count && lanes < HAIR_LANES; ++lanes) {
+        if (a->guides[list[lanes]].count != b->count) break;
+        bool is_loaded = load_physics(a, lanes, list[lanes]);
+        if (lanes > 0 && is_loaded != b->is_loaded) break;
+        b->is_loaded = is_loaded;
+        a->guide[lanes] = list[lanes];
+    }
+    for (uint32_t k = lanes; k < HAIR_LANES; ++k) load_physics(a, k, list[lanes - 1]);
+    hair_rods_ratios(b->physics[0], b->ratio);
+    b->is_round = b->ratio[0] == b->ratio[2];
+    return lanes;
+}
+
+// Load guides from the list. Return their number.
 static uint32_t load_block(struct preload* a, const uint32_t* list, uint32_t count)
 {
     struct hair_block* b = a->block;
     struct hair_lanes4 scalp;
-    b->count = a->guides[list[0]].count;
-    for (a->lanes = 0; a->lanes < count && a->lanes < HAIR_LANES; ++a->lanes) {
-        if (a->guides[list[a->lanes]].count != b->count) break;
-        a->guide[a->lanes] = list[a->lanes];
-    }
+    a->lanes = fill_lanes(a, list, count);
     for (uint32_t k = 0; k < HAIR_LANES; ++k) {
         const struct hair_guide* guide = a->guides + a->guide[k < a->lanes ? k : a->lanes - 1];
         const struct hair_rest* rest = a->rest + guide->first;
@@ -88,7 +113,7 @@ static uint32_t load_block(struct preload* a, const uint32_t* list, uint32_t cou
             v->place.z[k] = (double)rest[i + 1].position.z - (double)rest[i].position.z;
         }
     }
-    a->run->find_shape(b, a->physics, &scalp);
+    a->run->find_shape(b, &scalp);
     return a->lanes;
 }
 
@@ -109,20 +134,17 @@ static void write_held_guide(const struct hair_block* b, uint32_t k, struct hair
     }
 }
 
-// Write some guides of the block, and add them to the report.
-static void write_guides(struct preload* a, hair_lane_mask mask, bool is_stiffened)
+// Write some guides of the block.
+static void write_guides(struct preload* a, hair_lane_mask mask)
 {
     struct hair_block* b = a->block;
     if (b->is_loaded) a->run->find_result(b);
     for (uint32_t k = 0; k < a->lanes; ++k) {
         if (!mask[k]) continue;
-        write_held_guide(b, k, a->out + a->guides[a->guide[k]].first);
-        double stiffest = is_stiffened ? b->vertex->bend[k] / b->vertex->material[k] : 1;
-        HAIR_ASSERT(stiffest >= 1 && stiffest < 1.001 * HAIR_ROD_MAX_STIFFEN);
-        a->report->stiffened += stiffest > 1;
-        a->report->sagging += b->sags;
-        a->report->stiffest = fmaxf(a->report->stiffest, (float)stiffest);
-        if (b->sags) a->report->farthest_sag = fmaxf(a->report->farthest_sag, (float)a->sag[k]);
+        struct hair_rod_borne* out = a->desc->out + a->guides[a->guide[k]].first;
+        write_held_guide(b, k, out);
+        HAIR_ASSERT(out->stiffen >= 1 && out->stiffen < 1.001 * HAIR_ROD_MAX_STIFFEN);
+        a->desc->sags[a->guide[k]] = b->sags ? (float)a->sag[k] : -1;
     }
 }
 
@@ -157,7 +179,7 @@ static void test_block(struct preload* a)
         a->run->stiffen(b);
     }
     b->active = resists;
-    if (hair_lanes_any(holds)) write_guides(a, holds, false);
+    if (hair_lanes_any(holds)) write_guides(a, holds);
 }
 
 // Stiffen the guides of the block by as little as they need, and write them. The guides hold their
@@ -182,7 +204,7 @@ static void stiffen_block(struct preload* a)
     b->active = all;
     b->amount = does - 1;
     a->run->stiffen(b);
-    write_guides(a, all, true);
+    write_guides(a, all);
 }
 
 // Move the poses of some guides to y(t), and find where they hold. The other guides keep theirs.
@@ -316,7 +338,7 @@ static void sag_block(struct preload* a)
     a->sag = max_distance(b, true);
     b->active = all;
     b->sags = true;
-    write_guides(a, all, true);
+    write_guides(a, all);
     b->sags = false;
 }
 
@@ -329,7 +351,7 @@ static void run_all(struct preload* a, uint32_t count)
         if (b->is_loaded)
             test_block(a);
         else
-            write_guides(a, ~all, false);
+            write_guides(a, ~all);
     }
     for (uint32_t i = 0; i < a->soft_count;) {
         i += load_block(a, a->soft + i, a->soft_count - i);
@@ -341,46 +363,39 @@ static void run_all(struct preload* a, uint32_t count)
     }
 }
 
-// Sort guides by their number of vertices. Return the maximum of a guide.
-static uint32_t sort_guides(const struct hair_guide* guides, uint32_t count, uint32_t* out)
+// Sort the listed guides by their number of vertices. Return the maximum of a guide.
+static uint32_t sort_guides(const struct hair_rods_preload* desc, uint32_t* out)
 {
     uint32_t first[HAIR_MAX_GUIDE_VERTICES + 2] = {0}, max = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        HAIR_ASSERT(2 <= guides[i].count && guides[i].count <= HAIR_MAX_GUIDE_VERTICES);
-        ++first[guides[i].count + 1];
-        if (guides[i].count > max) max = guides[i].count;
+    for (uint32_t i = 0; i < desc->count; ++i) {
+        uint32_t vertices = desc->guides[desc->list ? desc->list[i] : i].count;
+        HAIR_ASSERT(2 <= vertices && vertices <= HAIR_MAX_GUIDE_VERTICES);
+        ++first[vertices + 1];
+        if (vertices > max) max = vertices;
     }
     for (uint32_t n = 1; n < HAIR_MAX_GUIDE_VERTICES + 2; ++n) first[n] += first[n - 1];
-    for (uint32_t i = 0; i < count; ++i) out[first[guides[i].count]++] = i;
+    for (uint32_t i = 0; i < desc->count; ++i) {
+        uint32_t guide = desc->list ? desc->list[i] : i;
+        out[first[desc->guides[guide].count]++] = guide;
+    }
     return max;
 }
 
-hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_guide* guides,
-                                      const struct hair_rest* rest, uint32_t count,
-                                      const hair_physics* physics, struct hair_rod_borne* out,
-                                      struct hair_rods_report* report)
+hair_result hair_rods_preload_list(const struct hair_rods_preload* desc)
 {
-    const hair_host whole = hair_host_or_default(host);
-    *report = hair_rods_report_none();
-    struct preload a = {.guides = guides, .rest = rest, .physics = physics, .out = out, .report = report};
+    const hair_host whole = hair_host_or_default(desc->host);
+    struct preload a = {.desc = desc, .guides = desc->guides, .rest = desc->rest};
+    if (!desc->count) return HAIR_OK;
     a.run = hair_block_kernels();
-    a.all = hair_alloc(&whole, count, 3 * sizeof *a.all);
+    a.all = hair_alloc(&whole, desc->count, 3 * sizeof *a.all);
     if (!a.all) return HAIR_ERROR_MEMORY;
-    a.soft = a.all + count;
-    a.sagging = a.soft + count;
-    size_t bytes = sizeof *a.block + sort_guides(guides, count, a.all) * sizeof *a.block->vertex;
+    a.soft = a.all + desc->count;
+    a.sagging = a.soft + desc->count;
+    size_t bytes = sizeof *a.block + sort_guides(desc, a.all) * sizeof *a.block->vertex;
     char* memory = hair_alloc(&whole, bytes + ALIGNMENT, 1);
     if (memory) {
         a.block = (struct hair_block*)(memory + (ALIGNMENT - (uintptr_t)memory % ALIGNMENT) % ALIGNMENT);
-        hair_rods_ratios(physics, a.block->ratio);
-        a.block->is_round = a.block->ratio[0] == a.block->ratio[2];
-        hair_dvec3 load = hair_dscale(hair_dload(physics->gravity), (double)physics->shape.gravity_preload);
-        // Only a clamped strand can balance gravity. A hinged strand hangs. A free one falls.
-        a.block->is_loaded = physics->root == HAIR_ROOT_CLAMPED && hair_ddot(load, load) > 0;
-        a.block->load[0] = load.x;
-        a.block->load[1] = load.y;
-        a.block->load[2] = load.z;
-        run_all(&a, count);
+        run_all(&a, desc->count);
     }
     hair_free(&whole, memory);
     hair_free(&whole, a.all);

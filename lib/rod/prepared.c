@@ -16,7 +16,10 @@ struct rod_work {
     int mixed;
     bool is_held;
     double substep;
+    const bool* changed; // Guides whose preload is computed. NULL selects all.
+    uint32_t* list; // Numbers of these guides for each task, from its first guide on.
     struct hair_rod_borne* new_borne;
+    float* new_sags;
     struct hair_rod* new_rod;
     const struct hair_rod* rod;
     hair_vec4 *reduction, *last;
@@ -24,7 +27,7 @@ struct rod_work {
     hair_vec4* packed;
     uint32_t all_rounds; // Rounds of all guides.
     uint32_t each; // Guides of a task.
-    struct hair_rods_report report[MAX_TASKS];
+    struct hair_rods_softened softened[MAX_TASKS];
     bool is_refused[MAX_TASKS]; // True if the host has refused memory.
     bool is_mixed[MAX_TASKS];
     uint32_t rounds[MAX_TASKS];
@@ -91,14 +94,6 @@ static bool next_run(const struct hair_rod_source* source, const hair_physics* p
     return true;
 }
 
-static void add_report(struct hair_rods_report* all, const struct hair_rods_report* own)
-{
-    all->stiffened += own->stiffened;
-    all->sagging += own->sagging;
-    all->stiffest = own->stiffest > all->stiffest ? own->stiffest : all->stiffest;
-    if (own->farthest_sag > all->farthest_sag) all->farthest_sag = own->farthest_sag;
-}
-
 // Add the softened guides from guide `first` on.
 static void add_softened(struct hair_rods_softened* all, const struct hair_rods_softened* own, uint32_t first)
 {
@@ -108,33 +103,85 @@ static void add_softened(struct hair_rods_softened* all, const struct hair_rods_
     all->factor = own->factor;
 }
 
+// Return the physics of a guide for hair_rods_preload_list().
+static const hair_physics* find_physics_of(const void* user, uint32_t guide, hair_physics* own)
+{
+    const struct rod_work* work = user;
+    return find_physics(work->source, work->physics, work->source->guides + guide, own);
+}
+
 static void preload(uint32_t index, void* data)
 {
     struct rod_work* work = data;
-    uint32_t count;
-    const struct hair_guide* guides = guides_of(work, index, &count);
-    work->report[index] = hair_rods_report_none();
-    work->is_refused[index] = false;
-    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
-        struct hair_rods_report own;
-        if (hair_rods_preload_gravity(work->source->host, guides + run.first, work->source->rest, run.count,
-                                      run.physics, work->new_borne, &own))
-            work->is_refused[index] = true;
-        add_report(&work->report[index], &own);
-    }
+    uint32_t count, listed = 0, first = index * work->each;
+    guides_of(work, index, &count);
+    for (uint32_t i = first; i < first + count; ++i)
+        if (!work->changed || work->changed[i]) work->list[first + listed++] = i;
+    const struct hair_rods_preload desc = {.host = work->source->host,
+                                           .guides = work->source->guides,
+                                           .rest = work->source->rest,
+                                           .list = work->list + first,
+                                           .count = listed,
+                                           .find_physics = find_physics_of,
+                                           .user = work,
+                                           .out = work->new_borne,
+                                           .sags = work->new_sags};
+    work->is_refused[index] = hair_rods_preload_list(&desc) != HAIR_OK;
 }
 
 hair_result hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
-                                  struct hair_rod_borne* out, struct hair_rods_report* report)
+                                  const bool* changed, struct hair_rod_borne* out, float* sags)
 {
-    struct rod_work work = {.source = source, .physics = physics, .new_borne = out};
-    uint32_t tasks = divide_guides(&work, preload);
-    *report = hair_rods_report_none();
-    for (uint32_t i = 0; i < tasks; ++i) {
-        if (work.is_refused[i]) return hair_fail_memory(source->host, "the gravity preload of guides");
-        add_report(report, &work.report[i]);
+    struct rod_work work = {
+        .source = source, .physics = physics, .changed = changed, .new_borne = out, .new_sags = sags};
+    work.list = hair_alloc(source->host, source->count, sizeof *work.list);
+    bool is_refused = !work.list;
+    uint32_t tasks = work.list ? divide_guides(&work, preload) : 0;
+    for (uint32_t i = 0; i < tasks; ++i) is_refused |= work.is_refused[i];
+    hair_free(source->host, work.list);
+    return is_refused ? hair_fail_memory(source->host, "the gravity preload of guides") : HAIR_OK;
+}
+
+struct hair_rods_report hair_rods_report_of(const struct hair_guide* guides, uint32_t count,
+                                            const struct hair_rod_borne* borne, const float* sags)
+{
+    struct hair_rods_report report = hair_rods_report_none();
+    for (uint32_t i = 0; i < count; ++i) {
+        double stiffen = borne[guides[i].first].stiffen;
+        report.stiffened += stiffen > 1;
+        report.stiffest = fmaxf(report.stiffest, (float)stiffen);
+        report.sagging += sags[i] >= 0;
+        report.farthest_sag = fmaxf(report.farthest_sag, sags[i]);
     }
-    return HAIR_OK;
+    return report;
+}
+
+static const hair_physics* find_only_physics(const void* user, uint32_t guide, hair_physics* own)
+{
+    (void)guide;
+    (void)own;
+    return user;
+}
+
+hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_guide* guides,
+                                      const struct hair_rest* rest, uint32_t count,
+                                      const hair_physics* physics, struct hair_rod_borne* out,
+                                      struct hair_rods_report* report)
+{
+    const hair_host whole = hair_host_or_default(host);
+    struct hair_rods_preload desc = {.host = host,
+                                     .guides = guides,
+                                     .rest = rest,
+                                     .count = count,
+                                     .find_physics = find_only_physics,
+                                     .user = physics,
+                                     .out = out};
+    desc.sags = hair_alloc(&whole, count, sizeof *desc.sags);
+    if (!desc.sags) return HAIR_ERROR_MEMORY;
+    hair_result result = hair_rods_preload_list(&desc);
+    if (!result) *report = hair_rods_report_of(guides, count, out, desc.sags);
+    hair_free(&whole, desc.sags);
+    return result;
 }
 
 static void find_mixed(uint32_t index, void* data)
@@ -180,12 +227,12 @@ static void write(uint32_t index, void* data)
     struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
-    work->report[index].softened = (struct hair_rods_softened){.factor = 1};
+    work->softened[index] = (struct hair_rods_softened){.factor = 1};
     for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
         struct hair_rods_softened own =
             hair_rods_write(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
                             work->solver, work->mixed, work->substep, work->new_rod);
-        add_softened(&work->report[index].softened, &own, run.first);
+        add_softened(&work->softened[index], &own, run.first);
     }
 }
 
@@ -203,7 +250,7 @@ struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* sour
                             .new_rod = out};
     uint32_t tasks = divide_guides(&work, write);
     struct hair_rods_softened all = {.factor = 1};
-    for (uint32_t i = 0; i < tasks; ++i) add_softened(&all, &work.report[i].softened, i * work.each);
+    for (uint32_t i = 0; i < tasks; ++i) add_softened(&all, &work.softened[i], i * work.each);
     return all;
 }
 
@@ -318,8 +365,10 @@ static hair_result fill(const struct hair_rod_source* source, struct hair_prepar
 {
     const hair_host* host = source->host;
     p->borne = hair_alloc(host, source->vertices, sizeof *p->borne);
-    if (!p->borne) return hair_fail_memory(host, "the guides as rods");
-    HAIR_TRY(hair_rods_preload_all(source, &p->physics, p->borne, &p->report));
+    p->sags = hair_alloc(host, source->count, sizeof *p->sags);
+    if (!p->borne || !p->sags) return hair_fail_memory(host, "the guides as rods");
+    HAIR_TRY(hair_rods_preload_all(source, &p->physics, NULL, p->borne, p->sags));
+    p->report = hair_rods_report_of(source->guides, source->count, p->borne, p->sags);
     p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
     p->substep = hair_rods_shared_substep(source, p->borne, &p->physics, p->solver, p->mixed);
     struct hair_rod* rod = hair_alloc(host, source->vertices, sizeof *rod);
@@ -349,6 +398,7 @@ void hair_prepared_rods_free(const hair_host* host, struct hair_prepared_rods* p
     if (!prepared) return;
     hair_free(host, prepared->borne);
     hair_free(host, prepared->rod);
+    hair_free(host, prepared->sags);
     hair_free(host, prepared->reduction);
     hair_free(host, prepared);
 }

@@ -19,9 +19,14 @@ struct hair_rod_source {
     uint32_t count, vertices, max_vertices; // Guides, their vertices, and the maximum of a guide.
 };
 
-// Compute the gravity preload of all guides. See hair_rods_preload_gravity().
+// Compute the gravity preload of all guides, or only of those that have `changed`. See struct
+// hair_rod_preload. The results of the others are kept.
 hair_result hair_rods_preload_all(const struct hair_rod_source* source, const hair_physics* physics,
-                                  struct hair_rod_borne* out, struct hair_rods_report* report);
+                                  const bool* changed, struct hair_rod_borne* out, float* sags);
+
+// Return the report of guides whose gravity preload has been computed.
+struct hair_rods_report hair_rods_report_of(const struct hair_guide* guides, uint32_t count,
+                                            const struct hair_rod_borne* borne, const float* sags);
 
 // Apply hair_rods_are_mixed() to all guides.
 bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
@@ -57,6 +62,7 @@ struct hair_prepared_rods {
     hair_physics physics;
     hair_solver solver;
     struct hair_rod_borne* borne;
+    float* sags; // See struct hair_rods_preload.
     struct hair_rods_report report;
     int mixed;
     double substep;

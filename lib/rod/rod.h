@@ -98,15 +98,31 @@ static inline struct hair_rods_report hair_rods_report_none(void)
 // groom's own. Such a guide is made up to 3 times as stiff, by as little as keeps it stable. A
 // guide that needs more stiffness sags to a pose that it can keep.
 //
-// The order of the guides changes no result. NULL `host` selects the C library's allocator. Return
-// HAIR_ERROR_MEMORY if the host refuses memory.
+// The other guides, and their order, change no result. Return HAIR_ERROR_MEMORY if the host refuses
+// memory.
+struct hair_rods_preload {
+    const hair_host* host; // NULL selects the C library's allocator.
+    const struct hair_guide* guides;
+    const struct hair_rest* rest;
+    const uint32_t* list; // Guides that are computed, `count` of them. NULL selects the first ones.
+    uint32_t count;
+    // Return the physics of a guide, which may be in `own`. All have the same fibres, but for
+    // Young's modulus, the same root and the same gravity.
+    const hair_physics* (*find_physics)(const void* user, uint32_t guide, hair_physics* own);
+    const void* user;
+    struct hair_rod_borne* out; // Receives the vertices of the guides.
+    float* sags; // Receives the distance of each guide from its groom, m. -1 if the guide holds it.
+};
+hair_result hair_rods_preload_list(const struct hair_rods_preload* desc);
+// Compute the gravity preload of guides with the same physics. NULL `host` selects the C library's
+// allocator. Return HAIR_ERROR_MEMORY if the host refuses memory.
 hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_guide* guides,
                                       const struct hair_rest* rest, uint32_t count,
                                       const hair_physics* physics, struct hair_rod_borne* out,
                                       struct hair_rods_report* report);
 
 // Write one hair_rod per guide vertex for substeps of the given length. `borne` comes from
-// hair_rods_preload_gravity(). Limit the distance of the rest strain from the groom's own to 1.
+// hair_rods_preload_list(). Limit the distance of the rest strain from the groom's own to 1.
 // Return how guides are softened.
 struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
                                           const struct hair_rod_borne* borne, uint32_t count,

@@ -233,11 +233,6 @@ hair_result hair_sim_set_lengths(struct hair_sim* sim, uint32_t first, uint32_t 
     return result;
 }
 
-float hair_sim_length_fraction(const struct hair_sim* sim, uint32_t guide)
-{
-    return sim->lengths.guide_fraction ? sim->lengths.guide_fraction[guide] : 1;
-}
-
 void hair_lengths_move_lost(const struct hair_sim* sim, float* positions, uint32_t count)
 {
     const struct hair_lengths* lengths = &sim->lengths;

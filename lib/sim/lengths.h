@@ -50,8 +50,6 @@ hair_result hair_sim_set_strand_lengths(struct hair_sim* sim, const float* guide
                                         const float* follower_fraction);
 // Give all strands the lengths of an instance of the same groom. On failure nothing has changed.
 hair_result hair_sim_copy_lengths(struct hair_sim* sim, const struct hair_lengths* from);
-// Return the fraction of its length that a guide has.
-float hair_sim_length_fraction(const struct hair_sim* sim, uint32_t guide);
 // Move the vertices that guides have lost to their tips. xyz per guide vertex, of which there are
 // `count`.
 void hair_lengths_move_lost(const struct hair_sim* sim, float* positions, uint32_t count);

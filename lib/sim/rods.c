@@ -35,21 +35,6 @@ static struct hair_rod_parts find_parts(const struct hair_sim* sim, bool is_mixe
                                    .has_pins = sim->pins.count > 0};
 }
 
-static struct hair_rod_source source_of(const struct hair_sim* sim)
-{
-    const struct hair_rest* rest;
-    const struct hair_guide* guides = hair_sim_guides(sim, &rest);
-    return (struct hair_rod_source){.host = &sim->gl->host,
-                                    .tasks = &sim->rods->groom->tasks,
-                                    .guides = guides,
-                                    .rest = rest,
-                                    .groups = hair_sim_groups(sim),
-                                    .factors = sim->rods->groom->guide_factors,
-                                    .count = sim->guides,
-                                    .vertices = sim->guide_vertices,
-                                    .max_vertices = sim->max_vertices};
-}
-
 // Create the reduction buffer. The buffer is empty unless work groups run a method with implicit
 // systems. A buffer with systems ends with a row of zeros, which shaders read for vertices beyond
 // the end of a guide.
@@ -64,7 +49,7 @@ static hair_result upload_reduction(struct hair_sim* sim, const hair_vec4* reduc
 
 static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
 {
-    struct hair_rod_source source = source_of(sim);
+    struct hair_rod_source source = hair_sim_rod_source(sim);
     hair_vec4* reduction = NULL;
     uint32_t rounds = 0;
     if (!sim->by_thread && sim->solver != HAIR_SOLVER_FOLLOW)
@@ -104,7 +89,7 @@ static const struct hair_prepared_rods* find_prepared(const struct hair_sim* sim
 // Return whether the mixed scheme solves the guides.
 static bool are_mixed(const struct hair_sim* sim, bool had_contact)
 {
-    struct hair_rod_source source = source_of(sim);
+    struct hair_rod_source source = hair_sim_rod_source(sim);
     return hair_rods_are_any_mixed(&source, sim->rods->borne, &sim->physics, sim->solver,
                                    had_contact || sim->pins.count > 0, sim->asked_substep);
 }
@@ -117,44 +102,12 @@ static size_t bend_size(const struct hair_sim* sim)
     return each * sim->guide_vertices * sizeof(hair_vec4);
 }
 
-// Find the gravity preload for the physics, or compute it.
-static hair_result hold(struct hair_sim* sim)
-{
-    struct hair_rods* rods = sim->rods;
-    const struct hair_prepared_rods* p = rods->groom->prepared;
-    const hair_host* host = &sim->gl->host;
-    if (rods->borne && rods->borne_for_groups == sim->groups.version &&
-        rods->borne_for_lengths == sim->lengths.version && !hair_rods_differ(&rods->borne_for, &sim->physics))
-        return HAIR_OK;
-    if (p && !hair_sim_groups(sim) && !sim->lengths.guides && !hair_rods_differ(&p->physics, &sim->physics)) {
-        rods->borne = p->borne;
-        rods->report = p->report;
-    } else {
-        struct hair_rod_source source = source_of(sim);
-        struct hair_rods_report report;
-        struct hair_rod_borne* borne = hair_alloc(host, sim->guide_vertices, sizeof *borne);
-        if (!borne) return hair_fail_memory(host, "the guides as rods");
-        hair_result result = hair_rods_preload_all(&source, &sim->physics, borne, &report);
-        if (result) {
-            hair_free(host, borne);
-            return result;
-        }
-        hair_free(host, rods->own_borne);
-        rods->borne = rods->own_borne = borne;
-        rods->report = report;
-    }
-    rods->borne_for = sim->physics;
-    rods->borne_for_groups = sim->groups.version;
-    rods->borne_for_lengths = sim->lengths.version;
-    return HAIR_OK;
-}
-
 // Return the length of a substep, s. `substep_scale` is its multiple of the solver's own length.
 static double find_substep(const struct hair_sim* sim, int mixed, int had_contact, uint32_t substep_scale)
 {
     double substep = sim->asked_substep;
     if (substep == 0) {
-        struct hair_rod_source source = source_of(sim);
+        struct hair_rod_source source = hair_sim_rod_source(sim);
         substep = hair_rods_shared_substep(&source, sim->rods->borne, &sim->physics, sim->solver, mixed);
         // Impacts can destabilise explicit bending that is near its limit.
         if (had_contact && sim->solver == HAIR_SOLVER_ACCURATE && !mixed) substep /= CONTACT_MARGIN;
@@ -227,7 +180,7 @@ static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair
                               struct hair_rod_set* out)
 {
     const struct hair_rods* rods = sim->rods;
-    const struct hair_rod_source source = source_of(sim);
+    const struct hair_rod_source source = hair_sim_rod_source(sim);
     out->mixed = are_mixed(sim, had_contact);
     out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
     out->softened =
@@ -262,7 +215,7 @@ static hair_result take_rods(struct hair_sim* sim, const struct hair_prepared_ro
 static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod_set* out)
 {
     const hair_host* host = &sim->gl->host;
-    HAIR_TRY(hold(sim));
+    HAIR_TRY(hair_sim_preload(sim));
     const struct hair_prepared_rods* prepared = find_prepared(sim, had_contact);
     struct hair_rod* rod = prepared ? NULL : hair_alloc(host, sim->guide_vertices, sizeof *rod);
     if (!prepared && !rod) return hair_fail_memory(host, "the guides as rods");
@@ -363,7 +316,7 @@ void hair_sim_free_rods(struct hair_sim* sim)
     hair_gl_free_buffer(sim->gl, &sim->reduction);
     hair_gl_free_buffer(sim->gl, &sim->bend);
     hair_grid_free(sim);
-    hair_free(host, sim->rods->own_borne);
+    hair_sim_free_preload(sim);
     hair_free(host, sim->groups.physics);
     hair_groom_release(sim->rods->groom);
     hair_free(host, sim->rods);
@@ -385,9 +338,4 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
     params->list_guides = hair_sim_guides_of_list_group(sim);
-}
-
-struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim)
-{
-    return sim->rods ? sim->rods->report : hair_rods_report_none();
 }

@@ -55,7 +55,10 @@ struct hair_rods {
     // change.
     struct hair_groom* groom;
     const struct hair_rod_borne* borne; // Gravity preload for `borne_for`, own or of the groom.
+    const float* sags; // Sags of the guides, see struct hair_rods_preload.
     struct hair_rod_borne* own_borne; // NULL unless the groom has no preload for the physics.
+    float* own_sags;
+    float* borne_fractions; // Fractions of the guides' lengths for `borne`. NULL if all are 1.
     hair_physics made_for, borne_for;
     // Values of sim->groups.version that the rods and the gravity preload were made for.
     uint32_t made_for_groups, borne_for_groups;
@@ -289,6 +292,22 @@ void hair_contacts_write(const struct hair_sim* sim, struct hair_step_params* pa
 void hair_contacts_bind(const struct hair_sim* sim);
 void hair_contacts_free(struct hair_sim* sim);
 
+// Return the fraction of its length that a guide has.
+static inline float hair_sim_length_fraction(const struct hair_sim* sim, uint32_t guide)
+{
+    return sim->lengths.guide_fraction ? sim->lengths.guide_fraction[guide] : 1;
+}
+
+// Functions of preload.c.
+
+// Return the guides from which rods are computed.
+struct hair_rod_source hair_sim_rod_source(const struct hair_sim* sim);
+// Find the gravity preload for the physics and the lengths, or compute it.
+hair_result hair_sim_preload(struct hair_sim* sim);
+void hair_sim_free_preload(struct hair_sim* sim);
+// Return the report on the gravity preload of the guides.
+struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim);
+
 // Functions of rods.c, for what the solvers of rods need beside the state.
 hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom);
 // Make other rods if the physics, the pinned vertices or the substep length need them. The
@@ -305,8 +324,6 @@ bool hair_sim_is_other_rate(const struct hair_sim* sim);
 void hair_sim_free_rods(struct hair_sim* sim);
 // Write the parameters of the solvers of rods.
 void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* params);
-// Return the report on the gravity preload of the guides.
-struct hair_rods_report hair_sim_preload_report(const struct hair_sim* sim);
 
 // Functions of programs.c, which selects the programs and the number of substeps of a dispatch.
 

@@ -89,6 +89,56 @@ static void a_cut_keeps_what_stays_and_its_motion(void** state)
     }
 }
 
+// Check the preload of all guides against one that is computed anew, except guide `kept`.
+static void check_preload(const struct hair_test_living* living, uint32_t kept)
+{
+    const struct hair_sim* sim = &living->hair->sim;
+    struct hair_rod_source source = hair_sim_rod_source(sim);
+    struct hair_rod_borne* borne = calloc(source.vertices, sizeof *borne);
+    float sags[GUIDES];
+    hair_test_ok(living->test, hair_rods_preload_all(&source, &sim->physics, NULL, borne, sags));
+    struct hair_rods_report wanted = hair_rods_report_of(source.guides, GUIDES, borne, sags);
+    struct hair_rods_report report = hair_sim_preload_report(sim);
+    for (uint32_t g = 0; g < GUIDES; ++g) {
+        uint32_t first = source.guides[g].first;
+        size_t size = source.guides[g].count * sizeof *borne;
+        assert_int_equal(memcmp(sim->rods->borne + first, borne + first, size) == 0, g != kept);
+    }
+    assert_true(report.stiffened == wanted.stiffened && report.stiffest == wanted.stiffest);
+    assert_true(report.sagging == wanted.sagging && report.farthest_sag == wanted.farthest_sag);
+    free(borne);
+}
+
+// A mark in the preload of a guide shows that the guide is not computed again.
+static void preload_is_computed_where_lengths_change(void** state)
+{
+    const uint32_t none = GUIDES;
+    struct hair_test_living living;
+    hair_test_cut_live(*state, 0, &living);
+    struct hair_rods* rods = living.hair->sim.rods;
+    hair_test_cut_lengths(&living, 0.7f, 0.8f);
+    hair_test_cut_shake(&living, 0, 1);
+    check_preload(&living, none);
+    rods->own_borne[living.groom->guides[1].first].rest_real += 0.5;
+    hair_test_cut_lengths(&living, 0.5f, 0.8f);
+    hair_test_cut_shake(&living, 1, 2);
+    check_preload(&living, 1);
+    hair_test_cut_lengths(&living, 0.5f, 0.6f);
+    hair_test_cut_shake(&living, 2, 3);
+    check_preload(&living, none);
+    hair_physics stiff = hair_physics_default();
+    stiff.fiber.youngs_modulus *= 2;
+    hair_test_ok(living.test, hair_set_physics(living.hair, &stiff));
+    hair_test_cut_lengths(&living, 1, 0.6f);
+    hair_test_cut_shake(&living, 3, 4);
+    check_preload(&living, none);
+    hair_test_cut_lengths(&living, 1, 1);
+    hair_test_cut_shake(&living, 4, 5);
+    check_preload(&living, none);
+    assert_null(rods->borne_fractions);
+    hair_test_die(&living);
+}
+
 static void a_cut_does_not_move_hair_at_rest(void** state)
 {
     for (int way = 0; way < HAIR_TEST_WAYS; way += 2) {
@@ -328,6 +378,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         HAIR_TEST(a_cut_keeps_what_stays_and_its_motion),
+        HAIR_TEST(preload_is_computed_where_lengths_change),
         HAIR_TEST(a_cut_does_not_move_hair_at_rest),
         HAIR_TEST(hair_that_grows_gains_no_speed),
         HAIR_TEST(hair_that_has_grown_again_is_as_it_was),
