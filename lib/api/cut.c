@@ -193,11 +193,23 @@ static hair_result use_lengths(struct cut* cut)
     return hair_leave(hair->context, result);
 }
 
+// Return whether any guide is in the groups that are cut.
+static bool has_guides(const struct cut* cut)
+{
+    for (uint32_t g = 0; g < cut->hair->sim.guides; ++g)
+        if (is_in_groups(cut, g)) return true;
+    return false;
+}
+
 // Cut the strands. `pieces` receives an instance of what falls off, or NULL. NULL discards it.
 static hair_result cut_strands(struct cut* cut, hair_instance** pieces)
 {
     hair_instance* hair = cut->hair;
     hair_instance* made = NULL;
+    if (!has_guides(cut)) {
+        if (pieces) *pieces = NULL;
+        return HAIR_OK;
+    }
     if (pieces) {
         cut->pieces = hair_alloc(&hair->context->host, hair->groom->info.follower_count, sizeof *cut->pieces);
         if (!cut->pieces) return hair_fail_memory(&hair->context->host, "the pieces of cut hair");

@@ -166,6 +166,13 @@ static void other_groups_are_not_cut(void** state)
                                     after.positions + 3 * (size_t)s * before.vertices,
                                     3 * before.vertices * sizeof(float)) == 0);
     }
+    // A cut of groups without strands reads nothing, and needs no memory.
+    cut.groups = 4;
+    scene.test->host.refuse = scene.test->host.allocations + 1;
+    hair_instance* pieces = scene.hair;
+    hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, &pieces));
+    scene.test->host.refuse = 0;
+    assert_true(!pieces && info.strands == 0 && info.guides == 0 && info.length == 0);
     free(before.positions), free(after.positions), free(fractions);
     hair_test_scene_free(&scene);
 }
