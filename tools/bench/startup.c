@@ -1,15 +1,17 @@
-// startup.c - Suite `startup`, from strands to the first picture: the time of creation, the
-// programs of the first frame, and the memory of a guide vertex.
+// startup.c - Suite `startup`, from strands to the first picture: the time of creation and of cuts,
+// the programs of the first frame, and the memory of a guide vertex.
 //
 // Programs are counted by hair_report(). Drivers keep none on the disk, see main() of bench.c.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/bench/bench.h"
 #include "tools/bench/startup_cache.h"
+#include "tools/bench/timer.h"
 #include "tools/common/stats.h"
 #include "tools/common/targets.h"
 
 #include <epoxy/gl.h>
 #include <hair/hair_buffers.h>
+#include <hair/hair_cut.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,8 +30,8 @@
 
 // clang-format off
 static const char* const columns[] = {
-    "case", "method", "guides", "vertices", "us_per_guide", "us_upload", "us_limit", "ms", "ms_longest",
-    "ms_limit", "calls", "programs", "late", "bytes", "stage", "pass", NULL};
+    "case", "method", "guides", "vertices", "us_per_guide", "us_upload", "us_limit", "ms", "ms_step",
+    "changed", "ms_longest", "ms_limit", "calls", "programs", "late", "bytes", "stage", "pass", NULL};
 // clang-format on
 
 // Time of this thread on its processor, ms.
@@ -44,6 +46,7 @@ struct subject {
     struct bench* bench;
     uint32_t guides, followers;
     bool curled, straight, prepared;
+    bool differs; // Each guide has a stiffness of its own.
     hair_context* context;
     hair_groom* groom;
     hair_instance* hair;
@@ -91,10 +94,18 @@ static hair_result make_groom(struct subject* subject, const hair_physics* physi
     desc.guide_vertices = VERTICES;
     desc.follower_count = subject->followers;
     desc.physics = subject->prepared ? physics : NULL;
-    bool is_there = positions && vertices;
+    hair_strand_attribute stiffness = hair_strand_attribute_default();
+    float* factors = malloc(sizeof *factors * subject->guides);
+    for (uint32_t i = 0; i < subject->guides && factors; ++i)
+        factors[i] = 1 + 1e-5f * (float)(i * 7919 % 1000);
+    stiffness.strand_values = factors;
+    desc.strand_attributes = &stiffness;
+    desc.strand_attribute_count = subject->differs;
+    bool is_there = positions && vertices && factors;
     hair_result result = is_there ? hair_groom_create(&desc, &subject->groom) : HAIR_ERROR_MEMORY;
     free(positions);
     free(vertices);
+    free(factors);
     return result;
 }
 
@@ -148,9 +159,10 @@ static json_t* add_row(const struct subject* subject, const char* name, const ch
 
 // Creation ----------------------------------------------------------------------------------------
 
-static bool run_creation(struct bench* bench, uint32_t guides, bool prepared)
+static bool run_creation(struct bench* bench, uint32_t guides, const char* method)
 {
-    struct subject subject = {.bench = bench, .guides = guides, .prepared = prepared};
+    const bool prepared = strcmp(method, "prepared") == 0, differs = strcmp(method, "factors") == 0;
+    struct subject subject = {.bench = bench, .guides = guides, .prepared = prepared, .differs = differs};
     bool ok = make(&subject, NULL);
     hair_destroy(subject.hair);
     subject.hair = NULL;
@@ -160,12 +172,66 @@ static bool run_creation(struct bench* bench, uint32_t guides, bool prepared)
     ok = ok && !make_hair(&subject, &physics);
     if (ok) {
         double all = 1e3 * (first + subject.upload_ms) / guides, upload = 1e3 * subject.upload_ms / guides;
-        json_t* row = add_row(&subject, "create", prepared ? "prepared" : "whole");
+        json_t* row = add_row(&subject, "create", method);
         bench_set_number(row, "us_per_guide", all);
         bench_set_number(row, "us_upload", upload);
         bench_set_number(row, "us_limit", prepared ? UPLOAD_LIMIT : CREATION_LIMIT);
         bench_set_flag(row, "pass", prepared ? upload <= UPLOAD_LIMIT : all <= CREATION_LIMIT);
     }
+    free_subject(&subject);
+    return ok;
+}
+
+// Cuts --------------------------------------------------------------------------------------------
+
+#define CUT_WAYS 3
+#define CUTS 5
+static const char* const cut_methods[CUT_WAYS] = {"one guide", "all guides", "other groups"};
+
+// Cut around the tip of a guide, or all guides below a plane that falls with each cut.
+static hair_cut_desc cut_of(int way, const float tip[3], int index)
+{
+    hair_cut_desc cut = hair_cut_desc_default();
+    if (way == 0) {
+        cut.shape = HAIR_CUT_SHAPE_CAPSULE;
+        cut.radius = 0.002f;
+        memcpy(cut.start, tip, sizeof cut.start);
+        memcpy(cut.end, tip, sizeof cut.end);
+    }
+    if (way == 1) cut.start[1] = -0.01f * (float)index;
+    if (way == 2) cut.groups = 2;
+    return cut;
+}
+
+// Measure cuts, and the steps after them, which compute the gravity preload.
+static bool run_cuts(struct bench* bench, int way, bool curled)
+{
+    struct subject subject = {
+        .bench = bench, .guides = 1000, .followers = 20000, .curled = curled, .prepared = true};
+    double cuts[CUTS + 1], steps[CUTS + 1];
+    float* at = malloc(sizeof *at * 3 * VERTICES * 1000);
+    uint64_t changed = 0;
+    bool ok = at && make(&subject, NULL) && !hair_step(subject.hair, 1.0f / 60);
+    // The first cut compiles programs.
+    for (int i = 0; i <= CUTS && ok; ++i) {
+        uint32_t count = 0;
+        hair_cut_info info = hair_cut_info_default();
+        ok = !hair_read_positions(subject.hair, HAIR_READ_GUIDES, at, 1000 * VERTICES, &count);
+        hair_cut_desc cut = cut_of(way, at + 3 * (size_t)(150 * i * VERTICES + VERTICES - 1), CUTS - i);
+        double start = thread_time();
+        ok = ok && !hair_cut(subject.hair, &cut, &info, NULL);
+        cuts[i] = thread_time() - start, start = thread_time();
+        ok = ok && !hair_step(subject.hair, 1.0f / 60);
+        steps[i] = thread_time() - start;
+        changed = info.guides;
+    }
+    if (ok) {
+        json_t* row = add_row(&subject, curled ? "cut curled" : "cut straight", cut_methods[way]);
+        bench_set_number(row, "ms", bench_times_of(cuts + 1, CUTS).ms);
+        bench_set_number(row, "ms_step", bench_times_of(steps + 1, CUTS).ms);
+        bench_set_count(row, "changed", changed);
+    }
+    free(at);
     free_subject(&subject);
     return ok;
 }
@@ -288,13 +354,18 @@ static bool run_memory(struct bench* bench, bool curled)
 static void run_suite(struct bench* bench)
 {
     static const uint32_t guides[] = {1000, 10000, 100000};
+    static const char* const creations[] = {"whole", "prepared", "factors"};
     for (size_t i = 0; i < sizeof guides / sizeof *guides; ++i)
-        for (int prepared = 0; prepared < 2; ++prepared) {
-            const char* method = prepared ? "prepared" : "whole";
+        for (int k = 0; k < 3; ++k) {
             if (bench->options.quick && guides[i] > 1000) continue;
-            if (bench_begin(bench, "create", method) && !run_creation(bench, guides[i], prepared))
-                bench_refuse(bench, "create", method);
+            if (bench_begin(bench, "create", creations[k]) && !run_creation(bench, guides[i], creations[k]))
+                bench_refuse(bench, "create", creations[k]);
         }
+    for (int way = 0; way < CUT_WAYS; ++way)
+        for (int curled = 0; curled < 2; ++curled)
+            if (bench_begin(bench, curled ? "cut curled" : "cut straight", cut_methods[way]) &&
+                !run_cuts(bench, way, curled))
+                bench_refuse(bench, curled ? "cut curled" : "cut straight", cut_methods[way]);
     static const char* const methods[] = {"precompiled", "nothing cached", "cached"};
     struct startup_cache programs = {0};
     hair_cache cache = startup_cache_of(&programs);
