@@ -65,7 +65,7 @@ static void rest_cases_distinguish_resting_from_moving_hair(void** state)
         } else
             assert_true(number(row, "max_energy") > 0.5 && number(row, "max_energy") < 1.01);
     }
-    assert_int_equal(i, 3);
+    assert_int_equal(i, 4);
     json_decref(root);
     expect(0, "rm $D/s.json", "");
 }
