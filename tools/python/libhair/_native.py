@@ -129,7 +129,8 @@ def to_dict(struct):
     """Return the numbers of a struct as a dict. Pointers and the header are left out."""
     out = {}
     for name, field in ffi.typeof(struct).fields:
-        if name == "header" or field.type.kind == "pointer":
+        of_pointers = field.type.kind == "array" and field.type.item.kind == "pointer"
+        if name == "header" or field.type.kind == "pointer" or of_pointers:
             continue
         value = getattr(struct, name)
         if field.type.kind == "struct":

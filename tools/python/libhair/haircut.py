@@ -15,8 +15,73 @@ def _exactly(values, count, width, name):
     return out
 
 
+def _find_kind(name):
+    """Return the value of hair_strand_attribute_kind of a name."""
+    kinds = []
+    while (text := hair.hair_strand_attribute_name(len(kinds))) != ffi.NULL:
+        kinds.append(ffi.string(text).decode())
+    if name not in kinds:
+        raise ValueError(f"the kind of an attribute is {name!r}, not one of {', '.join(kinds)}")
+    return kinds.index(name)
+
+
+def _set_map(c, map, values, name):
+    """Let a hair_map have values: rows of an image, or a number for each vertex or triangle of the scalp."""
+    shape = np.shape(values)
+    out = floats(values, 1, name)
+    if len(shape) == 2:
+        map.source, map.height, map.width = hair.HAIR_MAP_SOURCE_IMAGE, *shape
+    elif shape == (c.scalp_vertex_count,):
+        map.source = hair.HAIR_MAP_SOURCE_VERTICES
+    elif shape == (c.scalp_triangle_count,):
+        map.source = hair.HAIR_MAP_SOURCE_TRIANGLES
+    else:
+        raise ValueError(f"{name} has the shape {shape}, which is no image, and not that of the scalp's "
+                         f"{c.scalp_vertex_count} vertices or {c.scalp_triangle_count} triangles")  # fmt: skip
+    map.values = pointer("float", out)
+    return out
+
+
+def _set_attributes(c, values, maps):
+    """Let a hair_groom_desc have attributes of strands. Return what must be kept while the desc is used."""
+    of_strands, of_maps = list(dict(values or {}).items()), list(maps.items() if isinstance(maps, dict) else maps or ())
+    attributes = ffi.new("hair_strand_attribute[]", len(of_strands) + len(of_maps))
+    kept = [attributes]
+    for i, (name, numbers) in enumerate(of_strands + of_maps):
+        attributes[i] = new_desc("hair_strand_attribute")[0]
+        attributes[i].kind = _find_kind(name)
+        if i < len(of_strands):
+            kept.append(_exactly(numbers, c.strand_count, 1, f"strand_attributes[{name!r}]"))
+            attributes[i].strand_values = pointer("float", kept[-1])
+        else:
+            kept.append(_set_map(c, attributes[i].map, numbers, f"attribute_maps[{name!r}]"))
+    c.strand_attributes, c.strand_attribute_count = attributes, len(attributes)
+    return kept
+
+
+def _map_array(info, map):
+    """Return the values of a hair_map, copied."""
+    if map.source == hair.HAIR_MAP_SOURCE_IMAGE:
+        return array(map.values, map.height * map.width, 1, np.float32).reshape(map.height, map.width)
+    of_vertices = map.source == hair.HAIR_MAP_SOURCE_VERTICES
+    return array(map.values, info.scalp_vertex_count if of_vertices else info.scalp_triangle_count, 1, np.float32)
+
+
+def _joint_names(info):
+    """Return the names of joints, or None."""
+    if info.scalp_joint_names == ffi.NULL:
+        return None
+    names, at = [], info.scalp_joint_names
+    for _ in range(info.scalp_joint_count):
+        name = ffi.string(at)
+        names.append(name.decode())
+        at += len(name) + 1
+    return names
+
+
 def _set_arrays(c, positions, strand_vertices, strand_groups=None, strand_radii=None, scalp_positions=None,
-                scalp_triangles=None, scalp_density=None, scalp_uvs=None):  # fmt: skip
+                scalp_triangles=None, scalp_density=None, scalp_uvs=None, strand_attributes=None,
+                attribute_maps=None):  # fmt: skip
     """Let a hair_groom_desc point at arrays. Return what must be kept while the desc is used."""
     kept = []
 
@@ -43,6 +108,8 @@ def _set_arrays(c, positions, strand_vertices, strand_groups=None, strand_radii=
         c.scalp_density = keep("float", _exactly(scalp_density, c.scalp_vertex_count, 1, "scalp_density"))
     if scalp_uvs is not None:
         c.scalp_uvs = keep("float", _exactly(scalp_uvs, c.scalp_vertex_count, 2, "scalp_uvs"))
+    if strand_attributes is not None or attribute_maps is not None:
+        kept += _set_attributes(c, strand_attributes, attribute_maps)
     return kept
 
 
@@ -78,7 +145,8 @@ class Asset:
                members=None, **arrays):  # fmt: skip
         """Make a haircut of arrays, to write a file.
 
-        `arrays` are strand_groups, strand_radii, scalp_positions, scalp_triangles, scalp_density and scalp_uvs.
+        `arrays` are strand_groups, strand_radii, scalp_positions, scalp_triangles, scalp_density, scalp_uvs,
+        strand_attributes and attribute_maps, which Groom explains.
         A vertex of the scalp has four joints, below joint_count, and four weights. `members` are those of GroomDesc.
         """
         desc, out, joints, weights = CLASSES["GroomDesc"](), ffi.new("hair_asset**"), ffi.NULL, ffi.NULL
@@ -119,9 +187,20 @@ class Asset:
 
     @property
     def arrays(self):
-        """The arrays of hair_asset_info, copied. Those that the haircut lacks are None."""
+        """The arrays of hair_asset_info, copied. Those that the haircut lacks are None.
+
+        strand_attributes has the factors of strands by the names of kinds, and attribute_maps has pairs of
+        a name and a map. Groom and create() take both.
+        """
         info = self._info()
+        attributes = [info.strand_attributes[i] for i in range(info.strand_attribute_count)]
+        names = [ffi.string(hair.hair_strand_attribute_name(a.kind)).decode() for a in attributes]
         return {
+            "strand_attributes": {n: array(a.strand_values, info.strand_count, 1, np.float32)
+                                  for n, a in zip(names, attributes) if a.strand_values != ffi.NULL},
+            "attribute_maps": [(n, _map_array(info, a.map)) for n, a in zip(names, attributes) if a.map.source],
+            "strand_guides": array(info.strand_guides, info.strand_count, 1, np.uint8),
+            "scalp_joint_names": _joint_names(info),
             "positions": array(info.positions, info.vertex_count, 3, np.float32),
             "strand_vertices": array(info.strand_vertices, info.strand_count, 1, np.uint32),
             "strand_radii": array(info.strand_radii, info.strand_count, 1, np.float32),
@@ -140,12 +219,15 @@ class Groom:
     """An immutable haircut that hair is made from.
 
     The strands are those of an asset, or arrays: positions of all vertices, strand after strand, and the
-    number of vertices of each strand. strand_groups has the group of each strand. `members` are those
-    of GroomDesc.
+    number of vertices of each strand. strand_groups has the group of each strand. strand_attributes has
+    factors of all strands by the names of kinds, as {"stiffness": factors}. attribute_maps has maps of
+    factors on the scalp in the same way: an image as rows, or a number for each vertex or triangle.
+    `members` are those of GroomDesc.
     """
 
     def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
-                 scalp_triangles=None, strand_groups=None, members=None, **more):  # fmt: skip
+                 scalp_triangles=None, strand_groups=None, scalp_uvs=None, strand_attributes=None,
+                 attribute_maps=None, members=None, **more):  # fmt: skip
         desc, out = CLASSES["GroomDesc"](), ffi.new("hair_groom**")
         c = desc._c
         if asset is not None:
@@ -154,7 +236,8 @@ class Groom:
         elif positions is None or strand_vertices is None:
             raise ValueError("a groom needs an asset, or positions and strand_vertices")
         # The library copies the arrays before `kept` ends.
-        kept = _set_arrays(c, positions, strand_vertices, strand_groups, None, scalp_positions, scalp_triangles)
+        kept = _set_arrays(c, positions, strand_vertices, strand_groups, None, scalp_positions, scalp_triangles,
+                           None, scalp_uvs, strand_attributes, attribute_maps)  # fmt: skip
         desc.update(members or {}, **more)
         c.host = host
         call(hair.hair_groom_create, c, out)

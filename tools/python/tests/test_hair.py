@@ -95,6 +95,39 @@ class HaircutTest(unittest.TestCase):
         with self.assertRaisesRegex(libhair.HairArgumentError, r"scalp_joints\[2\] is 2, not in \[0, 1\]"):
             libhair.Asset.create(**arrays, **more, joint_count=2)
 
+    def test_attributes_survive_a_groom_file(self):
+        positions = np.zeros((20, 8, 3))
+        positions[:, :, 0] = np.arange(20)[:, None] * 0.01
+        positions[:, :, 1] = -0.02 * np.arange(8)
+        scalp = {"scalp_positions": [[0, 0, 0], [1, 0, 0], [0, 0, 1]], "scalp_triangles": [0, 1, 2],
+                 "scalp_uvs": [[0, 0], [1, 0], [0, 1]]}  # fmt: skip
+        arrays = {"positions": positions, "strand_vertices": [8] * 20, **scalp}
+        values = {"stiffness": np.linspace(0, 100, 20, dtype=np.float32), "length": np.full(20, 0.5, np.float32)}
+        maps = [("frizz", np.array([[0, 1, 2], [3, 4, 0.5]], np.float32)), ("frizz", np.ones(3, np.float32)),
+                ("radius", np.array([0.25], np.float32))]  # fmt: skip
+        asset = libhair.Asset.create(**arrays, strand_attributes=values, attribute_maps=maps)
+        again = libhair.Asset.read(asset.write("groom"))
+        for name, numbers in values.items():
+            np.testing.assert_array_equal(again.arrays["strand_attributes"][name], numbers)
+        self.assertEqual([n for n, _ in again.arrays["attribute_maps"]], ["frizz", "frizz", "radius"])
+        for (_, a), (_, b) in zip(again.arrays["attribute_maps"], maps):
+            np.testing.assert_array_equal(a, b)
+        self.assertNotIn("map_sets", again.info)
+        for groom in (libhair.Groom(again), libhair.Groom(**arrays, strand_attributes=values)):
+            np.testing.assert_allclose(groom.info["length"], 0.07, rtol=1e-4)
+        for wrong in ({"strand_attributes": {"shine": [1] * 20}}, {"strand_attributes": {"frizz": [1]}},
+                      {"attribute_maps": {"frizz": [1, 2]}}):  # fmt: skip
+            with self.assertRaises(ValueError):
+                libhair.Groom(**arrays, **wrong)
+        with self.assertRaisesRegex(libhair.HairArgumentError, r"map.values\[0\] is 5, not in \[0, 4\]"):
+            libhair.Groom(**arrays, attribute_maps={"frizz": [[5]]})
+
+    def test_names_of_joints_and_guides_of_a_file_are_read(self):
+        asset = libhair.Asset.read(ROOT / "tests/fuzz/corpus/groomfile/named")
+        self.assertEqual(asset.arrays["scalp_joint_names"], ["hip", "neck", "head", "h\u00e4r", "\U0001f9b1"])
+        np.testing.assert_array_equal(asset.arrays["strand_guides"], [1, 0, 1, 1])
+        self.assertIsNone(libhair.Asset.generate().arrays["scalp_joint_names"])
+
     def test_wrong_arrays_raise(self):
         for positions, counts in (([0, 0, 0, 1], [2]), ([0] * 6, [3]), ([0] * 6, [-2]), ([0] * 6, [1.5]), (None, [1])):
             with self.assertRaises(ValueError):
