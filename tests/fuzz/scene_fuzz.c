@@ -114,6 +114,13 @@ static void add_maps_and_lights(uint64_t* hash, const struct hair_scene* scene)
         add_map(hash, &scene->maps.set[i].density);
         add_map(hash, &scene->maps.set[i].thickness);
     }
+    HAIR_FUZZ_CHECK(scene->attributes.count <= HAIR_SCENE_ATTRIBUTES);
+    for (uint32_t i = 0; i < scene->attributes.count; ++i) {
+        HAIR_FUZZ_CHECK(hair_strand_attribute_name(scene->attributes.at[i].kind));
+        hair_fuzz_add(hash, scene->attributes.at[i].kind);
+        add_floats(hash, scene->attributes.at[i].range, 2);
+        add_map(hash, &scene->attributes.at[i].map);
+    }
     for (uint32_t i = 0; i < scene->lights.count; ++i) {
         const hair_light* light = &scene->lights.at[i].light;
         hair_fuzz_add(hash, light->kind);
@@ -153,6 +160,14 @@ static void check_use(const struct hair_scene* scene)
     desc.scalp_vertex_count = 3;
     hair_scene_put_maps(&scene->maps, sets, uvs, &desc);
     add_floats(&unused, uvs, 6);
+    hair_strand_attribute all[HAIR_SCENE_ALL_ATTRIBUTES];
+    static float values[HAIR_SCENE_ATTRIBUTES * HAIR_SCENE_MAP * HAIR_SCENE_MAP];
+    hair_scene_put_attributes(&scene->attributes, all, values, &desc);
+    HAIR_FUZZ_CHECK(desc.strand_attribute_count == scene->attributes.count);
+    for (uint32_t i = 0; i < desc.strand_attribute_count; ++i) {
+        const hair_map* map = &all[i].map;
+        add_floats(&unused, map->values, (size_t)map->width * map->height);
+    }
 }
 
 static uint64_t check(const struct hair_scene* scene)

@@ -25,6 +25,7 @@ static void write_file(const char* name, const char* text)
 static const char whole[] =
     "{\"style\": \"bob\", \"head\": true, \"maps\": [{\"density\": [\"09\", \"91\"], \"thickness\": "
     "[\"36\"]}],"
+    " \"attributes\": [{\"kind\": \"length\", \"map\": [\"09\", \"91\"], \"range\": [0.3, 0.9]}],"
     " \"motion\": [{\"time\": 0}, {\"time\": 0.5, \"rotation\": [30, 0.1, 4], \"position\": [0, 0.01, 0]}],"
     " \"pivot\": [0, 1.4, 0.02], \"pose\": {\"rotation\": [3, 2, 1], \"position\": [0.01, 0, 0]},"
     " \"camera\": {\"eye\": [0.3, 1.7, 1.1], \"target\": [0, 1.5, 0.013], \"fov\": 31},"
@@ -59,10 +60,10 @@ static const char cube[] = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf
 
 // Words that the saved file of `whole` must contain, because drawing guides does not show all.
 static const char* const kept[] = {
-    "maps",        "thickness", "motion",       "pivot",     "pose",      "fov",      "lights", "spot",
-    "inner_angle", "sources",   "colliders",    "rounding",  "friction",  "spin",     "stays",  "centre",
-    "exposure",    "settle",    "fps",          "frames",    "picture",   "size",     "show",   "seed",
-    "lod",         "hide",      "strand.taper", "gravity.y", "ambient.g", "tip_mass", "0.color"};
+    "maps",     "thickness",    "attributes", "range",     "motion",   "pivot",    "pose", "fov",   "lights",
+    "spot",     "inner_angle",  "sources",    "colliders", "rounding", "friction", "spin", "stays", "centre",
+    "exposure", "settle",       "fps",        "frames",    "picture",  "size",     "show", "seed",  "lod",
+    "hide",     "strand.taper", "gravity.y",  "ambient.g", "tip_mass", "0.color"};
 
 // Scenes are saved, dropped on the window, and saved again. Captures of both files must be equal.
 static void saved_scenes_load_into_equal_scenes(void** state)

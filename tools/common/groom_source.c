@@ -20,24 +20,45 @@ int hair_exit_for(hair_result result)
     }
 }
 
-static int build(const hair_host* host, const struct hair_scene* scene, hair_asset* asset, hair_groom** out)
+// Create a groom with the maps and the attributes of a scene.
+static int build_mapped(const struct hair_scene* scene, hair_groom_desc* desc, hair_groom** out)
 {
     hair_map_set sets[HAIR_SCENE_SETS];
-    float* uvs = NULL;
+    hair_strand_attribute all[HAIR_SCENE_ALL_ATTRIBUTES];
+    size_t uv_count = 2 * (size_t)desc->scalp_vertex_count,
+           value_count = (size_t)scene->attributes.count * HAIR_SCENE_MAP * HAIR_SCENE_MAP;
+    float* uvs = malloc((uv_count + value_count) * sizeof *uvs);
+    if (!uvs) return HAIR_EXIT_RUNTIME;
+    hair_scene_put_maps(&scene->maps, sets, uvs, desc);
+    hair_scene_put_attributes(&scene->attributes, all, uvs + uv_count, desc);
+    hair_result result = hair_groom_create(desc, out);
+    free(uvs);
+    return hair_exit_for(result);
+}
+
+static void report_unused(const char* tool, const struct hair_scene* scene, const hair_groom_desc* desc)
+{
+    if (scene->attributes.count && !desc->scalp_positions)
+        hair_complain(tool, "attributes of the scene are left out, because the groom has no scalp");
+}
+
+static int build(const char* tool, const hair_host* host, const struct hair_scene* scene, hair_asset* asset,
+                 hair_groom** out)
+{
     hair_groom_desc desc = scene->settings.groom;
     desc.host = host;
-    hair_result result = hair_asset_to_groom_desc(asset, &desc);
-    if (!result && scene->maps.count && desc.scalp_positions) {
-        uvs = malloc(2 * (size_t)desc.scalp_vertex_count * sizeof *uvs);
-        if (uvs)
-            hair_scene_put_maps(&scene->maps, sets, uvs, &desc);
-        else
-            result = HAIR_ERROR_MEMORY;
+    int code = hair_exit_for(hair_asset_to_groom_desc(asset, &desc));
+    bool is_mapped = scene->maps.count || scene->attributes.count;
+    if (!code && is_mapped && desc.scalp_positions && hair_scene_has_images(&desc)) {
+        hair_complain(tool, "maps and attributes of a scene cannot be added to the images of a groom");
+        code = HAIR_EXIT_INPUT;
     }
-    if (!result) result = hair_groom_create(&desc, out);
-    free(uvs);
+    if (!code) report_unused(tool, scene, &desc);
+    if (!code)
+        code = is_mapped && desc.scalp_positions ? build_mapped(scene, &desc, out)
+                                                 : hair_exit_for(hair_groom_create(&desc, out));
     hair_asset_destroy(asset);
-    return hair_exit_for(result);
+    return code;
 }
 
 #define LONGEST_STRAND 3.0f // m, a file with longer strands is in smaller units
@@ -86,16 +107,17 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
         }
     }
     free(bytes.data);
-    return result ? hair_exit_for(result) : build(host, scene, asset, out);
+    return result ? hair_exit_for(result) : build(tool, host, scene, asset, out);
 }
 
-static int make_style(const hair_host* host, const struct hair_scene* scene, hair_groom** out)
+static int make_style(const char* tool, const hair_host* host, const struct hair_scene* scene,
+                      hair_groom** out)
 {
     hair_style_desc desc = scene->settings.style;
     desc.host = host;
     hair_asset* asset;
     hair_result result = hair_asset_generate(&desc, &asset);
-    return result ? hair_exit_for(result) : build(host, scene, asset, out);
+    return result ? hair_exit_for(result) : build(tool, host, scene, asset, out);
 }
 
 // Fur ---------------------------------------------------------------------------------------------
@@ -147,6 +169,7 @@ static int make_fur(const char* tool, const hair_host* host, const struct hair_s
         desc.positions = positions;
         desc.strand_vertices = vertices;
         desc.strand_count = scene->fur_strands;
+        report_unused(tool, scene, &desc);
         code = hair_exit_for(hair_groom_create(&desc, out));
     } else
         hair_complain(tool, "out of memory for %u strands of fur", scene->fur_strands);
@@ -163,5 +186,5 @@ int hair_groom_source_load(const char* tool, const hair_host* host, const struct
     case HAIR_SUBJECT_FUR: return make_fur(tool, host, scene, out);
     case HAIR_SUBJECT_STYLE: break;
     }
-    return make_style(host, scene, out);
+    return make_style(tool, host, scene, out);
 }

@@ -134,6 +134,11 @@ static bool read_maps(const place* json, const char* key, const json_t* value, v
     return hair_scene_read_maps(json, key, value, &scene->maps);
 }
 
+static bool read_attributes(const place* json, const char* key, const json_t* value, void* out)
+{
+    return hair_scene_read_attributes(json, key, value, &((struct hair_scene*)out)->attributes);
+}
+
 static bool read_lights(const place* json, const char* key, const json_t* value, void* out)
 {
     return hair_scene_read_lights(json, key, value, &((struct hair_scene*)out)->lights);
@@ -223,6 +228,7 @@ static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_OTHER("bullet", read_bullet),
                               HAIR_OTHER("cuts", read_cuts),
                               HAIR_OTHER("maps", read_maps),
+                              HAIR_OTHER("attributes", read_attributes),
                               HAIR_OTHER("motion", read_motion),
                               HAIR_NUMBERS("pivot", AT(motion.pivot), 3, -HAIR_SCENE_FAR, HAIR_SCENE_FAR),
                               HAIR_OBJECT("pose", pose),

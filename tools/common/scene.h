@@ -48,6 +48,7 @@ struct hair_scene {
     struct hair_bullet_list bullet;
     struct hair_scene_cuts cuts;
     struct hair_scene_maps maps;
+    struct hair_scene_attributes attributes;
     bool shadow; // settings.light casts a shadow
     struct hair_scene_lights lights; // in addition to settings.light
     struct hair_scene_wind wind; // sources in addition to settings.wind

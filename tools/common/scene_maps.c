@@ -44,6 +44,76 @@ bool hair_scene_read_maps(const struct hair_json* json, const char* key, const j
                            &maps->count);
 }
 
+// Attributes --------------------------------------------------------------------------------------
+
+static bool read_kind(const struct hair_json* json, const char* key, const json_t* value, void* out)
+{
+    char must[256] = "one of";
+    const char *name = json_is_string(value) ? json_string_value(value) : "", *kind;
+    for (int i = 0; (kind = hair_strand_attribute_name((hair_strand_attribute_kind)i)); ++i) {
+        if (strcmp(name, kind) == 0) {
+            ((struct hair_scene_attribute*)out)->kind = (hair_strand_attribute_kind)i;
+            return true;
+        }
+        snprintf(must + strlen(must), sizeof must - strlen(must), "%s %s", i ? "," : "", kind);
+    }
+    return hair_json_wrong(json, key, must);
+}
+
+static bool read_attribute_map(const struct hair_json* json, const char* key, const json_t* value, void* out)
+{
+    return read_rows(json, key, value, 9, &((struct hair_scene_attribute*)out)->map);
+}
+
+bool hair_scene_read_attributes(const struct hair_json* json, const char* key, const json_t* value,
+                                struct hair_scene_attributes* attributes)
+{
+    static const struct hair_json_entry entries[] = {
+        HAIR_OTHER("kind", read_kind), HAIR_OTHER("map", read_attribute_map),
+        HAIR_NUMBERS("range", offsetof(struct hair_scene_attribute, range), 2, 0, 100), HAIR_END};
+    memset(attributes, 0, sizeof *attributes);
+    for (int i = 0; i < HAIR_SCENE_ATTRIBUTES; ++i) {
+        struct hair_scene_attribute* attribute = &attributes->at[i];
+        attribute->range[0] = 0.2f;
+        attribute->range[1] = 1;
+        attribute->map.width = attribute->map.height = 1;
+        attribute->map.value[0] = 1;
+    }
+    return hair_json_array(json, key, value, entries, attributes->at, sizeof *attributes->at,
+                           HAIR_SCENE_ATTRIBUTES, &attributes->count);
+}
+
+void hair_scene_put_attributes(const struct hair_scene_attributes* attributes,
+                               hair_strand_attribute all[HAIR_SCENE_ALL_ATTRIBUTES], float* values,
+                               hair_groom_desc* desc)
+{
+    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i) all[i] = desc->strand_attributes[i];
+    desc->strand_attributes = all;
+    for (uint32_t i = 0; i < attributes->count; ++i, values += HAIR_SCENE_MAP * HAIR_SCENE_MAP) {
+        const struct hair_scene_attribute* attribute = &attributes->at[i];
+        const struct hair_scene_map* map = &attribute->map;
+        hair_strand_attribute* own = &all[desc->strand_attribute_count++];
+        for (uint32_t k = 0; k < map->width * map->height; ++k)
+            values[k] = (1 - map->value[k]) * attribute->range[0] + map->value[k] * attribute->range[1];
+        *own = hair_strand_attribute_default();
+        own->kind = attribute->kind;
+        own->map = (hair_map){HAIR_MAP_SOURCE_IMAGE, values, map->width, map->height};
+    }
+}
+
+// Grooms ------------------------------------------------------------------------------------------
+
+bool hair_scene_has_images(const hair_groom_desc* desc)
+{
+    bool has_images = false;
+    for (int i = 0; i < HAIR_SCENE_SETS && desc->map_sets[i]; ++i)
+        has_images |= desc->map_sets[i]->density.source == HAIR_MAP_SOURCE_IMAGE ||
+                      desc->map_sets[i]->thickness.source == HAIR_MAP_SOURCE_IMAGE;
+    for (uint32_t i = 0; i < desc->strand_attribute_count; ++i)
+        has_images |= desc->strand_attributes[i].map.source == HAIR_MAP_SOURCE_IMAGE;
+    return has_images;
+}
+
 // Compute texture coordinates of the scalp as seen from above. The face looks along +z.
 static void look_from_above(const hair_groom_desc* desc, float* uvs)
 {
@@ -73,6 +143,7 @@ void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[H
 {
     look_from_above(desc, uvs);
     desc->scalp_uvs = uvs;
+    for (uint32_t i = 0; maps->count && i < HAIR_SCENE_SETS; ++i) desc->map_sets[i] = NULL;
     for (uint32_t i = 0; i < maps->count; ++i) {
         sets[i] = hair_map_set_default();
         sets[i].density = map_of(&maps->set[i].density);

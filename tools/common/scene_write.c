@@ -94,6 +94,21 @@ static void put_maps(json_t* root, const struct hair_scene_maps* maps)
     json_object_set_new(root, "maps", sets);
 }
 
+static void put_attributes(json_t* root, const struct hair_scene_attributes* attributes)
+{
+    if (!attributes->count) return;
+    json_t* array = json_array();
+    for (uint32_t i = 0; i < attributes->count; ++i) {
+        const struct hair_scene_attribute* attribute = &attributes->at[i];
+        json_t* object = json_object();
+        json_object_set_new(object, "kind", json_string(hair_strand_attribute_name(attribute->kind)));
+        json_object_set_new(object, "map", rows_of(&attribute->map, 9));
+        put(object, "range", attribute->range, (const float[]){0.2f, 1}, 2);
+        json_array_append_new(array, object);
+    }
+    json_object_set_new(root, "attributes", array);
+}
+
 // Motion, colliders, lights -----------------------------------------------------------------------
 
 static const float nought[4];
@@ -288,6 +303,7 @@ static json_t* scene_of(const char* tool, const struct hair_scene* scene, struct
     }
     put_subject(root, scene);
     put_maps(root, &scene->maps);
+    put_attributes(root, &scene->attributes);
     put_motion(tool, root, &scene->motion);
     if (scene->pivot_is_said) json_object_set_new(root, "pivot", numbers_of(scene->motion.pivot, 3));
     put_colliders(root, scene);

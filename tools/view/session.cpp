@@ -24,7 +24,7 @@ bool groom_differs(const hair_scene& a, const hair_scene& b)
            a.fur_length != b.fur_length || a.ball_radius != b.ball_radius ||
            differs(a.settings.import, b.settings.import) || differs(a.settings.style, b.settings.style) ||
            differs(a.settings.groom, b.settings.groom) || a.maps.count != b.maps.count ||
-           differs(a.maps, b.maps);
+           differs(a.maps, b.maps) || differs(a.attributes, b.attributes);
 }
 
 // Set what depends on the size of the haircut.
