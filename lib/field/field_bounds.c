@@ -9,12 +9,23 @@
 #define STILL 0.01f
 #define EVERYWHERE 1e9f // Distance beyond everything, in metres.
 
+// Compilers call a function for fminf() and fmaxf(), because of values that are not numbers.
+static float lower_bound(float a, float b)
+{
+    return a < b ? a : b;
+}
+
+static float upper_bound(float a, float b)
+{
+    return a > b ? a : b;
+}
+
 static void include_ball(hair_vec3 at, float around, hair_vec3* lower, hair_vec3* upper)
 {
-    *lower = hair_v3(fminf(lower->x, at.x - around), fminf(lower->y, at.y - around),
-                     fminf(lower->z, at.z - around));
-    *upper = hair_v3(fmaxf(upper->x, at.x + around), fmaxf(upper->y, at.y + around),
-                     fmaxf(upper->z, at.z + around));
+    *lower = hair_v3(lower_bound(lower->x, at.x - around), lower_bound(lower->y, at.y - around),
+                     lower_bound(lower->z, at.z - around));
+    *upper = hair_v3(upper_bound(upper->x, at.x + around), upper_bound(upper->y, at.y + around),
+                     upper_bound(upper->z, at.z + around));
 }
 
 // Compute the bounds of the field. They are those of the rest shape and SWING times the longest

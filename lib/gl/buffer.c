@@ -18,6 +18,7 @@ static uint64_t texel_bytes(GLenum format)
     switch (format) {
     case GL_R16F: return 2;
     case GL_RG32F:
+    case GL_RG32UI:
     case GL_RGBA16:
     case GL_RGBA16F: return 8;
     case GL_RGBA32F:
@@ -38,25 +39,18 @@ static uint64_t texture_bytes(const struct hair_gl* gl, GLuint texture)
 
 // Buffers -----------------------------------------------------------------------------------------
 
-hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
-                           const void* data, GLuint* out)
+// Create a buffer of at least 16 bytes. Its contents are undefined if `data` is NULL.
+static hair_result create_buffer(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                 size_t size, const void* data, GLuint* out)
 {
-    HAIR_ASSERT(label && !*out);
+    HAIR_ASSERT(size >= 16 && !*out);
     GLuint buffer = 0;
-    GLint64 got = 0, want = size < 16 ? 16 : (GLint64)size;
-    HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)want));
-    // The zeros are uploaded. The driver of an H100 lost data that glNamedBufferSubData wrote after
-    // glClearNamedBufferData.
-    bool is_filled = data && size >= 16; // By the data alone.
-    void* zeros = is_filled ? NULL : hair_alloc(&gl->host, (size_t)want, 1);
-    if (!is_filled && !zeros) return hair_fail_memory(&gl->host, label);
-    if (!is_filled && data) memcpy(zeros, data, size);
+    GLint64 got = 0, want = (GLint64)size;
     gl->CreateBuffers(1, &buffer);
     if (buffer) {
-        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, is_filled ? data : zeros, GL_DYNAMIC_STORAGE_BIT);
+        gl->NamedBufferStorage(buffer, (GLsizeiptr)want, data, GL_DYNAMIC_STORAGE_BIT);
         gl->GetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &got);
     }
-    hair_free(&gl->host, zeros);
     if (got != want) {
         if (buffer) gl->DeleteBuffers(1, &buffer);
         return hair_fail(&gl->host, HAIR_ERROR_MEMORY, "the driver has no %lld bytes for %s", (long long)want,
@@ -68,19 +62,49 @@ hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const 
     return HAIR_OK;
 }
 
+hair_result hair_gl_buffer(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
+                           const void* data, GLuint* out)
+{
+    HAIR_ASSERT(label && !*out);
+    size_t want = size < 16 ? 16 : size;
+    HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)want));
+    if (data && size >= 16) return create_buffer(gl, category, label, want, data, out);
+    // The zeros are uploaded. The driver of an H100 lost data that glNamedBufferSubData wrote after
+    // glClearNamedBufferData.
+    void* zeros = hair_alloc(&gl->host, want, 1);
+    if (!zeros) return hair_fail_memory(&gl->host, label);
+    if (data) memcpy(zeros, data, size);
+    hair_result result = create_buffer(gl, category, label, want, zeros, out);
+    hair_free(&gl->host, zeros);
+    return result;
+}
+
 bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel)
 {
     HAIR_ASSERT(texel > 0);
     return size <= (uint64_t)gl->max_storage_bytes && size / texel <= (uint64_t)gl->max_buffer_texels;
 }
 
+static hair_result check_storage_size(const struct hair_gl* gl, const char* label, size_t size)
+{
+    if (size <= (size_t)gl->max_storage_bytes) return HAIR_OK;
+    return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
+                     size, gl->max_storage_bytes);
+}
+
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                             const void* data, GLuint* out)
 {
-    if (size > (size_t)gl->max_storage_bytes)
-        return hair_fail(&gl->host, HAIR_ERROR_OPENGL, "%s takes %zu bytes, more than the driver's %d", label,
-                         size, gl->max_storage_bytes);
+    HAIR_TRY(check_storage_size(gl, label, size));
     return hair_gl_buffer(gl, category, label, size, data, out);
+}
+
+hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                      size_t size, GLuint* out)
+{
+    HAIR_TRY(check_storage_size(gl, label, size));
+    HAIR_TRY(hair_gl_memory_ask(gl, label, (uint64_t)size));
+    return create_buffer(gl, category, label, size, NULL, out);
 }
 
 hair_result hair_gl_uniform(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,

@@ -345,6 +345,10 @@ bool hair_gl_fits(const struct hair_gl* gl, uint64_t size, uint32_t texel);
 // smaller.
 hair_result hair_gl_storage(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                             const void* data, GLuint* out);
+// Create a storage buffer of at least 16 bytes with undefined contents, which costs no upload. A
+// pass must write all of the buffer before another pass reads it.
+hair_result hair_gl_undefined_storage(struct hair_gl* gl, hair_gl_category category, const char* label,
+                                      size_t size, GLuint* out);
 
 // Create a uniform buffer, which is written whole before every dispatch or draw that reads it. Each
 // write allocates new memory, so that pending commands keep their values. One driver was observed

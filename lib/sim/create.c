@@ -62,7 +62,8 @@ hair_result hair_sim_create(struct hair_sim* sim, struct hair_gl* gl, const stru
                              groom->guides, &sim->guide));
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair rest",
                              sim->guide_vertices * sizeof *groom->rest, groom->rest, &sim->rest));
-    HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, NULL, &sim->state));
+    // hair_sim_reset() writes all state of a new simulation.
+    HAIR_TRY(hair_gl_undefined_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair state", state, &sim->state));
     HAIR_TRY(hair_gl_storage(gl, HAIR_GL_CATEGORY_SOLVE, "hair solver stats", solver_stats * sizeof(uint32_t),
                              NULL, &sim->solver_stats));
     HAIR_TRY(hair_gl_uniform(gl, HAIR_GL_CATEGORY_SOLVE, "hair step", sizeof(struct hair_step_params),

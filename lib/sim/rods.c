@@ -127,6 +127,10 @@ static hair_result upload_rods(struct hair_sim* sim, const hair_vec4* packed, si
                              &out->rod));
     if (out->mixed) out->bend = sim->bend;
     if (!out->mixed || out->bend) return HAIR_OK;
+    // hair_sim_reset() writes forces and turns of a new simulation, but no rows.
+    if (!sim->rod && sim->max_vertices <= ROWS_IN_GROUP)
+        return hair_gl_undefined_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim),
+                                         &out->bend);
     return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair bend", bend_size(sim), NULL, &out->bend);
 }
 
@@ -238,10 +242,10 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
 static hair_result make_rod_buffers(struct hair_sim* sim)
 {
     size_t vertices = sim->guide_vertices;
-    HAIR_TRY(hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
-                             vertices * sizeof(struct hair_history), NULL, &sim->history));
-    return hair_gl_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material", vertices * sizeof(hair_vec4),
-                           NULL, &sim->material);
+    HAIR_TRY(hair_gl_undefined_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair history",
+                                       vertices * sizeof(struct hair_history), &sim->history));
+    return hair_gl_undefined_storage(sim->gl, HAIR_GL_CATEGORY_SOLVE, "hair material",
+                                     vertices * sizeof(hair_vec4), &sim->material);
 }
 
 hair_result hair_sim_create_rods(struct hair_sim* sim, const struct hair_groom* groom)

@@ -23,8 +23,9 @@ hair_result hair_smooth_create(struct hair_smooth* smooth, struct hair_gl* gl, c
     for (int i = 0; i < 2; ++i) {
         size_t size = smooth->vertices * sizes[i];
         if (i == 0 && groom->guide_shapes) size *= 2; // Displacements follow the positions.
-        HAIR_TRY(hair_gl_ensure_array(gl, HAIR_GL_CATEGORY_SMOOTH, names[i], size, &smooth->buffer[i],
-                                      formats[i], &smooth->texture[i]));
+        // hair_smooth_run() writes all vertices before anything reads them.
+        HAIR_TRY(hair_gl_undefined_storage(gl, HAIR_GL_CATEGORY_SMOOTH, names[i], size, &smooth->buffer[i]));
+        HAIR_TRY(hair_gl_buffer_texture(gl, names[i], formats[i], smooth->buffer[i], &smooth->texture[i]));
     }
     return create_displacements(smooth, groom);
 }

@@ -110,6 +110,26 @@ static void instance_of_prepared_groom_computes_no_guide(void** state)
     assert_true(threads.runs > runs);
 }
 
+// Check that hair_create() allocates nothing for guides for a while, such as zeros to upload. The
+// first instance compiles programs.
+static void instance_of_prepared_groom_needs_no_temporary_memory(void** state)
+{
+    struct hair_test* test = *state;
+    hair_physics physics = hair_physics_default();
+    hair_desc desc = hair_desc_default();
+    desc.physics = &physics;
+    hair_groom* groom = make_groom(test, &physics, NULL, HAIR_SOLVER_DIRECT);
+    hair_instance* hair[2] = {NULL};
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[0]));
+    test->host.peak = test->host.live;
+    hair_test_ok(test, hair_create(test->context, groom, &desc, &hair[1]));
+    size_t temporary = test->host.peak - test->host.live;
+    print_message("    %zu bytes\n", temporary);
+    assert_true(temporary < GUIDES * VERTICES * sizeof(hair_vec4));
+    hair_destroy(hair[0]), hair_destroy(hair[1]);
+    hair_groom_destroy(groom);
+}
+
 static void groom_refuses_wrong_physics_and_empty_tasks(void** state)
 {
     struct hair_test* test = *state;
@@ -138,6 +158,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(prepared_guides_move_like_others),
         HAIR_TEST(instance_of_prepared_groom_computes_no_guide),
+        HAIR_TEST(instance_of_prepared_groom_needs_no_temporary_memory),
         HAIR_TEST(groom_refuses_wrong_physics_and_empty_tasks),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
