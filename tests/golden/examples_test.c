@@ -16,8 +16,8 @@
 #define ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0 SDL_VIDEODRIVER=offscreen "
 
 static const char* const names[] = {
-    "offscreen",    "shadows",      "level_of_detail",  "own_shader",   "many_heads",
-    "beads",        "hello_window", "clustered_lights", "bearded_head", "sword_cut",
+    "offscreen",    "shadows",          "level_of_detail", "own_shader", "many_heads",   "beads",
+    "hello_window", "clustered_lights", "bearded_head",    "sword_cut",  "painted_hair",
 #if HAIR_BULLET
     "bullet_world",
 #endif
