@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "lib/base/bytes.h"
 #include "lib/base/crc.h"
+#include <hair/hair_members.h>
 #include "tests/support/groomfile.h"
 #include "tests/support/seal.h"
 
@@ -81,6 +82,21 @@ static void check_named(const hair_asset* asset)
     assert_int_equal(info.map_sets[1]->thickness.source, HAIR_MAP_SOURCE_TRIANGLES);
     assert_float_equal(info.map_sets[1]->thickness.values[1], 1, 0);
     assert_null(info.map_sets[2]);
+}
+
+static void names_of_attributes_are_those_of_settings(void** state)
+{
+    (void)state;
+    hair_strand_attribute attribute = hair_strand_attribute_default();
+    for (int i = 0; i < HAIR_ATTRIBUTE_KINDS; ++i) {
+        char text[512];
+        attribute.kind = (hair_strand_attribute_kind)i;
+        assert_int_equal(hair_get_member(&test.host, HAIR_STRUCT_STRAND_ATTRIBUTE, &attribute,
+                                         sizeof attribute, "kind", text, sizeof text, NULL),
+                         HAIR_OK);
+        assert_string_equal(hair_strand_attribute_name(attribute.kind), text);
+    }
+    assert_null(hair_strand_attribute_name((hair_strand_attribute_kind)HAIR_ATTRIBUTE_KINDS));
 }
 
 static void everything_is_read_as_it_was_written(void** state)
@@ -514,6 +530,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(checksums_are_those_of_zlib),
+        TEST(names_of_attributes_are_those_of_settings),
         TEST(everything_is_read_as_it_was_written),
         TEST(arrays_are_written_and_make_a_groom_with_groups),
         TEST(attributes_and_maps_of_arrays_reach_a_groom),

@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -186,6 +187,12 @@ class GroomFileTest(ConvertTest):
             status, said = self.convert("info", self.path("c.groom"))
             self.assertEqual(status, 4)
             self.assertIn(f'the chunk "ATTR" at byte {at} {words}', said)
+
+    def test_factors_are_all_that_the_library_has(self):
+        header = os.path.join(os.path.dirname(__file__), "../../../include/hair/hair_groom.h")
+        with open(header, encoding="utf-8") as file:
+            kinds = re.findall(r"^    HAIR_STRAND_ATTRIBUTE_(\w+)", file.read(), re.MULTILINE)
+        self.assertEqual([f"hair_{kind.lower()}" for kind in kinds], list(names.FACTORS))
 
     def test_factors_that_the_library_refuses_or_does_not_know_are_told(self):
         groom = make_groom()
