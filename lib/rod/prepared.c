@@ -117,7 +117,9 @@ static void preload(uint32_t index, void* data)
     guides_of(work, index, &count);
     for (uint32_t i = first; i < first + count; ++i)
         if (!work->changed || work->changed[i]) work->list[first + listed++] = i;
-    const struct hair_rods_preload desc = {.host = work->source->host,
+    // Callbacks of the host may be called on the calling thread only.
+    const hair_host* host = work->source->tasks->run ? NULL : work->source->host;
+    const struct hair_rods_preload desc = {.host = host,
                                            .guides = work->source->guides,
                                            .rest = work->source->rest,
                                            .list = work->list + first,

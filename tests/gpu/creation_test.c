@@ -9,10 +9,11 @@
 
 enum { GUIDES = 96, VERTICES = 12 };
 
-// Threads of an application that run tasks in reverse, and count them.
+// Threads of an application that run tasks in reverse, and count them. Tasks may call no callback.
 struct threads {
     hair_tasks tasks;
     uint32_t runs, count;
+    const struct hair_test_host* host;
 };
 
 static void run_reversed(hair_task task, void* data, uint32_t count, void* user)
@@ -20,7 +21,9 @@ static void run_reversed(hair_task task, void* data, uint32_t count, void* user)
     struct threads* threads = user;
     ++threads->runs;
     threads->count += count;
+    uint32_t allocations = threads->host->allocations;
     for (uint32_t i = count; i-- > 0;) task(i, data);
+    assert_int_equal(threads->host->allocations, allocations);
 }
 
 // Return a point of a long curl that leans outwards. Some of these guides are stiffened, and some
@@ -75,7 +78,7 @@ static void prepared_guides_move_like_others(void** state)
     later.fiber.radius = 3e-5f;
     for (size_t i = 0; i < sizeof solvers / sizeof *solvers; ++i)
         for (int groups = 0; groups < 2; ++groups) {
-            struct threads threads = {.tasks = {run_reversed, &threads}};
+            struct threads threads = {.tasks = {run_reversed, &threads}, .host = &test->host};
             hair_desc desc = hair_desc_default();
             desc.solver = solvers[i];
             desc.physics = &physics;
@@ -92,7 +95,7 @@ static void instance_of_prepared_groom_computes_no_guide(void** state)
 {
     static struct hair_test_points points;
     struct hair_test* test = *state;
-    struct threads threads = {.tasks = {run_reversed, &threads}};
+    struct threads threads = {.tasks = {run_reversed, &threads}, .host = &test->host};
     hair_physics physics = hair_physics_default(), other = physics;
     other.fiber.radius = 3e-5f;
     hair_desc desc = hair_desc_default();
