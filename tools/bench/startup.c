@@ -4,6 +4,7 @@
 // Programs are counted by hair_report(). Drivers keep none on the disk, see main() of bench.c.
 #define _POSIX_C_SOURCE 200809L
 #include "tools/bench/bench.h"
+#include "tools/bench/pool.h"
 #include "tools/bench/startup_cache.h"
 #include "tools/bench/timer.h"
 #include "tools/common/stats.h"
@@ -30,8 +31,9 @@
 
 // clang-format off
 static const char* const columns[] = {
-    "case", "method", "guides", "vertices", "us_per_guide", "us_upload", "us_limit", "ms", "ms_step",
-    "changed", "ms_longest", "ms_limit", "calls", "programs", "late", "bytes", "stage", "pass", NULL};
+    "case", "method", "guides", "vertices", "threads", "us_per_guide", "us_upload", "us_limit", "ms",
+    "ms_step", "changed", "ms_longest", "ms_limit", "calls", "programs", "late", "bytes", "stage", "pass",
+    NULL};
 // clang-format on
 
 // Time of this thread on its processor, ms.
@@ -47,11 +49,13 @@ struct subject {
     uint32_t guides, followers;
     bool curled, straight, prepared;
     bool differs; // Each guide has a stiffness of its own.
+    const hair_tasks* tasks; // NULL runs the tasks of the groom on this thread.
     hair_context* context;
     hair_groom* groom;
     hair_instance* hair;
     struct hair_targets targets;
     double create_ms, upload_ms; // times of this thread
+    double groom_ms; // elapsed time of hair_groom_create()
 };
 
 // Set a strand that leaves the skull and falls, with a curl of 8 mm if it is curled.
@@ -94,6 +98,7 @@ static hair_result make_groom(struct subject* subject, const hair_physics* physi
     desc.guide_vertices = VERTICES;
     desc.follower_count = subject->followers;
     desc.physics = subject->prepared ? physics : NULL;
+    desc.tasks = subject->tasks;
     hair_strand_attribute stiffness = hair_strand_attribute_default();
     float* factors = malloc(sizeof *factors * subject->guides);
     for (uint32_t i = 0; i < subject->guides && factors; ++i)
@@ -102,7 +107,9 @@ static hair_result make_groom(struct subject* subject, const hair_physics* physi
     desc.strand_attributes = &stiffness;
     desc.strand_attribute_count = subject->differs;
     bool is_there = positions && vertices && factors;
+    double start = hair_now();
     hair_result result = is_there ? hair_groom_create(&desc, &subject->groom) : HAIR_ERROR_MEMORY;
+    subject->groom_ms = hair_now() - start;
     free(positions);
     free(vertices);
     free(factors);
@@ -177,6 +184,26 @@ static bool run_creation(struct bench* bench, uint32_t guides, const char* metho
         bench_set_number(row, "us_upload", upload);
         bench_set_number(row, "us_limit", prepared ? UPLOAD_LIMIT : CREATION_LIMIT);
         bench_set_flag(row, "pass", prepared ? upload <= UPLOAD_LIMIT : all <= CREATION_LIMIT);
+    }
+    free_subject(&subject);
+    return ok;
+}
+
+// Measure the elapsed time of hair_groom_create() with tasks on all processors.
+static bool run_threads(struct bench* bench, uint32_t guides)
+{
+    uint32_t threads;
+    hair_tasks tasks = bench_pool_tasks(&threads);
+    struct subject subject = {.bench = bench, .guides = guides, .prepared = true, .tasks = &tasks};
+    hair_physics physics = hair_physics_default();
+    bool ok = !make_groom(&subject, &physics);
+    if (ok) {
+        double each = 1e3 * subject.groom_ms / guides;
+        json_t* row = add_row(&subject, "create", "threads");
+        bench_set_count(row, "threads", threads);
+        bench_set_number(row, "us_per_guide", each);
+        bench_set_number(row, "us_limit", CREATION_LIMIT);
+        bench_set_flag(row, "pass", each <= CREATION_LIMIT);
     }
     free_subject(&subject);
     return ok;
@@ -361,6 +388,11 @@ static void run_suite(struct bench* bench)
             if (bench_begin(bench, "create", creations[k]) && !run_creation(bench, guides[i], creations[k]))
                 bench_refuse(bench, "create", creations[k]);
         }
+    for (size_t i = 0; i < sizeof guides / sizeof *guides; ++i) {
+        if (bench->options.quick && guides[i] > 1000) continue;
+        if (bench_begin(bench, "create", "threads") && !run_threads(bench, guides[i]))
+            bench_refuse(bench, "create", "threads");
+    }
     for (int way = 0; way < CUT_WAYS; ++way)
         for (int curled = 0; curled < 2; ++curled)
             if (bench_begin(bench, curled ? "cut curled" : "cut straight", cut_methods[way]) &&
