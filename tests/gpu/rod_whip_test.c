@@ -15,7 +15,10 @@ static double energy_of(const struct hair_test_living* living)
     const struct hair_sim* sim = &living->hair->sim;
     uint32_t n = living->vertices;
     struct hair_state* at = hair_test_buffer(sim->state, n * sizeof *at);
-    struct hair_rod* rod = hair_test_buffer(sim->rod, n * sizeof *rod);
+    // Packed rods begin with the strain and the segment of each vertex.
+    struct {
+        hair_vec4 strain, segment;
+    }* rod = hair_test_buffer(sim->rod, n * sizeof *rod);
     double sum = 0, last[2][3] = {{0}};
     // Fraction of the substep that the last leap covers.
     double part = fmin((double)at[0].position.w, 1);
