@@ -199,8 +199,8 @@ typedef struct hair_asset_info {
     const uint16_t* scalp_joints; ///< See hair_set_scalp_weights(). NULL if there are none.
     const float* scalp_weights; ///< See hair_set_scalp_weights(). NULL if there are none.
     uint32_t scalp_joint_count; ///< See hair_set_scalp_weights(). 0 if there are none.
-    /// See hair_groom_desc.strand_attributes. The values of a kind are in its first attribute. NULL
-    /// if there are none.
+    /// See hair_groom_desc.strand_attributes. The values of a kind are in its first attribute.
+    /// Attributes are header.size bytes apart. NULL if there are none.
     const hair_strand_attribute* strand_attributes;
     uint32_t strand_attribute_count; ///< Number of attributes.
     const hair_map_set* map_sets[4]; ///< See hair_groom_desc.map_sets.
