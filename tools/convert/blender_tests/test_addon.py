@@ -175,6 +175,8 @@ class AddonTest(unittest.TestCase):
 
     def test_groom_keeps_strands_groups_and_scalp(self):
         hair, ball = make_scene("curly")
+        fill(hair.data, "hair_stiffness", "FLOAT", "CURVE", "value",
+             np.linspace(0, 100, len(hair.data.curves)))
         points, counts, attributes = evaluated(hair)
         self.assertEqual(bpy.ops.hair.export_groom(filepath=self.path("a.groom"), program=CONVERT),
                          {"FINISHED"})
@@ -183,9 +185,10 @@ class AddonTest(unittest.TestCase):
         triangles = sum(len(p.vertices) - 2 for p in ball.data.polygons)
         self.assertRegex(info, f"strands: +{len(counts)}, ")
         self.assertRegex(info, f"scalp: .* {triangles} triangles, texture coordinates")
+        self.assertIn("attributes: stiffness of every strand", info)
         got, got_counts, got_attributes = evaluated(self.import_hair(self.path("a.groom")))
         np.testing.assert_array_equal(got_counts, counts)
-        for name in ("groom_group_id", "groom_guide"):
+        for name in ("groom_group_id", "groom_guide", "hair_stiffness"):
             np.testing.assert_array_equal(got_attributes[name], attributes[name], name)
         starts = np.repeat(np.cumsum(counts) - counts, counts)
         np.testing.assert_allclose(got_attributes["radius"], attributes["radius"][starts], rtol=1e-6)
