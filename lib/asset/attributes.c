@@ -5,10 +5,10 @@
 #include <math.h>
 
 // Names are those of the values of hair_strand_attribute_kind. Files have them, too.
-static const struct kind {
+static const struct attribute_kind {
     const char* name;
     struct hair_attribute_range range;
-} kinds[] = {
+} attribute_kinds[] = {
     [HAIR_STRAND_ATTRIBUTE_STIFFNESS] = {"stiffness", {0, 100}},
     [HAIR_STRAND_ATTRIBUTE_DAMPING] = {"damping", {0, 100}},
     [HAIR_STRAND_ATTRIBUTE_SHAPE_FREQUENCY] = {"shape_frequency", {0, 100}},
@@ -22,18 +22,19 @@ static const struct kind {
     [HAIR_STRAND_ATTRIBUTE_LENGTH] = {"length", {0.01f, 1}},
     [HAIR_STRAND_ATTRIBUTE_DENSITY] = {"density", {0, 1}},
 };
-_Static_assert(sizeof kinds / sizeof *kinds == HAIR_ATTRIBUTE_KINDS, "each kind has a range");
+_Static_assert(sizeof attribute_kinds / sizeof *attribute_kinds == HAIR_ATTRIBUTE_KINDS,
+               "each kind has a range");
 
 struct hair_attribute_range hair_attribute_range_of(hair_strand_attribute_kind kind)
 {
     HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);
-    return kinds[kind].range;
+    return attribute_kinds[kind].range;
 }
 
 const char* hair_attribute_name_of(hair_strand_attribute_kind kind)
 {
     HAIR_ASSERT((size_t)kind < HAIR_ATTRIBUTE_KINDS);
-    return kinds[kind].name;
+    return attribute_kinds[kind].name;
 }
 
 static hair_result check_values(const hair_host* host, const hair_groom_desc* desc, uint32_t index)
