@@ -1,7 +1,7 @@
 // coarsen.comp - open fractions of the faces of the next coarser level. Each is the mean of the
 // four faces that form it. One thread per slot of that level.
 #version 450 core
-#include "wind/fluid.glsl"
+#include "wind/level.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(std430, binding = HAIR_BIND_FACE_FRACTION) buffer face_fraction_buffer { uint slots[]; };

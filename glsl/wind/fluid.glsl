@@ -9,7 +9,6 @@
 #include "workgroup.glsl"
 
 layout(std140, binding = HAIR_BIND_FLUID) uniform fluid_buffer { hair_fluid_params fluid; };
-layout(std140, binding = HAIR_BIND_LEVEL) uniform level_buffer { hair_fluid_level level; };
 
 layout(binding = HAIR_UNIT_VELOCITY) uniform samplerBuffer velocity_texture;
 layout(binding = HAIR_UNIT_FACE_FRACTION) uniform usamplerBuffer face_fraction_texture;

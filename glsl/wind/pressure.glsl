@@ -5,7 +5,7 @@
 //
 // w_k is the open fraction of the face between them. Outside the box the pressure is 0. It is 0 at
 // the border itself, which is half as far away as a neighbour.
-#include "wind/fluid.glsl"
+#include "wind/level.glsl"
 
 layout(binding = HAIR_UNIT_PRESSURE) uniform samplerBuffer pressure_texture;
 layout(binding = HAIR_UNIT_RHS) uniform samplerBuffer rhs_texture;

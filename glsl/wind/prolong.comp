@@ -1,7 +1,7 @@
 // prolong.comp - prolongation: the pressure of the coarser cell that contains a cell is added to
 // the pressure of the cell. One thread per cell.
 #version 450 core
-#include "wind/fluid.glsl"
+#include "wind/level.glsl"
 layout(local_size_x = HAIR_GROUP_SIZE) in;
 
 layout(binding = HAIR_UNIT_PRESSURE) uniform samplerBuffer pressure_texture;
