@@ -121,6 +121,8 @@
 #define HAIR_BIND_SHADED 6           // uvec2[] per follower vertex. Light to the eye, as halves.
 // uvec2[] per follower vertex. Unit tangent, three 16-bit numbers that map to [-1, 1].
 #define HAIR_BIND_CACHED_TANGENT 5
+// hair_vec4[] per patch. Lower corner, then upper corner of the box around its vertices, m.
+#define HAIR_BIND_PATCH_BOUNDS 5
 
 // Buffers of the passes that write the strand list, which is drawn without a tessellator.
 #define HAIR_BIND_START 3   // uint[] per patch. Index of its first strand in the list.

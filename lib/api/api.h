@@ -8,6 +8,7 @@
 #include "lib/field/body_grid.h"
 #include "lib/field/field.h"
 #include "lib/gl/frame_profiler.h"
+#include "lib/strands/nearby_vertices.h"
 
 // Instance or shader in the list of its context. It is the first member of its struct.
 struct hair_context_member {
@@ -174,9 +175,10 @@ hair_result hair_update_field(hair_instance* hair);
 // Update the field as hair_update_field() does, but for another pose of the head.
 hair_result hair_update_field_at(hair_instance* hair, const struct hair_pose* head);
 
-// Read the vertices of all followers in full detail, xyz from hair_sim.head_at_last_step. `out` is
-// NULL before, and receives memory that the caller frees, also on failure. Defined in view.c.
-hair_result hair_read_follower_vertices(hair_instance* hair, hair_vec4** out);
+// Read the vertices of followers near a shape in full detail. Their positions and the shape are
+// from hair_sim.head_at_last_step. The caller frees the arrays, also on failure. Defined in view.c.
+hair_result hair_read_nearby_vertices(hair_instance* hair, const struct hair_cutter* cutter,
+                                      struct hair_nearby_vertices* out);
 
 // Find followers inside colliders and push them out before they are drawn or read, unless nobody
 // can see this. Colliders block the light of a density grid in any case. Defined in view.c.

@@ -1,6 +1,5 @@
 // cut.c - public calls that cut hair and let it grow.
 #include "lib/api/pieces.h"
-#include "lib/collide/cutter.h"
 
 // Check a range of guides.
 static hair_result check_range(const hair_instance* hair, uint32_t first, uint32_t count)
@@ -80,7 +79,7 @@ struct cut {
     hair_instance* hair;
     const hair_cut_desc* desc;
     struct hair_state* states; // Guides at the end of the last substep.
-    hair_vec4* vertices; // Followers as they are drawn.
+    struct hair_nearby_vertices near; // Followers as they are drawn.
     float *guide, *follower;
     float* needed; // Fraction of each guide that its followers need.
     struct hair_piece* pieces; // Ends of followers that are cut off. NULL if they are discarded.
@@ -131,16 +130,16 @@ static void keep_guides(struct cut* cut, uint32_t follower)
 
 // Cut a follower where its vertices first meet the shape.
 static void cut_follower(struct cut* cut, const struct hair_cutter* cutter, uint32_t follower,
-                         uint32_t segments)
+                         const hair_vec4* vertex)
 {
-    const hair_vec4* vertex = cut->vertices + (size_t)follower * (segments + 1);
-    struct hair_piece piece = {.follower = follower, .fraction = cut->follower[follower]};
+    uint32_t segments = cut->hair->geometry.look.strand.segments;
+    struct hair_piece piece = {.vertices = vertex, .follower = follower, .fraction = cut->follower[follower]};
     for (; piece.segment < segments; ++piece.segment) {
         hair_vec3 from = hair_load3(&vertex[piece.segment].x);
         if (hair_cutter_meets(cutter, from, hair_load3(&vertex[piece.segment + 1].x), &piece.t)) break;
     }
     if (piece.segment == segments) return;
-    const struct hair_piece_source source = {.hair = cut->hair, .vertices = cut->vertices};
+    const struct hair_piece_source source = {.hair = cut->hair};
     double lost = hair_piece_length(&source, &piece);
     if (!(lost > 0)) return;
     cut->follower[follower] *= ((float)piece.segment + piece.t) / (float)segments;
@@ -149,17 +148,37 @@ static void cut_follower(struct cut* cut, const struct hair_cutter* cutter, uint
     if (cut->pieces) cut->pieces[cut->piece_count++] = piece;
 }
 
+// Return the shape from the origin of the drawn strands.
+static struct hair_cutter drawn_cutter(const struct cut* cut)
+{
+    return hair_cutter_from(cut->desc, cut->hair->sim.head_at_last_step.position);
+}
+
+// Cut the followers of the patches that were read.
+static void cut_patches(struct cut* cut)
+{
+    const struct hair_groom* groom = cut->hair->groom;
+    size_t each = cut->hair->geometry.look.strand.segments + 1;
+    struct hair_cutter cutter = drawn_cutter(cut);
+    for (uint32_t p = 0; p < groom->info.patch_count; ++p) {
+        const struct hair_patch* patch = &groom->patches[p];
+        for (uint32_t i = 0; i < patch->count && cut->near.first[p] != SIZE_MAX; ++i) {
+            const hair_vec4* vertices = cut->near.vertices + cut->near.first[p] + i * each;
+            if (is_in_groups(cut, groom->followers[patch->first + i].guide0))
+                cut_follower(cut, &cutter, patch->first + i, vertices);
+        }
+    }
+}
+
 static void cut_followers(struct cut* cut)
 {
     const hair_instance* hair = cut->hair;
     const struct hair_lengths* lengths = &hair->sim.lengths;
-    uint32_t followers = hair->groom->info.follower_count, segments = hair->geometry.look.strand.segments;
-    struct hair_cutter cutter = hair_cutter_from(cut->desc, hair->sim.head_at_last_step.position);
-    for (uint32_t i = 0; i < followers; ++i) {
+    uint32_t followers = hair->groom->info.follower_count;
+    for (uint32_t i = 0; i < followers; ++i)
         cut->follower[i] = lengths->guides ? lengths->follower_fraction[i] : 1;
-        if (is_in_groups(cut, hair->groom->followers[i].guide0)) cut_follower(cut, &cutter, i, segments);
-        keep_guides(cut, i);
-    }
+    cut_patches(cut);
+    for (uint32_t i = 0; i < followers; ++i) keep_guides(cut, i);
     for (uint32_t g = 0; g < hair->sim.guides; ++g) {
         float before = hair_sim_length_fraction(&hair->sim, g);
         cut->guide[g] = fminf(fmaxf(cut->guide[g], cut->needed[g]), before);
@@ -179,7 +198,8 @@ static hair_result read_strands(struct cut* cut)
     cut->follower = hair_alloc(host, hair->groom->info.follower_count, sizeof *cut->follower);
     if (!cut->states || !cut->guide || !cut->needed || !cut->follower)
         return hair_fail_memory(host, "the strands to cut");
-    HAIR_TRY(hair_read_follower_vertices(hair, &cut->vertices));
+    struct hair_cutter cutter = drawn_cutter(cut);
+    HAIR_TRY(hair_read_nearby_vertices(hair, &cutter, &cut->near));
     hair_gl_read(&hair->context->gl, hair->sim.state, vertices * sizeof *cut->states, cut->states);
     return hair_check_lost(hair->context, HAIR_OK);
 }
@@ -217,7 +237,7 @@ static hair_result cut_strands(struct cut* cut, hair_instance** pieces)
     HAIR_TRY(read_strands(cut));
     cut_guides(cut);
     cut_followers(cut);
-    struct hair_piece_source source = {hair, cut->states, cut->vertices, cut->pieces, cut->piece_count};
+    struct hair_piece_source source = {hair, cut->states, cut->pieces, cut->piece_count};
     if (pieces) HAIR_TRY(hair_pieces_create(&source, &made));
     hair_result result = cut->info.strands || cut->info.guides ? use_lengths(cut) : HAIR_OK;
     if (result)
@@ -249,7 +269,8 @@ hair_result hair_cut(hair_instance* hair, const hair_cut_desc* cut, hair_cut_inf
     struct cut work = {.hair = hair, .desc = &own, .info = hair_cut_info_default()};
     hair_result result = cut_strands(&work, pieces);
     hair_free(host, work.states);
-    hair_free(host, work.vertices);
+    hair_free(host, work.near.vertices);
+    hair_free(host, work.near.first);
     hair_free(host, work.guide);
     hair_free(host, work.needed);
     hair_free(host, work.follower);

@@ -37,7 +37,7 @@ static uint32_t copy_vertices(const struct hair_piece_source* source, const stru
                               float out[3 * (HAIR_MAX_GUIDE_VERTICES + 1)])
 {
     uint32_t segments = hair_piece_segments(source), count = 1;
-    const hair_vec4* vertex = source->vertices + (size_t)piece->follower * (segments + 1);
+    const hair_vec4* vertex = piece->vertices;
     hair_vec3 from = hair_load3(&vertex[piece->segment].x), to = hair_load3(&vertex[piece->segment + 1].x);
     hair_store3(out, hair_lerp(from, to, piece->t));
     for (uint32_t k = piece->segment + 1; k <= segments; ++k)

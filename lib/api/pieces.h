@@ -6,6 +6,7 @@
 
 // The end of a follower that a cut takes away.
 struct hair_piece {
+    const hair_vec4* vertices; // Vertices of its follower as they are drawn.
     uint32_t follower;
     uint32_t segment; // Drawn segment in which the piece starts.
     float t; // Place in the segment, [0, 1].
@@ -16,7 +17,6 @@ struct hair_piece {
 struct hair_piece_source {
     hair_instance* hair;
     const struct hair_state* states; // Guides at the end of the last substep.
-    const hair_vec4* vertices; // Followers as they are drawn.
     struct hair_piece* pieces;
     uint32_t count;
 };

@@ -329,20 +329,29 @@ static hair_result read_buffer(hair_instance* hair, GLuint buffer, uint32_t coun
     return hair_check_lost(hair->context, HAIR_OK);
 }
 
-hair_result hair_read_follower_vertices(hair_instance* hair, hair_vec4** out)
+// Enter the context, and prepare the followers to be read in full detail.
+static hair_result enter_to_read(hair_instance* hair)
 {
     hair_enter_unprofiled(hair);
     hair_geometry_ensure_guides(&hair->geometry, &hair->sim);
     hair_draw_select_lod(&hair->renderer, &hair->sim.head_at_last_step, NULL);
-    hair_result result = hair_update_follower_collision(hair);
-    if (!result) result = hair_draw_read_vertices(&hair->renderer, out);
+    return hair_update_follower_collision(hair);
+}
+
+hair_result hair_read_nearby_vertices(hair_instance* hair, const struct hair_cutter* cutter,
+                                      struct hair_nearby_vertices* out)
+{
+    hair_result result = enter_to_read(hair);
+    if (!result) result = hair_geometry_read_nearby(&hair->geometry, hair->groom, cutter, out);
     return hair_leave(hair->context, result);
 }
 
 static hair_result read_followers(hair_instance* hair, uint32_t count, float* positions)
 {
     hair_vec4* vertices = NULL;
-    hair_result result = hair_read_follower_vertices(hair, &vertices);
+    hair_result result = enter_to_read(hair);
+    if (!result) result = hair_draw_read_vertices(&hair->renderer, &vertices);
+    result = hair_leave(hair->context, result);
     if (!result && vertices) copy_to_world(&vertices->x, 4, count, &hair->sim.head_at_last_step, positions);
     hair_free(&hair->context->host, vertices);
     return result;

@@ -3,6 +3,7 @@
 
 #define SEARCHES 40 // Steps of a search that keeps two thirds. They reach the last bit of a float.
 #define BISECTIONS 24
+#define SLACK 1e-5f // Rounding of a distance relative to the positions.
 
 static hair_vec3 from_origin(const float position[3], const double origin[3])
 {
@@ -105,4 +106,42 @@ bool hair_cutter_meets(const struct hair_cutter* cutter, hair_vec3 a, hair_vec3 
     case HAIR_CUT_SHAPE_BLADE: break;
     }
     return meets_blade(cutter, a, b, t);
+}
+
+// Return whether a plane has a point of a box on its side.
+static bool plane_reaches(const struct hair_cutter* cutter, hair_vec3 lower, hair_vec3 upper)
+{
+    hair_vec3 n = cutter->normal;
+    hair_vec3 corner = {n.x > 0 ? upper.x : lower.x, n.y > 0 ? upper.y : lower.y,
+                        n.z > 0 ? upper.z : lower.z};
+    hair_vec3 arm = hair_sub(corner, cutter->start);
+    return !(hair_dot(arm, n) < -SLACK * hair_length(arm));
+}
+
+// Return the distance between the box around the positions of a shape and another box. `size`
+// receives the greatest coordinate of the positions.
+static float distance_from_box(const struct hair_cutter* cutter, hair_vec3 lower, hair_vec3 upper,
+                               float* size)
+{
+    const hair_vec3* const own[4] = {&cutter->start, &cutter->end, &cutter->last_start, &cutter->last_end};
+    float squared = 0;
+    *size = 0;
+    for (int k = 0; k < 3; ++k) {
+        float low = INFINITY, high = -INFINITY, gap;
+        for (int i = 0; i < (cutter->shape == HAIR_CUT_SHAPE_BLADE ? 4 : 2); ++i) {
+            low = fminf(low, (&own[i]->x)[k]);
+            high = fmaxf(high, (&own[i]->x)[k]);
+        }
+        gap = fmaxf(fmaxf((&lower.x)[k] - high, low - (&upper.x)[k]), 0);
+        squared += gap * gap;
+        *size = fmaxf(*size, fmaxf(fabsf(low), fabsf(high)));
+    }
+    return sqrtf(squared);
+}
+
+bool hair_cutter_reaches(const struct hair_cutter* cutter, hair_vec3 lower, hair_vec3 upper)
+{
+    float size, radius = cutter->shape == HAIR_CUT_SHAPE_CAPSULE ? cutter->radius : 0;
+    if (cutter->shape == HAIR_CUT_SHAPE_PLANE) return plane_reaches(cutter, lower, upper);
+    return !(distance_from_box(cutter, lower, upper, &size) > radius + SLACK * (size + radius));
 }

@@ -21,5 +21,8 @@ struct hair_cutter hair_cutter_from(const hair_cut_desc* desc, const double orig
 // Return whether the segment from `a` to `b` meets the shape. `t` receives the first place, from 0
 // at `a` to 1 at `b`.
 bool hair_cutter_meets(const struct hair_cutter* cutter, hair_vec3 a, hair_vec3 b, float* t);
+// Return whether the shape may meet a segment in a box. It may also return true for a shape close
+// to the box.
+bool hair_cutter_reaches(const struct hair_cutter* cutter, hair_vec3 lower, hair_vec3 upper);
 
 #endif

@@ -174,12 +174,15 @@ hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const 
     return HAIR_OK;
 }
 
-void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out)
+void hair_gl_read_parts(struct hair_gl* gl, GLuint buffer, const struct hair_gl_part* parts, uint32_t count,
+                        void* out)
 {
-    HAIR_ASSERT(buffer && size > 0);
     static const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     GLuint copy = 0;
     GLint64 got = 0;
+    size_t size = 0, at = 0;
+    for (uint32_t i = 0; i < count; ++i) size += parts[i].size;
+    HAIR_ASSERT(buffer && size > 0);
     // At the limit of memory, a buffer is read directly.
     if (hair_gl_memory_allows(&gl->memory, size)) gl->CreateBuffers(1, &copy);
     if (copy) {
@@ -187,9 +190,21 @@ void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out)
         gl->GetNamedBufferParameteri64v(copy, GL_BUFFER_SIZE, &got);
     }
     bool has_copy = got == (GLint64)size;
-    if (has_copy) gl->CopyNamedBufferSubData(buffer, copy, 0, 0, (GLsizeiptr)size);
-    gl->GetNamedBufferSubData(has_copy ? copy : buffer, 0, (GLsizeiptr)size, out);
+    for (uint32_t i = 0; i < count; at += parts[i++].size) {
+        GLintptr from = (GLintptr)parts[i].from, to = (GLintptr)at;
+        if (has_copy)
+            gl->CopyNamedBufferSubData(buffer, copy, from, to, (GLsizeiptr)parts[i].size);
+        else
+            gl->GetNamedBufferSubData(buffer, from, (GLsizeiptr)parts[i].size, (char*)out + at);
+    }
+    if (has_copy) gl->GetNamedBufferSubData(copy, 0, (GLsizeiptr)size, out);
     if (copy) gl->DeleteBuffers(1, &copy);
+}
+
+void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out)
+{
+    const struct hair_gl_part part = {.size = size};
+    hair_gl_read_parts(gl, buffer, &part, 1, out);
 }
 
 // Textures ----------------------------------------------------------------------------------------

@@ -365,8 +365,15 @@ hair_result hair_gl_resize(struct hair_gl* gl, const char* label, size_t size, c
 hair_result hair_gl_mapped(struct hair_gl* gl, hair_gl_category category, const char* label, size_t size,
                            GLuint* out, const void** mapped);
 
-// Read the beginning of a buffer, and wait for the GPU. The GPU copies to memory of the processor.
-// The driver of an H100 would move a buffer that is read there, where shaders are slow.
+// A part of a buffer, in bytes.
+struct hair_gl_part {
+    size_t from, size;
+};
+// Read parts of a buffer one after the other, and wait for the GPU. The GPU copies to memory of the
+// processor. The driver of an H100 would move a buffer that is read there, where shaders are slow.
+void hair_gl_read_parts(struct hair_gl* gl, GLuint buffer, const struct hair_gl_part* parts, uint32_t count,
+                        void* out);
+// Read the beginning of a buffer, as hair_gl_read_parts() does.
 void hair_gl_read(struct hair_gl* gl, GLuint buffer, size_t size, void* out);
 
 // Create a texture over a buffer, without memory of its own.

@@ -183,6 +183,7 @@ PASS(REPAIR, "strands/repair", REPAIR, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=HAIR_REPAIR_ALONE HAIR_REPAIR_LANES=1 strands/repair.comp")
 PASS(REPAIR_GROUP, "strands/repair_group", REPAIR, STYLE_FEATURES,
      "HAIR_FINDS_HITS=1 HAIR_REPAIR_FOLLOWERS=1 HAIR_REPAIR_LANES=HAIR_REPAIR_THREADS strands/repair.comp")
+PASS(PATCH_BOUNDS, "strands/patch_bounds", EXPAND, 0, "strands/patch_bounds.comp")
 PASS(HIZ_REDUCE_DEPTH, "draw/hiz_reduce_depth", OCCLUSION, 0, "draw/hiz_reduce_depth.comp")
 PASS(HIZ_DOWNSAMPLE, "draw/hiz_downsample", OCCLUSION, 0, "draw/hiz_downsample.comp")
 PASS(GUIDE_BOUNDS, "draw/guide_bounds", OCCLUSION, 0, "draw/guide_bounds.comp")

@@ -1,5 +1,6 @@
 // cut_shape_test.c - hair that is cut by a plane, a capsule or the stroke of a blade, where it is
 // drawn.
+#include "lib/collide/cutter.h"
 #include "tests/support/cut_scene.h"
 
 #include <math.h>
@@ -220,6 +221,67 @@ static void cuts_follow_each_other(void** state)
     hair_test_scene_free(&scene);
 }
 
+// Return a shape of about 1 cm at the vertex `k` of a drawn strand.
+static hair_cut_desc small_cut(hair_cut_shape shape, const struct hair_test_drawn* drawn, uint32_t strand,
+                               uint32_t k)
+{
+    hair_cut_desc cut = hair_cut_desc_default();
+    hair_vec3 at = hair_test_drawn_at(drawn, strand, k), right = {0.007f, 0.002f, 0},
+              down = {0, 0.001f, 0.005f};
+    cut.shape = shape;
+    cut.radius = 0.004f;
+    hair_store3(cut.start, hair_add(hair_add(at, right), down));
+    hair_store3(cut.end, hair_sub(hair_add(at, right), down));
+    hair_store3(cut.last_start, hair_add(hair_sub(at, right), down));
+    hair_store3(cut.last_end, hair_sub(hair_sub(at, right), down));
+    return cut;
+}
+
+// Return the number of drawn strands that meet a shape before their tips.
+static uint32_t count_met(const hair_cut_desc* cut, const struct hair_test_drawn* drawn)
+{
+    const double origin[3] = {0};
+    struct hair_cutter cutter = hair_cutter_from(cut, origin);
+    uint32_t met = 0;
+    for (uint32_t s = 0; s < drawn->count; ++s) {
+        float t;
+        for (uint32_t k = 0; k + 1 < drawn->vertices; ++k) {
+            if (!hair_cutter_meets(&cutter, hair_test_drawn_at(drawn, s, k),
+                                   hair_test_drawn_at(drawn, s, k + 1), &t))
+                continue;
+            ++met;
+            break;
+        }
+    }
+    return met;
+}
+
+// hair_cut() reads the patches that the shape reaches, and no others.
+static void a_small_cut_meets_all_strands_that_it_reaches(void** state)
+{
+    struct hair_test_handmade groom = hair_test_handmade_default();
+    groom.guides = 40, groom.followers = 800, groom.each = 10;
+    hair_look look = curly();
+    look.strand.segments = 24;
+    struct hair_test_scene scene = hair_test_scene_of(*state, &groom, &look);
+    uint32_t all = 0, most = 0;
+    for (uint32_t i = 0; i < 30; ++i) {
+        struct hair_test_drawn drawn = hair_test_read_drawn(*state, scene.hair);
+        hair_cut_shape shape = i % 2 ? HAIR_CUT_SHAPE_CAPSULE : HAIR_CUT_SHAPE_BLADE;
+        hair_cut_desc cut = small_cut(shape, &drawn, i * 37 % drawn.count, 2 + i * 11 % (drawn.vertices - 3));
+        hair_cut_info info = hair_cut_info_default();
+        uint32_t met = count_met(&cut, &drawn);
+        hair_test_ok(*state, hair_cut(scene.hair, &cut, &info, NULL));
+        assert_int_equal(info.strands, met);
+        all += met, most = met > most ? met : most;
+        hair_test_ok(*state, hair_set_lengths(scene.hair, 0, groom.guides, NULL));
+        free(drawn.positions);
+    }
+    print_message("    30 small shapes cut %u strands of %u, at most %u each\n", all, groom.followers, most);
+    assert_true(all >= 30 && most < groom.followers / 4);
+    hair_test_scene_free(&scene);
+}
+
 static void wrong_cuts_are_refused_with_the_member(void** state)
 {
     struct hair_test_scene scene = hair_test_cut_scene(*state, HAIR_STRAND_SET_GUIDES, NULL, NULL, NULL);
@@ -246,9 +308,13 @@ static void wrong_cuts_are_refused_with_the_member(void** state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        HAIR_TEST(cut_strands_end_at_the_shape), HAIR_TEST(a_stroke_cuts_where_it_passes),
-        HAIR_TEST(other_groups_are_not_cut),     HAIR_TEST(a_cut_is_the_same_far_from_the_origin),
-        HAIR_TEST(cuts_follow_each_other),       HAIR_TEST(wrong_cuts_are_refused_with_the_member),
+        HAIR_TEST(cut_strands_end_at_the_shape),
+        HAIR_TEST(a_stroke_cuts_where_it_passes),
+        HAIR_TEST(other_groups_are_not_cut),
+        HAIR_TEST(a_cut_is_the_same_far_from_the_origin),
+        HAIR_TEST(cuts_follow_each_other),
+        HAIR_TEST(a_small_cut_meets_all_strands_that_it_reaches),
+        HAIR_TEST(wrong_cuts_are_refused_with_the_member),
     };
     if (hair_test_skips()) return 0;
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
