@@ -69,21 +69,23 @@ HAIR_API hair_result hair_asset_read(const hair_asset_desc* desc, const void* by
 /// OpenGL: not used. Any thread.
 HAIR_API uint64_t hair_asset_max_size(const void* bytes, size_t size);
 
-/// Create an asset from arrays, to write a file. Physics, followers and the members of `desc` that
-/// choose guides are not used.
+/// Create an asset from arrays, to write a file. Physics and the numbers of guides and followers
+/// are not used.
 ///
-/// @param desc Strands and scalp with attributes and maps, of the members of hair_groom_desc. They
-///     are copied. Values of attributes of one kind are multiplied.
+/// @param desc Strands and scalp with guides, attributes and maps, of the members of
+///     hair_groom_desc. They are copied. Values of attributes of one kind are multiplied.
 /// @param scalp_joints Joints of the scalp's vertices, as for hair_set_scalp_weights(). NULL if
-///     there are none. The next two arguments must then be NULL and 0.
+///     there are none. The next three arguments must then be NULL, 0 and NULL.
 /// @param scalp_weights Weights of the joints.
 /// @param scalp_joint_count Number of joints. [1, 65536].
+/// @param scalp_joint_names Names of the joints, as hair_asset_info.scalp_joint_names. NULL if
+///     unknown.
 /// @param out Receives the asset.
 /// Errors: HAIR_ERROR_ARGUMENT, also if no strand is usable, HAIR_ERROR_MEMORY, HAIR_ERROR_VERSION.
 /// OpenGL: not used. Any thread.
 HAIR_API hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp_joints,
                                        const float* scalp_weights, uint32_t scalp_joint_count,
-                                       hair_asset** out);
+                                       const char* scalp_joint_names, hair_asset** out);
 
 /// Destroy an asset. NULL does nothing.
 /// OpenGL: not used. Any thread.
@@ -205,7 +207,7 @@ typedef struct hair_asset_info {
     uint32_t strand_attribute_count; ///< Number of attributes.
     const hair_map_set* map_sets[4]; ///< See hair_groom_desc.map_sets.
     /// 1 for each strand that is a guide in the program that the haircut comes from, otherwise 0.
-    /// NULL if unknown. A groom chooses guides of its own.
+    /// See hair_groom_desc.strand_guides. NULL if unknown.
     const uint8_t* strand_guides;
     /// Names of the scalp's joints in UTF-8, one after another, each with a byte 0 at its end. NULL
     /// if unknown.
@@ -219,8 +221,8 @@ HAIR_DESC(hair_asset_info)
 HAIR_API hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out);
 
 /// Set the strands, radii, colours, groups, strand_set and scalp of `desc` to those of an asset.
-/// Density, texture coordinates, maps and attributes are set if the asset has them. Other members
-/// keep their values.
+/// Guides, density, texture coordinates, maps and attributes are set if the asset has them. Other
+/// members keep their values.
 /// The asset must live until hair_groom_create() has returned.
 ///
 /// @param desc Desc to change, from hair_groom_desc_default().

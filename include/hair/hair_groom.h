@@ -155,9 +155,9 @@ typedef struct hair_groom_desc {
     /// Conversion of the positions. NULL selects the defaults: metres, +y up, root first.
     const hair_import* import; ///< Default NULL.
     hair_strand_set strand_set; ///< Default HAIR_STRAND_SET_FULL.
-    /// Number of guides to choose from HAIR_STRAND_SET_FULL. HAIR_AUTO chooses one strand in ten,
-    /// and at least 64. Every group gets at least one guide. Ignored for HAIR_STRAND_SET_GUIDES,
-    /// whose strands are all guides.
+    /// Number of guides to choose from HAIR_STRAND_SET_FULL. HAIR_AUTO takes `strand_guides`.
+    /// Without them it chooses one strand in ten, and at least 64. Every group gets at least one
+    /// guide. Ignored for HAIR_STRAND_SET_GUIDES, whose strands are all guides.
     uint32_t guide_count; ///< [0, 262144]. Default HAIR_AUTO.
     /// Maximum number of simulated vertices per guide. The scalp holds the first two of them.
     uint32_t guide_vertices; ///< [2, 256]. Default 32.
@@ -210,6 +210,10 @@ typedef struct hair_groom_desc {
     /// nothing.
     const hair_strand_attribute* strand_attributes; ///< Default NULL.
     uint32_t strand_attribute_count; ///< Number of attributes. [0, 32].
+    /// 1 for each strand that is a guide, otherwise 0. Used for HAIR_STRAND_SET_FULL if
+    /// `guide_count` is HAIR_AUTO. The groom chooses a guide itself for a group without one. NULL,
+    /// or zeros only, lets the groom choose all guides.
+    const uint8_t* strand_guides; ///< [0, 1]. Default NULL.
 } hair_groom_desc;
 HAIR_DESC(hair_groom_desc)
 

@@ -19,9 +19,9 @@ static hair_result check_skin_pointers(const hair_host* host, const hair_groom_d
                                        const struct hair_skin_arrays* skin)
 {
     if (!skin->joints) {
-        if (!skin->weights && !skin->joint_count) return HAIR_OK;
-        return hair_fail(host, HAIR_ERROR_ARGUMENT,
-                         "scalp_joints is NULL but scalp_weights or scalp_joint_count is not");
+        if (!skin->weights && !skin->joint_count && !skin->joint_names) return HAIR_OK;
+        return hair_fail(host, HAIR_ERROR_ARGUMENT, "scalp_joints is NULL but %s is not",
+                         skin->joint_names ? "scalp_joint_names" : "scalp_weights or scalp_joint_count");
     }
     if (!skin->weights) return hair_fail(host, HAIR_ERROR_ARGUMENT, "scalp_weights is NULL");
     if (!desc->scalp_positions)
@@ -33,10 +33,11 @@ static hair_result check_skin_pointers(const hair_host* host, const hair_groom_d
 }
 
 hair_result hair_asset_create(const hair_groom_desc* desc, const uint16_t* scalp_joints,
-                              const float* scalp_weights, uint32_t scalp_joint_count, hair_asset** out)
+                              const float* scalp_weights, uint32_t scalp_joint_count,
+                              const char* scalp_joint_names, hair_asset** out)
 {
     hair_host host = HAIR_HOST_OF(desc);
-    const struct hair_skin_arrays skin = {scalp_joints, scalp_weights, scalp_joint_count};
+    const struct hair_skin_arrays skin = {scalp_joints, scalp_weights, scalp_joint_count, scalp_joint_names};
     hair_groom_desc own;
     hair_import import;
     hair_map_set maps[HAIR_MAP_SETS];
@@ -175,6 +176,9 @@ hair_result hair_asset_describe(const hair_asset* asset, hair_asset_info* out)
     return HAIR_COPY_OUT(&asset->host, hair_asset_info, &info, out);
 }
 
+// True if a desc, which may be that of an older caller, has a member.
+#define HAS(desc, member) ((desc)->header.size >= offsetof(hair_groom_desc, member) + sizeof(desc)->member)
+
 hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* desc)
 {
     if (!asset) return HAIR_ERROR_ARGUMENT;
@@ -191,15 +195,13 @@ hair_result hair_asset_to_groom_desc(const hair_asset* asset, hair_groom_desc* d
     desc->strand_radii = asset->strands.radii;
     desc->colors = asset->strands.colors;
     desc->color_count = HAIR_STRAND_COLORS;
-    if (desc->header.size >= offsetof(hair_groom_desc, strand_groups) + sizeof desc->strand_groups)
-        desc->strand_groups = asset->strands.groups; // The desc of an older caller ends before.
+    if (HAS(desc, strand_groups)) desc->strand_groups = asset->strands.groups;
+    if (HAS(desc, strand_guides) && asset->strands.guides) desc->strand_guides = asset->strands.guides;
     if (asset->scalp_density) desc->scalp_density = asset->scalp_density;
     if (asset->scalp_uvs) desc->scalp_uvs = asset->scalp_uvs;
     for (uint32_t i = 0; asset->map_set_count && i < HAIR_MAP_SETS; ++i)
         desc->map_sets[i] = i < asset->map_set_count ? &asset->map_sets[i] : NULL;
-    bool has_attributes = desc->header.size >= offsetof(hair_groom_desc, strand_attribute_count) +
-                                                   sizeof desc->strand_attribute_count;
-    if (asset->attribute_count && has_attributes) {
+    if (asset->attribute_count && HAS(desc, strand_attribute_count)) {
         desc->strand_attributes = asset->attributes;
         desc->strand_attribute_count = asset->attribute_count;
     }

@@ -2,6 +2,8 @@
 // to metres and +y up.
 #include "lib/asset/arrays.h"
 
+#include "lib/asset/text.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -45,11 +47,27 @@ static hair_result copy_groups(const hair_host* host, const hair_groom_desc* des
     return HAIR_OK;
 }
 
-// Copy the groups, radii, factors and colours of strands.
+static hair_result copy_guides(const hair_host* host, const hair_groom_desc* desc,
+                               struct hair_strands* strands)
+{
+    const uint8_t* guides = desc->strand_guides;
+    if (!guides || desc->strand_set == HAIR_STRAND_SET_GUIDES) return HAIR_OK;
+    for (uint32_t i = 0; i < strands->strand_count; ++i)
+        if (guides[i] > 1)
+            return hair_fail(host, HAIR_ERROR_ARGUMENT,
+                             "hair_groom_desc.strand_guides[%u] is %u, not in [0, 1]", i, guides[i]);
+    strands->guides = hair_alloc(host, strands->strand_count, sizeof *guides);
+    if (!strands->guides) return hair_fail_memory(host, "strands");
+    memcpy(strands->guides, guides, strands->strand_count * sizeof *guides);
+    return HAIR_OK;
+}
+
+// Copy the groups, guides, radii, factors and colours of strands.
 static hair_result copy_rest(const hair_host* host, const hair_groom_desc* desc, struct hair_strands* strands)
 {
     uint32_t each = desc->color_count, count = strands->strand_count;
     HAIR_TRY(copy_groups(host, desc, strands));
+    HAIR_TRY(copy_guides(host, desc, strands));
     HAIR_TRY(hair_strands_copy_factors(host, desc, strands));
     if (desc->strand_radii) {
         HAIR_TRY(check_array(host, "strand_radii", desc->strand_radii, count, FARTHEST));
@@ -199,6 +217,23 @@ static hair_result check_skin(const hair_host* host, const struct hair_skin_arra
     return HAIR_OK;
 }
 
+static hair_result copy_joint_names(const struct hair_skin_arrays* skin, hair_asset* asset)
+{
+    const char* end = skin->joint_names;
+    void* names = NULL;
+    if (!end) return HAIR_OK;
+    for (uint32_t i = 0; i < skin->joint_count; ++i) {
+        size_t size = strlen(end);
+        if (!hair_text_is_utf8(end, size))
+            return hair_fail(&asset->host, HAIR_ERROR_ARGUMENT, "scalp_joint_names: name %u is not UTF-8", i);
+        end += size + 1;
+    }
+    asset->joint_names_size = (size_t)(end - skin->joint_names);
+    HAIR_TRY(copy_array(&asset->host, skin->joint_names, asset->joint_names_size, 1, &names));
+    asset->joint_names = names;
+    return HAIR_OK;
+}
+
 static hair_result copy_skin(const struct hair_skin_arrays* skin, hair_asset* asset)
 {
     void *joints = NULL, *weights = NULL;
@@ -208,7 +243,7 @@ static hair_result copy_skin(const struct hair_skin_arrays* skin, hair_asset* as
     asset->scalp_joints = joints;
     asset->scalp_weights = weights;
     asset->scalp_joint_count = skin->joint_count;
-    return result;
+    return result ? result : copy_joint_names(skin, asset);
 }
 
 static hair_result fill_asset(const hair_groom_desc* desc, const hair_import* import,

@@ -41,6 +41,7 @@ struct hair_skin_arrays {
     const uint16_t* joints;
     const float* weights;
     uint32_t joint_count;
+    const char* joint_names; // One after another, each with a byte 0 at its end. NULL if unknown.
 };
 
 // Make an asset of the arrays of a desc, whose pointers have been checked. On failure *out is

@@ -1,5 +1,6 @@
 // groomfile_scalp.c - the scalp of .groom files: its mesh, density, texture coordinates and joints.
 #include "lib/asset/groomfile.h"
+#include "lib/asset/text.h"
 
 #include <math.h>
 
@@ -78,31 +79,6 @@ static hair_result read_joints(const struct hair_groom_chunk* chunk, hair_asset*
     return check_joints(chunk, asset);
 }
 
-// Return the length of the character of UTF-8 at the beginning of bytes, or 0.
-static size_t measure_utf8(const unsigned char* at, size_t size)
-{
-    static const uint32_t min[5] = {0, 0, 0x80, 0x800, 0x10000};
-    size_t length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3 : at[0] >> 3 == 30 ? 4 : 0;
-    if (length <= 1) return length;
-    uint32_t character = at[0] & (0x7fu >> length);
-    if (length > size) return 0;
-    for (size_t i = 1; i < length; ++i) {
-        if (at[i] >> 6 != 2) return 0;
-        character = character << 6 | (at[i] & 63u);
-    }
-    bool is_surrogate = character >> 11 == 0xd800 >> 11;
-    return character >= min[length] && character <= 0x10ffff && !is_surrogate ? length : 0;
-}
-
-static bool is_utf8(const unsigned char* bytes, size_t size)
-{
-    for (size_t at = 0, length; at < size; at += length) {
-        length = measure_utf8(bytes + at, size - at);
-        if (!length) return false;
-    }
-    return true;
-}
-
 static hair_result read_joint_names(const struct hair_groom_chunk* chunk, hair_asset* asset)
 {
     if (!asset->scalp_joint_count)
@@ -112,7 +88,7 @@ static hair_result read_joint_names(const struct hair_groom_chunk* chunk, hair_a
     if (names != asset->scalp_joint_count || chunk->content[chunk->size - 1])
         return HAIR_FAIL_CHUNK(chunk, "has %u names that end in a byte 0, not %u", names,
                                asset->scalp_joint_count);
-    if (!is_utf8(chunk->content, chunk->size))
+    if (!hair_text_is_utf8(chunk->content, chunk->size))
         return HAIR_FAIL_CHUNK(chunk, "has a name that is not %s", "UTF-8");
     asset->joint_names = hair_alloc(chunk->source->host, chunk->size, 1);
     if (!asset->joint_names) return hair_fail_memory(chunk->source->host, "the names of joints");

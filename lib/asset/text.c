@@ -153,3 +153,28 @@ bool hair_token_number(const struct hair_token* token, double* out)
     *out = negative ? -value : value;
     return true;
 }
+
+// Return the length of the character of UTF-8 at the beginning of bytes, or 0.
+static size_t measure_utf8(const unsigned char* at, size_t size)
+{
+    static const uint32_t min[5] = {0, 0, 0x80, 0x800, 0x10000};
+    size_t length = at[0] < 0x80 ? 1 : at[0] >> 5 == 6 ? 2 : at[0] >> 4 == 14 ? 3 : at[0] >> 3 == 30 ? 4 : 0;
+    if (length <= 1) return length;
+    uint32_t character = at[0] & (0x7fu >> length);
+    if (length > size) return 0;
+    for (size_t i = 1; i < length; ++i) {
+        if (at[i] >> 6 != 2) return 0;
+        character = character << 6 | (at[i] & 63u);
+    }
+    bool is_surrogate = character >> 11 == 0xd800 >> 11;
+    return character >= min[length] && character <= 0x10ffff && !is_surrogate ? length : 0;
+}
+
+bool hair_text_is_utf8(const void* text, size_t size)
+{
+    for (size_t at = 0, length; at < size; at += length) {
+        length = measure_utf8((const unsigned char*)text + at, size - at);
+        if (!length) return false;
+    }
+    return true;
+}

@@ -34,5 +34,7 @@ bool hair_token_is(const struct hair_token* token, const char* word);
 // Read a decimal number. The texts that C libraries print for invalid numbers ("nan", "-inf",
 // "1.#IND") give NaN.
 bool hair_token_number(const struct hair_token* token, double* out);
+// Return whether a text is valid UTF-8.
+bool hair_text_is_utf8(const void* text, size_t size);
 
 #endif

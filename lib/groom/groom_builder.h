@@ -37,6 +37,7 @@ struct hair_groom_builder {
     float* map_lengths; // fraction of each strand's length by maps. NULL without such maps.
 
     uint32_t* chosen; // strand of each guide
+    bool has_given_guides; // The application or a file names the guides of HAIR_STRAND_SET_FULL.
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
     // First guide of each group, and the number of guides, only with HAIR_STRAND_SET_FULL.
     uint32_t group_first[HAIR_MAX_STRAND_GROUPS + 1];

@@ -267,11 +267,44 @@ static uint32_t count_guides(const struct hair_groom_builder* builder, uint32_t 
     return wanted < strands ? wanted : strands;
 }
 
+// Count the given guides of each group, and one for a group without any. Return false if the groom
+// chooses all guides.
+static bool count_given_guides(const struct hair_groom_builder* builder,
+                               const uint32_t strands[HAIR_MAX_STRAND_GROUPS],
+                               uint32_t given[HAIR_MAX_STRAND_GROUPS])
+{
+    const uint8_t* is_guide = builder->strands.guides;
+    bool is_any = false;
+    memset(given, 0, HAIR_MAX_STRAND_GROUPS * sizeof *given);
+    if (!is_guide || builder->desc->guide_count != HAIR_AUTO) return false;
+    for (uint32_t i = 0; i < builder->strands.strand_count; ++i) {
+        given[hair_group_of(builder, i)] += is_guide[i];
+        is_any |= is_guide[i];
+    }
+    for (uint32_t group = 0; group < HAIR_MAX_STRAND_GROUPS; ++group)
+        if (strands[group] && !given[group]) given[group] = 1;
+    return is_any;
+}
+
+// Make the given guides of a group its guides. bind.c finds those near each strand. Return false if
+// none is given.
+static bool use_given_guides(struct hair_groom_builder* builder, uint32_t group)
+{
+    uint32_t first = builder->group_first[group], found = 0;
+    for (uint32_t i = 0; i < builder->strands.strand_count; ++i) {
+        if (hair_group_of(builder, i) != group) continue;
+        if (builder->strands.guides[i]) builder->chosen[first + found++] = i;
+        builder->owner[i] = first;
+    }
+    return found > 0;
+}
+
 // Choose the guides of the group to which all strands of the cell belong.
 static hair_result choose_in_group(struct hair_groom_builder* builder, const struct cell* cell,
                                    uint32_t group, uint32_t guides)
 {
     uint32_t first = builder->group_first[group], strands = builder->strands.strand_count;
+    if (builder->has_given_guides && use_given_guides(builder, group)) return HAIR_OK;
     struct choice choice = {.builder = builder,
                             .group = group,
                             .features = builder->features,
@@ -285,10 +318,11 @@ static hair_result choose_in_group(struct hair_groom_builder* builder, const str
     return HAIR_OK;
 }
 
-// Divide the guides among the groups like among the cells of a group. `order` has the strands of
-// one group after the other, and `strands` their numbers.
+// Divide the guides among the groups like among the cells of a group, or as they are given. `order`
+// has the strands of one group after the other, and `strands` their numbers.
 static hair_result choose_by_group(struct hair_groom_builder* builder, uint32_t* order,
-                                   const uint32_t strands[HAIR_MAX_STRAND_GROUPS], uint32_t groups,
+                                   const uint32_t strands[HAIR_MAX_STRAND_GROUPS],
+                                   const uint32_t given[HAIR_MAX_STRAND_GROUPS], uint32_t groups,
                                    uint32_t guides)
 {
     const struct choice all = {.features = builder->features};
@@ -297,8 +331,8 @@ static hair_result choose_by_group(struct hair_groom_builder* builder, uint32_t*
         uint32_t count = strands[group], own = 0;
         if (count) {
             struct cell front = measure_cell(&all, order, count);
-            own = guides;
-            if (count < left) {
+            own = builder->has_given_guides ? given[group] : guides;
+            if (count < left && !builder->has_given_guides) {
                 struct cell back = measure_cell(&all, order + count, left - count);
                 own = count_front_guides(&front, &back, guides);
                 // Each of the other groups needs a guide.
@@ -314,7 +348,8 @@ static hair_result choose_by_group(struct hair_groom_builder* builder, uint32_t*
 }
 
 static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guides,
-                              const uint32_t strands[HAIR_MAX_STRAND_GROUPS], uint32_t groups)
+                              const uint32_t strands[HAIR_MAX_STRAND_GROUPS],
+                              const uint32_t given[HAIR_MAX_STRAND_GROUPS], uint32_t groups)
 {
     uint32_t count = builder->strands.strand_count;
     uint32_t* order = hair_alloc(builder->host, count, sizeof *order);
@@ -327,21 +362,27 @@ static hair_result choose_all(struct hair_groom_builder* builder, uint32_t guide
     for (uint32_t group = 1; group < HAIR_MAX_STRAND_GROUPS; ++group)
         next[group] = next[group - 1] + strands[group - 1];
     for (uint32_t i = 0; i < count; ++i) order[next[hair_group_of(builder, i)]++] = i;
-    hair_result result = choose_by_group(builder, order, strands, groups, guides);
+    hair_result result = choose_by_group(builder, order, strands, given, groups, guides);
     hair_free(builder->host, order);
     return result;
 }
 
 hair_result hair_build_guides(struct hair_groom_builder* builder)
 {
-    uint32_t strands[HAIR_MAX_STRAND_GROUPS];
-    uint32_t groups = count_groups(builder, strands), guides = count_guides(builder, groups);
-    HAIR_ASSERT(0 < guides && guides <= HAIR_MAX_GUIDES);
+    uint32_t strands[HAIR_MAX_STRAND_GROUPS], given[HAIR_MAX_STRAND_GROUPS], guides = 0;
+    uint32_t groups = count_groups(builder, strands);
+    builder->has_given_guides = count_given_guides(builder, strands, given);
+    for (uint32_t group = 0; group < HAIR_MAX_STRAND_GROUPS; ++group) guides += given[group];
+    if (!builder->has_given_guides) guides = count_guides(builder, groups);
+    if (guides > HAIR_MAX_GUIDES)
+        return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
+                         "hair_groom_desc.strand_guides: %u guides, not in [1, %u]", guides, HAIR_MAX_GUIDES);
+    HAIR_ASSERT(guides > 0);
     builder->groom->info.guide_count = guides;
     builder->chosen = hair_alloc(builder->host, guides, sizeof *builder->chosen);
     if (!builder->chosen) return hair_fail_memory(builder->host, "the choice of guides");
     if (builder->desc->strand_set == HAIR_STRAND_SET_FULL)
-        return choose_all(builder, guides, strands, groups);
+        return choose_all(builder, guides, strands, given, groups);
     for (uint32_t i = 0; i < guides; ++i) builder->chosen[i] = i;
     return HAIR_OK;
 }

@@ -58,6 +58,79 @@ static void guide_count_is_the_requested_or_one_in_ten(void** state)
     }
 }
 
+// Return whether the guides of a groom are the marked strands, in their order.
+static bool has_guides(const hair_groom* groom, const struct hair_test_strands* strands, const uint8_t* marks)
+{
+    const float* p = strands->positions;
+    uint32_t guide = 0;
+    for (uint32_t i = 0; i < strands->count; p += 3 * strands->vertices[i++]) {
+        if (!marks[i]) continue;
+        if (guide == groom->info.guide_count || hair_distance(vertex(groom, guide++, 0), hair_load3(p)) > 0)
+            return false;
+    }
+    return guide == groom->info.guide_count;
+}
+
+static void marked_strands_of_a_full_haircut_are_its_guides(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(500);
+    uint8_t marks[500] = {0};
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    for (int i = 3; i < 500; i += 13) marks[i] = 1;
+    desc.strand_guides = marks;
+    hair_groom* groom = hair_test_groom_of(&desc);
+    assert_int_equal(groom->info.guide_count, 39);
+    assert_int_equal(groom->info.follower_count, 500);
+    assert_true(has_guides(groom, &strands, marks));
+    hair_groom_destroy(groom);
+    desc.guide_count = 39; // A number of guides lets the groom choose them.
+    groom = hair_test_groom_of(&desc);
+    assert_int_equal(groom->info.guide_count, 39);
+    assert_false(has_guides(groom, &strands, marks));
+    hair_groom_destroy(groom);
+    memset(marks, 0, sizeof marks);
+    desc.guide_count = HAIR_AUTO;
+    groom = hair_test_groom_of(&desc);
+    assert_int_equal(groom->info.guide_count, 64);
+    hair_groom_destroy(groom);
+    marks[499] = 2;
+    hair_test_refuse_groom(&test, &desc, "hair_groom_desc.strand_guides[499] is 2, not in [0, 1]");
+    desc.strand_set = HAIR_STRAND_SET_GUIDES; // All strands are guides.
+    groom = hair_test_groom_of(&desc);
+    assert_int_equal(groom->info.guide_count, 500);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
+// Followers move with guides of their own group, and a group without marks has a guide.
+static void marked_guides_serve_their_own_groups(void** state)
+{
+    (void)state;
+    struct hair_test_strands strands = hair_test_fur(300);
+    uint8_t marks[300] = {0}, groups[300];
+    for (int i = 0; i < 300; ++i) {
+        groups[i] = i % 3 == 2 ? 5 : (uint8_t)(i % 3);
+        marks[i] = i % 3 != 1 && i % 10 == 0; // Strands of group 1 have no marks.
+    }
+    strands.groups = groups;
+    hair_groom_desc desc = hair_test_groom_desc(&test, &strands);
+    desc.strand_guides = marks;
+    hair_groom* groom = hair_test_groom_of(&desc);
+    uint32_t guides[6] = {0}, followers[6] = {0};
+    for (uint32_t i = 0; i < groom->info.guide_count; ++i) ++guides[groom->guides[i].group];
+    assert_int_equal(groom->info.guide_count, 21);
+    assert_int_equal(guides[0], 10);
+    assert_int_equal(guides[1], 1);
+    assert_int_equal(guides[5], 10);
+    for (uint32_t i = 0; i < 300; ++i) ++followers[groom->guides[groom->followers[i].guide0].group];
+    assert_int_equal(followers[0], 100);
+    assert_int_equal(followers[1], 100);
+    assert_int_equal(followers[5], 100);
+    hair_groom_destroy(groom);
+    hair_test_strands_free(&strands);
+}
+
 // Evaluate a strand. 990 strands hang, and 10 at the same place stand up.
 static hair_vec3 few_stand(float t, uint32_t strand, const void* user)
 {
@@ -178,6 +251,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(strands_given_as_guides_are_the_guides_in_their_order),
         TEST(guide_count_is_the_requested_or_one_in_ten),
+        TEST(marked_strands_of_a_full_haircut_are_its_guides),
+        TEST(marked_guides_serve_their_own_groups),
         TEST(a_few_strands_of_another_shape_get_guides_of_their_own),
         TEST(guides_lie_more_evenly_than_by_chance),
         TEST(guides_are_selected_where_strands_differ),

@@ -136,6 +136,8 @@ static const float arrays_positions[] = {0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 2, 1, 
 static const float arrays_scalp[] = {0, 0, 0, 2, 0, 0, 0, 2, 0};
 static const uint32_t arrays_vertices[] = {2, 3}, arrays_triangle[] = {0, 1, 2};
 static const uint16_t arrays_joints[12] = {0, 1, 2, 3, 0, 0, 0, 0, 3, 3, 3, 3};
+// Names of four joints, of which the last is not English.
+static const char arrays_names[] = "hip\0neck\0head\0h\xc3\xa4r";
 static const float arrays_weights[12] = {0.25f, 0.25f, 0.5f, 0, 1, 0, 0, 0, 0, 0, 1, 0};
 
 static hair_groom_desc arrays_desc(void)
@@ -168,7 +170,8 @@ static void arrays_are_written_and_make_a_groom_with_groups(void** state)
     (void)state;
     hair_groom_desc desc = arrays_desc();
     hair_asset* asset = NULL;
-    assert_int_equal(hair_asset_create(&desc, arrays_joints, arrays_weights, 4, &asset), HAIR_OK);
+    assert_int_equal(hair_asset_create(&desc, arrays_joints, arrays_weights, 4, arrays_names, &asset),
+                     HAIR_OK);
     hair_asset* again = read_groom(hair_test_write_file(asset, HAIR_FORMAT_GROOM));
     hair_asset_info info = hair_asset_info_default();
     assert_int_equal(hair_asset_describe(again, &info), HAIR_OK);
@@ -178,6 +181,7 @@ static void arrays_are_written_and_make_a_groom_with_groups(void** state)
     assert_memory_equal(info.scalp_joints, arrays_joints, sizeof arrays_joints);
     assert_memory_equal(info.scalp_weights, arrays_weights, sizeof arrays_weights);
     assert_int_equal(info.scalp_joint_count, 4);
+    assert_memory_equal(info.scalp_joint_names, arrays_names, sizeof arrays_names);
     hair_groom_desc next = hair_groom_desc_default();
     hair_groom* groom = NULL;
     hair_groom_info made = hair_groom_info_default();
@@ -193,6 +197,42 @@ static void arrays_are_written_and_make_a_groom_with_groups(void** state)
     hair_groom_destroy(groom);
     hair_asset_destroy(asset);
     hair_asset_destroy(again);
+}
+
+// The guides that arrays name go to a file and to a groom.
+static void guides_of_arrays_reach_a_groom(void** state)
+{
+    (void)state;
+    static const uint8_t guides[] = {0, 1};
+    hair_groom_desc desc = arrays_desc(), next = hair_groom_desc_default();
+    hair_asset* asset = NULL;
+    hair_groom* groom = NULL;
+    hair_groom_info made = hair_groom_info_default();
+    float root[3 * 3];
+    desc.strand_set = HAIR_STRAND_SET_FULL;
+    desc.strand_groups = NULL;
+    desc.strand_guides = guides;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_OK);
+    hair_asset* again = read_groom(hair_test_write_file(asset, HAIR_FORMAT_GROOM));
+    next.host = &test.host;
+    assert_int_equal(hair_asset_to_groom_desc(again, &next), HAIR_OK);
+    assert_memory_equal(next.strand_guides, guides, sizeof guides);
+    assert_int_equal(hair_groom_create(&next, &groom), HAIR_OK);
+    assert_int_equal(hair_groom_describe(groom, &made), HAIR_OK);
+    assert_int_equal(made.guide_count, 1);
+    assert_int_equal(hair_groom_get_guides(groom, NULL, 0, root, 3), HAIR_OK);
+    assert_float_equal(root[0], 0.1f, 3e-6); // The second strand has x = 1 at a scale of 0.1.
+    hair_groom_destroy(groom);
+    hair_asset_destroy(asset);
+    hair_asset_destroy(again);
+    // A desc of a caller that does not know the member stays as it is.
+    next = hair_groom_desc_default();
+    next.header.size = offsetof(hair_groom_desc, strand_guides);
+    asset = NULL;
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_OK);
+    assert_int_equal(hair_asset_to_groom_desc(asset, &next), HAIR_OK);
+    assert_null(next.strand_guides);
+    hair_asset_destroy(asset);
 }
 
 // Attributes of one kind, and maps of both sets, go from arrays to a file and to a groom.
@@ -215,7 +255,7 @@ static void attributes_and_maps_of_arrays_reach_a_groom(void** state)
     hair_asset* asset = NULL;
     hair_groom* groom[2] = {0};
     hair_groom_info made[2] = {hair_groom_info_default(), hair_groom_info_default()};
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_OK);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_OK);
     hair_asset* again = read_groom(hair_test_write_file(asset, HAIR_FORMAT_GROOM));
     next.host = &test.host;
     assert_int_equal(hair_asset_to_groom_desc(again, &next), HAIR_OK);
@@ -247,12 +287,12 @@ static void wrong_attributes_and_maps_make_no_asset(void** state)
     attribute.map = (hair_map){HAIR_MAP_SOURCE_VERTICES, wrong, 0, 0};
     desc.strand_attributes = &attribute;
     desc.strand_attribute_count = 1;
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_ERROR_ARGUMENT);
     assert_non_null(strstr(test.sentence, "strand_attributes[0].map.values[1] is nan, not in [0, 100]"));
     attribute.map = (hair_map){HAIR_MAP_SOURCE_NONE, NULL, 0, 0};
     set.thickness = (hair_map){HAIR_MAP_SOURCE_TRIANGLES, wrong + 2, 0, 0};
     desc.map_sets[0] = &set;
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_ERROR_ARGUMENT);
     assert_non_null(strstr(test.sentence, "map_sets[0].thickness.values[0] is 5, not in [0, 4]"));
     assert_null(asset);
 }
@@ -263,7 +303,7 @@ static void refuse_joints(const uint16_t* joints, const float* weights, uint32_t
     hair_groom_desc desc = arrays_desc();
     hair_asset* asset = NULL;
     uint32_t blocks = test.blocks;
-    assert_int_equal(hair_asset_create(&desc, joints, weights, count, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, joints, weights, count, NULL, &asset), HAIR_ERROR_ARGUMENT);
     if (!strstr(test.sentence, text)) fail_msg("\"%s\" lacks \"%s\"", test.sentence, text);
     assert_null(asset);
     assert_int_equal(test.blocks, blocks);
@@ -282,19 +322,25 @@ static void wrong_arrays_make_no_asset(void** state)
     refuse_joints(arrays_joints, thin, 4, "the sum of scalp_weights of vertex 0 is 0.5, not in [0.99, 1.01]");
     refuse_joints(arrays_joints, nan_weights, 4, "scalp_weights[0] is nan, not in [0, 1]");
     hair_groom_desc desc = arrays_desc();
+    assert_int_equal(hair_asset_create(&desc, arrays_joints, arrays_weights, 4, "a\0b\0\xff\0c", &asset),
+                     HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "scalp_joint_names: name 2 is not UTF-8"));
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, "a", &asset), HAIR_ERROR_ARGUMENT);
+    assert_non_null(strstr(test.sentence, "scalp_joints is NULL but scalp_joint_names is not"));
+    assert_null(asset);
     desc.scalp_uvs = far;
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_ERROR_ARGUMENT);
     assert_non_null(strstr(test.sentence, "scalp_uvs: vertex 0 has nan"));
     desc = arrays_desc();
     desc.positions = NULL;
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, &asset), HAIR_ERROR_ARGUMENT);
     desc = arrays_desc();
-    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL), HAIR_ERROR_ARGUMENT);
-    assert_int_equal(hair_asset_create(NULL, NULL, NULL, 0, &asset), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(&desc, NULL, NULL, 0, NULL, NULL), HAIR_ERROR_ARGUMENT);
+    assert_int_equal(hair_asset_create(NULL, NULL, NULL, 0, NULL, &asset), HAIR_ERROR_ARGUMENT);
     for (uint32_t refused = 1, result = HAIR_ERROR_MEMORY; result; ++refused) {
         test.allocations = 0;
         test.refuse = refused;
-        result = hair_asset_create(&desc, arrays_joints, arrays_weights, 4, &asset);
+        result = hair_asset_create(&desc, arrays_joints, arrays_weights, 4, arrays_names, &asset);
         test.refuse = 0;
         assert_true(result == HAIR_OK || (result == HAIR_ERROR_MEMORY && refused < 16));
         if (result) assert_int_equal(test.blocks, 0);
@@ -533,6 +579,7 @@ int main(void)
         TEST(names_of_attributes_are_those_of_settings),
         TEST(everything_is_read_as_it_was_written),
         TEST(arrays_are_written_and_make_a_groom_with_groups),
+        TEST(guides_of_arrays_reach_a_groom),
         TEST(attributes_and_maps_of_arrays_reach_a_groom),
         TEST(wrong_attributes_and_maps_make_no_asset),
         TEST(wrong_arrays_make_no_asset),

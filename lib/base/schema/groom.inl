@@ -87,4 +87,5 @@ POINTER(hair_groom_desc, tasks, "Threads on which the guides are prepared.")
 POINTER(hair_groom_desc, strand_groups, "Group of each strand, such as beard, brows or undercoat.")
 POINTER(hair_groom_desc, strand_attributes, "Attributes of strands, strand_attribute_count of them.")
 UINT(hair_groom_desc, strand_attribute_count, 0, 0, 32, 0, 32, LINEAR, "", "Number of attributes.")
+POINTER(hair_groom_desc, strand_guides, "1 for each strand that is a guide, otherwise 0.")
 END

@@ -81,7 +81,7 @@ def _joint_names(info):
 
 def _set_arrays(c, positions, strand_vertices, strand_groups=None, strand_radii=None, scalp_positions=None,
                 scalp_triangles=None, scalp_density=None, scalp_uvs=None, strand_attributes=None,
-                attribute_maps=None):  # fmt: skip
+                attribute_maps=None, strand_guides=None):  # fmt: skip
     """Let a hair_groom_desc point at arrays. Return what must be kept while the desc is used."""
     kept = []
 
@@ -97,6 +97,8 @@ def _set_arrays(c, positions, strand_vertices, strand_groups=None, strand_radii=
         c.strand_count = len(vertices)
     if strand_groups is not None:
         c.strand_groups = keep("uint8_t", small_integers(strand_groups, c.strand_count, "strand_groups"))
+    if strand_guides is not None:
+        c.strand_guides = keep("uint8_t", small_integers(strand_guides, c.strand_count, "strand_guides"))
     if strand_radii is not None:
         c.strand_radii = keep("float", _exactly(strand_radii, c.strand_count, 1, "strand_radii"))
     if scalp_positions is not None:
@@ -142,14 +144,15 @@ class Asset:
 
     @classmethod
     def create(cls, positions, strand_vertices, *, scalp_joints=None, scalp_weights=None, joint_count=0,
-               members=None, **arrays):  # fmt: skip
+               scalp_joint_names=None, members=None, **arrays):  # fmt: skip
         """Make a haircut of arrays, to write a file.
 
-        `arrays` are strand_groups, strand_radii, scalp_positions, scalp_triangles, scalp_density, scalp_uvs,
-        strand_attributes and attribute_maps, which Groom explains.
-        A vertex of the scalp has four joints, below joint_count, and four weights. `members` are those of GroomDesc.
+        `arrays` are strand_groups, strand_guides, strand_radii, scalp_positions, scalp_triangles, scalp_density,
+        scalp_uvs, strand_attributes and attribute_maps, which Groom explains. A vertex of the scalp has four joints,
+        below joint_count, and four weights. scalp_joint_names has the names of all joints. `members` are those of GroomDesc.
         """
         desc, out, joints, weights = CLASSES["GroomDesc"](), ffi.new("hair_asset**"), ffi.NULL, ffi.NULL
+        names = ffi.NULL
         c = desc._c
         kept = _set_arrays(c, positions, strand_vertices, **arrays)
         if scalp_joints is not None:
@@ -158,9 +161,13 @@ class Asset:
                 raise ValueError(f"scalp_joints must be {4 * c.scalp_vertex_count} integers from 0 to 65535")
             kept += [numbers.astype(np.uint16), _exactly(scalp_weights, c.scalp_vertex_count, 4, "scalp_weights")]
             joints, weights = pointer("uint16_t", kept[-2]), pointer("float", kept[-1])
+        if scalp_joint_names is not None:
+            if len(scalp_joint_names) != joint_count or any("\0" in name for name in scalp_joint_names):
+                raise ValueError(f"scalp_joint_names must be {joint_count} names without a character 0")
+            names = ffi.new("char[]", "".join(name + "\0" for name in scalp_joint_names).encode())
         desc.update(members or {})
         c.host = host
-        call(hair.hair_asset_create, c, joints, weights, joint_count, out)
+        call(hair.hair_asset_create, c, joints, weights, joint_count, names, out)
         del kept  # The library has copied the arrays.
         return cls(out[0])
 
@@ -219,15 +226,15 @@ class Groom:
     """An immutable haircut that hair is made from.
 
     The strands are those of an asset, or arrays: positions of all vertices, strand after strand, and the
-    number of vertices of each strand. strand_groups has the group of each strand. strand_attributes has
-    factors of all strands by the names of kinds, as {"stiffness": factors}. attribute_maps has maps of
+    number of vertices of each strand. strand_groups has the group of each strand, and strand_guides 1 for each
+    strand that is a guide, otherwise 0. strand_attributes has factors of all strands by the names of kinds, as {"stiffness": factors}. attribute_maps has maps of
     factors on the scalp in the same way: an image as rows, or a number for each vertex or triangle.
     `members` are those of GroomDesc.
     """
 
     def __init__(self, asset=None, *, positions=None, strand_vertices=None, scalp_positions=None,
                  scalp_triangles=None, strand_groups=None, scalp_uvs=None, strand_attributes=None,
-                 attribute_maps=None, members=None, **more):  # fmt: skip
+                 attribute_maps=None, strand_guides=None, members=None, **more):  # fmt: skip
         desc, out = CLASSES["GroomDesc"](), ffi.new("hair_groom**")
         c = desc._c
         if asset is not None:
@@ -237,7 +244,7 @@ class Groom:
             raise ValueError("a groom needs an asset, or positions and strand_vertices")
         # The library copies the arrays before `kept` ends.
         kept = _set_arrays(c, positions, strand_vertices, strand_groups, None, scalp_positions, scalp_triangles,
-                           None, scalp_uvs, strand_attributes, attribute_maps)  # fmt: skip
+                           None, scalp_uvs, strand_attributes, attribute_maps, strand_guides)  # fmt: skip
         desc.update(members or {}, **more)
         c.host = host
         call(hair.hair_groom_create, c, out)

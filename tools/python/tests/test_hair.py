@@ -82,8 +82,12 @@ class HaircutTest(unittest.TestCase):
             "scalp_density": [0, 0.5, 1], "scalp_uvs": [[0, 0], [1, 0], [0, 1]],
             "scalp_joints": np.arange(12) % 3, "scalp_weights": [[0.25] * 4] * 3,
         }  # fmt: skip
-        asset = libhair.Asset.create(**arrays, **more, joint_count=3, members={"strand_set": "guides"})
+        names = ["hip", "neck", "h\u00e4r"]
+        asset = libhair.Asset.create(
+            **arrays, **more, joint_count=3, scalp_joint_names=names, members={"strand_set": "guides"}
+        )
         again = libhair.Asset.read(asset.write("groom"))
+        self.assertEqual(again.arrays["scalp_joint_names"], names)
         self.assertEqual(again.info["scalp_joint_count"], 3)
         for name, values in more.items():
             np.testing.assert_allclose(again.arrays[name].ravel(), np.ravel(values), rtol=1e-6, err_msg=name)
@@ -121,6 +125,20 @@ class HaircutTest(unittest.TestCase):
                 libhair.Groom(**arrays, **wrong)
         with self.assertRaisesRegex(libhair.HairArgumentError, r"map.values\[0\] is 5, not in \[0, 4\]"):
             libhair.Groom(**arrays, attribute_maps={"frizz": [[5]]})
+
+    def test_given_guides_are_the_guides(self):
+        positions = np.zeros((20, 8, 3))
+        positions[:, :, 0] = np.arange(20)[:, None] * 0.01
+        positions[:, :, 1] = -0.02 * np.arange(8)
+        arrays = {"positions": positions, "strand_vertices": [8] * 20, "strand_guides": (np.arange(20) % 5 == 0).astype(int)}
+        again = libhair.Asset.read(libhair.Asset.create(**arrays).write("groom"))
+        for groom in (libhair.Groom(**arrays), libhair.Groom(again)):
+            self.assertEqual(groom.info["guide_count"], 4)
+        self.assertEqual(libhair.Groom(again, guide_count=7).info["guide_count"], 7)
+        with self.assertRaises(ValueError):
+            libhair.Groom(**{**arrays, "strand_guides": [1]})
+        with self.assertRaises(ValueError):
+            libhair.Asset.create(**arrays, joint_count=2, scalp_joint_names=["hip"])
 
     def test_names_of_joints_and_guides_of_a_file_are_read(self):
         asset = libhair.Asset.read(ROOT / "tests/fuzz/corpus/groomfile/named")
