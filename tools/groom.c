@@ -62,6 +62,57 @@ static int write_bytes(const char* path, const void* bytes, size_t size)
     return hair_output_commit(&output) ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
 }
 
+// Say that a file is written without something that the haircut has.
+static void report_lost(const char* path, hair_format format, const char* what)
+{
+    const char* end = format == HAIR_FORMAT_TFX4 ? ".tfx" : ".hair";
+    hair_complain(TOOL, "%s is written without the %s, which %s files do not hold", path, what, end);
+}
+
+static void report_lost_attributes(const char* path, hair_format format, const hair_asset_info* info)
+{
+    char what[64];
+    for (uint32_t i = 0; i < info->strand_attribute_count; ++i) {
+        const hair_strand_attribute* attribute = &info->strand_attributes[i];
+        const char* name = hair_strand_attribute_name(attribute->kind);
+        snprintf(what, sizeof what, "attribute %s of strands", name);
+        if (attribute->strand_values) report_lost(path, format, what);
+        snprintf(what, sizeof what, "map of the attribute %s", name);
+        if (attribute->map.source) report_lost(path, format, what);
+    }
+    for (uint32_t i = 0; i < 4 && info->map_sets[i]; ++i) {
+        snprintf(what, sizeof what, "map set %u", i);
+        report_lost(path, format, what);
+    }
+}
+
+// Say what a file that is not .groom does not hold, a sentence for each.
+static void report_losses(const char* path, hair_format format, const hair_asset* asset)
+{
+    hair_asset_info info = hair_asset_info_default();
+    if (format == HAIR_FORMAT_GROOM || hair_asset_describe(asset, &info)) return;
+    bool is_tfx = format == HAIR_FORMAT_TFX4;
+    const struct {
+        bool is_lost;
+        const char* what;
+    } losses[] = {
+        {info.strand_groups, "groups of strands"},
+        {info.strand_guides, "choice of guides"},
+        {is_tfx && info.strand_radii, "radii of strands"},
+        {info.scalp_positions, "scalp"},
+        {info.scalp_density, "density on the scalp"},
+        {info.scalp_uvs, "texture coordinates of the scalp"},
+        {info.scalp_joints, "joints of the scalp"},
+    };
+    for (size_t i = 0; i < sizeof losses / sizeof *losses; ++i)
+        if (losses[i].is_lost) report_lost(path, format, losses[i].what);
+    report_lost_attributes(path, format, &info);
+    if (is_tfx && info.strand_set == HAIR_STRAND_SET_FULL)
+        hair_complain(TOOL, "all strands of %s become guides, because .tfx files hold guides", path);
+    if (!is_tfx && info.strand_set == HAIR_STRAND_SET_GUIDES)
+        hair_complain(TOOL, "guides become all strands of %s, because .hair files hold full hair", path);
+}
+
 static int write_asset(const hair_asset* asset, const struct hair_groom_options* options)
 {
     const char* path = options->operand[1];
@@ -81,6 +132,7 @@ static int write_asset(const hair_asset* asset, const struct hair_groom_options*
     result = hair_asset_write(asset, format, bytes, size, &size);
     int code = result ? exit_code(result) : write_bytes(path, bytes, size);
     free(bytes);
+    if (!code) report_losses(path, format, asset);
     return code;
 }
 

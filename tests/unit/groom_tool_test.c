@@ -1,6 +1,7 @@
 // groom_tool_test.c - the command line of hair-groom: files, pipes, exit codes, and no partially
 // written files.
 #include "tests/support/files.h"
+#include "tests/support/groomfile.h"
 #include "tests/support/shell.h"
 
 #include <setjmp.h>
@@ -143,6 +144,51 @@ static void every_format_converts_to_every_writable_format(void** state)
     expect(1, "test -e $D/none.tfx", "");
 }
 
+// Return the number of sentences of the last command.
+static int count_sentences(void)
+{
+    int count = 0;
+    for (const char* at = said; (at = strstr(at, "hair-groom: ")); ++at) ++count;
+    return count;
+}
+
+static void every_loss_of_a_conversion_has_a_sentence(void** state)
+{
+    (void)state;
+    static const char* const lost[] = {"the groups of strands",
+                                       "the choice of guides",
+                                       "the scalp",
+                                       "the density on the scalp",
+                                       "the texture coordinates of the scalp",
+                                       "the joints of the scalp",
+                                       "the attribute stiffness of strands",
+                                       "the attribute length of strands",
+                                       "the map of the attribute length",
+                                       "the map of the attribute frizz",
+                                       "the map set 0",
+                                       "the map set 1"};
+    // The attribute frizz has two maps, and the strands are guides.
+    const int sentences = sizeof lost / sizeof *lost + 2;
+    save("all.groom", hair_test_groomfile());
+    expect(0, "$T convert $D/all.groom $D/l.hair", "");
+    for (size_t i = 0; i < sizeof lost / sizeof *lost; ++i) {
+        char sentence[128];
+        snprintf(sentence, sizeof sentence, "/l.hair is written without %s, which .hair files do not hold",
+                 lost[i]);
+        if (!strstr(said, sentence)) fail_msg("\"%s\" is not in: %s", sentence, said);
+    }
+    assert_int_equal(count_sentences(), sentences);
+    expect(0, "$T convert $D/all.groom $D/l.tfx --vertices 8", "the radii of strands, which .tfx files");
+    assert_int_equal(count_sentences(), sentences);
+    expect(0, "$T convert $D/a.hair $D/l.tfx --vertices 8", "l.tfx become guides, because .tfx files hold");
+    expect(0, "$T convert $D/all.groom $D/l.groom", "");
+    assert_int_equal(count_sentences(), 0);
+    expect(0, "$T convert $D/a4.tfx $D/l.hair", "guides become all strands of");
+    assert_int_equal(count_sentences(), 1);
+    expect(1, "$T convert $D/all.groom /dev/full --format hair", "cannot write");
+    assert_int_equal(count_sentences(), 1);
+}
+
 static void built_in_haircuts_are_written(void** state)
 {
     (void)state;
@@ -273,6 +319,7 @@ int main(void)
         cmocka_unit_test(inputs_that_claim_too_much_are_refused_by_their_beginning),
         cmocka_unit_test(text_that_is_printed_is_escaped),
         cmocka_unit_test(every_format_converts_to_every_writable_format),
+        cmocka_unit_test(every_loss_of_a_conversion_has_a_sentence),
         cmocka_unit_test(built_in_haircuts_are_written),
         cmocka_unit_test(wrong_use_exits_with_2),
         cmocka_unit_test(options_of_another_command_are_wrong_use),
