@@ -20,17 +20,26 @@ int hair_exit_for(hair_result result)
     }
 }
 
-// Create a groom with the maps and the attributes of a scene.
+// Create a groom with the maps and the attributes of a scene. A groom with images keeps its texture
+// coordinates, and has the maps of the scene at the vertices of the scalp.
 static int build_mapped(const struct hair_scene* scene, hair_groom_desc* desc, hair_groom** out)
 {
     hair_map_set sets[HAIR_SCENE_SETS];
     hair_strand_attribute all[HAIR_SCENE_ALL_ATTRIBUTES];
+    const float* own_uvs = hair_scene_has_images(desc) ? desc->scalp_uvs : NULL;
+    uint32_t own_count = desc->strand_attribute_count;
     size_t uv_count = 2 * (size_t)desc->scalp_vertex_count,
-           value_count = (size_t)scene->attributes.count * HAIR_SCENE_MAP * HAIR_SCENE_MAP;
-    float* uvs = malloc((uv_count + value_count) * sizeof *uvs);
+           value_count = (size_t)scene->attributes.count * HAIR_SCENE_MAP * HAIR_SCENE_MAP,
+           baked_count = own_uvs ? hair_scene_count_baked(&scene->maps, &scene->attributes, desc) : 0;
+    float* uvs = malloc((uv_count + value_count + baked_count) * sizeof *uvs);
     if (!uvs) return HAIR_EXIT_RUNTIME;
     hair_scene_put_maps(&scene->maps, sets, uvs, desc);
     hair_scene_put_attributes(&scene->attributes, all, uvs + uv_count, desc);
+    if (own_uvs) {
+        hair_scene_bake_images(sets, scene->maps.count, all + own_count, scene->attributes.count, uvs,
+                               uvs + uv_count + value_count, desc);
+        desc->scalp_uvs = own_uvs;
+    }
     hair_result result = hair_groom_create(desc, out);
     free(uvs);
     return hair_exit_for(result);
@@ -49,10 +58,6 @@ static int build(const char* tool, const hair_host* host, const struct hair_scen
     desc.host = host;
     int code = hair_exit_for(hair_asset_to_groom_desc(asset, &desc));
     bool is_mapped = scene->maps.count || scene->attributes.count;
-    if (!code && is_mapped && desc.scalp_positions && hair_scene_has_images(&desc)) {
-        hair_complain(tool, "maps and attributes of a scene cannot be added to the images of a groom");
-        code = HAIR_EXIT_INPUT;
-    }
     if (!code) report_unused(tool, scene, &desc);
     if (!code)
         code = is_mapped && desc.scalp_positions ? build_mapped(scene, &desc, out)

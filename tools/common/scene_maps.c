@@ -2,6 +2,7 @@
 // from above.
 #include "tools/common/scene_maps.h"
 
+#include <math.h>
 #include <string.h>
 
 static bool read_rows(const struct hair_json* json, const char* key, const json_t* value, float one,
@@ -150,4 +151,53 @@ void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[H
         sets[i].thickness = map_of(&maps->set[i].thickness);
         desc->map_sets[i] = &sets[i];
     }
+}
+
+// Images of grooms --------------------------------------------------------------------------------
+
+// Return the number of the value before a coordinate along a side, and set the weight of the next.
+static uint32_t find_place(float uv, uint32_t size, float* fraction)
+{
+    float place = fminf(fmaxf(uv * (float)size - 0.5f, 0), (float)(size - 1));
+    *fraction = place - (float)(uint32_t)place;
+    return (uint32_t)place;
+}
+
+// Sample an image as grooms do.
+static float sample(const hair_map* map, const float uv[2])
+{
+    float right, down, row[2];
+    uint32_t x = find_place(uv[0], map->width, &right), y = find_place(uv[1], map->height, &down);
+    uint32_t next = x + 1 < map->width ? x + 1 : x;
+    for (uint32_t i = 0; i < 2; ++i) {
+        const float* values = map->values + (size_t)(y + i < map->height ? y + i : y) * map->width;
+        row[i] = (1 - right) * values[x] + right * values[next];
+    }
+    return (1 - down) * row[0] + down * row[1];
+}
+
+// Replace an image. Return the values that follow.
+static float* bake(hair_map* map, const float* uvs, float* values, uint32_t vertices)
+{
+    if (map->source != HAIR_MAP_SOURCE_IMAGE) return values;
+    for (uint32_t i = 0; i < vertices; ++i) values[i] = sample(map, uvs + 2 * (size_t)i);
+    *map = (hair_map){HAIR_MAP_SOURCE_VERTICES, values, 0, 0};
+    return values + vertices;
+}
+
+size_t hair_scene_count_baked(const struct hair_scene_maps* maps,
+                              const struct hair_scene_attributes* attributes, const hair_groom_desc* desc)
+{
+    return (2 * (size_t)maps->count + attributes->count) * desc->scalp_vertex_count;
+}
+
+void hair_scene_bake_images(hair_map_set* sets, uint32_t set_count, hair_strand_attribute* attributes,
+                            uint32_t count, const float* uvs, float* values, const hair_groom_desc* desc)
+{
+    for (uint32_t i = 0; i < set_count; ++i) {
+        values = bake(&sets[i].density, uvs, values, desc->scalp_vertex_count);
+        values = bake(&sets[i].thickness, uvs, values, desc->scalp_vertex_count);
+    }
+    for (uint32_t i = 0; i < count; ++i)
+        values = bake(&attributes[i].map, uvs, values, desc->scalp_vertex_count);
 }

@@ -59,4 +59,14 @@ void hair_scene_put_attributes(const struct hair_scene_attributes* attributes,
 void hair_scene_put_maps(const struct hair_scene_maps* maps, hair_map_set sets[HAIR_SCENE_SETS], float* uvs,
                          hair_groom_desc* desc);
 
+// Return the number of values of hair_scene_bake_images().
+size_t hair_scene_count_baked(const struct hair_scene_maps* maps,
+                              const struct hair_scene_attributes* attributes, const hair_groom_desc* desc);
+
+// Replace the images of the sets, of which there are `set_count`, and of `count` attributes by
+// their values at the vertices of the scalp. Images of a groom can then have texture coordinates of
+// its own. `values` must live as long as the desc.
+void hair_scene_bake_images(hair_map_set* sets, uint32_t set_count, hair_strand_attribute* attributes,
+                            uint32_t count, const float* uvs, float* values, const hair_groom_desc* desc);
+
 #endif
