@@ -136,6 +136,9 @@ static void interleaved_instances_give_the_bits_of_each_alone(void** state)
 
 // Check a transform that was set without a step. It must not rotate the hair where the last step
 // left it.
+// Guides stay to the rounding of numbers. A follower that is pushed out of a body may stop anywhere
+// within the depth that it may keep, NEAR_ENOUGH of repair_push.glsl: a change in the last bit can
+// decide whether there is one more round.
 static void teleport_by_nothing_after_set_transform_keeps_hair(void** state)
 {
     static struct hair_test_seen once, twice;
@@ -151,8 +154,10 @@ static void teleport_by_nothing_after_set_transform_keeps_hair(void** state)
     hair_test_ok(test, hair_teleport(hair, there)); // Moves by nothing.
     hair_test_look(test, hair, &twice);
     assert_int_equal(once.count, twice.count);
+    size_t first = once.count - once.followers;
     for (size_t i = 0; i < once.count; ++i)
-        hair_test_near("number", i, (double)twice.number[i], (double)once.number[i], 1e-6);
+        hair_test_near(i < first ? "number" : "number of followers", i, (double)twice.number[i],
+                       (double)once.number[i], i < first ? 1e-6 : 2e-5);
     hair_destroy(hair);
 }
 

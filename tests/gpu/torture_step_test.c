@@ -255,7 +255,7 @@ static hair_result precompile(struct hair_test_torture* t)
     t->view.render_path = HAIR_RENDER_PATH_COMPUTE;
     bool is_ready = false;
     const struct timespec pause = {.tv_nsec = 10000000}; // for the threads of the driver
-    for (int i = 0; i < 1000 && !result && !is_ready; ++i) {
+    for (int i = 0; i < 6000 && !result && !is_ready; ++i) {
         result = hair_precompile(t->hair, &t->view, &is_ready);
         if (!is_ready && !result && !t->hair->sim.gl->software) nanosleep(&pause, NULL);
     }

@@ -137,7 +137,8 @@ void hair_test_look(struct hair_test* test, hair_instance* hair, struct hair_tes
         hair_test_ok(
             test, hair_read_positions(hair, (hair_read_source)what, out->number + out->count, max, &count));
         assert_in_range(count, 1, max);
-        out->count += 3 * (size_t)count;
+        out->followers = 3 * (size_t)count;
+        out->count += out->followers;
     }
 }
 

@@ -42,7 +42,7 @@ void hair_test_run(struct hair_test* test, hair_instance* hair, const struct hai
 // smoothed guides and followers.
 struct hair_test_seen {
     float number[HAIR_TEST_SEEN];
-    size_t count;
+    size_t count, followers; // The last `followers` numbers are of followers.
 };
 
 void hair_test_look(struct hair_test* test, hair_instance* hair, struct hair_test_seen* out);
