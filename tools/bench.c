@@ -85,7 +85,7 @@ bool bench_begin(struct bench* bench, const char* name, const char* method)
 
 void bench_refuse(struct bench* bench, const char* name, const char* method)
 {
-    if (!strcmp(bench->sentence, bench->refused)) return;
+    if (bench_was_interrupted() || !strcmp(bench->sentence, bench->refused)) return;
     memcpy(bench->refused, bench->sentence, sizeof bench->refused);
     hair_complain(BENCH_TOOL, "%s, %s: no row: %s", name, method, bench->sentence);
 }

@@ -91,6 +91,7 @@ static void interrupted_run_exits_with_1_and_leaves_no_file(void** state)
     (void)state;
     expect(1, "timeout --preserve-status -s INT 2 $T accuracy --strands 2000 --json $D/i.json",
            "interrupted");
+    expect(0, "timeout -s INT 3 $T stability --case fuzz 2>&1 | grep -c 'no row'; true", "0");
     expect(0, "ls $D | wc -l", "0");
 }
 

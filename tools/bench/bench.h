@@ -66,7 +66,8 @@ BENCH_SUITES(BENCH_DECLARE)
 // row is not requested, during planning, and after an interrupt.
 bool bench_begin(struct bench* bench, const char* name, const char* method);
 
-// Print why a row's measurement failed, once per sentence. The row is not made.
+// Print why a row's measurement failed, once per sentence and never after an interrupt. The row is
+// not made.
 void bench_refuse(struct bench* bench, const char* name, const char* method);
 
 bool bench_was_interrupted(void);
