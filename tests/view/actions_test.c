@@ -231,6 +231,43 @@ static void grabbed_hair_follows_the_cursor(void** state)
     json_decref(last);
 }
 
+// Return a number of a report of the window.
+static double number_of(const char* report, const char* name)
+{
+    json_t* json = hair_test_shell_json(report);
+    double number = hair_test_json_number(json, name);
+    assert_true(json_is_true(json_object_get(json, "is_finite")));
+    json_decref(json);
+    return number;
+}
+
+static void a_blade_cuts_the_hair_behind_its_line(void** state)
+{
+    (void)state;
+    char script[1024];
+    const char* folder = hair_test_folder();
+    snprintf(script, sizeof script,
+             "key Space\nwait 10\npress Left Ctrl\nmove 400 20\ndown right\nmove 1100 20\nup right\n"
+             "report %s/0.json\nmove 400 470\ndown right\nglide 1100 470 5\nup right\nrelease Left Ctrl\n"
+             "report %s/1.json\nwait 60\nreport %s/2.json\nwait 130\nreport %s/3.json\n"
+             "press Left Ctrl\nmove 400 400\ndown right\nmove 1100 400\nup right\nrelease Left Ctrl\n"
+             "report %s/4.json\nkey R\nreport %s/5.json\n",
+             folder, folder, folder, folder, folder, folder);
+    write_file("s", script);
+    expect(0,
+           "$T $D/small.json --set guides=150 --set followers=2000 --size 1600x900 --scale 1 --script $D/s "
+           "--frames 240",
+           "");
+    assert_true(number_of("0.json", "cut_strands") == 0); // The line is above the head.
+    assert_true(number_of("1.json", "cut_strands") > 50);
+    assert_true(number_of("1.json", "cut_strands") < 2000);
+    assert_true(number_of("2.json", "pieces") == 1);
+    assert_true(number_of("3.json", "pieces") == 0);
+    assert_true(number_of("4.json", "cut_strands") > number_of("3.json", "cut_strands"));
+    assert_true(number_of("4.json", "pieces") == 1);
+    assert_true(number_of("5.json", "cut_strands") == 0 && number_of("5.json", "pieces") == 0);
+}
+
 // A haircut is a change of the scene, which undo takes back.
 static void files_open_by_their_name(void** state)
 {
@@ -322,6 +359,7 @@ int main(void)
         cmocka_unit_test(actions_change_the_scene_by_key_and_label),
         cmocka_unit_test(mouse_controls_change_the_scene),
         cmocka_unit_test(grabbed_hair_follows_the_cursor),
+        cmocka_unit_test(a_blade_cuts_the_hair_behind_its_line),
         cmocka_unit_test(handles_move_and_turn_colliders),
         cmocka_unit_test(levels_of_detail_follow_the_camera),
         cmocka_unit_test(switches_change_the_window_by_key_and_label),

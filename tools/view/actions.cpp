@@ -172,7 +172,7 @@ const view_action actions[] = {
      toggle<&viewer::is_slow>, is<&viewer::is_slow>},
     {"Time", "Single step", SDLK_PERIOD, 0, "Pause, and advance by one frame of 1/60 s.", single_step,
      nullptr},
-    {"Time", "Reset", SDLK_r, 0, "Begin again, with the hair at rest.", reset, nullptr},
+    {"Time", "Reset", SDLK_r, 0, "Begin again, with the hair at rest and whole.", reset, nullptr},
     {"Show", "Hair", SDLK_1, 0, "Draw the strands.", toggle_show<HAIR_SHOW_HAIR>, shows<HAIR_SHOW_HAIR>},
     {"Show", "Head", SDLK_2, 0, "Draw the head.", toggle_show<HAIR_SHOW_HEAD>, shows<HAIR_SHOW_HEAD>},
     {"Show", "Guides", SDLK_3, 0, "Draw the simulated guides, coloured by their stretch.",

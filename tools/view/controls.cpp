@@ -1,6 +1,7 @@
 // controls.cpp - Mouse and keys outside of the panels.
 #include "tools/view/controls.h"
 #include "tools/view/actions.h"
+#include "tools/view/blade.h"
 #include "tools/view/camera.h"
 #include "tools/view/compare.h"
 #include "tools/view/gizmo.h"
@@ -29,6 +30,7 @@ const view_mouse_help mouse_controls[] = {
     {"Right drag", "turn the head"},
     {"Middle drag", "move the head"},
     {"Ctrl + left drag", "pull the hair under the cursor, or move a collider that is shown"},
+    {"Ctrl + right drag", "cut the hair behind a line"},
     {"Left drag of an arrow or ring", "move or turn a collider that is shown"},
     {"Drop a file",
      "open a scene (.json) or a haircut (.groom, .hair, .tfx), or add a mesh (.obj) to collide with"},
@@ -37,9 +39,10 @@ const view_mouse_help mouse_controls[] = {
 
 view_drag drag_of(uint8_t button, int modifiers)
 {
-    bool is_alt = modifiers & KMOD_ALT, is_shift = modifiers & KMOD_SHIFT;
+    bool is_alt = modifiers & KMOD_ALT, is_shift = modifiers & KMOD_SHIFT, is_ctrl = modifiers & KMOD_CTRL;
     if (button == SDL_BUTTON_LEFT)
         return is_shift ? VIEW_DRAG_LIGHT : is_alt ? VIEW_DRAG_PAN : VIEW_DRAG_ORBIT;
+    if (button == SDL_BUTTON_RIGHT && is_ctrl) return VIEW_DRAG_BLADE;
     if (button == SDL_BUTTON_RIGHT) return is_shift ? VIEW_DRAG_WIND : VIEW_DRAG_TURN;
     if (button == SDL_BUTTON_MIDDLE) return VIEW_DRAG_MOVE;
     return VIEW_DRAG_NONE;
@@ -81,8 +84,8 @@ void press(viewer& viewer, const SDL_MouseButtonEvent& event)
                   : grabs                       ? view_grab(viewer, (float)event.x, (float)event.y)
                                                 : drag_of(event.button, SDL_GetModState());
     viewer.drag_button = event.button;
-    viewer.mouse[0] = (float)event.x;
-    viewer.mouse[1] = (float)event.y;
+    viewer.mouse[0] = viewer.blade[0] = (float)event.x;
+    viewer.mouse[1] = viewer.blade[1] = (float)event.y;
     if (viewer.drag == VIEW_DRAG_WIND && !view_has_wind(viewer)) view_set_wind_speed(viewer, usual_wind);
 }
 
@@ -105,6 +108,7 @@ void move(viewer& viewer, const SDL_MouseMotionEvent& event)
     case VIEW_DRAG_COLLIDER: view_grab_move(viewer, x, y); break;
     case VIEW_DRAG_WIPE: view_move_wipe(viewer, (float)event.x); break;
     case VIEW_DRAG_HANDLE:
+    case VIEW_DRAG_BLADE:
     case VIEW_DRAG_NONE: break;
     }
 }
@@ -127,6 +131,8 @@ void view_controls_event(viewer& viewer, const SDL_Event& event)
         break;
     case SDL_MOUSEBUTTONUP:
         if (event.button.button == viewer.drag_button) {
+            if (viewer.drag == VIEW_DRAG_BLADE)
+                view_blade_cut(viewer, (float)event.button.x, (float)event.button.y);
             viewer.drag = VIEW_DRAG_NONE;
             view_grab_end(viewer);
         }

@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr float longest_step = 1.0f / 30; // s, so that a slow frame slows the motion
+constexpr float longest_fall = 3; // of what is cut off, s
 
 template <class T> bool differs(const T& a, const T& b)
 {
@@ -72,6 +73,24 @@ hair_result set_colliders(view_session& session, const hair_scene& scene)
     return hair_set_colliders(session.twin, session.colliders.data(), count, sizeof(hair_collider));
 }
 
+// Destroy what has been cut off for the longest time.
+void drop_oldest_piece(view_session& session)
+{
+    hair_cut_pieces& pieces = session.pieces;
+    hair_destroy(pieces.at[0]);
+    --pieces.count;
+    std::copy(pieces.at + 1, pieces.at + pieces.count + 1, pieces.at);
+    std::copy(session.fall_times + 1, session.fall_times + pieces.count + 1, session.fall_times);
+}
+
+hair_result step_pieces(view_session& session, float dt)
+{
+    hair_cut_pieces& pieces = session.pieces;
+    for (uint32_t i = 0; i < pieces.count; ++i) session.fall_times[i] += dt;
+    while (pieces.count && session.fall_times[0] > longest_fall) drop_oldest_piece(session);
+    return hair_cuts_step(&pieces, session.colliders.data(), (uint32_t)session.colliders.size(), dt);
+}
+
 hair_result create_hair(view_session& session, const hair_scene& scene, hair_groom* groom,
                         hair_instance** out)
 {
@@ -113,6 +132,7 @@ int replace_hair(view_session& session, hair_scene& scene, hair_groom* groom)
     session.info = hair_groom_info_default();
     hair_groom_describe(groom, &session.info);
     session.pins.clear();
+    session.cut_strands = 0;
     ++session.generation;
     return HAIR_EXIT_OK;
 }
@@ -192,6 +212,7 @@ int view_session_open(const hair_host& host, void* (*get_proc)(const char*, void
 
 void view_session_close(view_session& session)
 {
+    hair_cuts_destroy(&session.pieces);
     hair_destroy(session.hair);
     hair_destroy(session.twin);
     hair_world_destroy(session.world);
@@ -238,7 +259,23 @@ int view_session_step(view_session& session, const hair_scene& scene, float dt, 
             hair_set_pins(session.hair, session.pins.data(), (uint32_t)session.pins.size(), sizeof(hair_pin));
     if (!result) result = hair_step(session.hair, step);
     if (!result && session.twin) result = step_twin(session, step);
+    if (!result) result = step_pieces(session, step);
     return hair_exit_for(result);
+}
+
+int view_session_cut(view_session& session, const hair_cut_desc& cut, uint32_t& strands)
+{
+    hair_instance* fallen = nullptr;
+    hair_cut_info info = hair_cut_info_default();
+    hair_result result = hair_cut(session.hair, &cut, &info, &fallen);
+    if (result) return hair_exit_for(result);
+    strands = info.strands;
+    session.cut_strands += strands;
+    if (!fallen) return HAIR_EXIT_OK;
+    if (session.pieces.count == HAIR_SCENE_CUTS) drop_oldest_piece(session);
+    session.fall_times[session.pieces.count] = 0;
+    session.pieces.at[session.pieces.count++] = fallen;
+    return HAIR_EXIT_OK;
 }
 
 int view_session_reset(view_session& session, const hair_scene& scene)
@@ -248,6 +285,10 @@ int view_session_reset(view_session& session, const hair_scene& scene)
     session.pins.clear();
     hair_motion_at(&scene.motion, 0, session.transform);
     hair_result result = hair_teleport(session.hair, session.transform);
+    hair_cuts_destroy(&session.pieces);
+    if (!result && session.cut_strands)
+        result = hair_set_lengths(session.hair, 0, session.info.guide_count, nullptr);
+    if (!result) session.cut_strands = 0;
     if (!result) result = hair_reset(session.hair);
     if (!result && session.twin) result = hair_teleport(session.twin, session.transform);
     if (!result && session.twin) result = hair_reset(session.twin);

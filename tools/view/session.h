@@ -36,6 +36,9 @@ struct view_session {
     std::vector<hair_collider> colliders;
     hair_collision_mesh* head[HEAD_MESHES] = {}; // of the built-in head, made when one is shown
     std::vector<hair_pin> pins; // strands that the mouse holds
+    hair_cut_pieces pieces = {}; // strands that were cut off, oldest first
+    float fall_times[HAIR_SCENE_CUTS] = {}; // since the cut of each of them, s
+    uint32_t cut_strands = 0; // strands that were cut since all were whole
     float reach = 1; // radius of the head's reach, m
     float transform[16] = {}; // of the head
     double time = 0; // of the motion, s
@@ -54,7 +57,9 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
 
 // Advance the hair by a time, in s. With `plays`, the head follows its motion.
 int view_session_step(view_session& session, const hair_scene& scene, float dt, bool plays);
-// Begin again, with the hair at rest.
+// Cut the hair. `strands` receives the number of strands. What falls off lives for a few seconds.
+int view_session_cut(view_session& session, const hair_cut_desc& cut, uint32_t& strands);
+// Begin again, with the hair at rest and whole.
 int view_session_reset(view_session& session, const hair_scene& scene);
 
 // Draw a picture of `width` by `height` pixels or fewer by one of the renderers. Return an exit

@@ -108,6 +108,8 @@ int view_state_report(const viewer& viewer, const std::string& path)
         viewer.is_slow, "shows_help", viewer.shows_help, "shows_panels", viewer.shows_panels, "shows_strip",
         viewer.shows_strip, "is_finite", is_finite, "undo", (int)viewer.document.undo.size());
     if (!viewer.session.pins.empty()) json_object_set_new(root, "held", held_of(viewer, guides));
+    json_object_set_new(root, "cut_strands", json_integer(viewer.session.cut_strands));
+    json_object_set_new(root, "pieces", json_integer(viewer.session.pieces.count));
     if (viewer.image_error.flip >= 0) {
         json_object_set_new(root, "flip", json_real(viewer.image_error.flip));
         json_object_set_new(root, "samples", json_integer(viewer.image_error.samples));

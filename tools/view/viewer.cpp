@@ -1,6 +1,7 @@
 // viewer.cpp - The state of hair-view, and one frame of its loop.
 #include "tools/view/viewer.h"
 #include "tools/view/arrows.h"
+#include "tools/view/blade.h"
 #include "tools/view/compare.h"
 #include "tools/view/controls.h"
 #include "tools/view/debug_draw.h"
@@ -140,8 +141,8 @@ int step(viewer& viewer, float dt)
     if (code || dt <= 0) return code;
     viewer.draws = 0;
     code = view_session_step(session, scene, dt, viewer.plays);
-    bool is_moving =
-        (viewer.plays && session.time < end) || !session.pins.empty() || !view_session_sleeps(session);
+    bool is_moving = (viewer.plays && session.time < end) || !session.pins.empty() ||
+                     session.pieces.count > 0 || !view_session_sleeps(session);
     if (is_moving) viewer_moved(viewer);
     if (!code && is_measured)
         code = view_motion_error_update(viewer.motion_error, session, scene, (double)dt,
@@ -193,6 +194,7 @@ int draw_picture(viewer& viewer)
         code = view_compare_draw(viewer, (uint32_t)width, (uint32_t)height, view_quality_of(level));
     view_draw_handles(viewer);
     view_arrows(viewer);
+    view_blade_draw(viewer);
     view_hint(viewer);
     return code;
 }

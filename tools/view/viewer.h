@@ -29,7 +29,8 @@ enum view_drag {
     VIEW_DRAG_HAIR, // pulls a strand
     VIEW_DRAG_COLLIDER,
     VIEW_DRAG_HANDLE, // moves or turns a collider
-    VIEW_DRAG_WIPE // moves the line of a comparison
+    VIEW_DRAG_WIPE, // moves the line of a comparison
+    VIEW_DRAG_BLADE // draws a line that cuts hair
 };
 
 // Handle of a collider: an arrow or a ring.
@@ -89,6 +90,7 @@ struct viewer {
     int held_collider = -1; // index into the scene's colliders
     view_handle handle; // that the mouse pulls
     float mouse[2] = {0, 0}; // units of SDL
+    float blade[2] = {0, 0}; // where the blade begins, units of SDL
     bool quits = false;
     bool plays = true; // the head follows its motion
     bool loops = true;
