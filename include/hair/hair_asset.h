@@ -26,7 +26,7 @@ typedef enum hair_format {
     HAIR_FORMAT_TFX2,
     /// .groom, the format of this library. It holds all that a hair_asset has: strands with radii,
     /// groups, colours and attributes, and the scalp with density, texture coordinates, maps and
-    /// joints. Positions are compressed, with errors of at most 1e-5 of the length of their strand.
+    /// joints. Positions are compressed, with errors of at most 5e-6 of the length of their strand.
     /// Roots are exact. Colours are rounded by at most 1.6e-5. All other numbers are exact.
     HAIR_FORMAT_GROOM
 } hair_format;

@@ -5,10 +5,12 @@
 
 #include <math.h>
 
-#define MAX_ERROR 1e-5 // of a position, as a fraction of the length of the strand
+// Maximum error of a position as a fraction of the length of the strand. A strand that goes through
+// several files changes again only if its unit does, so the sum stays below 1e-5.
+#define MAX_ERROR 5e-6
 // A unit of this fraction gives errors of at most half the diagonal of a cube, which is less than
 // MAX_ERROR.
-#define UNIT 1.15e-5
+#define UNIT 5.7e-6
 #define FARTHEST 1e6 // Maximum distance from the origin, m, as for strands.
 #define STEP_BIAS 128
 #define MIN_STEP 64

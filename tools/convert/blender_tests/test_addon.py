@@ -152,6 +152,33 @@ class AddonTest(unittest.TestCase):
                     np.testing.assert_allclose(got_attributes["radius"], attributes["radius"],
                                                rtol=1e-6)
 
+    def test_groom_files_keep_blender_hair_on_both_ways(self):
+        """Go from Blender by USD to .groom, by USD to Blender, and from there to .groom again."""
+        worst = 0
+        for style in STYLES:
+            for strands in (100, 100000 if style in ("straight", "curly") else 2000):
+                with self.subTest(style=style, strands=strands):
+                    hair, _ = make_scene(style, strands)
+                    fill(hair.data, "hair_stiffness", "FLOAT", "CURVE", "value", np.linspace(0, 100, strands))
+                    points, counts, attributes = evaluated(hair)
+                    long = lengths(points, counts)
+                    self.assertEqual(bpy.ops.hair.export_groom(filepath=self.path("a.usdc")), {"FINISHED"})
+                    self.convert("convert", self.path("a.usdc"), self.path("b.groom"))
+                    self.convert("convert", self.path("b.groom"), self.path("c.usdc"))
+                    self.import_hair(self.path("c.usdc"))
+                    self.assertEqual(bpy.ops.hair.export_groom(filepath=self.path("d.groom"), program=CONVERT),
+                                     {"FINISHED"})
+                    self.convert("convert", self.path("d.groom"), self.path("e.usdc"))
+                    for path in ("c.usdc", "e.usdc"):
+                        got, got_counts, found = evaluated(self.import_hair(self.path(path)))
+                        np.testing.assert_array_equal(got_counts, counts)
+                        error = (np.linalg.norm(got - points, axis=1) / long).max()
+                        worst = max(worst, error)
+                        self.assertLess(error, 1e-5, path)
+                        for name in ("groom_group_id", "groom_guide", "hair_stiffness"):
+                            np.testing.assert_array_equal(found[name], attributes[name], f"{path} {name}")
+        print(f"hair is within {worst:.1e} of its length after .groom files on both ways")
+
     def test_nodes_change_the_hair(self):
         straight, _, _ = evaluated(make_scene("straight")[0])
         for style in ("clumped", "braid", "curly"):

@@ -18,7 +18,7 @@ MAX_VERTICES = 256  # of a strand
 GROUPS = 8
 COLORS = 8  # at even places of a strand
 MAX_JOINTS, MAX_SCALP = 65536, 4194304  # joints, and vertices or triangles of a scalp
-MAX_ERROR, UNIT = 1e-5, 1.15e-5  # of the length of a strand
+MAX_ERROR, UNIT, SHORTEST = 5e-6, 5.7e-6, 1e-5  # of the length of a strand
 BIAS, MIN_STEP, MAX_STEP = 128, 64, 160
 KNOWN = {"STRD", "CURV", "RADI", "GRUP", "COLR", "SCLP", "DENS", "TEXC", "SKIN", "GUID", "JNTN"}
 NAMED = {"ATTR", "MAPS"}  # chunks that may stand several times, with names
@@ -346,7 +346,7 @@ def _is_kept(groom, before, after, length):
     with np.errstate(invalid="ignore", over="ignore"):
         steps[1:] = np.linalg.norm(np.diff(after, axis=0), axis=1)
     steps[groom.starts()] = np.inf
-    return near & (np.minimum.reduceat(steps, groom.starts()) >= MAX_ERROR * lengths(read))
+    return near & (np.minimum.reduceat(steps, groom.starts()) >= SHORTEST * lengths(read))
 
 
 def _write_scalp(mesh, report):
