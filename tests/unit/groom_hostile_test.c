@@ -20,7 +20,7 @@ struct hostile {
     float positions[3 * VERTICES], scalp[3 * SCALP], density[SCALP];
     float radii[STRANDS], colors[3 * VERTICES];
     uint32_t vertices[STRANDS], triangles[3 * 2 * SCALP];
-    uint8_t groups[STRANDS];
+    uint8_t groups[STRANDS], guides[STRANDS];
     hair_import import;
     hair_groom_desc desc;
     uint32_t random;
@@ -78,6 +78,9 @@ static void invent(struct hostile* h, uint32_t seed)
         h->radii[i] = below(h, 60) || !wild ? hair_random(&h->random) : number(h, 100);
     for (uint32_t i = 0; i < STRANDS; ++i)
         h->groups[i] = (uint8_t)(below(h, 400) ? below(h, 8) : below(h, 256));
+    for (uint32_t i = 0; i < STRANDS; ++i)
+        h->guides[i] = (uint8_t)(below(h, 400) ? below(h, 4) == 0 : below(h, 256));
+    if (below(h, 2)) h->desc.strand_guides = h->guides;
     if (below(h, 2)) h->desc.strand_radii = h->radii;
     if (below(h, 2)) h->desc.strand_groups = h->groups;
     if (below(h, 2)) h->desc.colors = h->colors;
