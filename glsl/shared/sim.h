@@ -119,7 +119,7 @@ struct hair_step_params {
     float     fraction_start; // Fraction of the step done before this dispatch.
     // Factor of displacements after a change of the substep's length. Otherwise 1.
     float     rescale;
-    hair_uint vertices; // Vertices of all guides.
+    hair_uint vertices; // Vertices of all guides. All solvers have this member.
     hair_uint bodies; // One bit per collider that is not a capsule, of HAIR_FEW_COLLIDERS.
     hair_uint rounds; // Rounds of implicit.glsl's cyclic reduction before its last.
     hair_uint list;   // 0 or 1. This dispatch's header in solver_stats[].

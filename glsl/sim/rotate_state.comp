@@ -11,7 +11,7 @@ layout(local_size_x = HAIR_GROUP_SIZE) in;
 void main()
 {
     uint i = hair_group() * HAIR_GROUP_SIZE + gl_LocalInvocationID.x;
-    if (i >= state.length()) return;
+    if (i >= params.vertices) return; // zink of Mesa 22.3 returns a wrong state.length() here.
     vec4 turn                 = quat_multiply(params.rotation_now, quat_conjugate(params.rotation_before));
     state[i].position.xyz     = rotate(turn, state[i].position.xyz);
     state[i].displacement.xyz = rotate(turn, state[i].displacement.xyz);

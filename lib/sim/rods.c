@@ -338,7 +338,6 @@ void hair_sim_write_rods(const struct hair_sim* sim, struct hair_step_params* pa
     params->damping = physics->damping;
     params->friction = physics->collision.friction;
     params->rescale = (float)(h / sim->last_substep);
-    params->vertices = sim->guide_vertices;
     params->rounds = sim->rounds;
     params->part_rounds = hair_sim_part_rounds(sim);
     params->list_guides = hair_sim_guides_of_list_group(sim);

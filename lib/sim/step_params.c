@@ -31,6 +31,7 @@ void hair_sim_write_physics(const struct hair_sim* sim, struct hair_step_params*
     params->collision_margin = physics->collision.margin;
     params->iterations = physics->redblack.iterations;
     params->guides = sim->guides;
+    params->vertices = sim->guide_vertices;
     params->smooth_vertices = sim->smooth_vertices;
     if (sim->rods) hair_sim_write_rods(sim, params);
 }
