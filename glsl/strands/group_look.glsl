@@ -5,7 +5,10 @@
 #include "shared.h"
 
 #ifdef HAIR_GROUP_LOOKS
-layout(std140, binding = HAIR_BIND_GROUP_LOOKS) uniform group_look_buffer {
+// lavapipe of Mesa 22.3 overwrites its stack when a branch depends only on the third uniform block
+// of a stage. Mesa orders blocks by hashes of their names, and with this name draw_buffer is not
+// the third.
+layout(std140, binding = HAIR_BIND_GROUP_LOOKS) uniform look_factor_buffer {
     hair_group_factors group_look[HAIR_STRAND_GROUPS];
 };
 
