@@ -19,6 +19,9 @@
 /// A body is closed if every edge, identified by the positions of its vertices, is used equally
 /// often in both directions. A closed body has an inside, also where it crosses itself. An open
 /// body is treated as a shell, with a warning in the log. Triangles may be degenerate.
+///
+/// A two-sided body, for example cloth, is a shell whether it is closed or open, without a warning.
+/// Hair stays on the side of the surface on which it is.
 typedef struct hair_body_desc {
     hair_struct_header header;
     /// First vertex positions, xyz each, in the local space of the collider. Required.
@@ -34,11 +37,12 @@ typedef struct hair_body_desc {
     float lower[3]; ///< m. [-1e6, 1e6]. Default 0.
     /// Upper corner of the box in which all vertices stay, above `lower`. Required.
     float upper[3]; ///< m. [-1e6, 1e6]. Default 0.
-    /// Thickness of the shell of an open body, at least two voxels.
+    /// Thickness of the shell of an open or two-sided body, at least two voxels.
     float thickness; ///< m. [0, 1e6]. Default 0.
     /// Key by which hair_load() finds the body among the colliders. 0 stands for a hash of the
     /// triangles and of the numbers above.
     uint64_t key; ///< Default 0.
+    bool two_sided; ///< Permission for hair on both sides of the surface. Default false.
 } hair_body_desc;
 HAIR_DESC(hair_body_desc)
 

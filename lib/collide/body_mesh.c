@@ -78,6 +78,7 @@ static uint64_t hash_desc(const hair_body_desc* desc)
         hash = hair_hash_words(hash, desc->lower, 3);
         hash = hair_hash_words(hash, desc->upper, 3);
         hash = hair_hash_words(hash, &desc->thickness, 1);
+        if (desc->two_sided) hash = hair_hash_words(hash, &(uint32_t){1}, 1);
     }
     hash = hair_hash_words(hash, &desc->key, 2);
     return hash ? hash : 1;
@@ -89,7 +90,7 @@ static hair_result find_closed(const hair_host* host, const hair_body_desc* desc
     struct hair_triangles triangles = {0};
     HAIR_TRY(hair_triangles_build(host, desc->positions, desc->triangles, desc->triangle_count, &triangles));
     info->unused = desc->triangle_count - triangles.count;
-    info->is_closed = triangles.count && hair_triangles_are_closed(&triangles);
+    info->is_closed = !desc->two_sided && triangles.count && hair_triangles_are_closed(&triangles);
     hair_triangles_free(host, &triangles);
     return HAIR_OK;
 }
@@ -133,7 +134,7 @@ hair_result hair_body_mesh_build(const hair_host* host, const hair_body_desc* de
     mesh->content_hash = hash_desc(desc);
     atomic_init(&mesh->holders, 1);
     lay_grid(desc, mesh);
-    if (!info.is_closed)
+    if (!info.is_closed && !desc->two_sided)
         hair_log(host, HAIR_LOG_WARNING, "a body of %u triangles is not closed: a shell of %g m",
                  desc->triangle_count, (double)info.thickness);
     *out = mesh;

@@ -80,6 +80,42 @@ static void plate_that_deforms_far_in_a_frame_takes_hair_along(void** state)
     assert_true(tip.x > 0.1f && far < 1e-2);
 }
 
+// Hang a strand inside a closed box of cloth that moves sideways. Cloth takes the strand along.
+static void hair_stays_inside_two_sided_body(void** state)
+{
+    struct hair_test* test = *state;
+    const float half[3] = {0.06f, 0.25f, 0.06f};
+    hair_physics physics = hair_test_loose(0.3f);
+    hair_desc desc = hair_test_rods(HAIR_SOLVER_DIRECT, HAIR_THREAD_MAPPING_AUTO, 0, &physics);
+    struct hair_test_strands strands = hair_test_straight(32, hair_v3(0, 0, 0), hair_v3(0, -1, 0), 0.3f);
+    struct hair_test_mesh rest = hair_test_box_mesh(half), mesh = hair_test_box_mesh(half);
+    struct hair_test_living living;
+    hair_body_desc body_desc = hair_test_body_desc(&rest, 0.3f, 48);
+    hair_body* body = NULL;
+    body_desc.two_sided = true;
+    hair_test_ok(test, hair_body_create(test->context, &body_desc, &body));
+    hair_test_live(test, &strands, &desc, &living);
+    hair_collider collider = hair_test_body(HAIR_SHAPE_MESH, 0, -0.3f, 0);
+    collider.mesh = hair_body_get_mesh(body);
+    hair_test_set_colliders(&living, &collider, 1);
+    hair_test_wait(&living, 10);
+    for (int frame = 1; frame <= 60; ++frame) {
+        for (uint32_t i = 0; i < 3 * rest.vertex_count; i += 3)
+            mesh.positions[i] = rest.positions[i] + 0.002f * (float)frame;
+        hair_test_deform(test, body, &mesh);
+        hair_test_wait(&living, 1);
+    }
+    hair_test_read_guides(&living);
+    hair_vec3 tip = hair_test_tip(&living, 0);
+    print_message("    the tip is at x = %.4f m, the wall at 0.06 m\n", (double)tip.x);
+    assert_true(tip.x > 0.06f && tip.x < 0.18f && fabsf(tip.z) < 0.06f);
+    hair_test_die(&living);
+    hair_test_strands_free(&strands);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&rest);
+    hair_test_mesh_free(&mesh);
+}
+
 // Hang strands from the top of a lump that nods three times a second by 0.3 rad and breathes.
 static void nodding_body_has_no_hair_inside(void** state)
 {
@@ -133,6 +169,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         HAIR_TEST(surface_that_deforms_carries_hair_by_friction),
         HAIR_TEST(plate_that_deforms_far_in_a_frame_takes_hair_along),
+        HAIR_TEST(hair_stays_inside_two_sided_body),
         HAIR_TEST(nodding_body_has_no_hair_inside),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);

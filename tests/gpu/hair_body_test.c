@@ -131,15 +131,10 @@ static void distance_near_the_surface_is_within_half_a_voxel(void** state)
     hair_test_mesh_free(&mesh);
 }
 
-// Check a body whose last triangle is missing. It has no inside, so all distances are from a shell.
-static void open_body_is_a_shell(void** state)
+static void check_shell(struct hair_test* test, const struct hair_test_mesh* mesh, hair_body* body)
 {
-    struct hair_test* test = *state;
-    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0);
-    --mesh.triangle_count;
-    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 32);
     const hair_collision_mesh* grid = hair_body_get_mesh(body);
-    struct hair_triangles triangles = hair_test_triangles(test, &mesh);
+    struct hair_triangles triangles = hair_test_triangles(test, mesh);
     float* node = hair_test_body_nodes(body);
     assert_false(grid->info.is_closed);
     assert_true(grid->info.thickness == 2 * grid->voxel);
@@ -153,6 +148,29 @@ static void open_body_is_a_shell(void** state)
     free(node);
     hair_triangles_free(&test->host.host, &triangles);
     hair_body_destroy(body);
+}
+
+// Check a body whose last triangle is missing. It has no inside, so all distances are from a shell.
+static void open_body_is_a_shell(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0);
+    --mesh.triangle_count;
+    check_shell(test, &mesh, hair_test_deforming(test, &mesh, 0.16f, 32));
+    hair_test_mesh_free(&mesh);
+}
+
+static void two_sided_body_is_a_shell(void** state)
+{
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(20, 30, 0, 0);
+    hair_body_desc desc = hair_test_body_desc(&mesh, 0.16f, 32);
+    hair_body* body = NULL;
+    uint32_t warnings = test->host.warnings;
+    desc.two_sided = true;
+    hair_test_ok(test, hair_body_create(test->context, &desc, &body));
+    assert_int_equal(test->host.warnings, warnings);
+    check_shell(test, &mesh, body);
     hair_test_mesh_free(&mesh);
 }
 
@@ -382,6 +400,7 @@ int main(void)
         HAIR_TEST(nodes_hold_the_distance_to_large_triangles),
         HAIR_TEST(distance_near_the_surface_is_within_half_a_voxel),
         HAIR_TEST(open_body_is_a_shell),
+        HAIR_TEST(two_sided_body_is_a_shell),
         HAIR_TEST(nodes_survive_growth_of_their_pool),
         HAIR_TEST(state_of_the_application_is_kept),
         HAIR_TEST(equal_positions_run_no_pass),

@@ -93,8 +93,9 @@ VECTOR(hair_body_desc, lower, 0, 0, 0, -1e6, 1e6, -2, 2, "m",
 VECTOR(hair_body_desc, upper, 0, 0, 0, -1e6, 1e6, -2, 2, "m",
       "Upper corner of the box in which all vertices stay, above `lower`.")
 FLOAT(hair_body_desc, thickness, 0, 0, 1e6, 0, 0.05, LINEAR, "m",
-      "Thickness of the shell of an open body, at least two voxels.")
+      "Thickness of the shell of an open or two-sided body, at least two voxels.")
 UINT64(hair_body_desc, key, "Key by which hair_load() finds the body among the colliders.")
+BOOL(hair_body_desc, two_sided, false, "Permission for hair on both sides of the surface.")
 END
 BEGIN(hair_collider)
 ENUM(hair_collider, shape, HAIR_SHAPE_SPHERE,
