@@ -15,6 +15,12 @@ layout(std430, binding = HAIR_BIND_BODY_NEAREST) buffer nearest_buffer { uint ne
 // and the node.
 layout(std430, binding = HAIR_BIND_BODY_CROSSING) buffer crossing_buffer { int crossing[]; };
 
+layout(std430, binding = HAIR_BIND_BODY_CHANGE) buffer change_buffer { hair_body_change change; };
+
+// Return the first or the last column along x, as its y and z, that may change.
+uvec2 first_changed() { return uvec2(change.first_y, change.first_z); }
+uvec2 last_changed() { return uvec2(change.last_y, change.last_z); }
+
 // Return the corners of the triangle t.
 mat3 body_triangle(uint t)
 {

@@ -1,7 +1,7 @@
 // body_line.comp - one line of nodes of a body along an axis. Each node gets the nearest surface
 // point of the nodes before it and after it, as it is passed on from node to node (Danielsson
-// 1980). After two rounds of all axes, each node knows a point that is nearest or nearly so. One
-// thread per line.
+// 1980). After two rounds of all axes, each node knows a point that is nearest or nearly so. Lines
+// end at columns that do not change, whose nodes pass their points on. One thread per line.
 //
 // HAIR_FIRST begins with the triangles near nodes. It also finds the side of each node: outside the
 // body, the surfaces that a column has entered equal those it has left. HAIR_LAST writes the signed
@@ -22,13 +22,16 @@ layout(std430, binding = HAIR_BIND_BODY_BEFORE) readonly buffer before_buffer { 
 #define AHEAD 8u
 
 // Return the point that is nearer to p, with a positive w.
-vec4 nearer(vec3 p, vec4 own, vec4 passed_on)
+vec4 nearer(vec3 p, vec4 own, vec4 other)
 {
-    vec3  a = own.xyz - p, b = passed_on.xyz - p;
+    vec3  a = own.xyz - p, b = other.xyz - p;
     float w = abs(own.w);
-    bool  is_own = w > UNKNOWN && (passed_on.w <= UNKNOWN || dot(a, a) <= dot(b, b));
-    return is_own ? vec4(own.xyz, w) : passed_on;
+    bool  is_own = w > UNKNOWN && (other.w <= UNKNOWN || dot(a, a) <= dot(b, b));
+    return is_own ? vec4(own.xyz, w) : other;
 }
+
+// Return the point that the node n passes on to a line that ends beside it.
+vec4 passed_on(uint n) { return vec4(point[n].xyz, abs(point[n].w)); }
 
 #ifdef HAIR_FIRST
 // Return the point that a node near a triangle knows from the triangle.
@@ -67,25 +70,30 @@ void main()
 {
     uvec3 size = uvec3(params.nodes_x, params.nodes_y, params.nodes_z);
     uint  line = hair_group() * HAIR_BODY_THREADS + gl_LocalInvocationID.x, count = size[HAIR_AXIS];
+    uvec2 low = first_changed(), high = last_changed();
 #if HAIR_AXIS == 0
     uvec3 at = uvec3(0u, line % max(size.y, 1u), line / max(size.y, 1u)), way = uvec3(1u, 0u, 0u);
-    if (at.z >= size.z) return;
+    if (at.z >= size.z || any(lessThan(at.yz, low)) || any(greaterThan(at.yz, high))) return;
+    uint from = 0u, end = count;
 #elif HAIR_AXIS == 1
     uvec3 at = uvec3(line % max(size.x, 1u), 0u, line / max(size.x, 1u)), way = uvec3(0u, 1u, 0u);
-    if (at.z >= size.z) return;
+    if (at.z < low.y || at.z > high.y) return;
+    uint from = low.x, end = high.x + 1u;
 #else
     uvec3 at = uvec3(line % max(size.x, 1u), line / max(size.x, 1u), 0u), way = uvec3(0u, 0u, 1u);
-    if (at.y >= size.y) return;
+    if (at.y < low.x || at.y > high.x) return;
+    uint from = low.y, end = high.y + 1u;
 #endif
     uint start = at.x + size.x * (at.y + size.y * at.z), stride = way.x + size.x * (way.y + size.y * way.z);
     vec4 known = vec4(vec3(0.0), UNKNOWN), own[AHEAD];
     int  winding = 0;
-    for (uint first = 0u; first < count; first += AHEAD) {
+    if (from > 0u) known = passed_on(start + (from - 1u) * stride);
+    for (uint first = from; first < end; first += AHEAD) {
 #ifdef HAIR_FIRST
         int crossed[AHEAD];
 #endif
         for (uint k = 0u; k < AHEAD; ++k) {
-            uint i = min(first + k, count - 1u), n = start + i * stride;
+            uint i = min(first + k, end - 1u), n = start + i * stride;
 #ifdef HAIR_FIRST
             own[k]     = first_point(n, vec3(at + i * way));
             crossed[k] = crossing[n];
@@ -93,7 +101,7 @@ void main()
             own[k] = point[n];
 #endif
         }
-        for (uint k = 0u; k < AHEAD && first + k < count; ++k) {
+        for (uint k = 0u; k < AHEAD && first + k < end; ++k) {
             uint i = first + k, n = start + i * stride;
 #ifdef HAIR_FIRST
             winding += crossed[k];
@@ -107,19 +115,18 @@ void main()
             point[n] = vec4(known.xyz, is_inside ? -known.w : known.w);
         }
     }
-    known = vec4(vec3(0.0), UNKNOWN);
-    for (uint left = count; left > 0u; left -= min(left, AHEAD)) {
-        for (uint k = 0u; k < AHEAD; ++k) own[k] = point[start + (max(left, k + 1u) - k - 1u) * stride];
-        for (uint k = 0u; k < AHEAD && k < left; ++k) {
+    known = end < count ? passed_on(start + end * stride) : vec4(vec3(0.0), UNKNOWN);
+    for (uint left = end; left > from; left -= min(left - from, AHEAD)) {
+        for (uint k = 0u; k < AHEAD; ++k)
+            own[k] = point[start + (max(left, from + k + 1u) - k - 1u) * stride];
+        for (uint k = 0u; k < AHEAD && from + k < left; ++k) {
             uint i = left - k - 1u;
             known  = nearer(vec3(at + i * way), own[k], known);
             own[k] = vec4(known.xyz, own[k].w < 0.0 ? -known.w : known.w);
-#ifndef HAIR_LAST
             point[start + i * stride] = own[k];
-#endif
         }
 #ifdef HAIR_LAST
-        for (uint k = 0u; k < AHEAD && k < left; ++k) {
+        for (uint k = 0u; k < AHEAD && from + k < left; ++k) {
             uint i = left - k - 1u;
             write_node(start + i * stride, vec3(at + i * way), own[k]);
         }

@@ -1,6 +1,7 @@
 // body_scatter.comp - one triangle of a body. Each node near the triangle gets its distance, and
-// each column along x that crosses the triangle gets the direction of the crossing. One work group
-// per triangle. A thread takes every 32nd of the columns near the triangle.
+// each column along x that crosses the triangle gets the direction of the crossing. Only columns
+// that may change take part. One work group per triangle. A thread takes every 32nd of the columns
+// near the triangle.
 #version 450 core
 #include "field/body.glsl"
 layout(local_size_x = 32) in;
@@ -62,13 +63,19 @@ void cross_column(vec3 a, vec3 b, vec3 c, uvec2 at)
 void main()
 {
     uint t = hair_group();
+    if (t == 0u && gl_LocalInvocationID.x == 0u) { // The next body_moved.comp begins with these.
+        change.lower_x = change.lower_y = change.lower_z = BODY_NONE;
+        change.upper_x = change.upper_y = change.upper_z = 0u;
+    }
     if (t >= params.triangles) return;
     mat3 corner = body_triangle(t);
     vec3 a = corner[0], b = corner[1], c = corner[2],
          last = vec3(params.nodes_x, params.nodes_y, params.nodes_z) - 1.0;
     vec3 lower = max(ceil(min(a, min(b, c)) - BAND), vec3(0.0)),
          upper = min(floor(max(a, max(b, c)) + BAND), last), normal = normal_of(a, b, c);
-    uvec2 first = uvec2(lower.yz), count = uvec2(upper.yz) - first + 1u;
+    uvec2 first = max(uvec2(lower.yz), first_changed()), end = min(uvec2(upper.yz), last_changed()) + 1u;
+    if (any(greaterThanEqual(first, end))) return;
+    uvec2 count = end - first;
     for (uint n = gl_LocalInvocationID.x; n < count.x * count.y; n += 32u) {
         uvec2 at = first + uvec2(n % count.x, n / count.x);
         cross_column(a, b, c, at);

@@ -61,8 +61,19 @@ struct hair_body_params {
     hair_uint vertices;
     // Index of the first number in the application's buffer, and numbers from vertex to vertex.
     hair_uint given_first, given_stride;
-    hair_uint unused0;
+    hair_uint is_first; // 1 if the body had no shape before.
 };
 HAIR_SIZE(hair_body_params)
+
+// Part of a body that changes from one shape to the next. Threads find minima and maxima of it.
+struct hair_body_change {
+    // Box of the triangles that move, from both shapes, in bits of floats, voxels from the first
+    // node. Nothing moves if the lower corner is above the upper corner.
+    hair_uint lower_x, lower_y, lower_z, upper_x, upper_y, upper_z;
+    // First and last column along x that has a node whose distance may change.
+    hair_uint first_y, first_z, last_y, last_z;
+    hair_uint unused0, unused1;
+};
+HAIR_SIZE(hair_body_change)
 
 #endif

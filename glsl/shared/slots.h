@@ -48,6 +48,7 @@
 #define HAIR_BIND_BODY_CROSSING 4 // int[] per node. Surfaces that its column enters, see there.
 #define HAIR_BIND_BODY_POINT 5    // hair_vec4[] per node. Surface point, see body_line.comp.
 #define HAIR_BIND_BODY_BEFORE 6   // float[]. Positions of the shape before. Read-only.
+#define HAIR_BIND_BODY_CHANGE 7   // hair_body_change.
 // Additional buffers of the hair-hair grid, whose passes also read the state and the history. The
 // grid gives each guide vertex the effect of the hair around it.
 

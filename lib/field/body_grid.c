@@ -4,6 +4,9 @@
 // column crosses a closed surface inwards and outwards, so the sum of its crossings is the winding
 // number of each node. Farther nodes get the nearest point of the surface along one axis after
 // another, in two rounds.
+//
+// Only columns along x that have a node whose distance may change are computed. These are the nodes
+// that are no nearer to the surface than to the triangles that move.
 #include "lib/field/body_grid.h"
 
 #include <string.h>
@@ -28,6 +31,8 @@ static hair_result make_grid_buffers(struct hair_body_grid* grid, const uint32_t
     HAIR_TRY(
         hair_gl_storage(gl, none, "hair body crossings", nodes * sizeof(int32_t), NULL, &grid->crossing));
     HAIR_TRY(hair_gl_storage(gl, none, "hair body points", nodes * sizeof(hair_vec4), NULL, &grid->point));
+    HAIR_TRY(hair_gl_storage(gl, none, "hair body change", sizeof(struct hair_body_change),
+                             &(struct hair_body_change){.lower_x = UINT32_MAX}, &grid->change));
     uint32_t* nearest = hair_alloc(&gl->host, nodes, sizeof *nearest);
     if (!nearest) return hair_fail_memory(&gl->host, "a body");
     memset(nearest, 0xff, nodes * sizeof *nearest); // No triangle is near.
@@ -43,7 +48,7 @@ hair_result hair_body_grid_create(struct hair_body_grid* grid, struct hair_sdf_p
 {
     *grid = (struct hair_body_grid){
         .gl = pool->gl, .mesh = mesh, .vertex_count = vertex_count, .triangle_count = triangle_count};
-    HAIR_TRY(hair_gl_ensure_programs(grid->gl, HAIR_GL_BODY_SCATTER, HAIR_GL_BODY_LINE_LAST, 0));
+    HAIR_TRY(hair_gl_ensure_programs(grid->gl, HAIR_GL_BODY_MOVED, HAIR_GL_BODY_LINE_LAST, 0));
     HAIR_TRY(make_grid_buffers(grid, triangles));
     HAIR_TRY(hair_sdf_pool_acquire_body(pool, mesh, &grid->place));
     grid->pool = pool;
@@ -55,8 +60,8 @@ void hair_body_grid_destroy(struct hair_body_grid* grid)
     struct hair_gl* gl = grid->gl;
     if (!gl) return;
     if (grid->pool) hair_sdf_pool_release(grid->pool, grid->place);
-    GLuint* buffers[] = {&grid->params,   &grid->upload,   &grid->position, &grid->before,
-                         &grid->triangle, &grid->crossing, &grid->nearest,  &grid->point};
+    GLuint* buffers[] = {&grid->params,   &grid->upload,  &grid->position, &grid->before, &grid->triangle,
+                         &grid->crossing, &grid->nearest, &grid->point,    &grid->change};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; ++i) hair_gl_free_buffer(gl, buffers[i]);
     *grid = (struct hair_body_grid){0};
 }
@@ -81,10 +86,15 @@ static void bind_grid(struct hair_body_grid* grid, const struct hair_body_params
     struct hair_gl* gl = grid->gl;
     // In the order of the slots from HAIR_BIND_BODY_POSITION on.
     const GLuint storage[] = {grid->position, grid->triangle, grid->nearest, grid->pool->nodes,
-                              grid->crossing, grid->point,    grid->before};
+                              grid->crossing, grid->point,    grid->before,  grid->change};
     hair_gl_write_uniform(gl, grid->params, sizeof *params, params);
     gl->BindBuffersBase(GL_UNIFORM_BUFFER, HAIR_BIND_BODY, 1, &grid->params);
-    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 7, storage);
+    gl->BindBuffersBase(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_BODY_POSITION, 8, storage);
+}
+
+static uint32_t groups_of(uint32_t threads)
+{
+    return (threads + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE;
 }
 
 static void run_lines(struct hair_gl* gl, hair_gl_pass pass, uint32_t lines)
@@ -93,12 +103,15 @@ static void run_lines(struct hair_gl* gl, hair_gl_pass pass, uint32_t lines)
 }
 
 // Compute the distances to the current positions.
-static void compute_nodes(struct hair_body_grid* grid)
+static void compute_nodes(struct hair_body_grid* grid, bool is_first)
 {
     struct hair_gl* gl = grid->gl;
     const uint32_t* size = grid->mesh->size;
     struct hair_body_params params = params_of(grid);
+    params.is_first = is_first;
     bind_grid(grid, &params);
+    hair_gl_run(gl, HAIR_GL_BODY_MOVED, groups_of(grid->triangle_count));
+    hair_gl_run(gl, HAIR_GL_BODY_REACH, groups_of(nodes_of(grid->mesh)));
     hair_gl_run(gl, HAIR_GL_BODY_SCATTER, grid->triangle_count);
     run_lines(gl, HAIR_GL_BODY_LINE_FIRST, size[1] * size[2]);
     run_lines(gl, HAIR_GL_BODY_LINE_Y, size[0] * size[2]);
@@ -121,11 +134,12 @@ void hair_body_grid_update(struct hair_body_grid* grid, const float* positions)
     GLsizeiptr bytes = (GLsizeiptr)(3 * (size_t)grid->vertex_count * sizeof *positions);
     // The GPU copies the positions, in order with the dispatches of the last update.
     hair_gl_write_uniform(gl, grid->upload, (size_t)bytes, positions);
-    if (grid->has_shape) keep_last_shape(grid);
-    if (!grid->has_shape) gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, bytes);
+    bool is_first = !grid->has_shape;
+    if (is_first) gl->CopyNamedBufferSubData(grid->upload, grid->before, 0, 0, bytes);
+    if (!is_first) keep_last_shape(grid);
     grid->has_shape = true;
     gl->CopyNamedBufferSubData(grid->upload, grid->position, 0, 0, bytes);
-    compute_nodes(grid);
+    compute_nodes(grid, is_first);
 }
 
 hair_result hair_body_grid_update_from(struct hair_body_grid* grid, const struct hair_body_input* input)
@@ -149,7 +163,7 @@ hair_result hair_body_grid_update_from(struct hair_body_grid* grid, const struct
     gl->BindBuffersRange(GL_SHADER_STORAGE_BUFFER, HAIR_BIND_GIVEN, 1, &input->buffer, &at, &size);
     // Shaders of the application may have written the buffer.
     gl->MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    hair_gl_run(gl, HAIR_GL_BODY_UNPACK, (grid->vertex_count + HAIR_GROUP_SIZE - 1) / HAIR_GROUP_SIZE);
-    compute_nodes(grid);
+    hair_gl_run(gl, HAIR_GL_BODY_UNPACK, groups_of(grid->vertex_count));
+    compute_nodes(grid, false);
     return HAIR_OK;
 }

@@ -15,7 +15,7 @@ struct hair_body_grid {
     GLuint upload; // Buffer from which the GPU copies the positions.
     GLuint position, before, triangle; // See HAIR_BIND_BODY_POSITION and after.
     bool has_shape; // True once there are positions.
-    GLuint nearest, crossing, point; // Buffers that the passes use among themselves.
+    GLuint nearest, crossing, point, change; // Buffers that the passes use among themselves.
 };
 
 // Create the buffers of a body, and its place in the pool. On failure hair_body_grid_destroy()

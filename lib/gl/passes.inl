@@ -109,6 +109,8 @@ FEATURE(OCCLUSION, "HAIR_OCCLUSION") // Occlusion culling may have hidden patche
 PASS(VOXELISE, "field/voxelise", FIELD, 0, "field/voxelise.comp")
 PASS(VOXELISE_MESHES, "field/voxelise_meshes", FIELD, 0, "HAIR_MESHES=1 field/voxelise.comp")
 PASS(BODY_UNPACK, "field/body_unpack", FIELD, 0, "field/body_unpack.comp")
+PASS(BODY_MOVED, "field/body_moved", FIELD, 0, "field/body_moved.comp")
+PASS(BODY_REACH, "field/body_reach", FIELD, 0, "field/body_reach.comp")
 PASS(BODY_SCATTER, "field/body_scatter", FIELD, 0, "field/body_scatter.comp")
 PASS(BODY_LINE_FIRST, "field/body_line_first", FIELD, 0, "HAIR_AXIS=0 HAIR_FIRST=1 field/body_line.comp")
 PASS(BODY_LINE_X, "field/body_line_x", FIELD, 0, "HAIR_AXIS=0 field/body_line.comp")

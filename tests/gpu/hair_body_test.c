@@ -174,6 +174,80 @@ static void two_sided_body_is_a_shell(void** state)
     hair_test_mesh_free(&mesh);
 }
 
+// Return how many columns of nodes the last shape of a body computed.
+static uint32_t changed_columns(const hair_body* body)
+{
+    struct hair_body_change change;
+    glGetNamedBufferSubData(body->grid.change, 0, sizeof change, &change);
+    if (change.first_y > change.last_y || change.first_z > change.last_z) return 0;
+    return (change.last_y - change.first_y + 1) * (change.last_z - change.first_z + 1);
+}
+
+// Return the maximum motion of the surface that a node has, m.
+static float max_motion(const hair_body* body)
+{
+    const struct hair_sdf_pool* pool = body->grid.pool;
+    size_t nodes = (size_t)body->mesh->size[0] * body->mesh->size[1] * body->mesh->size[2];
+    float *motion = malloc(3 * nodes * sizeof *motion), max = 0;
+    assert_non_null(motion);
+    glGetNamedBufferSubData(pool->nodes,
+                            (GLintptr)((pool->pooled[body->grid.place].first + nodes) * sizeof *motion),
+                            (GLsizeiptr)(3 * nodes * sizeof *motion), motion);
+    for (size_t i = 0; i < 3 * nodes; ++i) max = fmaxf(max, fabsf(motion[i]));
+    free(motion);
+    return max;
+}
+
+// Push the vertices within 30 mm of one of them towards or away from the centre.
+static void push_part(struct hair_test_mesh* mesh, uint32_t vertex, uint32_t* seed)
+{
+    const size_t middle = 3 * (size_t)vertex;
+    const float at[3] = {mesh->positions[middle], mesh->positions[middle + 1], mesh->positions[middle + 2]};
+    float scale = 0.8f + 0.35f * (float)random_number(seed);
+    for (uint32_t i = 0; i < mesh->vertex_count; ++i) {
+        float* p = mesh->positions + 3 * i;
+        float far = hypotf(hypotf(p[0] - at[0], p[1] - at[1]), p[2] - at[2]);
+        for (int k = 0; k < 3 && far < 0.03f; ++k) p[k] *= scale;
+    }
+}
+
+// Move one part of a body many times, and then others. Only nodes around them are computed, and the
+// others stay right.
+static void only_nodes_around_moved_triangles_are_computed(void** state)
+{
+    enum { SHAPES = 24 };
+    struct hair_test* test = *state;
+    struct hair_test_mesh mesh = hair_test_lump(30, 40, 0, 0);
+    hair_body* body = hair_test_deforming(test, &mesh, 0.16f, 32);
+    const uint32_t columns = body->mesh->size[1] * body->mesh->size[2];
+    uint32_t seed = 1, computed[2] = {0};
+    assert_int_equal(changed_columns(body), columns);
+    for (int shape = 0; shape < SHAPES; ++shape) {
+        bool is_other = shape >= SHAPES / 2;
+        push_part(&mesh, is_other ? (uint32_t)(random_number(&seed) * mesh.vertex_count) : 0, &seed);
+        hair_test_deform(test, body, &mesh);
+        computed[is_other] += changed_columns(body);
+        struct errors errors = compare_nodes(test, body, &mesh);
+        assert_true(errors.near < 0.002 && errors.far < MAX_FAR);
+    }
+    for (int i = 0; i < 2; ++i) computed[i] /= SHAPES / 2;
+    print_message("    %u and %u of %u columns\n", computed[0], computed[1], columns);
+    assert_true(computed[0] > 0 && computed[0] < columns * 3 / 5 && computed[1] < columns * 9 / 10);
+
+    // A vertex that moves by a thousandth of a millimetre ends the motion of the last shape.
+    for (uint32_t i = 0; i < mesh.vertex_count; ++i)
+        mesh.positions[3 * i + 1] += mesh.positions[3 * i + 1] > 0.05f ? 0.004f : 0;
+    hair_test_deform(test, body, &mesh);
+    compare_nodes(test, body, &mesh);
+    assert_true(max_motion(body) > 1e-3f);
+    mesh.positions[0] += 1e-6f;
+    hair_test_deform(test, body, &mesh);
+    assert_true(max_motion(body) > 0 && max_motion(body) < 2e-6f);
+    compare_nodes(test, body, &mesh);
+    hair_body_destroy(body);
+    hair_test_mesh_free(&mesh);
+}
+
 // Bodies and meshes share a buffer, which grows and is compacted.
 static void nodes_survive_growth_of_their_pool(void** state)
 {
@@ -401,6 +475,7 @@ int main(void)
         HAIR_TEST(distance_near_the_surface_is_within_half_a_voxel),
         HAIR_TEST(open_body_is_a_shell),
         HAIR_TEST(two_sided_body_is_a_shell),
+        HAIR_TEST(only_nodes_around_moved_triangles_are_computed),
         HAIR_TEST(nodes_survive_growth_of_their_pool),
         HAIR_TEST(state_of_the_application_is_kept),
         HAIR_TEST(equal_positions_run_no_pass),

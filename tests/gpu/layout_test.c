@@ -31,6 +31,7 @@ static const struct {
     STRUCT(hair_draw_params),
     STRUCT(hair_field_params),
     STRUCT(hair_body_params),
+    STRUCT(hair_body_change),
     STRUCT(hair_field_collider),
     STRUCT(hair_field_brick),
     STRUCT(hair_grid_params),
