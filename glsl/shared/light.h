@@ -15,6 +15,7 @@
 
 #define HAIR_DENSITY_NODES 1048576u // Maximum nodes of the density grid.
 // Units of hair whose projected area equals one face of a cell.
+#define HAIR_SPLAT_ROUNDS 2u // Segments of each thread that fills the density grid.
 #define HAIR_DENSITY_UNITS 65536.0
 
 // Colours of strands.

@@ -63,10 +63,9 @@ static void fill_grid(struct hair_lighting* lighting, const struct hair_geometry
     gl->ClearNamedBufferData(own->density, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
     gl->ClearNamedBufferData(own->box, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &outermost);
     hair_gl_run(gl, HAIR_GL_DENSITY_BOUNDS, groups);
-    uint32_t patches = SPLAT_SEGMENTS / (HAIR_GROUP_SIZE * geometry->look.strand.segments);
-    HAIR_ASSERT(patches > 0);
-    hair_gl_limit_groups(gl, HAIR_GL_DENSITY_SPLAT, patches);
-    hair_gl_run(gl, HAIR_GL_DENSITY_SPLAT, geometry->patches);
+    uint32_t each = (groups / geometry->patches + HAIR_SPLAT_ROUNDS - 1) / HAIR_SPLAT_ROUNDS;
+    hair_gl_limit_groups(gl, HAIR_GL_DENSITY_SPLAT, SPLAT_SEGMENTS / (HAIR_GROUP_SIZE * HAIR_SPLAT_ROUNDS));
+    hair_gl_run(gl, HAIR_GL_DENSITY_SPLAT, geometry->patches * each);
     own->filled = geometry->vertex_cache.writes;
     own->frame = 0;
 }
