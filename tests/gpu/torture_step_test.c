@@ -257,7 +257,7 @@ static hair_result precompile(struct hair_test_torture* t)
     const struct timespec pause = {.tv_nsec = 10000000}; // for the threads of the driver
     for (int i = 0; i < 6000 && !result && !is_ready; ++i) {
         result = hair_precompile(t->hair, &t->view, &is_ready);
-        if (!is_ready && !result && !t->hair->sim.gl->software) nanosleep(&pause, NULL);
+        if (!is_ready && !result && t->hair->sim.gl->parallel) nanosleep(&pause, NULL);
     }
     assert_int_equal(result == HAIR_OK, is_ready);
     return result;
