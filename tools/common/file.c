@@ -193,10 +193,15 @@ static bool is_in_place(const char* path, const struct stat* status)
     return !S_ISREG(status->st_mode) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
 }
 
+// /dev/stdout is the standard output even on a system that lacks this name.
+static bool is_standard_output(const char* path)
+{
+    return is_standard(path) || strcmp(path, "/dev/stdout") == 0;
+}
+
 static bool open_in_place(struct hair_output* output)
 {
-    bool standard = is_standard(output->path) || strcmp(output->path, "/dev/stdout") == 0;
-    output->file = standard ? stdout : fopen(output->path, "wb");
+    output->file = is_standard_output(output->path) ? stdout : fopen(output->path, "wb");
     return output->file || cannot_write(output->tool, output->path);
 }
 
@@ -250,12 +255,12 @@ bool hair_output_open(const char* tool, const char* path, struct hair_output* ou
 {
     struct hair_output output = {.tool = tool};
     struct stat status;
-    bool exists = !is_standard(path) && stat(path, &status) == 0;
+    bool exists = !is_standard_output(path) && stat(path, &status) == 0;
     // Replace the target of a symbolic link and keep the link.
     output.path = exists && S_ISREG(status.st_mode) ? realpath(path, NULL) : strdup(path);
     if (!output.path) return cannot_write(tool, path);
 
-    bool in_place = is_standard(path) || (exists && is_in_place(path, &status));
+    bool in_place = is_standard_output(path) || (exists && is_in_place(path, &status));
     mode_t mask = umask(0);
     umask(mask);
     // A rename would ignore that the target is read-only.
