@@ -37,7 +37,7 @@ hair_result hair_geometry_create(struct hair_geometry* geometry, struct hair_gl*
         if (groom->patches[i].count > geometry->max_isolines)
             geometry->max_isolines = groom->patches[i].count;
     // A patch of more than HAIR_MAX_ISOLINES is drawn in parts.
-    HAIR_ASSERT(0 < geometry->max_isolines);
+    HAIR_ASSERT((geometry->max_isolines > 0) == (geometry->followers > 0));
     HAIR_TRY(hair_smooth_create(&geometry->smooth, gl, groom, sim));
     struct hair_follower_buffer made = {0};
     HAIR_TRY(

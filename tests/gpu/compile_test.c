@@ -35,7 +35,7 @@ static struct kept* find(struct cache* cache, uint64_t key)
 static size_t get(uint64_t key, void* bytes, size_t capacity, void* user)
 {
     const struct kept* kept = find(user, key);
-    if (kept && kept->size <= capacity) memcpy(bytes, kept->bytes, kept->size);
+    if (kept && bytes && kept->size <= capacity) memcpy(bytes, kept->bytes, kept->size);
     return kept ? kept->size : 0;
 }
 
