@@ -273,6 +273,11 @@ $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(
 $(B)/tests/golden/first_head_test.c.o: private C += $(patsubst -I%,-isystem %,$(call packages,--cflags,sdl2))
 $(B)/tests/golden/first_head_test: private TEST_LIBS += $(call packages,--libs,sdl2)
 
+# Programs that test the reader of glTF files of the tools.
+GLTF := $(patsubst %,$(B)/tools/common/%.c.o,file gltf gltf_animation gltf_buffer gltf_mesh gltf_node json)
+$(B)/tests/unit/gltf_test: $(GLTF)
+$(B)/tests/unit/gltf_test: private TEST_LIBS := $(B)/libhair.a $(TEST_LIBS)
+
 # Hosts have only what users of the library have.
 $(B)/tests/hosts/%.c.o: tests/hosts/%.c
 	@mkdir -p $(@D)

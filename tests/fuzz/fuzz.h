@@ -27,7 +27,7 @@ extern const struct hair_fuzz_target hair_fuzz_targets[];
 
 hair_fuzz_function hair_fuzz_hairfile, hair_fuzz_groomfile, hair_fuzz_tfx, hair_fuzz_tfx_text, hair_fuzz_obj,
     hair_fuzz_scene, hair_fuzz_save, hair_fuzz_members, hair_fuzz_groom_arguments,
-    hair_fuzz_capture_arguments, hair_fuzz_bench_arguments;
+    hair_fuzz_capture_arguments, hair_fuzz_bench_arguments, hair_fuzz_gltf;
 
 // Run a target on one input. By a hash of the input, run the target also with an allocation that
 // fails.

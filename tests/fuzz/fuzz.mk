@@ -11,9 +11,10 @@ runs      ?= -1
 sanitizer ?= address
 
 # Programs, and objects of the tools that each needs. The rest comes out of the library.
-FUZZERS := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments
+FUZZERS := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments gltf
 FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_colliders scene_cuts scene_lights scene_maps scene_wind \
   settings settings_keys
+FUZZ_GLTF := gltf gltf_animation gltf_buffer gltf_mesh gltf_node
 FUZZ_TOOLS.hairfile          := file
 FUZZ_TOOLS.groomfile         := file
 FUZZ_TOOLS.tfx               := file
@@ -25,6 +26,7 @@ FUZZ_TOOLS.groom_arguments   := file groom_options
 FUZZ_TOOLS.bench_arguments   := file
 FUZZ_TOOLS.scene             := file $(FUZZ_SCENE)
 FUZZ_TOOLS.capture_arguments := file $(FUZZ_SCENE) capture_options
+FUZZ_TOOLS.gltf              := file json $(FUZZ_GLTF)
 # Maximum length of an input in bytes, 1024 by default. Short inputs make many runs per second.
 FUZZ_MAX.groomfile         := 1536
 FUZZ_MAX.save              := 4096
@@ -32,7 +34,8 @@ FUZZ_MAX.scene             := 2048
 FUZZ_MAX.groom_arguments   := 256
 FUZZ_MAX.bench_arguments   := 256
 FUZZ_MAX.capture_arguments := 256
-FUZZ_ALL_TOOLS := file groom_options capture_options $(FUZZ_SCENE)
+FUZZ_MAX.gltf              := 4096
+FUZZ_ALL_TOOLS := file groom_options capture_options $(FUZZ_SCENE) $(FUZZ_GLTF)
 # Parsers that need no library which MemorySanitizer has not compiled, as libjansson.
 FUZZ_PLAIN := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments
 parser    ?= $(if $(filter memory,$(sanitizer)),$(FUZZ_PLAIN),$(FUZZERS))
@@ -141,7 +144,7 @@ fuzz-static: $(FUZZERS:%=build/fuzz/address/%)
 	@du -sh $(FUZZ_CARRIED)
 
 # Other architectures ------------------------------------------------------------------------------------------
-FUZZ_PORTABLE := $(filter-out %scene_fuzz.c %capture_arguments_fuzz.c %bench_arguments_fuzz.c tools/bench/%, \
+FUZZ_PORTABLE := $(filter-out %scene_fuzz.c %gltf_fuzz.c %capture_arguments_fuzz.c %bench_arguments_fuzz.c tools/bench/%, \
   $(filter tests/%,$(FUZZ_REPLAY))) tools/common/file.c tools/common/obj.c tools/common/groom_options.c
 FUZZ_PORTABLE += tests/fuzz/replay.c $(FUZZ_LIB)
 FUZZ_PORTABLE_FLAGS := -std=c17 -Iinclude -I. -O1 -g -ffp-contract=off -DHAIR_FUZZ_PORTABLE -D_FILE_OFFSET_BITS=64 -MMD -MP

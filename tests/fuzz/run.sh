@@ -6,7 +6,7 @@ cd "$(dirname "$0")" || exit 1
 executions=$1 cores=$2
 [ "$cores" ] || { echo "usage: sh run.sh EXECUTIONS CORES [PARSER]..."; exit 2; }
 shift 2
-[ $# -gt 0 ] || set -- hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments
+[ $# -gt 0 ] || set -- hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments gltf
 status=0
 for parser; do
     case $parser in save) max=4096 ;; scene) max=2048 ;; *_arguments) max=256 ;; *) max=1024 ;; esac

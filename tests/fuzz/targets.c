@@ -14,5 +14,6 @@ const struct hair_fuzz_target hair_fuzz_targets[] = {{"hairfile", hair_fuzz_hair
                                                      {"bench_arguments", hair_fuzz_bench_arguments},
                                                      {"scene", hair_fuzz_scene},
                                                      {"capture_arguments", hair_fuzz_capture_arguments},
+                                                     {"gltf", hair_fuzz_gltf},
 #endif
                                                      {0}};

@@ -36,6 +36,7 @@ REPLAY(members)
 REPLAY(bench_arguments)
 REPLAY(scene)
 REPLAY(capture_arguments)
+REPLAY(gltf)
 
 int main(void)
 {
@@ -51,6 +52,7 @@ int main(void)
         cmocka_unit_test(bench_arguments_corpus_keeps_the_properties),
         cmocka_unit_test(scene_corpus_keeps_the_properties),
         cmocka_unit_test(capture_arguments_corpus_keeps_the_properties),
+        cmocka_unit_test(gltf_corpus_keeps_the_properties),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #include "tools/common/json.h"
 #include "tools/common/file.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 bool hair_json_wrong(const struct hair_json* json, const char* key, const char* must)
@@ -121,4 +122,57 @@ bool hair_json_path(const struct hair_json* json, const char* key, const json_t*
     int folder = slash && *name != '/' ? (int)(slash - json->path) + 1 : 0;
     int length = snprintf(path, size, "%.*s%s", folder, json->path, name);
     return (size_t)length < size || hair_json_wrong(json, key, "a shorter name");
+}
+
+bool hair_json_refuse(const struct hair_json* json, const char* key, const json_t* value, const char* must)
+{
+    char text[48] = "missing";
+    char* all = value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(7)) : NULL;
+    size_t length = all ? strlen(all) : 0;
+    if (all) snprintf(text, sizeof text, "%.40s%s", all, length > 40 ? "..." : "");
+    free(all);
+    hair_complain(json->tool, "%s: %s%s is %s, not %s", json->path, json->place, key, text, must);
+    return false;
+}
+
+bool hair_json_count(const struct hair_json* json, const json_t* object, const char* key, uint32_t min,
+                     uint32_t max, uint32_t* out)
+{
+    const json_t* value = json_object_get(object, key);
+    json_int_t number = json_integer_value(value);
+    if (json_is_integer(value) && number >= (json_int_t)min && number <= (json_int_t)max) {
+        *out = (uint32_t)number;
+        return true;
+    }
+    char must[64];
+    snprintf(must, sizeof must, "a whole number in [%u, %u]", min, max);
+    return hair_json_refuse(json, key, value, must);
+}
+
+bool hair_json_floats(const struct hair_json* json, const json_t* object, const char* key, uint32_t count,
+                      double min, double max, float* out)
+{
+    const json_t* value = json_object_get(object, key);
+    bool ok = json_is_array(value) && json_array_size(value) == count;
+    for (uint32_t i = 0; ok && i < count; ++i) {
+        const json_t* element = json_array_get(value, i);
+        double number = json_number_value(element);
+        ok = json_is_number(element) && number >= min && number <= max;
+        out[i] = (float)number;
+    }
+    if (ok) return true;
+    char must[64];
+    snprintf(must, sizeof must, "%u numbers in [%g, %g]", count, min, max);
+    return hair_json_refuse(json, key, value, must);
+}
+
+bool hair_json_objects(const struct hair_json* json, const json_t* object, const char* key,
+                       const json_t** array, uint32_t* size)
+{
+    const json_t* value = json_object_get(object, key);
+    bool ok = !value || (json_is_array(value) && json_array_size(value) <= UINT32_MAX);
+    for (size_t i = 0; ok && i < json_array_size(value); ++i) ok = json_is_object(json_array_get(value, i));
+    *array = value;
+    *size = (uint32_t)json_array_size(value);
+    return ok || hair_json_refuse(json, key, value, "an array of objects");
 }

@@ -80,4 +80,19 @@ bool hair_json_path(const struct hair_json* json, const char* key, const json_t*
 // Print "PATH: PLACE.KEY must be MUST". Return false.
 bool hair_json_wrong(const struct hair_json* json, const char* key, const char* must);
 
+// Members of objects that have other members too, which tables do not list. A member that is
+// missing or wrong is an error, which names its value.
+
+// Print "PATH: PLACE.KEY is VALUE, not MUST". Return false. A `value` of NULL is missing.
+bool hair_json_refuse(const struct hair_json* json, const char* key, const json_t* value, const char* must);
+// Read a whole number in [min, max].
+bool hair_json_count(const struct hair_json* json, const json_t* object, const char* key, uint32_t min,
+                     uint32_t max, uint32_t* out);
+// Read an array of `count` numbers in [min, max].
+bool hair_json_floats(const struct hair_json* json, const json_t* object, const char* key, uint32_t count,
+                      double min, double max, float* out);
+// Read an array of objects. A missing array has the size 0.
+bool hair_json_objects(const struct hair_json* json, const json_t* object, const char* key,
+                       const json_t** array, uint32_t* size);
+
 #endif
