@@ -6,6 +6,9 @@
 // through three neighbours, so segments of unequal length cause no overshoot. The drawn state lies
 // between the start and the end of the last substep. Both are taken in the head's own frame and
 // placed under the current pose of the head, so that roots never leave the scalp.
+//
+// The frame at the root is that of the scalp, and not that of the first segment. Followers hang on
+// it, so their roots and shapes do not turn with the first segment of guide 0.
 #version 450 core
 #include "sim/buffers.glsl"
 layout(local_size_x = HAIR_GUIDE_THREADS) in;
@@ -84,8 +87,8 @@ void main()
     vertex[i]    = rotate(params.rotation_now, in_head);
     synchronise();
     vec3 link = i + 1u < count ? vertex[i + 1u] - vertex[i] : vec3(0.0);
-    carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)),
-                 quat_multiply(scalp, guide[g].root_frame));
+    vec4 root_frame = quat_multiply(scalp, guide[g].root_frame);
+    carry_frames(i, count - 1u, direction_or(link, vec3(0.0, 1.0, 0.0)), root_frame);
     sum_lengths(i, count);
 
     // A guide that has been cut is smoothed over its length in the groom, and goes on straight.
@@ -111,7 +114,8 @@ void main()
 
         uint to             = g * params.smooth_vertices + k;
         smooth_position[to] = vec4(point, s);
-        vec4 frame          = quat_multiply(quat_between(segment_direction[j], tangent), scan_frame[j]);
+        vec4 turned         = quat_multiply(quat_between(segment_direction[j], tangent), scan_frame[j]);
+        vec4 frame          = k == 0u ? root_frame : turned;
         smooth_frame[to]    = pack_frame(frame, l / max(rest_length, 1e-12) - 1.0);
     }
 }

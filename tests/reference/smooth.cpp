@@ -78,6 +78,14 @@ chords measure(const hair_reference_guide& g, const hair_reference_vertex* state
     return c;
 }
 
+// Give the root the frame of the scalp, which does not turn with the first segment.
+void hang_on_scalp(const hair_reference_guide& g, hair_reference_sample& root)
+{
+    const Quaterniond scalp = quaternion_of(g.params->rotation_now) * quaternion_of(g.guide->root_frame);
+    store(scalp, root.frame);
+    store(scalp * Vector3d(0, 1, 0), root.tangent);
+}
+
 } // namespace
 
 void hair_reference_smooth(hair_reference_guide g, const hair_reference_vertex* state,
@@ -99,5 +107,6 @@ void hair_reference_smooth(hair_reference_guide g, const hair_reference_vertex* 
         sample.stretch = length / g.rest[j].position.w - 1;
         // Rotate the segment's frame onto the tangent by the smallest rotation.
         hair_reference_frames(1, sample.tangent, &c.frames[4 * j], sample.frame);
+        if (k == 0) hang_on_scalp(g, sample);
     }
 }
