@@ -5,6 +5,7 @@
 
 #include "tools/bullet/world.h"
 #include "tools/common/capture_options.h"
+#include "tools/common/character.h"
 #include "tools/common/cuts.h"
 #include "tools/common/dump.h"
 #include "tools/common/file.h"
@@ -42,6 +43,8 @@ struct capture {
     struct hair_cut_pieces pieces;
     uint32_t collider_room;
     hair_collision_mesh* head[HEAD_MESHES]; // of the built-in head, NULL if none is drawn
+    struct hair_character* character; // NULL if the scene has none
+    float eye[3], target[3]; // of the camera at the start of the scene, m
     struct hair_render* render;
     struct hair_frame_writer sink;
     struct hair_stats stats;
@@ -65,12 +68,45 @@ static int exit_for_settings(const struct capture* capture, int status)
     return status == HAIR_EXIT_USAGE && capture->options.is_of_file ? HAIR_EXIT_INPUT : status;
 }
 
+// Compute the pose of the head, and of the character if there is one. Return false after printing
+// an error.
+static bool pose_at(struct capture* capture, float time, float transform[16])
+{
+    if (!capture->character) {
+        hair_motion_at(&capture->options.scene.motion, time, transform);
+        return true;
+    }
+    if (!hair_character_pose(capture->character, time)) return false;
+    memcpy(transform, capture->character->transform, 16 * sizeof *transform);
+    return true;
+}
+
 // Making ------------------------------------------------------------------------------------------
+
+static int make_character(struct capture* capture)
+{
+    struct hair_scene* scene = &capture->options.scene;
+    int code = hair_character_create(TOOL, scene, &capture->character);
+    if (code || !capture->character) return code;
+    scene->head = false;
+    if (scene->settings.desc.solver != HAIR_SOLVER_REDBLACK) return HAIR_EXIT_OK;
+    hair_complain(TOOL, "the solver redblack knows no bodies that deform, which a character needs");
+    return HAIR_EXIT_USAGE;
+}
+
+// Create the body of the character, and bind the hair to it.
+static hair_result attach_character(struct capture* capture)
+{
+    const float* pivot = capture->options.scene.motion.pivot;
+    hair_result result =
+        hair_character_create_body(capture->character, capture->context, pivot, capture->reach);
+    return result ? result : hair_character_attach(capture->character, capture->hair);
+}
 
 static int make_groom(struct capture* capture)
 {
     struct hair_scene* scene = &capture->options.scene;
-    int code = hair_groom_source_load(TOOL, &capture->host, scene, &capture->groom);
+    int code = hair_groom_source_load(TOOL, &capture->host, scene, capture->character, &capture->groom);
     if (code) return exit_for_settings(capture, code);
     hair_groom_info* info = &capture->stats.groom;
     *info = hair_groom_info_default();
@@ -82,9 +118,12 @@ static int make_groom(struct capture* capture)
                                  {info->upper[0], info->upper[1], info->upper[2]}};
     if (!scene->head && !scene->pivot_is_said)
         for (int i = 0; i < 3; ++i) scene->motion.pivot[i] = 0.5f * (bounds.lower[i] + bounds.upper[i]);
-    if (!scene->framed) hair_camera_frame(scene, &bounds);
     // Hair swings beyond its bounds at rest.
     capture->reach = 1.15f * hair_camera_reach(scene, &bounds);
+    if (capture->character) hair_character_bounds(capture->character, &bounds);
+    if (!scene->framed) hair_camera_frame(scene, &bounds);
+    memcpy(capture->eye, scene->eye, sizeof capture->eye);
+    memcpy(capture->target, scene->target, sizeof capture->target);
     return HAIR_EXIT_OK;
 }
 
@@ -104,6 +143,10 @@ static int make_mesh(struct capture* capture)
     const struct hair_scene* scene = &capture->options.scene;
     struct head_mesh mesh;
     bool ball = scene->subject == HAIR_SUBJECT_FUR;
+    if (capture->character) {
+        hair_render_set_mesh(capture->render, &capture->character->mesh, true);
+        return HAIR_EXIT_OK;
+    }
     if (!scene->head && !ball) return HAIR_EXIT_OK;
     if (scene->head ? head_mesh_create(&mesh) : hair_head_rig_ball(scene->ball_radius, &mesh)) {
         hair_complain(TOOL, "out of memory for the head");
@@ -149,12 +192,13 @@ static hair_result set_colliders(struct capture* capture, float time, const floa
     if (!result)
         result = hair_world_colliders(capture->world, time, transform, lower, upper, &others, &other_count);
     if (result) return result;
-    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + other_count)) {
+    if (!reserve_colliders(capture, HAIR_HEAD_RIG_COLLIDERS + 1 + other_count)) {
         hair_complain(TOOL, "out of memory for %u colliders", other_count);
         return HAIR_ERROR_MEMORY;
     }
     uint32_t count =
         hair_head_rig_colliders(&capture->options.scene, capture->head, time, transform, capture->colliders);
+    if (capture->character) capture->colliders[count++] = hair_character_collider(capture->character);
     if (other_count) memcpy(capture->colliders + count, others, other_count * sizeof *others);
     count += other_count;
     capture->collider_count = count;
@@ -191,10 +235,11 @@ static int make_hair(struct capture* capture)
     desc.label = capture->options.name;
     desc.physics = &scene->settings.physics;
     desc.look = &scene->settings.look;
-    hair_motion_at(&scene->motion, 0, desc.transform);
+    pose_at(capture, 0, desc.transform);
     hair_result result = hair_create(capture->context, capture->groom, &desc, &capture->hair);
     if (!result) result = hair_groups_apply(capture->hair, &scene->settings, NULL);
     if (!result) result = hair_set_wind(capture->hair, &wind);
+    if (!result && capture->character) result = attach_character(capture);
     if (!result) result = set_colliders(capture, 0, desc.transform);
     if (!result) result = hair_playback_play(&capture->cache, capture->hair, 0);
     return exit_for_settings(capture, hair_exit_for(result));
@@ -231,8 +276,9 @@ static hair_result step(struct capture* capture, uint32_t frame)
     hair_result result = HAIR_OK;
     for (int i = 1; i <= parts && !result; ++i) {
         float transform[16], time = time_of(capture, frame - 1 + (double)i / parts);
-        hair_motion_at(&scene->motion, time, transform);
-        result = hair_set_transform(capture->hair, transform);
+        if (!pose_at(capture, time, transform)) return HAIR_ERROR_FILE;
+        result = capture->character ? hair_character_move(capture->character, capture->hair)
+                                    : hair_set_transform(capture->hair, transform);
         if (!result) result = set_colliders(capture, time, transform);
         if (!result) result = hair_playback_play(&capture->cache, capture->hair, (double)time);
         float dt = 1 / (scene->fps * (float)parts);
@@ -249,6 +295,19 @@ static int dump(struct capture* capture)
     return code ? code : hair_dump_put(&capture->followers, capture->hair);
 }
 
+// Draw the mesh of the character in its pose, from a camera that follows.
+static void move_picture(struct capture* capture, float time)
+{
+    struct hair_scene* scene = &capture->options.scene;
+    float way[3];
+    hair_render_move_mesh(capture->render, &capture->character->mesh);
+    hair_character_way(capture->character, time, way);
+    for (int i = 0; i < 3 && scene->character.follow; ++i) {
+        scene->eye[i] = capture->eye[i] + way[i];
+        scene->target[i] = capture->target[i] + way[i];
+    }
+}
+
 static int show(struct capture* capture, uint32_t frame)
 {
     const struct hair_capture_options* options = &capture->options;
@@ -257,7 +316,8 @@ static int show(struct capture* capture, uint32_t frame)
     float transform[16];
     double before = hair_now();
     if (!options->out && !options->stats && !options->hash) return dump(capture);
-    hair_motion_at(&scene->motion, time_of(capture, frame), transform);
+    if (!pose_at(capture, time_of(capture, frame), transform)) return HAIR_EXIT_INPUT;
+    if (capture->character) move_picture(capture, time_of(capture, frame));
     int code = hair_render_frame(capture->render, scene, transform, capture->reach, capture->hair, &image);
     code = exit_for_settings(capture, code);
     if (code) return code;
@@ -316,7 +376,8 @@ static int run_frames(struct capture* capture)
 
 static int make(struct capture* capture)
 {
-    int code = make_groom(capture);
+    int code = make_character(capture);
+    if (!code) code = make_groom(capture);
     if (!code) code = make_opengl(capture);
     if (!code) code = make_render(capture);
     if (!code)
@@ -403,6 +464,7 @@ static void destroy(struct capture* capture)
     hair_cuts_destroy(&capture->pieces);
     hair_destroy(capture->hair);
     hair_world_destroy(capture->world);
+    hair_character_destroy(capture->character);
     for (int i = 0; i < HEAD_MESHES; ++i) hair_collision_mesh_destroy(capture->head[i]);
     if (capture->render) hair_render_destroy(capture->render);
     hair_shader_destroy(capture->shader);

@@ -12,7 +12,7 @@ sanitizer ?= address
 
 # Programs, and objects of the tools that each needs. The rest comes out of the library.
 FUZZERS := hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments gltf
-FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_colliders scene_cuts scene_lights scene_maps scene_wind \
+FUZZ_SCENE := builtin json motion obj scene scene_bullet scene_character scene_colliders scene_cuts scene_lights scene_maps scene_wind \
   settings settings_keys
 FUZZ_GLTF := gltf gltf_animation gltf_buffer gltf_mesh gltf_node
 FUZZ_TOOLS.hairfile          := file

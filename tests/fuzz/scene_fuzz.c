@@ -170,6 +170,21 @@ static void check_use(const struct hair_scene* scene)
     }
 }
 
+static void add_character(uint64_t* hash, const struct hair_scene_character* character)
+{
+    HAIR_FUZZ_CHECK(memchr(character->head, 0, sizeof character->head) &&
+                    memchr(character->animation_name, 0, sizeof character->animation_name));
+    hair_fuzz_add_text(hash, character->file);
+    hair_fuzz_add_text(hash, character->animation_name);
+    hair_fuzz_add_text(hash, character->head);
+    hair_fuzz_add(hash, character->animation);
+    hair_fuzz_add(hash, character->fit);
+    hair_fuzz_add(hash, character->follow);
+    add_floats(hash, &character->scale, 1);
+    add_floats(hash, &character->hair_scale, 1);
+    add_floats(hash, character->hair_offset, 3);
+}
+
 static uint64_t check(const struct hair_scene* scene)
 {
     uint64_t hash = 0;
@@ -193,6 +208,7 @@ static uint64_t check(const struct hair_scene* scene)
         add_shape(&hash, &scene->bullet.object[i].shape);
         add_collider(&hash, &scene->bullet.object[i].body);
     }
+    add_character(&hash, &scene->character);
     add_maps_and_lights(&hash, scene);
     add_settings(&hash, scene);
     return hash;

@@ -65,7 +65,7 @@ bool bench_bust_make(struct bench* bench, uint32_t followers, uint32_t segments,
     // Only interpolation and colliders may turn strands.
     out->look.strays.tip_fraction = out->look.strays.fraction = 0;
     if (segments) out->look.strand.segments = segments;
-    if (!hair_groom_source_load(BENCH_TOOL, &bench->host, &out->scene, &out->groom) &&
+    if (!hair_groom_source_load(BENCH_TOOL, &bench->host, &out->scene, NULL, &out->groom) &&
         bring_to_life(out, hit_method))
         return true;
     bench_bust_free(out);

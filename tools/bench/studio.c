@@ -117,7 +117,7 @@ static bool make_subject(struct bench_studio* studio, const struct bench_studio_
         return false;
     scene->width = scene->height = studio->size;
     if (desc->followers) studio->fewer = (float)followers / (float)desc->followers;
-    if (hair_groom_source_load(BENCH_TOOL, &studio->bench->host, scene, &studio->groom)) return false;
+    if (hair_groom_source_load(BENCH_TOOL, &studio->bench->host, scene, NULL, &studio->groom)) return false;
     studio->info = hair_groom_info_default();
     if (hair_groom_describe(studio->groom, &studio->info)) return false;
     struct hair_bounds bounds;

@@ -51,17 +51,20 @@ static void report_unused(const char* tool, const struct hair_scene* scene, cons
         hair_complain(tool, "attributes of the scene are left out, because the groom has no scalp");
 }
 
-static int build(const char* tool, const hair_host* host, const struct hair_scene* scene, hair_asset* asset,
-                 hair_groom** out)
+static int build(const char* tool, const hair_host* host, const struct hair_scene* scene,
+                 struct hair_character* character, hair_asset* asset, hair_groom** out)
 {
     hair_groom_desc desc = scene->settings.groom;
     desc.host = host;
     int code = hair_exit_for(hair_asset_to_groom_desc(asset, &desc));
     bool is_mapped = scene->maps.count || scene->attributes.count;
+    float* changed = NULL;
+    if (!code && character) code = hair_character_fit(character, scene, &desc, &changed);
     if (!code) report_unused(tool, scene, &desc);
     if (!code)
         code = is_mapped && desc.scalp_positions ? build_mapped(scene, &desc, out)
                                                  : hair_exit_for(hair_groom_create(&desc, out));
+    free(changed);
     hair_asset_destroy(asset);
     return code;
 }
@@ -92,7 +95,7 @@ static hair_result read_asset(const hair_host* host, hair_import import, const s
 }
 
 static int load_file(const char* tool, const hair_host* host, const struct hair_scene* scene,
-                     hair_groom** out)
+                     struct hair_character* character, hair_groom** out)
 {
     struct hair_bytes bytes;
     if (!hair_file_read_haircut(tool, scene->groom, MAX_BYTES, &bytes)) return HAIR_EXIT_INPUT;
@@ -112,17 +115,17 @@ static int load_file(const char* tool, const hair_host* host, const struct hair_
         }
     }
     free(bytes.data);
-    return result ? hair_exit_for(result) : build(tool, host, scene, asset, out);
+    return result ? hair_exit_for(result) : build(tool, host, scene, character, asset, out);
 }
 
 static int make_style(const char* tool, const hair_host* host, const struct hair_scene* scene,
-                      hair_groom** out)
+                      struct hair_character* character, hair_groom** out)
 {
     hair_style_desc desc = scene->settings.style;
     desc.host = host;
     hair_asset* asset;
     hair_result result = hair_asset_generate(&desc, &asset);
-    return result ? hair_exit_for(result) : build(tool, host, scene, asset, out);
+    return result ? hair_exit_for(result) : build(tool, host, scene, character, asset, out);
 }
 
 // Fur ---------------------------------------------------------------------------------------------
@@ -184,12 +187,12 @@ static int make_fur(const char* tool, const hair_host* host, const struct hair_s
 }
 
 int hair_groom_source_load(const char* tool, const hair_host* host, const struct hair_scene* scene,
-                           hair_groom** out)
+                           struct hair_character* character, hair_groom** out)
 {
     switch (scene->subject) {
-    case HAIR_SUBJECT_FILE: return load_file(tool, host, scene, out);
+    case HAIR_SUBJECT_FILE: return load_file(tool, host, scene, character, out);
     case HAIR_SUBJECT_FUR: return make_fur(tool, host, scene, out);
     case HAIR_SUBJECT_STYLE: break;
     }
-    return make_style(tool, host, scene, out);
+    return make_style(tool, host, scene, character, out);
 }

@@ -116,6 +116,11 @@ void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* me
     hair_render_mesh_make(mesh, whole, &render->mesh);
 }
 
+void hair_render_move_mesh(struct hair_render* render, const struct head_mesh* mesh)
+{
+    hair_render_mesh_move(&render->mesh, mesh);
+}
+
 void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count)
 {
     render->more_hair = hair;

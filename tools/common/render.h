@@ -27,6 +27,9 @@ void hair_render_destroy(struct hair_render* render); // NULL is allowed.
 // Otherwise it bends at the neck.
 void hair_render_set_mesh(struct hair_render* render, const struct head_mesh* mesh, bool whole);
 
+// Move the vertices of the mesh, which has as many as before.
+void hair_render_move_mesh(struct hair_render* render, const struct head_mesh* mesh);
+
 // Draw further hair in all following pictures, with the passes of the hair. The array must live as
 // long.
 void hair_render_set_more_hair(struct hair_render* render, hair_instance* const* hair, uint32_t count);

@@ -10,7 +10,7 @@ static GLuint make_buffer(const void* bytes, size_t size)
 {
     GLuint buffer;
     glCreateBuffers(1, &buffer);
-    glNamedBufferStorage(buffer, (GLsizeiptr)size, bytes, 0);
+    glNamedBufferStorage(buffer, (GLsizeiptr)size, bytes, GL_DYNAMIC_STORAGE_BIT);
     return buffer;
 }
 
@@ -47,6 +47,13 @@ void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair
     out->bend[1] = HAIR_HEAD_RIG_RESTS;
     for (GLuint i = HAIR_MESH_POSITIONS; i <= HAIR_MESH_SURFACE; ++i) attach(out, i);
     glVertexArrayElementBuffer(out->vertex_array, out->buffer[HAIR_MESH_TRIANGLES]);
+}
+
+void hair_render_mesh_move(const struct hair_render_mesh* mesh, const struct head_mesh* to)
+{
+    GLsizeiptr bytes = (GLsizeiptr)to->vertex_count * 3 * (GLsizeiptr)sizeof(float);
+    glNamedBufferSubData(mesh->buffer[HAIR_MESH_POSITIONS], 0, bytes, to->positions);
+    glNamedBufferSubData(mesh->buffer[HAIR_MESH_NORMALS], 0, bytes, to->normals);
 }
 
 void hair_render_mesh_draw(const struct hair_render_mesh* mesh, unsigned program, const float transform[16],

@@ -26,6 +26,8 @@ struct hair_render_mesh {
 // Replace the mesh. With `whole`, the whole mesh moves with the head. Otherwise it bends at the
 // neck.
 void hair_render_mesh_make(const struct head_mesh* mesh, bool whole, struct hair_render_mesh* out);
+// Move the vertices of the mesh, which has as many as before.
+void hair_render_mesh_move(const struct hair_render_mesh* mesh, const struct head_mesh* to);
 void hair_render_mesh_delete(struct hair_render_mesh* mesh);
 
 // Draw the mesh by a program of hair_mesh_vert, with or without brows, lashes and fine hairs.

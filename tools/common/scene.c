@@ -33,6 +33,7 @@ void hair_scene_default(struct hair_scene* scene)
                                             .show = HAIR_SHOW_HAIR | HAIR_SHOW_HEAD};
     *scene = fresh;
     scene->settings = hair_settings_default();
+    scene->character = hair_scene_character_default();
 }
 
 void hair_scene_free(struct hair_scene* scene)
@@ -90,7 +91,7 @@ bool hair_scene_set_style(const char* tool, const char* name, struct hair_scene*
     }
     scene->subject = HAIR_SUBJECT_STYLE;
     scene->settings.style.style = style;
-    if (!scene->head_is_said) scene->head = true;
+    if (!scene->head_is_said) scene->head = !*scene->character.file;
     return read_style_settings(tool, name, scene);
 }
 
@@ -153,6 +154,11 @@ static bool read_wind(const place* json, const char* key, const json_t* value, v
 static bool read_cuts(const place* json, const char* key, const json_t* value, void* out)
 {
     return hair_scene_read_cuts(json, key, value, &((struct hair_scene*)out)->cuts);
+}
+
+static bool read_character(const place* json, const char* key, const json_t* value, void* out)
+{
+    return hair_scene_read_character(json, key, value, &((struct hair_scene*)out)->character);
 }
 
 static bool read_bullet(const place* json, const char* key, const json_t* value, void* out)
@@ -224,6 +230,7 @@ static const entry whole[] = {HAIR_OTHER("style", read_style),
                               HAIR_OTHER("groom", read_groom),
                               HAIR_OTHER("fur", read_fur),
                               HAIR_BOOLEAN("head", AT(head)),
+                              HAIR_OTHER("character", read_character),
                               HAIR_OTHER("colliders", read_colliders),
                               HAIR_OTHER("bullet", read_bullet),
                               HAIR_OTHER("cuts", read_cuts),
@@ -255,6 +262,20 @@ static json_t* load(const char* tool, const char* path, const char* text, size_t
     return root;
 }
 
+// A character replaces the built-in head and moves by its own animation.
+static bool check_character(const struct hair_json* json, const json_t* root, const struct hair_scene* scene)
+{
+    if (!*scene->character.file) return true;
+    if (scene->head) return hair_json_wrong(json, "head", "false or left out beside a character");
+    if (scene->subject == HAIR_SUBJECT_FUR)
+        return hair_json_wrong(json, "fur", "left out beside a character");
+    const char* moves = json_object_get(root, "pose")     ? "pose"
+                        : json_object_get(root, "motion") ? "motion"
+                                                          : NULL;
+    return !moves ||
+           hair_json_wrong(json, moves, "left out beside a character, which moves by its animation");
+}
+
 static bool read_scene(const char* tool, const char* path, const json_t* root, struct hair_scene* scene)
 {
     hair_scene_default(scene);
@@ -267,8 +288,8 @@ static bool read_scene(const char* tool, const char* path, const json_t* root, s
                                "given with at most 4 lights, the first among them, that have a shadow");
     scene->head_is_said = json_object_get(root, "head");
     scene->pivot_is_said = json_object_get(root, "pivot");
-    if (!scene->head_is_said) scene->head = scene->subject == HAIR_SUBJECT_STYLE;
-    return true;
+    if (!scene->head_is_said) scene->head = scene->subject == HAIR_SUBJECT_STYLE && !*scene->character.file;
+    return check_character(&json, root, scene);
 }
 
 bool hair_scene_parse(const char* tool, const char* path, const char* text, size_t size,

@@ -8,6 +8,7 @@
 
 #include "tools/common/motion.h"
 #include "tools/common/scene_bullet.h"
+#include "tools/common/scene_character.h"
 #include "tools/common/scene_cuts.h"
 #include "tools/common/scene_lights.h"
 #include "tools/common/scene_maps.h"
@@ -26,7 +27,6 @@ enum hair_show {
     HAIR_SHOW_WIND = 16
 };
 
-#define HAIR_SCENE_PATH 4096
 #define HAIR_SCENE_COLLIDERS 32 // The built-in head adds its own colliders.
 
 struct hair_scene {
@@ -37,6 +37,7 @@ struct hair_scene {
     float ball_radius; // m, around the origin
     bool head; // draws the built-in head and its colliders
     bool head_is_said, pivot_is_said;
+    struct hair_scene_character character; // replaces the built-in head
     bool framed; // The camera below is set. Otherwise it is made to fit the haircut.
     float eye[3], target[3]; // m
     float field_of_view; // vertical, degrees

@@ -302,6 +302,8 @@ static json_t* scene_of(const char* tool, const struct hair_scene* scene, struct
         return NULL;
     }
     put_subject(root, scene);
+    if (*scene->character.file)
+        json_object_set_new(root, "character", hair_scene_write_character(&scene->character));
     put_maps(root, &scene->maps);
     put_attributes(root, &scene->attributes);
     put_motion(tool, root, &scene->motion);

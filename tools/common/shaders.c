@@ -113,6 +113,8 @@ const char hair_scalp_motion_frag[] = HEAD
     "    float off   = 3.0 * texel[map] + 0.0012 * surface.x;\n"
     "    vec4  clip  = shadow[map] * vec4(position + off * n, 1.0);\n"
     "    vec3  at    = clip.xyz / max(clip.w, 1e-6);\n"
+    // The map covers the reach of the hair. Nothing is known to shadow a place beyond.
+    "    if (any(greaterThan(abs(at - 0.5), vec3(0.5)))) return vec3(1.0);\n"
     "    vec2  size  = 1.0 / vec2(textureSize(body_map[map], 0));\n"
     "    float turn  = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));\n"
     "    vec2  way   = vec2(cos(6.2831853 * turn), sin(6.2831853 * turn));\n"

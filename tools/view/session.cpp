@@ -172,7 +172,8 @@ void restore(view_session& session, const hair_scene& scene)
 int remake(view_session& session, hair_scene& scene, bool with_groom)
 {
     hair_groom* groom = session.groom;
-    int code = with_groom ? hair_groom_source_load(TOOL, &session.host, &scene, &groom) : HAIR_EXIT_OK;
+    int code =
+        with_groom ? hair_groom_source_load(TOOL, &session.host, &scene, nullptr, &groom) : HAIR_EXIT_OK;
     if (!code) code = replace_hair(session, scene, groom);
     return code;
 }
