@@ -237,6 +237,8 @@ int view_session_apply(view_session& session, hair_scene& scene, const std::stri
         if (code) restore(session, scene);
     }
     if (code) return code;
+    if (*scene.character.file && (is_first || with_groom))
+        hair_complain(TOOL, "%s is not shown, only its hair; hair-capture films it", scene.character.file);
     bool has_other_mesh =
         !is_first && (session.applied->head != scene.head || session.applied->subject != scene.subject ||
                       session.applied->ball_radius != scene.ball_radius);
