@@ -23,10 +23,11 @@ fibre_scattering find_scattering(float half_cosine, vec3 mu)
 // Return the fraction of light that each fibre absorbs.
 vec3 absorbed_by(fibre_scattering fibre) { return max(1.0 - fibre.on - fibre.back, 0.0); }
 
-// Return the reflectance of hair through which no light passes (Kubelka and Munk 1931).
-vec3 reflectance_of(fibre_scattering fibre)
+// Return the reflectance of hair through which no light passes (Kubelka and Munk 1931). Each fibre
+// loses a fraction of the light, and returns another.
+vec3 reflectance_of(vec3 lost, vec3 back)
 {
-    vec3 k = absorbed_by(fibre) / fibre.back;
+    vec3 k = lost / back;
     return 1.0 / (1.0 + k + sqrt(k * (k + 2.0)));
 }
 
@@ -38,13 +39,22 @@ struct fibre_light {
     float order;  // From 0 where fibres point in all directions to 1 where they are parallel.
 };
 
+// Return the fraction of a light that meets no fibre on its way to the visible places of a fibre.
+// `between` is the cosine of the angle between light and eye. An eye near the light sees places
+// that are lit more often than others (Kuusk 1991).
+float find_visible_light(float direct, float between)
+{
+    const float FIT_SEEN = 0.382;
+    return pow(direct, 1.0 - FIT_SEEN * between);
+}
+
 // Return the fraction of light that hair lets through, scattered or not, past `met` fibres (Kubelka
-// and Munk 1931). Parallel fibres return more of the light.
+// and Munk 1931). Parallel fibres return more of the light. Some of it leaves the hair sideways.
 vec3 pass_through(fibre_scattering fibre, float met, float order)
 {
-    const float FIT_CURLED = 1.14, FIT_PARALLEL = 5.03, FIT_ABSORBED = 0.886;
+    const float FIT_CURLED = 0.781, FIT_PARALLEL = 4.402, FIT_ABSORBED = 0.799, FIT_LOST = 0.003;
     vec3 back = mix(FIT_CURLED, FIT_PARALLEL, order) * fibre.back;
-    vec3 lost = FIT_ABSORBED * max(absorbed_by(fibre), 1e-5), rate = sqrt(lost * (lost + 2.0 * back));
+    vec3 lost = FIT_ABSORBED * absorbed_by(fibre) + FIT_LOST, rate = sqrt(lost * (lost + 2.0 * back));
     vec3 on   = exp(-min(rate * met, 40.0));
     return 2.0 * rate * on / ((back + lost) * (1.0 - on * on) + rate * (1.0 + on * on));
 }
@@ -52,19 +62,21 @@ vec3 pass_through(fibre_scattering fibre, float met, float order)
 // Return the light that reaches a fibre from others and is scattered to the eye.
 vec3 scatter_often(fibre_angles a, fibre_scattering fibre, fibre_light light)
 {
-    const float FIT_AHEAD_CURLED = 1.735, FIT_AHEAD = 4.565, FIT_NARROW = 1.528, FIT_EVEN = 0.37;
-    const float FIT_RETURNED = 5.856, FIT_DEEP = 0.34;
+    const float FIT_AHEAD_CURLED = 1.395, FIT_AHEAD = 3.484, FIT_NARROW = 1.503, FIT_EVEN_CURLED = 0.278;
+    const float FIT_RETURNED = 1.688, FIT_ABSORBED = 1.502, FIT_LOST = 0.011;
     const float EVEN = 0.5; // Longitudinal lobe of light that is scattered to all sides.
     vec2  level = vec2(0.0, 1.0);
     float none  = exp(-light.met);
     // If light meets any fibre, a Poisson process has at least one.
     vec3  if_any = max(pass_through(fibre, light.met, light.order) - none, 0.0) / max(1.0 - none, 1e-3);
     vec3  scattered = (1.0 - light.direct) * if_any;
-    // A fibre that sees the sky on all sides has no fibres behind it to return light.
-    float behind   = 1.0 - pow(light.open, FIT_DEEP);
-    vec3  returned = behind * reflectance_of(fibre) * (light.direct + scattered);
+    // The fibres around, which return light, hide the sky.
+    float fibres   = -log(light.open);
+    vec3  lost     = FIT_ABSORBED * absorbed_by(fibre) + FIT_LOST;
+    vec3  returned = fibres * reflectance_of(lost, fibre.back) * (light.direct + scattered);
     float on    = pow(sin(1.5707963 * a.turn), 2.0 * FIT_NARROW);
-    float ahead = on * mix(longitudinal(a, fibre.variance.x, level), EVEN, FIT_EVEN);
+    float even  = mix(FIT_EVEN_CURLED, 1.0, light.order);
+    float ahead = on * mix(longitudinal(a, fibre.variance.x, level), EVEN, even);
     float around = 0.5 * mix(EVEN, longitudinal(a, fibre.variance.y, level), light.order);
     ahead *= mix(FIT_AHEAD_CURLED, FIT_AHEAD, light.order);
     vec3 forward = ahead * fibre.on * scattered;
@@ -77,6 +89,7 @@ vec3 scatter_often(fibre_angles a, fibre_scattering fibre, fibre_light light)
 vec3 reflect_sky(fibre_scattering fibre, float open)
 {
     const float FIT_DENSE = 0.404, FIT_OPEN = 1.132;
-    vec3 single = fibre.on + fibre.back, ratio = log(single / reflectance_of(fibre));
+    vec3 single = fibre.on + fibre.back, dense = reflectance_of(absorbed_by(fibre), fibre.back);
+    vec3 ratio  = log(single / dense);
     return single * pow(vec3(open), FIT_OPEN * ratio * ratio / (ratio + FIT_DENSE));
 }

@@ -97,7 +97,8 @@ vec3 reflect_beam(hair_fragment f, strand_reflection own, hair_beam beam, float 
     vec3 once  = scatter_once(a, own.mu, own.tilt, own.variance);
     fibre_light light = fibre_light(direct, met, open, own.order);
     vec3 often = scatter_often(a, inclined, light);
-    return a.light.y * beam.irradiance * (direct * once + draw.fibre.w * often);
+    once *= find_visible_light(direct, a.between);
+    return a.light.y * beam.irradiance * (once + draw.fibre.w * often);
 }
 
 vec3 hair_shade(hair_fragment f)

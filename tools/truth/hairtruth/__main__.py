@@ -2,6 +2,7 @@
 
 import argparse
 import csv
+import math
 import os
 import sys
 import tempfile
@@ -13,7 +14,7 @@ from hairtruth import cases, ours, traced
 
 FLIP_COLORS, FLIP_AZIMUTHS = ("blond", "brown"), (0, 90, 180)
 FLIP_SIZE = 512
-KEYS = ("case", "red", "green", "blue", "flip", "halves")
+KEYS = ("case", "red", "green", "blue", "error", "flip", "halves")
 
 
 def encode(linear):
@@ -32,26 +33,34 @@ def compares_pictures(case):
             and case.light.azimuth in FLIP_AZIMUTHS)
 
 
+def standard_error(pictures):
+    """Return the greatest relative standard error of a channel's mean over pictures, or None."""
+    means = pictures.mean((1, 2), dtype=np.float64)
+    if len(means) < 2:
+        return None
+    return float((means.std(0, ddof=1) / math.sqrt(len(means)) / means.mean(0)).max())
+
+
 def measure(options, haircut, folder):
     """Yield a row for each case of a haircut."""
-    hair = None
+    curves = os.path.join(folder, f"{haircut}.txt")
     for case in cases.all_cases():
         if case.haircut != haircut or options.match not in case.name:
             continue
         pictured = compares_pictures(case) and options.flip_samples
         size = FLIP_SIZE if pictured else options.size
-        picture, dump = ours.draw(options.capture, case, size, folder, hair is None)
-        if hair is None:
-            hair = traced.Traced(ours.read_strands(dump), cases.HAIRCUTS[haircut].radius, folder,
-                                 haircut)
+        picture, dump = ours.draw(options.capture, case, size, folder, not os.path.exists(curves))
+        if dump:
+            traced.write_strands(ours.read_strands(dump), cases.HAIRCUTS[haircut].radius, curves)
         drawn = traced.read_exr(picture)
-        samples = options.flip_samples // 2 if pictured else options.samples
-        truth = hair.picture(case, size, samples)[..., :3]
-        row = {"case": case.name}
+        samples, parts = options.samples, options.parts
         if pictured:
-            again = hair.picture(case, size, samples, seed=1)[..., :3]
-            row["halves"] = flip(truth, again)
-            truth = 0.5 * (truth + again)
+            samples, parts = options.flip_samples // 2, 2
+        traces = traced.pictures(options.variant, case, curves, size, samples, parts)
+        truth = traces.mean(0)
+        row = {"case": case.name, "error": standard_error(traces)}
+        if pictured:
+            row["halves"] = flip(traces[0], traces[1])
             row["flip"] = flip(truth, drawn)
             if options.pictures:
                 np.save(os.path.join(options.pictures, case.name + ".npy"),
@@ -64,6 +73,8 @@ def measure(options, haircut, folder):
 def show(row):
     cells = [f"{row['case']:24}"]
     cells += [f"{100 * row[key]:+6.1f} %" for key in ("red", "green", "blue")]
+    if row["error"] is not None:
+        cells.append(f"standard error {100 * row['error']:.1f} %")
     if "flip" in row:
         cells.append(f"FLIP {row['flip']:.4f}, of two halves of the truth {row['halves']:.4f}")
     print("  ".join(cells), flush=True)
@@ -76,7 +87,9 @@ def parse(arguments):
     parser.add_argument("--haircut", choices=list(cases.HAIRCUTS), help="only this haircut")
     parser.add_argument("--match", default="", help="only cases whose name contains this")
     parser.add_argument("--size", type=int, default=192, help="of pictures, pixels; 192")
-    parser.add_argument("--samples", type=int, default=32, help="a pixel of the truth; 32")
+    parser.add_argument("--samples", type=int, default=16, help="a pixel of a part; 16")
+    parser.add_argument("--parts", type=int, default=2,
+                        help="of the truth, which differ by their random numbers; 2")
     parser.add_argument("--flip-samples", type=int, default=0,
                         help="a pixel of the truth where pictures are compared; 0: none are")
     parser.add_argument("--csv", help="write the rows to this file")

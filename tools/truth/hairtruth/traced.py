@@ -1,7 +1,7 @@
 """Path tracing of the cases by Mitsuba 3."""
 
 import math
-import os
+import multiprocessing
 
 import mitsuba as mi
 import numpy as np
@@ -16,6 +16,8 @@ def use(variant):
 # Mitsuba moves the start of a ray off a surface by 1.8e-4 of 1 plus the largest coordinate. Around
 # the origin, in millimetres, this is less than a strand's radius.
 UNIT = 1000.0  # of Mitsuba's lengths in a metre
+DEPTH = 200  # of paths
+CRASHES = 4  # after which a case is given up
 
 
 def _place(position):
@@ -61,34 +63,49 @@ def _lights(light):
                       "radiance": {"type": "rgb", "value": light.sky() / math.pi}}
 
 
-class Traced:
-    """A haircut that is traced with several colours and lights."""
+def write_strands(strands, radius, path):
+    """Write strands as curves that Mitsuba reads."""
+    _write_curves(_spline(UNIT * (strands - np.array(cases.TARGET, np.float64))), radius, path)
 
-    def __init__(self, strands, radius, folder, name):
-        path = os.path.join(folder, f"{name}.txt")
-        _write_curves(_spline(UNIT * (strands - np.array(cases.TARGET, np.float64))), radius, path)
-        fibre = mi.load_dict(_fibre((0.5, 0.5, 0.5)))
-        self.shape = mi.load_dict({"type": "bsplinecurve", "filename": path, "bsdf": fibre})
-        self.fibre = mi.traverse(fibre)
 
-    def picture(self, case, size, samples, seed=0, depth=200):
-        """Return the radiance and coverage of a picture as an array of rows, columns and rgba."""
-        self.fibre["sigma_a.value"] = mi.Color3f(cases.absorption(case.reflectance))
-        self.fibre.update()
-        scene = {
-            "type": "scene", "hair": self.shape,
-            "integrator": {"type": "path", "max_depth": depth, "rr_depth": 20,
-                           "hide_emitters": True},
-            "sensor": {
-                "type": "perspective", "fov": cases.FIELD_OF_VIEW, "fov_axis": "y",
-                "to_world": mi.ScalarTransform4f().look_at(_place(cases.EYE), [0, 0, 0], [0, 1, 0]),
-                "film": {"type": "hdrfilm", "width": size, "height": size,
-                         "rfilter": {"type": "box"}, "pixel_format": "rgba"},
-                "sampler": {"type": "independent", "sample_count": samples},
-            },
-        }
-        scene.update(_lights(case.light))
-        return np.array(mi.render(mi.load_dict(scene), spp=samples, seed=seed))
+def _render(case, curves, size, samples, seed):
+    scene = {
+        "type": "scene",
+        "hair": {"type": "bsplinecurve", "filename": curves,
+                 "bsdf": _fibre(cases.absorption(case.reflectance))},
+        "integrator": {"type": "path", "max_depth": DEPTH, "rr_depth": 20, "hide_emitters": True},
+        "sensor": {
+            "type": "perspective", "fov": cases.FIELD_OF_VIEW, "fov_axis": "y",
+            "to_world": mi.ScalarTransform4f().look_at(_place(cases.EYE), [0, 0, 0], [0, 1, 0]),
+            "film": {"type": "hdrfilm", "width": size, "height": size,
+                     "rfilter": {"type": "box"}, "pixel_format": "rgb"},
+            "sampler": {"type": "independent", "sample_count": samples},
+        },
+    }
+    scene.update(_lights(case.light))
+    return np.array(mi.render(mi.load_dict(scene), spp=samples, seed=seed))
+
+
+def _save(variant, path, *arguments):
+    use(variant)
+    np.save(path, _render(*arguments))
+
+
+def pictures(variant, case, curves, size, samples, parts):
+    """Return linear colours of pictures that differ by their random numbers. Mitsuba 3.9 crashes on
+    a few camera rays of some seeds, so each picture has a process, and another seed if it crashes."""
+    traces = []
+    path = f"{curves}.{case.name}.npy"
+    for seed in range(parts + CRASHES):
+        process = multiprocessing.get_context("spawn").Process(
+            target=_save, args=(variant, path, case, curves, size, samples, seed))
+        process.start()
+        process.join()
+        if process.exitcode == 0:
+            traces.append(np.load(path))
+        if len(traces) == parts:
+            return np.array(traces)
+    raise RuntimeError(f"{case.name}: Mitsuba crashed {CRASHES + 1} times")
 
 
 def _fibre(sigma):
