@@ -179,8 +179,12 @@ static bool read_small(const char* tool, const char* path, struct hair_bytes* ou
         return false;
     }
     *out = (struct hair_bytes){malloc(strlen(text)), strlen(text)};
-    if (out->data) memcpy(out->data, text, out->size);
-    return out->data;
+    if (!out->data) {
+        hair_complain(tool, "out of memory for %s", path);
+        return false;
+    }
+    memcpy(out->data, text, out->size);
+    return true;
 }
 
 bool __wrap_hair_file_read(const char* tool, const char* path, size_t limit, struct hair_bytes* out);
