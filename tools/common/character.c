@@ -230,7 +230,7 @@ static float wrap(const struct hair_character* character, float time, float* cyc
 
 bool hair_character_pose(struct hair_character* character, float time)
 {
-    float cycles, within = wrap(character, time, &cycles), way[3];
+    float cycles, within = wrap(character, time, &cycles);
     mat4 head, rest, inverse;
     pose_joints(character, character->animation, within);
     head_matrix(character, head);
@@ -253,12 +253,9 @@ bool hair_character_pose(struct hair_character* character, float time)
         memcpy(p, place, sizeof place);
         memcpy(n, normal, sizeof normal);
     }
-    // Each repetition begins where the last one ended. A character that walks in place loses the
-    // mean velocity.
-    hair_character_way(character, time, way);
+    // Each repetition begins where the last one ended.
     for (int k = 0; k < 3; ++k) {
-        float shift =
-            character->travels ? cycles * character->travel[k] : cycles * character->travel[k] - way[k];
+        float shift = cycles * character->travel[k];
         head[3][k] += shift;
         for (uint32_t i = 0; i < character->joint_count; ++i)
             character->matrices[16 * (size_t)i + 12 + (size_t)k] += shift;
@@ -314,8 +311,7 @@ int hair_character_create(const char* tool, const struct hair_scene* scene, stru
         hair_complain(tool, "out of memory");
         return HAIR_EXIT_RUNTIME;
     }
-    *character =
-        (struct hair_character){.tool = tool, .path = from->file, .scale = from->scale, .travels = true};
+    *character = (struct hair_character){.tool = tool, .path = from->file, .scale = from->scale};
     bool ok = hair_gltf_read(tool, from->file, &character->gltf) && find_head(character, from->head) &&
               find_animation(character, from) && allocate(character);
     for (uint32_t i = 0; i < character->gltf.node_count && ok; ++i)

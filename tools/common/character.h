@@ -18,7 +18,6 @@ struct hair_character {
     float scale; // metres per unit of the file
     float duration; // of the animation, s
     float travel[3]; // way of the head over the whole animation, along x and z, m
-    bool travels; // A character that does not walks in place.
 
     // Skin. Joints are those of all skins, and the nodes of meshes without a skin.
     uint32_t joint_count;

@@ -256,7 +256,7 @@ static bool bind_scalp(struct hair_character* character, const struct fit* fit, 
     return true;
 }
 
-static bool place_all(const struct fit* fit, bool fits, hair_groom_desc* desc, float* changed)
+static void place_all(const struct fit* fit, bool fits, hair_groom_desc* desc, float* changed)
 {
     size_t vertices = 0, at = 0;
     for (uint32_t i = 0; i < desc->strand_count; ++i) vertices += desc->strand_vertices[i];
@@ -265,11 +265,10 @@ static bool place_all(const struct fit* fit, bool fits, hair_groom_desc* desc, f
     for (uint32_t i = 0; i < desc->strand_count; at += 3 * (size_t)desc->strand_vertices[i++])
         place_strand(fit, fits, desc->strand_vertices[i], changed + at);
     desc->positions = changed;
-    if (!desc->scalp_positions) return true;
+    if (!desc->scalp_positions) return;
     memcpy(scalp, desc->scalp_positions, 3 * (size_t)desc->scalp_vertex_count * sizeof *scalp);
     for (uint32_t i = 0; i < desc->scalp_vertex_count; ++i) place_strand(fit, fits, 1, scalp + 3 * (size_t)i);
     desc->scalp_positions = scalp;
-    return true;
 }
 
 int hair_character_fit(struct hair_character* character, const struct hair_scene* scene,
@@ -283,8 +282,11 @@ int hair_character_fit(struct hair_character* character, const struct hair_scene
     *changed = NULL;
     if (!measure_head(character, scene, &fit)) return HAIR_EXIT_INPUT;
     *changed = malloc(3 * (count + 1) * sizeof **changed);
-    bool ok = *changed && find_triangles(&fit) && place_all(&fit, fits, desc, *changed) &&
-              bind_scalp(character, &fit, desc);
+    bool ok = *changed && find_triangles(&fit);
+    if (ok) {
+        place_all(&fit, fits, desc, *changed);
+        ok = bind_scalp(character, &fit, desc);
+    }
     free(fit.triangles);
     if (!ok) hair_complain(character->tool, "%s: out of memory for the hair", character->path);
     return ok ? HAIR_EXIT_OK : HAIR_EXIT_RUNTIME;
