@@ -45,16 +45,23 @@ hair_host hair_host_or_default(const hair_host* host)
     return own;
 }
 
-void* hair_alloc(const hair_host* host, size_t count, size_t size)
+void* hair_alloc_undefined(const hair_host* host, size_t count, size_t size)
 {
     HAIR_ASSERT(host && host->alloc && host->free);
     if (size && count > (PTRDIFF_MAX - HEADER) / size) return NULL;
     size_t total = count * size + HEADER;
     unsigned char* block = host->alloc(total, HEADER, host->user);
     if (!block) return NULL;
-    memset(block, 0, total);
+    memset(block, 0, HEADER);
     memcpy(block, &total, sizeof total);
     return block + HEADER;
+}
+
+void* hair_alloc(const hair_host* host, size_t count, size_t size)
+{
+    void* memory = hair_alloc_undefined(host, count, size);
+    if (memory) memset(memory, 0, count * size);
+    return memory;
 }
 
 void hair_free(const hair_host* host, void* memory)

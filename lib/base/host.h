@@ -28,6 +28,9 @@ hair_host hair_host_or_default(const hair_host* host);
 // overflows or the application refuses. A count of 0 returns memory too. The block stores its size,
 // so hair_free() needs none.
 void* hair_alloc(const hair_host* host, size_t count, size_t size);
+// Allocate likewise without zeros, for memory that is written as a whole. Threads that write such
+// memory also touch its pages for the first time.
+void* hair_alloc_undefined(const hair_host* host, size_t count, size_t size);
 void hair_free(const hair_host* host, void* memory);
 
 // Call task(index, data) for every index below `count`, on the application's threads if it has lent

@@ -152,19 +152,18 @@ uint32_t hair_rods_rounds(uint32_t max_vertices)
     return rounds;
 }
 
-uint32_t hair_rods_write_reduction(const struct hair_guide* guides, uint32_t count,
-                                   const struct hair_rod* rod, uint32_t vertices, double substep,
-                                   hair_vec4* out, hair_vec4* last)
+bool hair_rods_have_system(const struct hair_rod* rod)
 {
-    uint32_t rounds = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        if (!(rod[guides[i].first].factor.x > 0)) continue;
-        const struct hair_rod* first = rod + guides[i].first;
-        double min = min_heard(substep, first->segment.y > 0);
-        uint32_t own = reduce_guide(&guides[i], first, vertices, min, out, last);
-        HAIR_ASSERT(own < hair_rods_rounds(guides[i].count));
-        rounds = own > rounds ? own : rounds;
-    }
+    return rod->factor.x > 0;
+}
+
+uint32_t hair_rods_write_reduction(const struct hair_guide* guide, const struct hair_rod* rod,
+                                   uint32_t vertices, double substep, hair_vec4* out, hair_vec4* last)
+{
+    if (!hair_rods_have_system(rod)) return 0;
+    double min = min_heard(substep, rod->segment.y > 0);
+    uint32_t rounds = reduce_guide(guide, rod, vertices, min, out, last);
+    HAIR_ASSERT(rounds < hair_rods_rounds(guide->count));
     return rounds;
 }
 

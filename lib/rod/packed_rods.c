@@ -11,26 +11,22 @@ size_t hair_rods_packed_count(uint32_t guides, uint32_t vertices, struct hair_ro
     return parts.has_pins ? count + (vertices + PINS_OF_VECTOR - 1) / PINS_OF_VECTOR : count;
 }
 
-void hair_rods_pack(const struct hair_guide* guide, uint32_t first, uint32_t count, uint32_t guides,
-                    uint32_t vertices, const struct hair_rod* rod, struct hair_rod_parts parts,
-                    hair_vec4* out)
+void hair_rods_pack(const struct hair_guide* guide, uint32_t index, uint32_t guides, uint32_t vertices,
+                    const struct hair_rod* rod, struct hair_rod_parts parts, hair_vec4* out)
 {
-    hair_vec4 *of_guide = out + 2 * (size_t)vertices + first, *euler = out + 2 * (size_t)vertices + guides;
+    hair_vec4 *of_guide = out + 2 * (size_t)vertices + index, *euler = out + 2 * (size_t)vertices + guides;
     hair_vec4* factor = euler + vertices;
     struct hair_rod_parts before = parts;
     before.has_pins = false;
     float* pin = &out[hair_rods_packed_count(guides, vertices, before)].x;
-    HAIR_ASSERT(count > 0 && first + count <= guides && (parts.has_factor_euler || !parts.has_factor));
-    for (uint32_t g = 0; g < count; ++g) {
-        const struct hair_rod *root = rod + guide[g].first, *tip = root + guide[g].count - 1;
-        of_guide[g] = root->factor_euler;
-        of_guide[g].w = tip->factor_euler.w;
-        for (uint32_t i = guide[g].first; i < guide[g].first + guide[g].count; ++i) {
-            out[2 * (size_t)i] = rod[i].strain;
-            out[2 * (size_t)i + 1] = rod[i].segment;
-            if (parts.has_factor_euler) euler[i] = rod[i].factor_euler;
-            if (parts.has_factor) factor[i] = rod[i].factor;
-            if (parts.has_pins) pin[i] = rod[i].factor.w;
-        }
+    HAIR_ASSERT(index < guides && (parts.has_factor_euler || !parts.has_factor));
+    *of_guide = rod->factor_euler;
+    of_guide->w = rod[guide->count - 1].factor_euler.w;
+    for (uint32_t k = 0, i = guide->first; k < guide->count; ++k, ++i) {
+        out[2 * (size_t)i] = rod[k].strain;
+        out[2 * (size_t)i + 1] = rod[k].segment;
+        if (parts.has_factor_euler) euler[i] = rod[k].factor_euler;
+        if (parts.has_factor) factor[i] = rod[k].factor;
+        if (parts.has_pins) pin[i] = rod[k].factor.w;
     }
 }

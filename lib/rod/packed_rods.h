@@ -14,10 +14,9 @@ struct hair_rod_parts {
 // Return the number of vectors of packed rods.
 size_t hair_rods_packed_count(uint32_t guides, uint32_t vertices, struct hair_rod_parts parts);
 
-// Pack the rods of `count` guides, the first of which has the index `first`. `rod` and `out` are
+// Pack the rods of a guide with the given index. `rod` has the vertices of the guide. `out` has
 // those of all `guides`.
-void hair_rods_pack(const struct hair_guide* guide, uint32_t first, uint32_t count, uint32_t guides,
-                    uint32_t vertices, const struct hair_rod* rod, struct hair_rod_parts parts,
-                    hair_vec4* out);
+void hair_rods_pack(const struct hair_guide* guide, uint32_t index, uint32_t guides, uint32_t vertices,
+                    const struct hair_rod* rod, struct hair_rod_parts parts, hair_vec4* out);
 
 #endif

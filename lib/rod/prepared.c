@@ -3,6 +3,7 @@
 #include "lib/rod/prepared.h"
 
 #include <math.h>
+#include <string.h>
 
 #define MAX_TASKS 256
 #define MIN_GUIDES 16 // Minimum number of guides of a task.
@@ -20,16 +21,15 @@ struct rod_work {
     uint32_t* list; // Numbers of these guides for each task, from its first guide on.
     struct hair_rod_borne* new_borne;
     float* new_sags;
-    struct hair_rod* new_rod;
-    const struct hair_rod* rod;
-    hair_vec4 *reduction, *last;
-    struct hair_rod_parts parts;
-    hair_vec4* packed;
-    uint32_t all_rounds; // Rounds of all guides.
+    const struct hair_rods_order* order;
+    struct hair_rods_result* result;
+    hair_vec4* last; // Final solve of all guides.
     uint32_t each; // Guides of a task.
     struct hair_rods_softened softened[MAX_TASKS];
+    double shortest[MAX_TASKS]; // Length of a substep, s.
     bool is_refused[MAX_TASKS]; // True if the host has refused memory.
     bool is_mixed[MAX_TASKS];
+    bool has_system[MAX_TASKS];
     uint32_t rounds[MAX_TASKS];
 };
 
@@ -94,15 +94,6 @@ static bool next_run(const struct hair_rod_source* source, const hair_physics* p
     return true;
 }
 
-// Add the softened guides from guide `first` on.
-static void add_softened(struct hair_rods_softened* all, const struct hair_rods_softened* own, uint32_t first)
-{
-    all->guides += own->guides;
-    if (own->factor >= all->factor) return;
-    all->worst = first + own->worst;
-    all->factor = own->factor;
-}
-
 // Return the physics of a guide for hair_rods_preload_list().
 static const hair_physics* find_physics_of(const void* user, uint32_t guide, hair_physics* own)
 {
@@ -136,7 +127,7 @@ hair_result hair_rods_preload_all(const struct hair_rod_source* source, const ha
 {
     struct rod_work work = {
         .source = source, .physics = physics, .changed = changed, .new_borne = out, .new_sags = sags};
-    work.list = hair_alloc(source->host, source->count, sizeof *work.list);
+    work.list = hair_alloc_undefined(source->host, source->count, sizeof *work.list);
     bool is_refused = !work.list;
     uint32_t tasks = work.list ? divide_guides(&work, preload) : 0;
     for (uint32_t i = 0; i < tasks; ++i) is_refused |= work.is_refused[i];
@@ -214,69 +205,91 @@ bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct 
     return false;
 }
 
+static void find_shortest(uint32_t index, void* data)
+{
+    struct rod_work* work = data;
+    uint32_t count;
+    const struct hair_guide* guides = guides_of(work, index, &count);
+    double shortest = INFINITY;
+    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);)
+        shortest = fmin(shortest, hair_rods_substep(guides + run.first, work->source->rest, work->borne,
+                                                    run.count, run.physics, work->solver, work->mixed));
+    work->shortest[index] = shortest;
+}
+
 double hair_rods_shared_substep(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
                                 const hair_physics* physics, hair_solver solver, int mixed)
 {
+    struct rod_work work = {
+        .source = source, .borne = borne, .physics = physics, .solver = solver, .mixed = mixed};
+    uint32_t tasks = divide_guides(&work, find_shortest);
     double shortest = INFINITY;
-    for (struct physics_run run = {0}; next_run(source, physics, source->guides, source->count, &run);)
-        shortest = fmin(shortest, hair_rods_substep(source->guides + run.first, source->rest, borne,
-                                                    run.count, run.physics, solver, mixed));
+    for (uint32_t i = 0; i < tasks; ++i) shortest = fmin(shortest, work.shortest[i]);
     return shortest;
 }
 
-static void write(uint32_t index, void* data)
+// Return the index of the first pin of a guide with at least the given index.
+static uint32_t find_first_pin(const struct hair_rods_order* order, uint32_t guide)
+{
+    uint32_t low = 0, high = order->pin_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (order->pins[middle].guide < guide)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// Write zeros to the rounds of the guides of a task, which are their first touch.
+static void clear_reduction(struct rod_work* work, const struct hair_guide* guides, uint32_t count)
+{
+    const struct hair_rod_source* source = work->source;
+    size_t first = guides[0].first, size = guides[count - 1].first + guides[count - 1].count - first;
+    for (uint32_t n = 0; n < hair_rods_rounds(source->max_vertices); ++n)
+        memset(work->result->reduction + (size_t)n * source->vertices + first, 0, size * sizeof *work->last);
+    memset(work->last + first, 0, size * sizeof *work->last);
+}
+
+static void add_softness(struct hair_rods_softened* all, double softness, uint32_t guide)
+{
+    all->guides += softness < 1;
+    if (softness >= (double)all->factor) return;
+    all->worst = guide;
+    all->factor = (float)softness;
+}
+
+static void make(uint32_t index, void* data)
 {
     struct rod_work* work = data;
-    uint32_t count;
+    const struct hair_rod_source* source = work->source;
+    const struct hair_rods_order* o = work->order;
+    struct hair_rod rod[HAIR_MAX_GUIDE_VERTICES];
+    uint32_t count, first = index * work->each, pin = find_first_pin(o, first), end = pin;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->softened[index] = (struct hair_rods_softened){.factor = 1};
-    for (struct physics_run run = {0}; next_run(work->source, work->physics, guides, count, &run);) {
-        struct hair_rods_softened own =
-            hair_rods_write(guides + run.first, work->source->rest, work->borne, run.count, run.physics,
-                            work->solver, work->mixed, work->substep, work->new_rod);
-        add_softened(&work->softened[index], &own, run.first);
-    }
-}
-
-struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,
-                                              const struct hair_rod_borne* borne, const hair_physics* physics,
-                                              hair_solver solver, int mixed, double substep,
-                                              struct hair_rod* out)
-{
-    struct rod_work work = {.source = source,
-                            .borne = borne,
-                            .physics = physics,
-                            .solver = solver,
-                            .mixed = mixed,
-                            .substep = substep,
-                            .new_rod = out};
-    uint32_t tasks = divide_guides(&work, write);
-    struct hair_rods_softened all = {.factor = 1};
-    for (uint32_t i = 0; i < tasks; ++i) add_softened(&all, &work.softened[i], i * work.each);
-    return all;
-}
-
-void hair_rods_pin_all(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
-                       const struct hair_resolved_pin* resolved_pin, uint32_t count,
-                       const hair_physics* physics, hair_solver solver, int mixed, double substep,
-                       struct hair_rod* out)
-{
-    for (uint32_t first = 0, end = 0; first < count; first = end) {
-        const struct hair_guide* guide = source->guides + resolved_pin[first].guide;
+    work->has_system[index] = false;
+    work->rounds[index] = 0;
+    if (work->last) clear_reduction(work, guides, count);
+    for (uint32_t i = 0; i < count; ++i, pin = end) {
         hair_physics own;
-        while (end < count && resolved_pin[end].guide == resolved_pin[first].guide) ++end;
-        hair_rods_pin(guide, source->rest, borne, resolved_pin, first, end,
-                      find_physics(source, physics, guide, &own), solver, mixed, substep, out);
+        const hair_physics* physics = find_physics(source, o->physics, &guides[i], &own);
+        double softness = hair_rods_write(&guides[i], source->rest, o->borne, physics, o->solver, o->mixed,
+                                          o->substep, rod);
+        add_softness(&work->softened[index], softness, first + i);
+        while (end < o->pin_count && o->pins[end].guide == first + i) ++end;
+        if (end > pin)
+            hair_rods_pin(&guides[i], source->rest, o->borne, o->pins, pin, end, physics, o->solver, o->mixed,
+                          o->substep, rod);
+        hair_rods_pack(&guides[i], first + i, source->count, source->vertices, rod, o->parts,
+                       work->result->packed);
+        if (!work->last || !hair_rods_have_system(rod)) continue;
+        uint32_t rounds = hair_rods_write_reduction(&guides[i], rod, source->vertices, o->substep,
+                                                    work->result->reduction, work->last);
+        work->has_system[index] = true;
+        if (rounds > work->rounds[index]) work->rounds[index] = rounds;
     }
-}
-
-static void reduce(uint32_t index, void* data)
-{
-    struct rod_work* work = data;
-    uint32_t count;
-    const struct hair_guide* guides = guides_of(work, index, &count);
-    work->rounds[index] = hair_rods_write_reduction(guides, count, work->rod, work->source->vertices,
-                                                    work->substep, work->reduction, work->last);
 }
 
 static void add_final_solve(uint32_t index, void* data)
@@ -284,100 +297,81 @@ static void add_final_solve(uint32_t index, void* data)
     struct rod_work* work = data;
     uint32_t count;
     const struct hair_guide* guides = guides_of(work, index, &count);
-    hair_rods_add_final_solve(guides, count, work->source->vertices, work->all_rounds, work->last,
-                              work->reduction);
+    hair_rods_add_final_solve(guides, count, work->source->vertices, work->result->rounds, work->last,
+                              work->result->reduction);
 }
 
-// Compute the reduction into zeros. Return the number of rounds before the final solve.
-static uint32_t reduce_into(const struct hair_rod_source* source, const struct hair_rod* rod, double substep,
-                            hair_vec4* reduction, hair_vec4* last)
+// Make the rods in memory that is there. Return whether a guide has an implicit system.
+static bool make_rods(struct rod_work* work)
 {
-    struct rod_work work = {
-        .source = source, .rod = rod, .substep = substep, .reduction = reduction, .last = last};
-    uint32_t tasks = divide_guides(&work, reduce);
-    for (uint32_t i = 0; i < tasks; ++i)
-        if (work.rounds[i] > work.all_rounds) work.all_rounds = work.rounds[i];
-    divide_guides(&work, add_final_solve);
-    return work.all_rounds;
+    struct hair_rods_result* result = work->result;
+    uint32_t tasks = divide_guides(work, make);
+    bool has_system = false;
+    result->softened = (struct hair_rods_softened){.factor = 1};
+    for (uint32_t i = 0; i < tasks; ++i) {
+        const struct hair_rods_softened own = work->softened[i];
+        has_system |= work->has_system[i];
+        if (work->rounds[i] > result->rounds) result->rounds = work->rounds[i];
+        result->softened.guides += own.guides;
+        if (own.factor >= result->softened.factor) continue;
+        result->softened.worst = own.worst;
+        result->softened.factor = own.factor;
+    }
+    if (has_system) divide_guides(work, add_final_solve);
+    return has_system;
 }
 
-static bool has_system(const struct hair_rod_source* source, const struct hair_rod* rod)
-{
-    for (uint32_t i = 0; i < source->count; ++i)
-        if (rod[source->guides[i].first].factor.x > 0) return true;
-    return false;
-}
-
-hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const struct hair_rod* rod,
-                                 double substep, uint32_t* rounds, hair_vec4** out)
+hair_result hair_rods_make_all(const struct hair_rod_source* source, const struct hair_rods_order* order,
+                               struct hair_rods_result* out)
 {
     const hair_host* host = source->host;
-    *out = NULL;
-    if (!has_system(source, rod)) return HAIR_OK;
-    size_t count = (size_t)hair_rods_rounds(source->max_vertices) * source->vertices;
-    hair_vec4* reduction = hair_alloc(host, count + 1, sizeof *reduction);
-    hair_vec4* last = hair_alloc(host, source->vertices, sizeof *last);
-    bool is_there = reduction && last;
+    const bool is_reduced = order->is_reduced && !order->mixed;
+    const size_t count = hair_rods_packed_count(source->count, source->vertices, order->parts);
+    const size_t rows = (size_t)hair_rods_rounds(source->max_vertices) * source->vertices;
+    struct rod_work work = {.source = source, .order = order, .result = out};
+    *out = (struct hair_rods_result){.packed = hair_alloc_undefined(host, count, sizeof *out->packed)};
+    if (is_reduced) out->reduction = hair_alloc_undefined(host, rows + 1, sizeof *out->reduction);
+    if (is_reduced) work.last = hair_alloc_undefined(host, source->vertices, sizeof *work.last);
+    bool is_there = out->packed && (!is_reduced || (out->reduction && work.last)), has_system = false;
     if (is_there) {
-        *rounds = reduce_into(source, rod, substep, reduction, last);
-        HAIR_ASSERT(*rounds < hair_rods_rounds(source->max_vertices));
-        *out = reduction;
-    } else {
-        hair_free(host, reduction);
+        out->packed[count - 1] = (hair_vec4){0, 0, 0, 0}; // Pins may leave a rest.
+        if (is_reduced) out->reduction[rows] = (hair_vec4){0, 0, 0, 0};
+        has_system = make_rods(&work);
     }
-    hair_free(host, last);
-    return is_there ? HAIR_OK : hair_fail_memory(host, "the implicit systems of guides");
-}
-
-static void pack_task(uint32_t index, void* data)
-{
-    struct rod_work* work = data;
-    const struct hair_rod_source* source = work->source;
-    uint32_t count;
-    const struct hair_guide* guides = guides_of(work, index, &count);
-    hair_rods_pack(guides, index * work->each, count, source->count, source->vertices, work->rod, work->parts,
-                   work->packed);
-}
-
-hair_result hair_rods_pack_all(const struct hair_rod_source* source, const struct hair_rod* rod,
-                               struct hair_rod_parts parts, size_t* count, hair_vec4** out)
-{
-    *count = hair_rods_packed_count(source->count, source->vertices, parts);
-    *out = hair_alloc(source->host, *count, sizeof **out);
-    if (!*out) return hair_fail_memory(source->host, "the guides as rods");
-    struct rod_work work = {.source = source, .rod = rod, .parts = parts, .packed = *out};
-    divide_guides(&work, pack_task);
-    return HAIR_OK;
-}
-
-// Write, reduce and pack the rods, whose memory is `rod`.
-static hair_result fill_rods(const struct hair_rod_source* source, struct hair_prepared_rods* p,
-                             struct hair_rod* rod)
-{
-    struct hair_rod_parts parts = {.has_factor_euler = !p->mixed, .has_factor = !p->mixed};
-    size_t count;
-    p->report.softened =
-        hair_rods_write_all(source, p->borne, &p->physics, p->solver, p->mixed, p->substep, rod);
-    HAIR_TRY(hair_rods_pack_all(source, rod, parts, &count, &p->rod));
-    if (p->solver == HAIR_SOLVER_FOLLOW) return HAIR_OK;
-    return hair_rods_reduce_all(source, rod, p->substep, &p->rounds, &p->reduction);
+    if (!has_system) {
+        hair_free(host, out->reduction);
+        out->reduction = NULL;
+    }
+    hair_free(host, work.last);
+    if (is_there) return HAIR_OK;
+    hair_free(host, out->packed);
+    return hair_fail_memory(host, "the guides as rods");
 }
 
 static hair_result fill(const struct hair_rod_source* source, struct hair_prepared_rods* p)
 {
     const hair_host* host = source->host;
-    p->borne = hair_alloc(host, source->vertices, sizeof *p->borne);
-    p->sags = hair_alloc(host, source->count, sizeof *p->sags);
+    p->borne = hair_alloc_undefined(host, source->vertices, sizeof *p->borne);
+    p->sags = hair_alloc_undefined(host, source->count, sizeof *p->sags);
     if (!p->borne || !p->sags) return hair_fail_memory(host, "the guides as rods");
     HAIR_TRY(hair_rods_preload_all(source, &p->physics, NULL, p->borne, p->sags));
     p->report = hair_rods_report_of(source->guides, source->count, p->borne, p->sags);
     p->mixed = hair_rods_are_any_mixed(source, p->borne, &p->physics, p->solver, false, 0);
     p->substep = hair_rods_shared_substep(source, p->borne, &p->physics, p->solver, p->mixed);
-    struct hair_rod* rod = hair_alloc(host, source->vertices, sizeof *rod);
-    if (!rod) return hair_fail_memory(host, "the guides as rods");
-    hair_result result = fill_rods(source, p, rod);
-    hair_free(host, rod);
-    return result;
+    const struct hair_rods_order order = {.borne = p->borne,
+                                          .physics = &p->physics,
+                                          .solver = p->solver,
+                                          .mixed = p->mixed,
+                                          .substep = p->substep,
+                                          .parts = {.has_factor_euler = !p->mixed, .has_factor = !p->mixed},
+                                          .is_reduced = p->solver != HAIR_SOLVER_FOLLOW};
+    struct hair_rods_result made;
+    HAIR_TRY(hair_rods_make_all(source, &order, &made));
+    p->rod = made.packed;
+    p->reduction = made.reduction;
+    p->rounds = made.rounds;
+    p->report.softened = made.softened;
+    return HAIR_OK;
 }
 
 hair_result hair_prepared_rods_create(const struct hair_rod_source* source, const hair_physics* physics,

@@ -36,26 +36,33 @@ bool hair_rods_are_any_mixed(const struct hair_rod_source* source, const struct 
 double hair_rods_shared_substep(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
                                 const hair_physics* physics, hair_solver solver, int mixed);
 
-// Apply hair_rods_write() to all guides.
-struct hair_rods_softened hair_rods_write_all(const struct hair_rod_source* source,
-                                              const struct hair_rod_borne* borne, const hair_physics* physics,
-                                              hair_solver solver, int mixed, double substep,
-                                              struct hair_rod* out);
+// Request for the rods of all guides.
+struct hair_rods_order {
+    const struct hair_rod_borne* borne;
+    const hair_physics* physics;
+    hair_solver solver;
+    int mixed;
+    double substep;
+    // Pins in the order of guides and their vertices, pin_count of them.
+    const struct hair_resolved_pin* pins;
+    uint32_t pin_count;
+    struct hair_rod_parts parts;
+    bool is_reduced; // True if work groups solve the implicit systems.
+};
 
-// Write the pinned guides again. The pins are in the order of guides and their vertices.
-void hair_rods_pin_all(const struct hair_rod_source* source, const struct hair_rod_borne* borne,
-                       const struct hair_resolved_pin* resolved_pin, uint32_t count,
-                       const hair_physics* physics, hair_solver solver, int mixed, double substep,
-                       struct hair_rod* out);
+// Rods as shaders read them.
+struct hair_rods_result {
+    hair_vec4* packed; // hair_rods_packed_count() of them.
+    // Reduction of all guides, with a row of zeros after its rounds. NULL if no guide has an
+    // implicit system.
+    hair_vec4* reduction;
+    uint32_t rounds; // Rounds before the final solve.
+    struct hair_rods_softened softened;
+};
 
-// Allocate and compute the reduction of all guides, with a row of zeros after the rounds. Set *out
-// to NULL if no guide has an implicit system.
-hair_result hair_rods_reduce_all(const struct hair_rod_source* source, const struct hair_rod* rod,
-                                 double substep, uint32_t* rounds, hair_vec4** out);
-
-// Apply hair_rods_pack() to all guides, in memory of the host. Set *count to the number of vectors.
-hair_result hair_rods_pack_all(const struct hair_rod_source* source, const struct hair_rod* rod,
-                               struct hair_rod_parts parts, size_t* count, hair_vec4** out);
+// Write, pack and reduce the rods of all guides, in memory of the host that the caller frees.
+hair_result hair_rods_make_all(const struct hair_rod_source* source, const struct hair_rods_order* order,
+                               struct hair_rods_result* out);
 
 // Rods for the physics that instances are created with, and for the solver's own substep.
 struct hair_prepared_rods {

@@ -262,24 +262,16 @@ static double write_shape(struct hair_rod_shape* s, const hair_physics* physics,
     return softest;
 }
 
-struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
-                                          const struct hair_rod_borne* borne, uint32_t count,
-                                          const hair_physics* physics, hair_solver solver, int mixed,
-                                          double substep, struct hair_rod* out)
+double hair_rods_write(const struct hair_guide* guide, const struct hair_rest* rest,
+                       const struct hair_rod_borne* borne, const hair_physics* physics, hair_solver solver,
+                       int mixed, double substep, struct hair_rod* out)
 {
-    HAIR_ASSERT(count > 0 && substep > 0);
-    struct hair_rods_softened softened = {.factor = 1};
-    for (uint32_t i = 0; i < count; ++i) {
-        struct hair_rod_shape shape;
-        hair_rod_shape_with(guides + i, rest, borne, physics, &shape);
-        double own = write_shape(&shape, physics, solver, mixed, substep, out + guides[i].first);
-        HAIR_ASSERT(0 <= own && own <= 1);
-        softened.guides += own < 1;
-        if (own >= (double)softened.factor) continue;
-        softened.worst = i;
-        softened.factor = (float)own;
-    }
-    return softened;
+    struct hair_rod_shape shape;
+    HAIR_ASSERT(substep > 0);
+    hair_rod_shape_with(guide, rest, borne, physics, &shape);
+    double softest = write_shape(&shape, physics, solver, mixed, substep, out);
+    HAIR_ASSERT(0 <= softest && softest <= 1);
+    return softest;
 }
 
 void hair_rods_pin(const struct hair_guide* guide, const struct hair_rest* rest,
@@ -293,7 +285,7 @@ void hair_rods_pin(const struct hair_guide* guide, const struct hair_rest* rest,
         HAIR_ASSERT(resolved_pin[i].vertex < shape.count);
         shape.pinned[resolved_pin[i].vertex] = i + 1;
     }
-    write_shape(&shape, physics, solver, mixed, substep, out + guide->first);
+    write_shape(&shape, physics, solver, mixed, substep, out);
 }
 
 // Return the number of substeps per frame that one guide needs for explicit bending.

@@ -121,13 +121,13 @@ hair_result hair_rods_preload_gravity(const hair_host* host, const struct hair_g
                                       const hair_physics* physics, struct hair_rod_borne* out,
                                       struct hair_rods_report* report);
 
-// Write one hair_rod per guide vertex for substeps of the given length. `borne` comes from
-// hair_rods_preload_list(). Limit the distance of the rest strain from the groom's own to 1.
-// Return how guides are softened.
-struct hair_rods_softened hair_rods_write(const struct hair_guide* guides, const struct hair_rest* rest,
-                                          const struct hair_rod_borne* borne, uint32_t count,
-                                          const hair_physics* physics, hair_solver solver, int mixed,
-                                          double substep, struct hair_rod* out);
+// Write one hair_rod per vertex of a guide for substeps of the given length. `borne` comes from
+// hair_rods_preload_list(). `out` has the vertices of the guide only. Limit the distance of the
+// rest strain from the groom's own to 1. Return the smallest stiffness factor of a vertex, which is
+// 1 unless the guide is softened.
+double hair_rods_write(const struct hair_guide* guide, const struct hair_rest* rest,
+                       const struct hair_rod_borne* borne, const hair_physics* physics, hair_solver solver,
+                       int mixed, double substep, struct hair_rod* out);
 
 // Write a pinned guide again. Its pins are those from `first` up to, not including, `end`.
 void hair_rods_pin(const struct hair_guide* guide, const struct hair_rest* rest,
@@ -158,13 +158,16 @@ double hair_rods_substep(const struct hair_guide* guides, const struct hair_rest
 // Return the maximum number of rounds of cyclic reduction for a guide of `max_vertices` vertices.
 uint32_t hair_rods_rounds(uint32_t max_vertices);
 
-// Reduce the systems of the solver's own method for work groups. Write one vec4 per vertex and
-// round to `out`, round after round, and the final solve to `last`, one vec4 per vertex. A guide
-// without such a system leaves zeros. `out` holds hair_rods_rounds() - 1 rounds of zeros on entry,
-// and `last` holds zeros. Return the number of rounds before the final solve.
-uint32_t hair_rods_write_reduction(const struct hair_guide* guides, uint32_t count,
-                                   const struct hair_rod* rod, uint32_t vertices, double substep,
-                                   hair_vec4* out, hair_vec4* last);
+// Return whether the solver's own method has an implicit system for a guide, whose vertices are
+// `rod`.
+bool hair_rods_have_system(const struct hair_rod* rod);
+// Reduce the system of the solver's own method for work groups. `rod` has the vertices of the guide
+// only. Write one vec4 per vertex and round to `out`, round after round, and the final solve to
+// `last`, one vec4 per vertex. A guide without such a system leaves zeros. `out` holds
+// hair_rods_rounds() - 1 rounds of zeros on entry, and `last` holds zeros. Return the number of
+// rounds before the final solve.
+uint32_t hair_rods_write_reduction(const struct hair_guide* guide, const struct hair_rod* rod,
+                                   uint32_t vertices, double substep, hair_vec4* out, hair_vec4* last);
 
 // Add the final solve to the rounds in `out`, after `rounds` rounds.
 void hair_rods_add_final_solve(const struct hair_guide* guides, uint32_t count, uint32_t vertices,

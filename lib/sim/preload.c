@@ -49,10 +49,11 @@ static hair_result compute_preload(struct hair_sim* sim, bool keeps, struct new_
 {
     const hair_host* host = &sim->gl->host;
     const struct hair_rod_source source = hair_sim_rod_source(sim);
-    made->borne = hair_alloc(host, sim->guide_vertices, sizeof *made->borne);
-    made->sags = hair_alloc(host, sim->guides, sizeof *made->sags);
-    made->changed = hair_alloc(host, sim->guides, sizeof *made->changed);
-    if (sim->lengths.guides) made->fractions = hair_alloc(host, sim->guides, sizeof *made->fractions);
+    made->borne = hair_alloc_undefined(host, sim->guide_vertices, sizeof *made->borne);
+    made->sags = hair_alloc_undefined(host, sim->guides, sizeof *made->sags);
+    made->changed = hair_alloc_undefined(host, sim->guides, sizeof *made->changed);
+    if (sim->lengths.guides)
+        made->fractions = hair_alloc_undefined(host, sim->guides, sizeof *made->fractions);
     if (!made->borne || !made->sags || !made->changed || (sim->lengths.guides && !made->fractions))
         return hair_fail_memory(host, "the guides as rods");
     for (uint32_t i = 0; made->fractions && i < sim->guides; ++i)

@@ -47,19 +47,6 @@ static hair_result upload_reduction(struct hair_sim* sim, const hair_vec4* reduc
                            reduction, &out->reduction);
 }
 
-static hair_result make_reduction(struct hair_sim* sim, const struct hair_rod* rod, struct hair_rod_set* out)
-{
-    struct hair_rod_source source = hair_sim_rod_source(sim);
-    hair_vec4* reduction = NULL;
-    uint32_t rounds = 0;
-    if (!sim->by_thread && sim->solver != HAIR_SOLVER_FOLLOW)
-        HAIR_TRY(hair_rods_reduce_all(&source, rod, out->substep, &rounds, &reduction));
-    if (reduction) reduction[(size_t)(rounds + 1) * sim->guide_vertices] = (hair_vec4){0, 0, 0, 0};
-    hair_result result = upload_reduction(sim, reduction, rounds, out);
-    hair_free(source.host, reduction);
-    return result;
-}
-
 // Return the multiple of the solver's own substep length for the current rate. Multiples are powers
 // of two, so that rods are seldom made again while a level of detail changes. They change by one
 // doubling at a time, so that the drawn hair does not leap.
@@ -179,24 +166,29 @@ void hair_sim_swap_rods(struct hair_sim* sim, struct hair_rod_set* set)
     sim->substep_scale = now.last_scale;
 }
 
-// Write rods that the groom has not prepared.
-static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair_rod* rod,
-                              struct hair_rod_set* out)
+// Make rods that the groom has not prepared.
+static hair_result write_rods(struct hair_sim* sim, int had_contact, struct hair_rod_set* out)
 {
-    const struct hair_rods* rods = sim->rods;
     const struct hair_rod_source source = hair_sim_rod_source(sim);
     out->mixed = are_mixed(sim, had_contact);
     out->substep = find_substep(sim, out->mixed, had_contact, out->substep_scale);
-    out->softened =
-        hair_rods_write_all(&source, rods->borne, &sim->physics, sim->solver, out->mixed, out->substep, rod);
-    hair_rods_pin_all(&source, rods->borne, sim->pins.resolved_pin, sim->pins.count, &sim->physics,
-                      sim->solver, out->mixed, out->substep, rod);
-    HAIR_TRY(make_reduction(sim, rod, out));
-    size_t count;
-    hair_vec4* packed = NULL;
-    HAIR_TRY(hair_rods_pack_all(&source, rod, find_parts(sim, out->mixed), &count, &packed));
-    hair_result result = upload_rods(sim, packed, count, out);
-    hair_free(source.host, packed);
+    const struct hair_rods_order order = {.borne = sim->rods->borne,
+                                          .physics = &sim->physics,
+                                          .solver = sim->solver,
+                                          .mixed = out->mixed,
+                                          .substep = out->substep,
+                                          .pins = sim->pins.resolved_pin,
+                                          .pin_count = sim->pins.count,
+                                          .parts = find_parts(sim, out->mixed),
+                                          .is_reduced = !sim->by_thread && sim->solver != HAIR_SOLVER_FOLLOW};
+    struct hair_rods_result made;
+    HAIR_TRY(hair_rods_make_all(&source, &order, &made));
+    out->softened = made.softened;
+    hair_result result = upload_reduction(sim, made.reduction, made.rounds, out);
+    size_t count = hair_rods_packed_count(sim->guides, sim->guide_vertices, order.parts);
+    if (!result) result = upload_rods(sim, made.packed, count, out);
+    hair_free(source.host, made.reduction);
+    hair_free(source.host, made.packed);
     return result;
 }
 
@@ -218,11 +210,8 @@ static hair_result take_rods(struct hair_sim* sim, const struct hair_prepared_ro
 // Make all that depends on physics, in new buffers. Dispatches in progress keep the old buffers.
 static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod_set* out)
 {
-    const hair_host* host = &sim->gl->host;
     HAIR_TRY(hair_sim_preload(sim));
     const struct hair_prepared_rods* prepared = find_prepared(sim, had_contact);
-    struct hair_rod* rod = prepared ? NULL : hair_alloc(host, sim->guide_vertices, sizeof *rod);
-    if (!prepared && !rod) return hair_fail_memory(host, "the guides as rods");
     *out = (struct hair_rod_set){.had_contact = had_contact,
                                  .made_for = sim->physics,
                                  .made_for_groups = sim->groups.version,
@@ -230,12 +219,11 @@ static hair_result create(struct hair_sim* sim, int had_contact, struct hair_rod
                                  .pinned = sim->pins.vertex_hash,
                                  .substep_scale = find_substep_scale(sim)};
     out->last_scale = out->substep_scale;
-    hair_result result = prepared ? take_rods(sim, prepared, out) : write_rods(sim, had_contact, rod, out);
+    hair_result result = prepared ? take_rods(sim, prepared, out) : write_rods(sim, had_contact, out);
     if (result) {
         hair_sim_free_rod_set(sim, out);
         *out = (struct hair_rod_set){0};
     }
-    hair_free(host, rod);
     return result;
 }
 

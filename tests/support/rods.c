@@ -79,7 +79,7 @@ void hair_test_rod_hold(struct hair_test_rod* f)
 void hair_test_rod_write(struct hair_test_rod* f, hair_solver solver, double substep)
 {
     hair_test_rod_hold(f);
-    hair_rods_write(&f->guide, f->rest, f->borne, 1, &f->physics, solver, 0, substep, f->rod);
+    hair_rods_write(&f->guide, f->rest, f->borne, &f->physics, solver, 0, substep, f->rod);
 }
 
 bool hair_test_rod_is_mixed(struct hair_test_rod* f, hair_solver solver, bool is_held, double substep)

@@ -144,7 +144,7 @@ static void leave_out(hair_root root)
             memset(last, 0, sizeof last);
             hair_test_rod_straight(f, n, 0.3, PI / 2);
             hair_test_rod_write(f, HAIR_SOLVER_DIRECT, steps[s]);
-            rounds[s] = hair_rods_write_reduction(&f->guide, 1, f->rod, n, steps[s], out, last);
+            rounds[s] = hair_rods_write_reduction(&f->guide, f->rod, n, steps[s], out, last);
             hair_rods_add_final_solve(&f->guide, 1, n, rounds[s], last, out);
             for (uint32_t i = 0; i < n;
                  // The right side is momenta. The impulses of displacements vary less from vertex

@@ -74,7 +74,9 @@ static void compare(const char* name, const hair_groom* groom, const hair_physic
     struct hair_rods_report all, own;
     assert_int_equal(hair_rods_preload_gravity(NULL, groom->guides, groom->rest, count, physics, borne, &all),
                      HAIR_OK);
-    hair_rods_write(groom->guides, groom->rest, borne, count, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240, rod);
+    for (uint32_t k = 0; k < count; ++k)
+        hair_rods_write(&groom->guides[k], groom->rest, borne, physics, HAIR_SOLVER_DIRECT, 1, 1.0 / 240,
+                        rod + groom->guides[k].first);
     assert_true(all.stiffest >= 1 && all.stiffest <= 3);
     double farthest = 0, stiffen = 0;
     for (uint32_t k = 0; k < count; ++k) {

@@ -113,7 +113,7 @@ static void clamp_resists_twist_as_half_a_segment_does(void** state)
     f->physics.fiber.flatness = 0.5f;
     hair_test_rod_curl(f, 12, 0.01);
     hair_test_rod_hold(f);
-    hair_rods_write(&f->guide, f->rest, f->borne, 1, &f->physics, HAIR_SOLVER_DIRECT, 1, STEP, f->rod);
+    hair_rods_write(&f->guide, f->rest, f->borne, &f->physics, HAIR_SOLVER_DIRECT, 1, STEP, f->rod);
     double bend = hair_test_rod_bend(&f->physics), weight = 0, ratio[3],
            length = (double)f->rest[0].position.w;
     hair_rods_ratios(&f->physics, ratio);
@@ -219,7 +219,9 @@ static void guides_are_written_in_order_and_counted(void** state)
     memcpy(rest + 37, short_one->rest, 5 * sizeof *rest);
     assert_int_equal(hair_rods_preload_gravity(NULL, guides, rest, 3, &short_one->physics, borne, &report),
                      HAIR_OK);
-    hair_rods_write(guides, rest, borne, 3, &short_one->physics, HAIR_SOLVER_ACCURATE, 0, 1e-3, rod);
+    for (int i = 0; i < 3; ++i)
+        hair_rods_write(&guides[i], rest, borne, &short_one->physics, HAIR_SOLVER_ACCURATE, 0, 1e-3,
+                        rod + guides[i].first);
     assert_memory_equal(rod, short_one->rod, 5 * sizeof *rod);
     assert_memory_equal(rod + 5, long_one->rod, 32 * sizeof *rod);
     assert_memory_equal(rod + 37, short_one->rod, 5 * sizeof *rod);
