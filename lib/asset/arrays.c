@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define FARTHEST 1e6f // Maximum distance from the origin, m, as for strands.
+#define MIN_VERTICES 4096 // Minimum number of vertices of a task.
 
 static hair_result count_strand_vertices(const hair_host* host, const hair_groom_desc* desc, uint32_t* out)
 {
@@ -93,24 +94,42 @@ static hair_result copy_rest(const hair_host* host, const hair_groom_desc* desc,
     return HAIR_OK;
 }
 
-static hair_result copy_strands(const hair_host* host, const hair_groom_desc* desc,
+struct copying {
+    const float* from;
+    float* to;
+    struct hair_division division; // of the vertices
+};
+
+static void copy_positions(uint32_t index, void* data)
+{
+    const struct copying* copying = data;
+    size_t first = 3 * (size_t)index * copying->division.each;
+    size_t end = 3 * (size_t)hair_division_end(&copying->division, index);
+    memcpy(copying->to + first, copying->from + first, (end - first) * sizeof *copying->to);
+}
+
+static hair_result copy_strands(const hair_host* host, const hair_tasks* tasks, const hair_groom_desc* desc,
                                 struct hair_strands* strands)
 {
     HAIR_TRY(count_strand_vertices(host, desc, &strands->vertex_count));
     strands->strand_count = desc->strand_count;
-    strands->positions = hair_alloc(host, strands->vertex_count, 3 * sizeof(float));
-    strands->vertices = hair_alloc(host, strands->strand_count, sizeof(uint32_t));
+    strands->positions = hair_alloc_undefined(host, strands->vertex_count, 3 * sizeof(float));
+    strands->vertices = hair_alloc_undefined(host, strands->strand_count, sizeof(uint32_t));
     if (!strands->positions || !strands->vertices) return hair_fail_memory(host, "strands");
-    memcpy(strands->positions, desc->positions, 3 * (size_t)strands->vertex_count * sizeof(float));
+    struct copying copying = {.from = desc->positions,
+                              .to = strands->positions,
+                              .division = hair_divide(strands->vertex_count, MIN_VERTICES)};
+    hair_run_tasks(tasks, copy_positions, &copying, copying.division.tasks);
     memcpy(strands->vertices, desc->strand_vertices, strands->strand_count * sizeof(uint32_t));
     return copy_rest(host, desc, strands);
 }
 
-hair_result hair_strands_import(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
-                                struct hair_strands* strands, hair_import_stats* repairs)
+hair_result hair_strands_import(const hair_host* host, const hair_tasks* tasks, const hair_groom_desc* desc,
+                                const hair_import* import, struct hair_strands* strands,
+                                hair_import_stats* repairs)
 {
-    HAIR_TRY(copy_strands(host, desc, strands));
-    HAIR_TRY(hair_strands_clean(host, import, strands, repairs));
+    HAIR_TRY(copy_strands(host, tasks, desc, strands));
+    HAIR_TRY(hair_strands_clean(host, tasks, import, strands, repairs));
     if (strands->strand_count) return HAIR_OK;
     return hair_fail(
         host, HAIR_ERROR_ARGUMENT,
@@ -252,7 +271,8 @@ static hair_result fill_asset(const hair_groom_desc* desc, const hair_import* im
     asset->strand_set = desc->strand_set;
     asset->file_strands = desc->strand_count;
     for (uint32_t i = 0; i < desc->strand_count; ++i) asset->file_vertices += desc->strand_vertices[i];
-    HAIR_TRY(hair_strands_import(&asset->host, desc, import, &asset->strands, &asset->repairs));
+    const hair_tasks tasks = {0};
+    HAIR_TRY(hair_strands_import(&asset->host, &tasks, desc, import, &asset->strands, &asset->repairs));
     if (desc->scalp_positions) HAIR_TRY(copy_scalp(desc, import, asset));
     if (desc->scalp_positions) HAIR_TRY(hair_asset_copy_maps(desc, asset));
     hair_asset_link_factors(asset);

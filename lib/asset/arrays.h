@@ -4,10 +4,11 @@
 
 #include "lib/asset/asset.h"
 
-// Copy and clean the strands of a desc with their radii, groups, factors and colours. Fail if no
-// strand is left.
-hair_result hair_strands_import(const hair_host* host, const hair_groom_desc* desc, const hair_import* import,
-                                struct hair_strands* strands, hair_import_stats* repairs);
+// Copy and clean the strands of a desc with their radii, groups, factors and colours, in tasks.
+// Fail if no strand is left.
+hair_result hair_strands_import(const hair_host* host, const hair_tasks* tasks, const hair_groom_desc* desc,
+                                const hair_import* import, struct hair_strands* strands,
+                                hair_import_stats* repairs);
 
 // Copy the factors of strands from the attributes of a desc. Attributes of one kind multiply.
 hair_result hair_strands_copy_factors(const hair_host* host, const hair_groom_desc* desc,

@@ -73,7 +73,8 @@ static hair_result decode(const struct hair_source* source, hair_asset* asset)
     HAIR_TRY(decode_raw(source, asset));
     asset->file_strands = asset->strands.strand_count;
     asset->file_vertices = asset->strands.vertex_count;
-    HAIR_TRY(hair_strands_clean(source->host, source->import, &asset->strands, &asset->repairs));
+    const hair_tasks tasks = {0};
+    HAIR_TRY(hair_strands_clean(source->host, &tasks, source->import, &asset->strands, &asset->repairs));
     hair_asset_link_factors(asset);
     return check_cleaned(source, asset);
 }

@@ -2,13 +2,14 @@
 // resampled.
 //
 // Except for resampling to more vertices, this happens in place. Strands that are kept move to the
-// front.
+// front of their task, and then the strands of all tasks together.
 #include "lib/asset/strands.h"
 
 #include <string.h>
 
 // Maximum distance from the origin, m. Beyond it floats are far too coarse for hair.
 #define FARTHEST 1e6
+#define MIN_STRANDS 64 // Minimum number of strands of a task.
 
 void hair_strands_free(const hair_host* host, struct hair_strands* strands)
 {
@@ -20,15 +21,6 @@ void hair_strands_free(const hair_host* host, struct hair_strands* strands)
     hair_free(host, strands->guides);
     for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k) hair_free(host, strands->factors[k]);
     memset(strands, 0, sizeof *strands);
-}
-
-static void place_strands(const hair_import* import, struct hair_strands* strands)
-{
-    for (size_t i = 0; i < strands->vertex_count; ++i) {
-        float* p = strands->positions + 3 * i;
-        hair_store3(p, hair_import_point(import, hair_load3(p)));
-    }
-    for (uint32_t i = 0; strands->radii && i < strands->strand_count; ++i) strands->radii[i] *= import->scale;
 }
 
 static void reverse(float* p, uint32_t vertices)
@@ -46,42 +38,42 @@ static float* colors_of(const struct hair_strands* strands, uint32_t strand)
     return strands->colors + 3 * HAIR_STRAND_COLORS * (size_t)strand;
 }
 
-static void reverse_all(struct hair_strands* strands)
-{
-    size_t first = 0;
-    for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        reverse(strands->positions + 3 * first, strands->vertices[i]);
-        if (strands->colors) hair_strand_reverse_colors(colors_of(strands, i));
-        first += strands->vertices[i];
-    }
-}
-
 // Counts of what is kept so far. Writing never overtakes reading.
 struct kept {
     uint32_t strands, vertices;
 };
 
-// Keep what a strand has beside its vertices.
-static void keep_rest(struct hair_strands* strands, uint32_t kept, uint32_t strand)
+static void move(void* array, size_t size, uint32_t to, uint32_t from, uint32_t count)
 {
-    if (strands->radii) strands->radii[kept] = strands->radii[strand];
-    if (strands->groups) strands->groups[kept] = strands->groups[strand];
-    if (strands->guides) strands->guides[kept] = strands->guides[strand];
+    if (array) memmove((char*)array + to * size, (char*)array + from * size, count * size);
+}
+
+// Move what `count` strands have beside their vertices.
+static void move_rest(struct hair_strands* strands, uint32_t to, uint32_t from, uint32_t count)
+{
+    if (to == from) return;
+    move(strands->radii, sizeof *strands->radii, to, from, count);
+    move(strands->groups, sizeof *strands->groups, to, from, count);
+    move(strands->guides, sizeof *strands->guides, to, from, count);
     for (int k = 0; k < HAIR_ATTRIBUTE_KINDS; ++k)
-        if (strands->factors[k]) strands->factors[k][kept] = strands->factors[k][strand];
-    if (strands->colors)
-        memmove(colors_of(strands, kept), colors_of(strands, strand),
-                3 * HAIR_STRAND_COLORS * sizeof *strands->colors);
+        move(strands->factors[k], sizeof *strands->factors[k], to, from, count);
+    move(strands->colors, 3 * HAIR_STRAND_COLORS * sizeof *strands->colors, to, from, count);
+}
+
+static void move_vertices(struct hair_strands* strands, uint32_t to, size_t from, uint32_t count)
+{
+    if (to == from) return;
+    memmove(strands->positions + 3 * (size_t)to, strands->positions + 3 * from,
+            3 * (size_t)count * sizeof *strands->positions);
 }
 
 static void keep_strand(struct hair_strands* strands, struct kept* kept, uint32_t strand, size_t first,
                         uint32_t vertices)
 {
     HAIR_ASSERT(kept->strands <= strand && kept->vertices <= first);
-    float* from = strands->positions + 3 * first;
-    memmove(strands->positions + 3 * (size_t)kept->vertices, from, 3 * (size_t)vertices * sizeof *from);
+    move_vertices(strands, kept->vertices, first, vertices);
     strands->vertices[kept->strands] = vertices;
-    keep_rest(strands, kept->strands, strand);
+    move_rest(strands, kept->strands, strand, 1);
     ++kept->strands;
     kept->vertices += vertices;
 }
@@ -185,20 +177,94 @@ static uint32_t repair_strand(float* p, uint32_t vertices, hair_import_stats* re
     return left;
 }
 
-static void repair_all(const hair_import* import, struct hair_strands* strands, hair_import_stats* repairs)
+// Work on all strands, divided among tasks. Strands do not depend on each other.
+struct cleaning {
+    const hair_import* import;
+    struct hair_strands* strands;
+    struct hair_division division; // of the strands
+    uint32_t first[HAIR_MAX_TASKS]; // First vertex of each task.
+    struct kept kept[HAIR_MAX_TASKS]; // Number of strands and vertices that each task keeps.
+    hair_import_stats repairs[HAIR_MAX_TASKS];
+};
+
+// Run tasks over all strands.
+static void divide_strands(struct cleaning* cleaning, const hair_tasks* tasks, hair_task task)
 {
-    struct kept kept = {0};
-    size_t first = 0;
-    for (uint32_t i = 0; i < strands->strand_count; ++i) {
+    const struct hair_strands* strands = cleaning->strands;
+    uint32_t first = 0;
+    cleaning->division = hair_divide(strands->strand_count, MIN_STRANDS);
+    for (uint32_t i = 0; i < strands->strand_count; first += strands->vertices[i++])
+        if (i % cleaning->division.each == 0) cleaning->first[i / cleaning->division.each] = first;
+    hair_run_tasks(tasks, task, cleaning, cleaning->division.tasks);
+}
+
+static void place_strands(uint32_t index, void* data)
+{
+    const struct cleaning* cleaning = data;
+    const hair_import* import = cleaning->import;
+    struct hair_strands* strands = cleaning->strands;
+    uint32_t end = hair_division_end(&cleaning->division, index);
+    float* p = strands->positions + 3 * (size_t)cleaning->first[index];
+    for (uint32_t i = index * cleaning->division.each; i < end; ++i) {
+        const uint32_t vertices = strands->vertices[i];
+        for (size_t k = 0; k < vertices; ++k)
+            hair_store3(p + 3 * k, hair_import_point(import, hair_load3(p + 3 * k)));
+        if (import->tip_first) reverse(p, vertices);
+        if (import->tip_first && strands->colors) hair_strand_reverse_colors(colors_of(strands, i));
+        if (strands->radii) strands->radii[i] *= import->scale;
+        p += 3 * (size_t)vertices;
+    }
+}
+
+static void repair_strands(uint32_t index, void* data)
+{
+    struct cleaning* cleaning = data;
+    struct hair_strands* strands = cleaning->strands;
+    hair_import_stats repairs = {0};
+    uint32_t begin = index * cleaning->division.each, end = hair_division_end(&cleaning->division, index);
+    struct kept kept = {.strands = begin, .vertices = cleaning->first[index]};
+    size_t first = kept.vertices;
+    for (uint32_t i = begin; i < end; ++i) {
         float* p = strands->positions + 3 * first;
         uint32_t vertices = strands->vertices[i];
-        uint32_t left = repair_strand(p, vertices, repairs);
-        if (left > HAIR_STRAND_MAX_VERTICES && import->strand_vertices == 0)
-            left = bring_down(p, left, repairs);
+        uint32_t left = repair_strand(p, vertices, &repairs);
+        if (left > HAIR_STRAND_MAX_VERTICES && cleaning->import->strand_vertices == 0)
+            left = bring_down(p, left, &repairs);
         if (left) keep_strand(strands, &kept, i, first, left);
         first += vertices;
     }
-    truncate_strands(strands, kept);
+    cleaning->kept[index] =
+        (struct kept){.strands = kept.strands - begin, .vertices = kept.vertices - cleaning->first[index]};
+    cleaning->repairs[index] = repairs;
+}
+
+static void add_repairs(const hair_import_stats* own, hair_import_stats* all)
+{
+    all->removed_nonfinite += own->removed_nonfinite;
+    all->removed_repeated += own->removed_repeated;
+    all->dropped_single += own->dropped_single;
+    all->dropped_short += own->dropped_short;
+    all->resampled += own->resampled;
+}
+
+// Repair all strands, and move those that each task keeps together.
+static void repair_all(struct cleaning* cleaning, const hair_tasks* tasks, hair_import_stats* repairs)
+{
+    struct hair_strands* strands = cleaning->strands;
+    struct kept all = {0};
+    divide_strands(cleaning, tasks, repair_strands);
+    for (uint32_t i = 0; i < cleaning->division.tasks; ++i) {
+        const struct kept own = cleaning->kept[i];
+        const uint32_t from = i * cleaning->division.each;
+        move_vertices(strands, all.vertices, cleaning->first[i], own.vertices);
+        if (all.strands != from)
+            move(strands->vertices, sizeof *strands->vertices, all.strands, from, own.strands);
+        move_rest(strands, all.strands, from, own.strands);
+        add_repairs(&cleaning->repairs[i], repairs);
+        all.strands += own.strands;
+        all.vertices += own.vertices;
+    }
+    truncate_strands(strands, all);
 }
 
 static hair_result resample_all(const hair_host* host, uint32_t count, struct hair_strands* strands,
@@ -216,7 +282,7 @@ static hair_result resample_all(const hair_host* host, uint32_t count, struct ha
         if (resample_strand(strands->positions + 3 * first, vertices, out, count, repairs)) {
             HAIR_ASSERT(kept.strands <= i);
             strands->vertices[kept.strands] = count;
-            keep_rest(strands, kept.strands, i);
+            move_rest(strands, kept.strands, i, 1);
             ++kept.strands;
             kept.vertices += count;
         }
@@ -265,15 +331,15 @@ static hair_result shrink_all(const hair_host* host, struct hair_strands* strand
     return result;
 }
 
-hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
-                               hair_import_stats* repairs)
+hair_result hair_strands_clean(const hair_host* host, const hair_tasks* tasks, const hair_import* import,
+                               struct hair_strands* strands, hair_import_stats* repairs)
 {
+    struct cleaning cleaning = {.import = import, .strands = strands};
     uint32_t vertices = strands->vertex_count;
     *repairs = (hair_import_stats){0};
-    place_strands(import, strands);
-    if (import->tip_first) reverse_all(strands);
+    divide_strands(&cleaning, tasks, place_strands);
     thin_out(import, strands);
-    repair_all(import, strands, repairs);
+    repair_all(&cleaning, tasks, repairs);
     uint32_t count = import->strand_vertices == 1 ? 2 : import->strand_vertices;
     if (count) HAIR_TRY(resample_all(host, count, strands, repairs));
     return strands->vertex_count < vertices / 2 ? shrink_all(host, strands) : HAIR_OK;

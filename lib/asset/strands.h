@@ -46,14 +46,14 @@ static inline hair_vec3 hair_import_point(const hair_import* import, hair_vec3 p
     return q;
 }
 
-// Scale, rotate, thin out, repair and resample strands in place. Shorter arrays may replace the
-// given ones.
+// Scale, rotate, thin out, repair and resample strands in place, in tasks. Shorter arrays may
+// replace the given ones.
 //
 // Afterwards every strand has 2 to 256 finite vertices, no segment shorter than 1e-5 of its length,
 // and a length of at least 10 micrometres. A value of 1 of import->strand_vertices counts as 2. A
 // strand_count of 0 means that no strand is left.
-hair_result hair_strands_clean(const hair_host* host, const hair_import* import, struct hair_strands* strands,
-                               hair_import_stats* repairs);
+hair_result hair_strands_clean(const hair_host* host, const hair_tasks* tasks, const hair_import* import,
+                               struct hair_strands* strands, hair_import_stats* repairs);
 void hair_strands_free(const hair_host* host, struct hair_strands* strands);
 
 // Sample a polyline at `count` points at equal distances along it. The ends are kept. Requires

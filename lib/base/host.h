@@ -33,6 +33,31 @@ void* hair_alloc(const hair_host* host, size_t count, size_t size);
 void* hair_alloc_undefined(const hair_host* host, size_t count, size_t size);
 void hair_free(const hair_host* host, void* memory);
 
+#define HAIR_MAX_TASKS 256
+// Elements that are divided among tasks. The division depends on their number only.
+struct hair_division {
+    uint32_t count; // Number of elements.
+    uint32_t each; // Number of elements of each task but the last.
+    uint32_t tasks; // At most HAIR_MAX_TASKS.
+};
+
+// Divide elements among tasks of at least `min` elements. 0 elements have no task.
+static inline struct hair_division hair_divide(uint32_t count, uint32_t min)
+{
+    uint32_t each = (uint32_t)(((uint64_t)count + HAIR_MAX_TASKS - 1) / HAIR_MAX_TASKS);
+    HAIR_ASSERT(min > 0);
+    if (each < min) each = min;
+    return (struct hair_division){
+        .count = count, .each = each, .tasks = (uint32_t)(((uint64_t)count + each - 1) / each)};
+}
+
+// Return the end of the elements of a task, the first of which is index * each.
+static inline uint32_t hair_division_end(const struct hair_division* division, uint32_t index)
+{
+    uint32_t first = index * division->each, left = division->count - first;
+    return first + (left < division->each ? left : division->each);
+}
+
 // Call task(index, data) for every index below `count`, on the application's threads if it has lent
 // any.
 void hair_run_tasks(const hair_tasks* tasks, hair_task task, void* data, uint32_t count);

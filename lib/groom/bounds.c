@@ -41,21 +41,37 @@ static float follower_reach(const struct hair_groom* groom, const struct hair_fo
     return max + away;
 }
 
+static void measure_patch(const struct hair_groom* groom, struct hair_patch* patch)
+{
+    const struct hair_follower* follower = groom->followers + patch->first;
+    HAIR_ASSERT(patch->count > 0 && patch->first + patch->count <= groom->info.follower_count);
+    patch->guide = follower->guide0;
+    patch->importance = 1;
+    hair_vec3 from = hair_guide_root(groom, patch->guide);
+    for (uint32_t j = 0; j < patch->count; ++j) {
+        float length = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
+        patch->reach = fmaxf(patch->reach, follower_reach(groom, &follower[j], from));
+        patch->length = fmaxf(patch->length, length);
+    }
+}
+
+struct patch_work {
+    struct hair_groom* groom;
+    struct hair_division division; // of the patches
+};
+
+static void measure_patches(uint32_t index, void* data)
+{
+    const struct patch_work* work = data;
+    uint32_t end = hair_division_end(&work->division, index);
+    for (uint32_t i = index * work->division.each; i < end; ++i)
+        measure_patch(work->groom, &work->groom->patches[i]);
+}
+
 void hair_measure_patches(struct hair_groom* groom)
 {
-    for (uint32_t i = 0; i < groom->info.patch_count; ++i) {
-        struct hair_patch* patch = &groom->patches[i];
-        const struct hair_follower* follower = groom->followers + patch->first;
-        HAIR_ASSERT(patch->count > 0 && patch->first + patch->count <= groom->info.follower_count);
-        patch->guide = follower->guide0;
-        patch->importance = 1;
-        hair_vec3 from = hair_guide_root(groom, patch->guide);
-        for (uint32_t j = 0; j < patch->count; ++j) {
-            float length = follower[j].length_ratio * groom->guides[follower[j].guide0].arc_length;
-            patch->reach = fmaxf(patch->reach, follower_reach(groom, &follower[j], from));
-            patch->length = fmaxf(patch->length, length);
-        }
-    }
+    struct patch_work work = {.groom = groom, .division = hair_divide(groom->info.patch_count, 1)};
+    hair_run_tasks(&groom->tasks, measure_patches, &work, work.division.tasks);
 }
 
 // Solve by Gaussian elimination with pivoting. Return false if there is no unique solution.
@@ -85,16 +101,15 @@ static bool solve(double m[4][5], double out[4])
 // Fit a sphere to all roots by least squares. With the centre c and the radius r its equation is
 // |x|^2 = 2 c x + k, where k = r^2 - |c|^2. Roots are taken relative to the first root and in units
 // of the greatest distance from it, which limits rounding.
-static bool fit(const struct hair_groom* groom, double center[3])
+static bool fit(const float* roots, uint32_t count, double center[3])
 {
     double m[4][5] = {{0}}, x[4], unit = 0;
-    hair_vec3 first = hair_guide_root(groom, 0);
-    uint32_t count = groom->info.guide_count;
+    hair_vec3 first = hair_load3(roots);
     for (uint32_t i = 0; i < count; ++i)
-        unit = fmax(unit, (double)hair_distance(hair_guide_root(groom, i), first));
+        unit = fmax(unit, (double)hair_distance(hair_load3(roots + 3 * (size_t)i), first));
     if (!(unit > 0)) return false;
     for (uint32_t i = 0; i < count; ++i) {
-        hair_vec3 p = hair_sub(hair_guide_root(groom, i), first);
+        hair_vec3 p = hair_sub(hair_load3(roots + 3 * (size_t)i), first);
         double row[5] = {(double)p.x / unit, (double)p.y / unit, (double)p.z / unit, 1, 0};
         for (int k = 0; k < 3; ++k) row[4] += row[k] * row[k];
         for (int k = 0; k < 4; ++k)
@@ -107,16 +122,16 @@ static bool fit(const struct hair_groom* groom, double center[3])
     return true;
 }
 
-hair_vec4 hair_find_head_sphere(const struct hair_groom* groom)
+hair_vec4 hair_find_head_sphere(const float* roots, uint32_t count)
 {
     double center[3], min = INFINITY, sum = 0;
-    if (!fit(groom, center)) return (hair_vec4){0, 0, 0, 0};
+    if (!fit(roots, count, center)) return (hair_vec4){0, 0, 0, 0};
     hair_vec3 middle = {(float)center[0], (float)center[1], (float)center[2]};
-    for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
-        double away = (double)hair_distance(hair_guide_root(groom, i), middle);
+    for (uint32_t i = 0; i < count; ++i) {
+        double away = (double)hair_distance(hair_load3(roots + 3 * (size_t)i), middle);
         min = fmin(min, away);
         sum += away;
     }
-    if (!(min >= UNEVEN * sum / groom->info.guide_count) || !isfinite(sum)) return (hair_vec4){0, 0, 0, 0};
+    if (!(min >= UNEVEN * sum / count) || !isfinite(sum)) return (hair_vec4){0, 0, 0, 0};
     return (hair_vec4){middle.x, middle.y, middle.z, (float)(WITHIN * min)};
 }

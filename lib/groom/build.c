@@ -2,6 +2,9 @@
 #include "lib/groom/groom_builder.h"
 
 #include <float.h>
+#include <string.h>
+
+#define MIN_VERTICES 4096 // Minimum number of vertices of a task.
 
 // Source of followers.
 enum source { FROM_STRANDS, FROM_GUIDES, FROM_SCALP };
@@ -28,7 +31,10 @@ static hair_result make_followers(struct hair_groom_builder* builder)
     HAIR_ASSERT(builder->candidate_count > 0 && builder->place);
     groom->info.follower_count = builder->candidate_count;
     if (find_source(builder->desc) == FROM_STRANDS) groom->shape_vertices = groom->max_vertices;
-    groom->followers = hair_alloc(builder->host, hair_groom_follower_bytes(groom) / 16, 16);
+    // Followers that are guides leave zeros in place of a shape.
+    size_t vectors = hair_groom_follower_bytes(groom) / 16;
+    groom->followers = groom->shape_vertices ? hair_alloc(builder->host, vectors, 16)
+                                             : hair_alloc_undefined(builder->host, vectors, 16);
     if (!groom->followers) return hair_fail_memory(builder->host, "followers");
     switch (find_source(builder->desc)) {
     case FROM_STRANDS: return hair_strand_followers(builder);
@@ -36,6 +42,45 @@ static hair_result make_followers(struct hair_groom_builder* builder)
     case FROM_GUIDES: break;
     }
     return hair_guide_followers(builder);
+}
+
+struct bounds_work {
+    const struct hair_strands* strands;
+    struct hair_division division; // of the vertices
+    float lower[HAIR_MAX_TASKS][3], upper[HAIR_MAX_TASKS][3]; // of each task
+};
+
+static void add_to_bounds(const float* at, float* lower, float* upper)
+{
+    for (int a = 0; a < 3; ++a) {
+        if (at[a] < lower[a]) lower[a] = at[a];
+        if (at[a] > upper[a]) upper[a] = at[a];
+    }
+}
+
+static void find_task_bounds(uint32_t index, void* data)
+{
+    struct bounds_work* work = data;
+    const float* positions = work->strands->positions;
+    size_t first = (size_t)index * work->division.each, end = hair_division_end(&work->division, index);
+    memcpy(work->lower[index], positions + 3 * first, sizeof work->lower[index]);
+    memcpy(work->upper[index], positions + 3 * first, sizeof work->upper[index]);
+    for (size_t i = first + 1; i < end; ++i)
+        add_to_bounds(positions + 3 * i, work->lower[index], work->upper[index]);
+}
+
+static void find_bounds(struct hair_groom_builder* builder)
+{
+    hair_groom_info* info = &builder->groom->info;
+    struct bounds_work work = {.strands = &builder->strands,
+                               .division = hair_divide(builder->strands.vertex_count, MIN_VERTICES)};
+    hair_run_tasks(&builder->groom->tasks, find_task_bounds, &work, work.division.tasks);
+    memcpy(info->lower, work.lower[0], sizeof info->lower);
+    memcpy(info->upper, work.upper[0], sizeof info->upper);
+    for (uint32_t i = 1; i < work.division.tasks; ++i) {
+        add_to_bounds(work.lower[i], info->lower, info->upper);
+        add_to_bounds(work.upper[i], info->lower, info->upper);
+    }
 }
 
 static void compute_info(struct hair_groom_builder* builder)
@@ -55,14 +100,7 @@ static void compute_info(struct hair_groom_builder* builder)
     info->group_count = 1;
     for (uint32_t i = 0; strands->groups && i < strands->strand_count; ++i)
         if (strands->groups[i] >= info->group_count) info->group_count = strands->groups[i] + 1u;
-    for (size_t a = 0; a < 3; ++a) {
-        info->lower[a] = info->upper[a] = strands->positions[a];
-        for (size_t i = 1; i < strands->vertex_count; ++i) {
-            float at = strands->positions[3 * i + a];
-            if (at < info->lower[a]) info->lower[a] = at;
-            if (at > info->upper[a]) info->upper[a] = at;
-        }
-    }
+    find_bounds(builder);
 }
 
 static hair_result build_groom(struct hair_groom_builder* builder)
@@ -85,7 +123,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_build_root_bindings(builder));
     hair_apply_thickness(builder);
     hair_measure_patches(builder->groom);
-    builder->groom->head_sphere = hair_find_head_sphere(builder->groom);
+    builder->groom->head_sphere = hair_find_head_sphere(builder->roots, builder->groom->info.guide_count);
     compute_info(builder);
     return HAIR_OK;
 }
@@ -100,6 +138,7 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_free(builder->host, builder->density);
     hair_free(builder->host, builder->map_lengths);
     hair_free(builder->host, builder->chosen);
+    hair_free(builder->host, builder->roots);
     hair_free(builder->host, builder->owner);
     hair_free(builder->host, builder->near);
     hair_free(builder->host, builder->bin_candidates);
@@ -150,8 +189,8 @@ hair_result hair_groom_build(const hair_host* host, const hair_groom_desc* desc,
 // Followers, and pairs of vertices of their shapes.
 size_t hair_groom_follower_bytes(const struct hair_groom* groom)
 {
-    return groom->info.follower_count *
-           (sizeof *groom->followers + (size_t)16 * HAIR_SHAPE_TEXELS(groom->shape_vertices));
+    size_t shape = groom->shape_vertices ? (size_t)16 * HAIR_SHAPE_TEXELS(groom->shape_vertices) : 0;
+    return groom->info.follower_count * (sizeof *groom->followers + shape);
 }
 
 hair_groom* hair_groom_retain(hair_groom* groom)

@@ -68,22 +68,42 @@ static hair_vec3 spiral(uint32_t i, uint32_t count, float radius, float turn)
     return hair_v3(r * cosf(angle), 0, r * sinf(angle));
 }
 
-hair_result hair_guide_followers(struct hair_groom_builder* builder)
+// Make the followers of a guide.
+static void grow_around(const struct hair_groom_builder* builder, uint32_t guide)
 {
     struct hair_groom* groom = builder->groom;
-    for (uint32_t guide = 0; guide < builder->bin_count; ++guide) {
-        uint32_t count = builder->bin_candidates[guide];
-        uint32_t turns = hair_candidate_random(builder, guide);
-        float turn = 6.2831853f * hair_random(&turns);
-        for (uint32_t i = 0; i < count; ++i) {
-            uint32_t candidate = builder->bin_first[guide] + i;
-            HAIR_ASSERT(builder->place[candidate] < groom->info.follower_count);
-            uint32_t random = hair_candidate_random(builder, hair_candidate_number(builder, candidate));
-            hair_vec3 offset = spiral(i, count, builder->desc->clump_radius, turn);
-            struct hair_follower* follower = &groom->followers[builder->place[candidate]];
-            *follower = builder->desc->follower_count ? hair_grown_follower(guide, offset, &random)
-                                                      : hair_own_follower(guide, &random);
-        }
+    uint32_t count = builder->bin_candidates[guide], turns = hair_candidate_random(builder, guide);
+    float turn = 6.2831853f * hair_random(&turns);
+    for (uint32_t i = 0; i < count; ++i) {
+        uint32_t candidate = builder->bin_first[guide] + i;
+        HAIR_ASSERT(builder->place[candidate] < groom->info.follower_count);
+        uint32_t random = hair_candidate_random(builder, hair_candidate_number(builder, candidate));
+        struct hair_follower* follower = &groom->followers[builder->place[candidate]];
+        if (builder->desc->follower_count)
+            *follower =
+                hair_grown_follower(guide, spiral(i, count, builder->desc->clump_radius, turn), &random);
+        else
+            *follower = hair_own_follower(guide, &random);
     }
+}
+
+struct growth {
+    const struct hair_groom_builder* builder;
+    struct hair_division division; // of the guides
+};
+
+static void grow_around_guides(uint32_t index, void* data)
+{
+    const struct growth* growth = data;
+    uint32_t end = hair_division_end(&growth->division, index);
+    for (uint32_t guide = index * growth->division.each; guide < end; ++guide)
+        grow_around(growth->builder, guide);
+}
+
+hair_result hair_guide_followers(struct hair_groom_builder* builder)
+{
+    struct growth growth = {.builder = builder,
+                            .division = hair_divide(builder->bin_count, HAIR_MIN_TASK_STRANDS)};
+    hair_run_tasks(&builder->groom->tasks, grow_around_guides, &growth, growth.division.tasks);
     return HAIR_OK;
 }

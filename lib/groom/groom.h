@@ -83,8 +83,8 @@ float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follow
 
 // Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);
-// Return the sphere inside the head: xyz is its centre, w its radius, m. The radius is 0 if none
-// fits.
-hair_vec4 hair_find_head_sphere(const struct hair_groom* groom);
+// Return the sphere inside the head from the roots of guides, xyz each. xyz is its centre, w its
+// radius, m. The radius is 0 if none fits.
+hair_vec4 hair_find_head_sphere(const float* roots, uint32_t count);
 
 #endif

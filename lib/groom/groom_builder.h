@@ -11,6 +11,7 @@
 // Number of features of a strand: its root, the points at 1/3, 2/3 and 1 of its length from the
 // root, relative to its length, and the logarithm of its length. See lib/groom/import.c.
 #define HAIR_FEATURES 13
+#define HAIR_MIN_TASK_STRANDS 64 // Minimum number of strands of a task.
 // Number of guides between which a follower of full strands moves.
 #define HAIR_FOLLOWED 3
 
@@ -29,7 +30,7 @@ struct hair_groom_builder {
     struct hair_strands strands; // after cleaning
     uint32_t* first; // first vertex of each strand
     float* length; // length of each strand, m
-    float* features; // HAIR_FEATURES per strand
+    float* features; // HAIR_FEATURES per strand, only with HAIR_STRAND_SET_FULL
 
     float* scalp; // xyz per vertex, in the space of the strands. NULL without a scalp.
     float* density; // mean over each triangle
@@ -37,6 +38,7 @@ struct hair_groom_builder {
     float* map_lengths; // fraction of each strand's length by maps. NULL without such maps.
 
     uint32_t* chosen; // strand of each guide
+    float* roots; // xyz of the root of each guide
     bool has_given_guides; // The application or a file names the guides of HAIR_STRAND_SET_FULL.
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
     // First guide of each group, and the number of guides, only with HAIR_STRAND_SET_FULL.

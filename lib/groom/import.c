@@ -15,8 +15,8 @@ _Static_assert(3 * SHAPE_SAMPLES + 1 == HAIR_FEATURES, "features are points and 
 
 static hair_result import_strands(struct hair_groom_builder* builder)
 {
-    HAIR_TRY(hair_strands_import(builder->host, builder->desc, builder->import, &builder->strands,
-                                 &builder->groom->info.import_stats));
+    HAIR_TRY(hair_strands_import(builder->host, &builder->groom->tasks, builder->desc, builder->import,
+                                 &builder->strands, &builder->groom->info.import_stats));
     if (builder->desc->strand_set == HAIR_STRAND_SET_GUIDES &&
         builder->strands.strand_count > HAIR_MAX_GUIDES)
         return hair_fail(builder->host, HAIR_ERROR_ARGUMENT,
@@ -51,22 +51,40 @@ static void write_features(const float* p, uint32_t vertices, float length, floa
     out[3 * SHAPE_SAMPLES] = LENGTH_WEIGHT * logf(length);
 }
 
+struct measuring {
+    struct hair_groom_builder* builder;
+    struct hair_division division; // of the strands
+    float spread; // root mean square distance of the roots, m
+};
+
+// Compute the length and the features of strands.
+static void measure_some_strands(uint32_t index, void* data)
+{
+    const struct measuring* measuring = data;
+    struct hair_groom_builder* builder = measuring->builder;
+    uint32_t end = hair_division_end(&measuring->division, index);
+    for (uint32_t i = index * measuring->division.each; i < end; ++i) {
+        const float* p = builder->strands.positions + 3 * (size_t)builder->first[i];
+        const uint32_t vertices = builder->strands.vertices[i];
+        builder->length[i] = (float)hair_strand_length(p, vertices);
+        HAIR_ASSERT(vertices >= 2 && builder->length[i] > 0);
+        if (builder->features)
+            write_features(p, vertices, builder->length[i], measuring->spread,
+                           builder->features + HAIR_FEATURES * (size_t)i);
+    }
+}
+
 // Compute the first vertex, the length and the features of each strand.
 static void measure_import(struct hair_groom_builder* builder)
 {
     const struct hair_strands* strands = &builder->strands;
+    struct measuring measuring = {.builder = builder,
+                                  .division = hair_divide(strands->strand_count, HAIR_MIN_TASK_STRANDS)};
     uint32_t first = 0;
-    for (uint32_t i = 0; i < strands->strand_count; ++i) {
-        const float* p = strands->positions + 3 * (size_t)first;
+    for (uint32_t i = 0; i < strands->strand_count; first += strands->vertices[i++])
         builder->first[i] = first;
-        builder->length[i] = (float)hair_strand_length(p, strands->vertices[i]);
-        HAIR_ASSERT(strands->vertices[i] >= 2 && builder->length[i] > 0);
-        first += strands->vertices[i];
-    }
-    float spread = measure_roots(builder);
-    for (uint32_t i = 0; i < strands->strand_count; ++i)
-        write_features(strands->positions + 3 * (size_t)builder->first[i], strands->vertices[i],
-                       builder->length[i], spread, builder->features + HAIR_FEATURES * (size_t)i);
+    if (builder->features) measuring.spread = measure_roots(builder);
+    hair_run_tasks(&builder->groom->tasks, measure_some_strands, &measuring, measuring.division.tasks);
 }
 
 hair_result hair_build_strands(struct hair_groom_builder* builder)
@@ -77,10 +95,13 @@ hair_result hair_build_strands(struct hair_groom_builder* builder)
 hair_result hair_measure_strands(struct hair_groom_builder* builder)
 {
     uint32_t count = builder->strands.strand_count;
-    builder->first = hair_alloc(builder->host, count, sizeof *builder->first);
-    builder->length = hair_alloc(builder->host, count, sizeof *builder->length);
-    builder->features = hair_alloc(builder->host, count, HAIR_FEATURES * sizeof *builder->features);
-    if (!builder->first || !builder->length || !builder->features)
+    bool has_features = builder->desc->strand_set == HAIR_STRAND_SET_FULL;
+    builder->first = hair_alloc_undefined(builder->host, count, sizeof *builder->first);
+    builder->length = hair_alloc_undefined(builder->host, count, sizeof *builder->length);
+    if (has_features)
+        builder->features =
+            hair_alloc_undefined(builder->host, count, HAIR_FEATURES * sizeof *builder->features);
+    if (!builder->first || !builder->length || (has_features && !builder->features))
         return hair_fail_memory(builder->host, "strands");
     measure_import(builder);
     return HAIR_OK;

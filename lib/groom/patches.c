@@ -156,10 +156,10 @@ hair_result hair_build_patches(struct hair_groom_builder* builder)
     uint32_t max = builder->bin_count + builder->candidate_count / HAIR_MAX_ISOLINES;
     if (builder->map_density) max = builder->candidate_count;
     struct hair_groom* groom = builder->groom;
-    uint32_t* order = hair_alloc(builder->host, builder->bin_count, sizeof *order);
-    uint32_t* queue = hair_alloc(builder->host, builder->candidate_count, sizeof *queue);
+    uint32_t* order = hair_alloc_undefined(builder->host, builder->bin_count, sizeof *order);
+    uint32_t* queue = hair_alloc_undefined(builder->host, builder->candidate_count, sizeof *queue);
     struct patch_layout layout = {.builder = builder, .centres = {builder->bin_centres, 3}, .queue = queue};
-    builder->place = hair_alloc(builder->host, builder->candidate_count, sizeof *builder->place);
+    builder->place = hair_alloc_undefined(builder->host, builder->candidate_count, sizeof *builder->place);
     layout.patches = groom->patches = hair_alloc(builder->host, max, sizeof *groom->patches);
     hair_result result = HAIR_OK;
     if (order && queue && builder->place && groom->patches) {

@@ -89,6 +89,12 @@ static hair_vec3 mean_direction(const struct hair_groom_builder* builder)
     return hair_normalize(sum, Y_AXIS);
 }
 
+struct rest_work {
+    struct hair_groom_builder* builder;
+    struct hair_division division; // of the guides
+    hair_vec3 mean; // direction of first segments
+};
+
 // Return the frame whose y axis is `to`, by the smallest rotation from the frame of the mean
 // direction. Rotate twice, because the first rotation is inaccurate for nearly opposite directions.
 static hair_quat find_root_frame(hair_vec3 mean, hair_vec3 to)
@@ -133,15 +139,25 @@ static void write_rest_guide(struct hair_groom_builder* builder, uint32_t number
                   builder->strands.vertices[strand], p, guide->count);
     hair_quat frame = find_root_frame(mean, segment_vector(p, 0));
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
+    hair_store3(builder->roots + 3 * (size_t)number, vertex(p, 0));
     write_rest(p, guide->count, guide, builder->groom->rest + guide->first);
+}
+
+static void write_rest_guides(uint32_t index, void* data)
+{
+    const struct rest_work* work = data;
+    uint32_t end = hair_division_end(&work->division, index);
+    for (uint32_t i = index * work->division.each; i < end; ++i)
+        write_rest_guide(work->builder, i, work->mean);
 }
 
 hair_result hair_build_rest(struct hair_groom_builder* builder)
 {
     struct hair_groom* groom = builder->groom;
     hair_groom_info* info = &groom->info;
-    groom->guides = hair_alloc(builder->host, info->guide_count, sizeof *groom->guides);
-    if (!groom->guides) return hair_fail_memory(builder->host, "guides");
+    groom->guides = hair_alloc_undefined(builder->host, info->guide_count, sizeof *groom->guides);
+    builder->roots = hair_alloc_undefined(builder->host, info->guide_count, 3 * sizeof *builder->roots);
+    if (!groom->guides || !builder->roots) return hair_fail_memory(builder->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         uint32_t count = count_guide_vertices(builder, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count,
@@ -150,9 +166,11 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
         info->guide_vertex_count += count; // At most HAIR_MAX_GUIDES times 256.
         if (count > groom->max_vertices) groom->max_vertices = count;
     }
-    groom->rest = hair_alloc(builder->host, info->guide_vertex_count, sizeof *groom->rest);
+    groom->rest = hair_alloc_undefined(builder->host, info->guide_vertex_count, sizeof *groom->rest);
     if (!groom->rest) return hair_fail_memory(builder->host, "guides");
-    hair_vec3 mean = mean_direction(builder);
-    for (uint32_t i = 0; i < info->guide_count; ++i) write_rest_guide(builder, i, mean);
+    struct rest_work work = {.builder = builder,
+                             .division = hair_divide(info->guide_count, HAIR_MIN_TASK_STRANDS),
+                             .mean = mean_direction(builder)};
+    hair_run_tasks(&groom->tasks, write_rest_guides, &work, work.division.tasks);
     return HAIR_OK;
 }

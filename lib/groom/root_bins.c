@@ -1,12 +1,14 @@
 // root_bins.c - root bins, which followers grow on. They are guides or scalp triangles.
 #include "lib/groom/groom_builder.h"
 
+#include <string.h>
+
 static hair_result reserve_bins(struct hair_groom_builder* builder, uint32_t count)
 {
     builder->bin_count = count;
     builder->bin_candidates = hair_alloc(builder->host, count, sizeof *builder->bin_candidates);
-    builder->bin_first = hair_alloc(builder->host, count, sizeof *builder->bin_first);
-    builder->bin_centres = hair_alloc(builder->host, count, 3 * sizeof *builder->bin_centres);
+    builder->bin_first = hair_alloc_undefined(builder->host, count, sizeof *builder->bin_first);
+    builder->bin_centres = hair_alloc_undefined(builder->host, count, 3 * sizeof *builder->bin_centres);
     if (!builder->bin_candidates || !builder->bin_first || !builder->bin_centres)
         return hair_fail_memory(builder->host, "followers");
     return HAIR_OK;
@@ -16,8 +18,7 @@ hair_result hair_guide_bins(struct hair_groom_builder* builder)
 {
     uint32_t guides = builder->groom->info.guide_count;
     HAIR_TRY(reserve_bins(builder, guides));
-    for (uint32_t i = 0; i < guides; ++i)
-        hair_store3(builder->bin_centres + 3 * (size_t)i, hair_guide_root(builder->groom, i));
+    memcpy(builder->bin_centres, builder->roots, 3 * (size_t)guides * sizeof *builder->roots);
     return HAIR_OK;
 }
 

@@ -60,6 +60,7 @@ hair_result hair_build_strand_attributes(struct hair_groom_builder* builder)
 {
     struct hair_groom* groom = builder->groom;
     const struct hair_strands* strands = &builder->strands;
+    if (!strands->radii && !strands->colors) return HAIR_OK;
     float mean = strands->radii ? mean_radius(builder) : 0;
     if (strands->colors) {
         groom->colors = hair_alloc(builder->host, builder->candidate_count,

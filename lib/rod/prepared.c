@@ -5,7 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#define MAX_TASKS 256
 #define MIN_GUIDES 16 // Minimum number of guides of a task.
 
 // Work on all guides. Each kind of task uses a part of the members.
@@ -24,32 +23,29 @@ struct rod_work {
     const struct hair_rods_order* order;
     struct hair_rods_result* result;
     hair_vec4* last; // Final solve of all guides.
-    uint32_t each; // Guides of a task.
-    struct hair_rods_softened softened[MAX_TASKS];
-    double shortest[MAX_TASKS]; // Length of a substep, s.
-    bool is_refused[MAX_TASKS]; // True if the host has refused memory.
-    bool is_mixed[MAX_TASKS];
-    bool has_system[MAX_TASKS];
-    uint32_t rounds[MAX_TASKS];
+    struct hair_division division; // of the guides
+    struct hair_rods_softened softened[HAIR_MAX_TASKS];
+    double shortest[HAIR_MAX_TASKS]; // Length of a substep, s.
+    bool is_refused[HAIR_MAX_TASKS]; // True if the host has refused memory.
+    bool is_mixed[HAIR_MAX_TASKS];
+    bool has_system[HAIR_MAX_TASKS];
+    uint32_t rounds[HAIR_MAX_TASKS];
 };
 
 // Run tasks over all guides. Return their number.
 static uint32_t divide_guides(struct rod_work* work, hair_task task)
 {
-    uint32_t count = work->source->count;
-    HAIR_ASSERT(count > 0);
-    work->each = (count + MAX_TASKS - 1) / MAX_TASKS;
-    if (work->each < MIN_GUIDES) work->each = MIN_GUIDES;
-    uint32_t tasks = (count + work->each - 1) / work->each;
-    hair_run_tasks(work->source->tasks, task, work, tasks);
-    return tasks;
+    HAIR_ASSERT(work->source->count > 0);
+    work->division = hair_divide(work->source->count, MIN_GUIDES);
+    hair_run_tasks(work->source->tasks, task, work, work->division.tasks);
+    return work->division.tasks;
 }
 
 // Return the guides of a task, and their number.
 static const struct hair_guide* guides_of(const struct rod_work* work, uint32_t index, uint32_t* count)
 {
-    uint32_t first = index * work->each, left = work->source->count - first;
-    *count = left < work->each ? left : work->each;
+    uint32_t first = index * work->division.each;
+    *count = hair_division_end(&work->division, index) - first;
     return work->source->guides + first;
 }
 
@@ -104,7 +100,7 @@ static const hair_physics* find_physics_of(const void* user, uint32_t guide, hai
 static void preload(uint32_t index, void* data)
 {
     struct rod_work* work = data;
-    uint32_t count, listed = 0, first = index * work->each;
+    uint32_t count, listed = 0, first = index * work->division.each;
     guides_of(work, index, &count);
     for (uint32_t i = first; i < first + count; ++i)
         if (!work->changed || work->changed[i]) work->list[first + listed++] = i;
@@ -266,7 +262,7 @@ static void make(uint32_t index, void* data)
     const struct hair_rod_source* source = work->source;
     const struct hair_rods_order* o = work->order;
     struct hair_rod rod[HAIR_MAX_GUIDE_VERTICES];
-    uint32_t count, first = index * work->each, pin = find_first_pin(o, first), end = pin;
+    uint32_t count, first = index * work->division.each, pin = find_first_pin(o, first), end = pin;
     const struct hair_guide* guides = guides_of(work, index, &count);
     work->softened[index] = (struct hair_rods_softened){.factor = 1};
     work->has_system[index] = false;

@@ -159,7 +159,13 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.patch_count = patches;
     measure_guides(groom);
     hair_measure_patches(groom);
-    groom->head_sphere = hair_find_head_sphere(groom);
+    float* roots = take(host, 3 * (size_t)wanted.guides, sizeof *roots);
+    for (uint32_t i = 0; i < wanted.guides; ++i) {
+        hair_vec4 root = groom->rest[groom->guides[i].first].position;
+        hair_store3(roots + 3 * (size_t)i, hair_v3(root.x, root.y, root.z));
+    }
+    groom->head_sphere = hair_find_head_sphere(roots, wanted.guides);
+    hair_free(host, roots);
     return groom;
 }
 

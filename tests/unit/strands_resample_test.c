@@ -12,10 +12,11 @@
 
 static struct hair_test_host test;
 static hair_import_stats repairs;
+static const hair_tasks no_tasks;
 
 static void clean(const hair_import* import, struct hair_strands* strands)
 {
-    assert_int_equal(hair_strands_clean(&test.host, import, strands, &repairs), HAIR_OK);
+    assert_int_equal(hair_strands_clean(&test.host, &no_tasks, import, strands, &repairs), HAIR_OK);
 }
 
 static void drop(struct hair_strands* strands)

@@ -11,10 +11,11 @@
 
 static struct hair_test_host test;
 static hair_import_stats repairs;
+static const hair_tasks no_tasks;
 
 static void clean(const hair_import* import, struct hair_strands* strands)
 {
-    assert_int_equal(hair_strands_clean(&test.host, import, strands, &repairs), HAIR_OK);
+    assert_int_equal(hair_strands_clean(&test.host, &no_tasks, import, strands, &repairs), HAIR_OK);
 }
 
 static void drop(struct hair_strands* strands)
@@ -322,7 +323,7 @@ static void every_refused_allocation_is_an_error_and_leaks_nothing(void** state)
         struct hair_strands strands = hair_test_import_strands(&test, 1000, 16);
         test.allocations = 0;
         test.refuse = refuse;
-        hair_result result = hair_strands_clean(&test.host, &import, &strands, &repairs);
+        hair_result result = hair_strands_clean(&test.host, &no_tasks, &import, &strands, &repairs);
         test.refuse = 0;
         drop(&strands);
         assert_int_equal(test.blocks, 0);
