@@ -101,8 +101,9 @@ hair_result hair_scalp_candidates(struct hair_groom_builder* builder)
 struct scalp {
     struct hair_groom_builder* builder;
     struct hair_kd_tree roots; // of the guides
-    float* points; // positions of these roots
     uint32_t* guide_at; // guide rooted at each vertex of the scalp, or NONE
+    struct hair_strand_mix* mixes; // Receives the guides of each candidate. NULL grows followers.
+    struct hair_division division; // of the candidates
 };
 
 // Three guides around a root, with barycentric weights.
@@ -309,15 +310,15 @@ static struct trio find_candidate_trio(const struct scalp* scalp, uint32_t candi
     return trio;
 }
 
-// Grow the follower of a candidate, or only write its guides if there is `mixes`.
-static void grow_candidate(const struct scalp* scalp, uint32_t candidate, struct hair_strand_mix* mixes)
+// Grow the follower of a candidate, or only write its guides.
+static void grow_candidate(const struct scalp* scalp, uint32_t candidate)
 {
     struct hair_groom_builder* builder = scalp->builder;
     uint32_t random = hair_candidate_random(builder, hair_candidate_number(builder, candidate));
     hair_vec3 root;
     struct trio trio = find_candidate_trio(scalp, candidate, &random, &root);
-    if (mixes) {
-        mixes[candidate] = hair_mix_guides(builder, trio.guide, trio.weight[1], trio.weight[2]);
+    if (scalp->mixes) {
+        scalp->mixes[candidate] = hair_mix_guides(builder, trio.guide, trio.weight[1], trio.weight[2]);
         return;
     }
     HAIR_ASSERT(builder->place[candidate] < builder->groom->info.follower_count);
@@ -325,29 +326,32 @@ static void grow_candidate(const struct scalp* scalp, uint32_t candidate, struct
         grow_follower(builder->groom, &trio, root, &random);
 }
 
-static hair_result grow_all(struct scalp* scalp, struct hair_strand_mix* mixes)
+static void grow_some_candidates(uint32_t index, void* data)
+{
+    const struct scalp* scalp = data;
+    uint32_t end = hair_division_end(&scalp->division, index);
+    for (uint32_t i = index * scalp->division.each; i < end; ++i) grow_candidate(scalp, i);
+}
+
+static hair_result grow_all(struct scalp* scalp)
 {
     const struct hair_groom_builder* builder = scalp->builder;
-    uint32_t guides = builder->groom->info.guide_count;
-    for (uint32_t i = 0; i < guides; ++i)
-        hair_store3(scalp->points + 3 * (size_t)i, hair_guide_root(builder->groom, i));
-    HAIR_TRY(
-        hair_kd_tree_build(builder->host, (struct hair_point_set){scalp->points, 3}, guides, &scalp->roots));
+    HAIR_TRY(hair_kd_tree_build(builder->host, (struct hair_point_set){builder->roots, 3},
+                                builder->groom->info.guide_count, &scalp->roots));
     for (uint32_t i = 0; i < builder->desc->scalp_vertex_count; ++i)
         scalp->guide_at[i] = find_guide_at(scalp, i);
-    for (uint32_t i = 0; i < builder->candidate_count; ++i) grow_candidate(scalp, i, mixes);
+    hair_run_tasks(&builder->groom->tasks, grow_some_candidates, scalp, scalp->division.tasks);
     hair_kd_tree_free(builder->host, &scalp->roots);
     return HAIR_OK;
 }
 
 hair_result hair_scalp_mixes(struct hair_groom_builder* builder, struct hair_strand_mix* out)
 {
-    struct scalp scalp = {.builder = builder};
-    scalp.points = hair_alloc(builder->host, builder->groom->info.guide_count, 3 * sizeof *scalp.points);
+    struct scalp scalp = {.builder = builder,
+                          .mixes = out,
+                          .division = hair_divide(builder->candidate_count, HAIR_MIN_TASK_STRANDS)};
     scalp.guide_at = hair_alloc(builder->host, builder->desc->scalp_vertex_count, sizeof *scalp.guide_at);
-    hair_result result =
-        scalp.points && scalp.guide_at ? grow_all(&scalp, out) : hair_fail_memory(builder->host, "followers");
-    hair_free(builder->host, scalp.points);
+    hair_result result = scalp.guide_at ? grow_all(&scalp) : hair_fail_memory(builder->host, "followers");
     hair_free(builder->host, scalp.guide_at);
     return result;
 }

@@ -72,17 +72,34 @@ static void place_followers(const struct hair_groom_builder* builder, float* uv)
     }
 }
 
+struct guide_binding {
+    const struct hair_groom_builder* builder;
+    struct hair_surface surface;
+    struct hair_root_binding* root_binding;
+    struct hair_division division; // of the guides
+};
+
+static void bind_some_guides(uint32_t index, void* data)
+{
+    const struct guide_binding* binding = data;
+    uint32_t end = hair_division_end(&binding->division, index);
+    for (uint32_t i = index * binding->division.each; i < end; ++i) {
+        hair_vec3 root = hair_load3(binding->builder->roots + 3 * (size_t)i);
+        struct hair_scalp_point scalp_point = hair_surface_find_point(&binding->surface, root);
+        binding->root_binding[i] = find_root_binding(binding->builder, &scalp_point, root);
+    }
+}
+
 static hair_result bind_guides(const struct hair_groom_builder* builder,
                                struct hair_root_binding* root_binding)
 {
-    struct hair_surface surface;
-    hair_result result = hair_surface_build(builder, &surface);
-    for (uint32_t i = 0; i < builder->groom->info.guide_count && !result; ++i) {
-        hair_vec3 root = hair_guide_root(builder->groom, i);
-        struct hair_scalp_point scalp_point = hair_surface_find_point(&surface, root);
-        root_binding[i] = find_root_binding(builder, &scalp_point, root);
-    }
-    hair_surface_free(&surface);
+    struct guide_binding binding = {.builder = builder,
+                                    .root_binding = root_binding,
+                                    .division =
+                                        hair_divide(builder->groom->info.guide_count, HAIR_MIN_TASK_STRANDS)};
+    hair_result result = hair_surface_build(builder, &binding.surface);
+    if (!result) hair_run_tasks(&builder->groom->tasks, bind_some_guides, &binding, binding.division.tasks);
+    hair_surface_free(&binding.surface);
     return result;
 }
 

@@ -58,15 +58,16 @@ void hair_surface_free(struct hair_surface* surface)
     hair_free(host, surface->indices);
 }
 
-struct hair_scalp_point hair_surface_find_point(struct hair_surface* surface, hair_vec3 root)
+struct hair_scalp_point hair_surface_find_point(const struct hair_surface* surface, hair_vec3 root)
 {
-    HAIR_ASSERT(surface->triangles.count > 0);
+    struct hair_triangles triangles = surface->triangles; // The search counts its work in a copy.
+    HAIR_ASSERT(triangles.count > 0);
     float distance = FLT_MAX;
     uint32_t nearest = 0;
     struct hair_scalp_point scalp_point = {0};
-    hair_triangles_find(&surface->triangles, hair_sub(root, surface->triangles.center), &distance, &nearest);
-    HAIR_ASSERT(nearest < surface->triangles.count);
-    scalp_point.triangle = surface->triangles.indices[nearest][0] / 3;
+    hair_triangles_find(&triangles, hair_sub(root, triangles.center), &distance, &nearest);
+    HAIR_ASSERT(nearest < triangles.count);
+    scalp_point.triangle = triangles.indices[nearest][0] / 3;
     hair_vec3 corner[3];
     for (uint32_t k = 0; k < 3; ++k) corner[k] = hair_scalp_corner(surface->builder, scalp_point.triangle, k);
     find_foot(corner, root, scalp_point.weight);
@@ -81,6 +82,25 @@ hair_vec3 hair_candidate_root(const struct hair_groom_builder* builder, uint32_t
     return hair_load3(builder->strands.positions + 3 * (size_t)builder->first[builder->strand_of[candidate]]);
 }
 
+struct projection {
+    const struct hair_groom_builder* builder;
+    const struct hair_surface* surface;
+    struct hair_division division; // of the root bins
+};
+
+static void project_bins(uint32_t index, void* data)
+{
+    const struct projection* projection = data;
+    const struct hair_groom_builder* builder = projection->builder;
+    uint32_t end = hair_division_end(&projection->division, index);
+    for (uint32_t bin = index * projection->division.each; bin < end; ++bin)
+        for (uint32_t i = 0; i < builder->bin_candidates[bin]; ++i) {
+            uint32_t candidate = builder->bin_first[bin] + i;
+            builder->scalp_points[candidate] =
+                hair_surface_find_point(projection->surface, hair_candidate_root(builder, bin, candidate));
+        }
+}
+
 hair_result hair_build_scalp_points(struct hair_groom_builder* builder)
 {
     if (!builder->scalp || builder->scalp_points) return HAIR_OK;
@@ -90,13 +110,11 @@ hair_result hair_build_scalp_points(struct hair_groom_builder* builder)
         hair_alloc(builder->host, builder->candidate_count, sizeof *builder->scalp_points);
     if (!result && !builder->scalp_points) result = hair_fail_memory(builder->host, "the roots of followers");
     int there = !result && surface.triangles.count > 0; // All triangles may be degenerate.
-    for (uint32_t bin = 0; bin < builder->bin_count && there; ++bin)
-        for (uint32_t i = 0; i < builder->bin_candidates[bin]; ++i) {
-            uint32_t candidate = builder->bin_first[bin] + i;
-            builder->scalp_points[candidate] =
-                hair_surface_find_point(&surface, hair_candidate_root(builder, bin, candidate));
-        }
-    if (!there) {
+    struct projection projection = {
+        .builder = builder, .surface = &surface, .division = hair_divide(builder->bin_count, 1)};
+    if (there) {
+        hair_run_tasks(&builder->groom->tasks, project_bins, &projection, projection.division.tasks);
+    } else {
         hair_free(builder->host, builder->scalp_points);
         builder->scalp_points = NULL;
     }

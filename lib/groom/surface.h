@@ -17,6 +17,6 @@ hair_result hair_surface_build(const struct hair_groom_builder* builder, struct 
 void hair_surface_free(struct hair_surface* surface);
 
 // Return the closest point on the scalp. At least one triangle must exist.
-struct hair_scalp_point hair_surface_find_point(struct hair_surface* surface, hair_vec3 root);
+struct hair_scalp_point hair_surface_find_point(const struct hair_surface* surface, hair_vec3 root);
 
 #endif
