@@ -10,7 +10,7 @@ import tempfile
 import flip_evaluator
 import numpy as np
 
-from hairtruth import cases, ours, traced
+from hairtruth import cases, ours, second, traced
 
 FLIP_COLORS, FLIP_AZIMUTHS = ("blond", "brown"), (0, 90, 180)
 FLIP_SIZE = 512
@@ -43,7 +43,8 @@ def standard_error(pictures):
 
 def measure(options, haircut, folder):
     """Yield a row for each case of a haircut."""
-    curves = os.path.join(folder, f"{haircut}.txt")
+    curves, points = (os.path.join(folder, haircut + end) for end in (".txt", ".npy"))
+    known = second.read_means(options.means) if options.means else {}
     for case in cases.all_cases():
         if case.haircut != haircut or options.match not in case.name:
             continue
@@ -51,33 +52,56 @@ def measure(options, haircut, folder):
         size = FLIP_SIZE if pictured else options.size
         picture, dump = ours.draw(options.capture, case, size, folder, not os.path.exists(curves))
         if dump:
-            traced.write_strands(ours.read_strands(dump), cases.HAIRCUTS[haircut].radius, curves)
+            strands = ours.read_strands(dump)
+            np.save(points, strands)
+            traced.write_strands(strands, cases.HAIRCUTS[haircut].radius, curves)
         drawn = traced.read_exr(picture)
-        samples, parts = options.samples, options.parts
+        row = {"case": case.name}
+        means = {"drawn": drawn.mean((0, 1))}
+        samples, parts = (options.flip_samples // 2, 2) if pictured else (options.samples,
+                                                                          options.parts)
+        if case.name in known and not pictured:
+            means["mitsuba"], row["error"] = known[case.name]
+        else:
+            traces = traced.pictures(options.variant, case, curves, size, samples, parts)
+            means["mitsuba"], row["error"] = traces.mean((0, 1, 2)), standard_error(traces)
         if pictured:
-            samples, parts = options.flip_samples // 2, 2
-        traces = traced.pictures(options.variant, case, curves, size, samples, parts)
-        truth = traces.mean(0)
-        row = {"case": case.name, "error": standard_error(traces)}
-        if pictured:
-            row["halves"] = flip(traces[0], traces[1])
-            row["flip"] = flip(truth, drawn)
-            if options.pictures:
-                np.save(os.path.join(options.pictures, case.name + ".npy"),
-                        np.concatenate([drawn, truth], 1).astype(np.float16))
-        bias = drawn.mean((0, 1)) / truth.mean((0, 1)) - 1
-        row.update(zip(("red", "green", "blue"), bias.tolist()))
+            compare_pictures(row, options.pictures, drawn, traces)
+        if options.second:
+            others = second.pictures(options.second, case, points, size, samples, parts)
+            means["cycles"], row["cycles_error"] = others.mean((0, 1, 2)), standard_error(others)
+            if pictured:
+                row["cycles_flip"] = flip(traces.mean(0), others.mean(0))
+        bias = means["drawn"] / means["mitsuba"] - 1
+        row.update(zip(second.CHANNELS, bias.tolist()), **second.cells(means))
         yield row
+
+
+def compare_pictures(row, folder, drawn, traces):
+    """Add FLIP errors to a row, and write the pictures to a folder unless that is None."""
+    truth = traces.mean(0)
+    row["halves"] = flip(traces[0], traces[1])
+    row["flip"] = flip(truth, drawn)
+    if folder:
+        np.save(os.path.join(folder, row["case"] + ".npy"),
+                np.concatenate([drawn, truth], 1).astype(np.float16))
 
 
 def show(row):
     cells = [f"{row['case']:24}"]
-    cells += [f"{100 * row[key]:+6.1f} %" for key in ("red", "green", "blue")]
+    cells += [f"{100 * row[key]:+6.1f} %" for key in second.CHANNELS]
     if row["error"] is not None:
         cells.append(f"standard error {100 * row['error']:.1f} %")
     if "flip" in row:
         cells.append(f"FLIP {row['flip']:.4f}, of two halves of the truth {row['halves']:.4f}")
     print("  ".join(cells), flush=True)
+
+
+def text(key, value):
+    """Return a cell of a file: fractions have four decimals, and means six digits."""
+    if not isinstance(value, float):
+        return value
+    return f"{value:.4f}" if key in KEYS else f"{value:.6g}"
 
 
 def parse(arguments):
@@ -92,6 +116,10 @@ def parse(arguments):
                         help="of the truth, which differ by their random numbers; 2")
     parser.add_argument("--flip-samples", type=int, default=0,
                         help="a pixel of the truth where pictures are compared; 0: none are")
+    parser.add_argument("--second", metavar="PYTHON",
+                        help="Python that has Blender's package bpy: trace with Cycles too")
+    parser.add_argument("--means", metavar="CSV",
+                        help="take Mitsuba's means from these rows of --second, if a case is there")
     parser.add_argument("--csv", help="write the rows to this file")
     parser.add_argument("--pictures", help="write compared pictures to this folder")
     return parser.parse_args(arguments)
@@ -105,19 +133,23 @@ def main(arguments=None):
         for haircut in [options.haircut] if options.haircut else cases.HAIRCUTS:
             for row in measure(options, haircut, folder):
                 show(row)
+                if options.second:
+                    second.show(row)
                 rows.append(row)
     if not rows:
         print("hairtruth: no case has that name", file=sys.stderr)
         return 2
-    bias = np.abs([[row[key] for key in ("red", "green", "blue")] for row in rows])
+    bias = np.abs([[row[key] for key in second.CHANNELS] for row in rows])
     print(f"means of {len(rows)} cases: median {100 * np.median(bias):.1f} %, "
           f"largest {100 * bias.max():.1f} %")
+    if options.second:
+        second.summarize(rows)
     if options.csv:
         with open(options.csv, "w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, KEYS, lineterminator="\n")
+            keys = KEYS + (second.KEYS if options.second else ())
+            writer = csv.DictWriter(file, keys, extrasaction="ignore", lineterminator="\n")
             writer.writeheader()
-            writer.writerows({key: f"{value:.4f}" if isinstance(value, float) else value
-                              for key, value in row.items()} for row in rows)
+            writer.writerows({key: text(key, value) for key, value in row.items()} for row in rows)
     return 0
 
 
