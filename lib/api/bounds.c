@@ -18,10 +18,8 @@ float hair_find_bounds(const hair_groom* groom, hair_vec3 bounds[2])
     const hair_groom_info* info = &groom->info;
     bounds[0] = hair_load3(info->lower);
     bounds[1] = hair_load3(info->upper);
-    for (uint32_t i = 0; i < info->guide_count; ++i) {
-        hair_vec4 root = groom->rest[groom->guides[i].first].position;
-        include_sphere(hair_v3(root.x, root.y, root.z), GIVE * info->length[2], bounds);
-    }
+    for (uint32_t i = 0; i < info->guide_count; ++i)
+        include_sphere(hair_guide_root(groom, i), GIVE * info->length[2], bounds);
     return GIVE * info->length[2];
 }
 

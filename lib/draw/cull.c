@@ -17,7 +17,7 @@ void hair_draw_find_extent(struct hair_renderer* renderer, const struct hair_gro
     extent->lower = hair_v3(INFINITY, INFINITY, INFINITY);
     extent->upper = hair_v3(-INFINITY, -INFINITY, -INFINITY);
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
-        hair_vec4 root = groom->rest[groom->guides[i].first].position;
+        hair_vec3 root = hair_guide_root(groom, i);
         extent->lower = hair_v3(fminf(extent->lower.x, root.x), fminf(extent->lower.y, root.y),
                                 fminf(extent->lower.z, root.z));
         extent->upper = hair_v3(fmaxf(extent->upper.x, root.x), fmaxf(extent->upper.y, root.y),

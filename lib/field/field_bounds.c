@@ -36,15 +36,11 @@ static void find_groom_bounds(const struct hair_groom* groom, hair_vec3* lower, 
 {
     hair_vec3 reach[2] = {{EVERYWHERE, EVERYWHERE, EVERYWHERE}, {-EVERYWHERE, -EVERYWHERE, -EVERYWHERE}};
     float longest = 0;
-    *lower = reach[0], *upper = reach[1];
+    *lower = groom->lower, *upper = groom->upper;
     for (uint32_t i = 0; i < groom->info.guide_count; ++i) {
-        const struct hair_guide* guide = &groom->guides[i];
-        for (uint32_t k = 0; k < guide->count; ++k) {
-            hair_vec4 at = groom->rest[guide->first + k].position;
-            include_ball(hair_v3(at.x, at.y, at.z), 0, lower, upper);
-            if (k == 0) include_ball(hair_v3(at.x, at.y, at.z), guide->arc_length, &reach[0], &reach[1]);
-        }
-        longest = fmaxf(longest, guide->arc_length);
+        const float length = groom->guides[i].arc_length;
+        include_ball(hair_guide_root(groom, i), length, &reach[0], &reach[1]);
+        longest = fmaxf(longest, length);
     }
     float around = SWING * longest;
     *lower = hair_v3(fmaxf(lower->x - around, reach[0].x), fmaxf(lower->y - around, reach[0].y),

@@ -101,15 +101,16 @@ static bool solve(double m[4][5], double out[4])
 // Fit a sphere to all roots by least squares. With the centre c and the radius r its equation is
 // |x|^2 = 2 c x + k, where k = r^2 - |c|^2. Roots are taken relative to the first root and in units
 // of the greatest distance from it, which limits rounding.
-static bool fit(const float* roots, uint32_t count, double center[3])
+static bool fit(const struct hair_groom* groom, double center[3])
 {
     double m[4][5] = {{0}}, x[4], unit = 0;
-    hair_vec3 first = hair_load3(roots);
+    hair_vec3 first = hair_guide_root(groom, 0);
+    uint32_t count = groom->info.guide_count;
     for (uint32_t i = 0; i < count; ++i)
-        unit = fmax(unit, (double)hair_distance(hair_load3(roots + 3 * (size_t)i), first));
+        unit = fmax(unit, (double)hair_distance(hair_guide_root(groom, i), first));
     if (!(unit > 0)) return false;
     for (uint32_t i = 0; i < count; ++i) {
-        hair_vec3 p = hair_sub(hair_load3(roots + 3 * (size_t)i), first);
+        hair_vec3 p = hair_sub(hair_guide_root(groom, i), first);
         double row[5] = {(double)p.x / unit, (double)p.y / unit, (double)p.z / unit, 1, 0};
         for (int k = 0; k < 3; ++k) row[4] += row[k] * row[k];
         for (int k = 0; k < 4; ++k)
@@ -122,13 +123,14 @@ static bool fit(const float* roots, uint32_t count, double center[3])
     return true;
 }
 
-hair_vec4 hair_find_head_sphere(const float* roots, uint32_t count)
+hair_vec4 hair_find_head_sphere(const struct hair_groom* groom)
 {
     double center[3], min = INFINITY, sum = 0;
-    if (!fit(roots, count, center)) return (hair_vec4){0, 0, 0, 0};
+    uint32_t count = groom->info.guide_count;
+    if (!fit(groom, center)) return (hair_vec4){0, 0, 0, 0};
     hair_vec3 middle = {(float)center[0], (float)center[1], (float)center[2]};
     for (uint32_t i = 0; i < count; ++i) {
-        double away = (double)hair_distance(hair_load3(roots + 3 * (size_t)i), middle);
+        double away = (double)hair_distance(hair_guide_root(groom, i), middle);
         min = fmin(min, away);
         sum += away;
     }

@@ -123,7 +123,7 @@ static hair_result build_groom(struct hair_groom_builder* builder)
     HAIR_TRY(hair_build_root_bindings(builder));
     hair_apply_thickness(builder);
     hair_measure_patches(builder->groom);
-    builder->groom->head_sphere = hair_find_head_sphere(builder->roots, builder->groom->info.guide_count);
+    builder->groom->head_sphere = hair_find_head_sphere(builder->groom);
     compute_info(builder);
     return HAIR_OK;
 }
@@ -138,7 +138,6 @@ static void free_builder(struct hair_groom_builder* builder)
     hair_free(builder->host, builder->density);
     hair_free(builder->host, builder->map_lengths);
     hair_free(builder->host, builder->chosen);
-    hair_free(builder->host, builder->roots);
     hair_free(builder->host, builder->owner);
     hair_free(builder->host, builder->near);
     hair_free(builder->host, builder->bin_candidates);
@@ -207,6 +206,7 @@ void hair_groom_release(hair_groom* groom)
     hair_host host = groom->host;
     hair_free(&host, groom->guides);
     hair_free(&host, groom->rest);
+    hair_free(&host, groom->roots);
     hair_free(&host, groom->followers);
     hair_free(&host, groom->guide_shapes);
     hair_free(&host, groom->patches);

@@ -3,6 +3,7 @@
 #define HAIR_GROOM_GROOM_H
 
 #include "lib/base/host.h"
+#include "lib/base/math.h"
 #include "lib/groom/guide_factors.h"
 #include "lib/groom/scalp_binding.h"
 #include "glsl/shared.h"
@@ -13,6 +14,8 @@ struct hair_groom {
     hair_groom_info info;
     struct hair_guide* guides; // info.guide_count
     struct hair_rest* rest; // info.guide_vertex_count
+    float* roots; // xyz of the root of each guide
+    hair_vec3 lower, upper; // bounds of the guides at rest, m
     // info.follower_count, and after them the shapes of followers, HAIR_SHAPE_TEXELS() of 16 bytes
     // each.
     struct hair_follower* followers;
@@ -81,10 +84,19 @@ float hair_groom_follower_fraction(const struct hair_groom* groom, uint32_t foll
 // Return a factor of a follower, HAIR_FACTOR_CLUMP or another. It is 1 without an attribute.
 float hair_groom_follower_factor(const struct hair_groom* groom, uint32_t follower, int factor);
 
+// Find the roots and the bounds of the guides at rest.
+hair_result hair_measure_rest(struct hair_groom* groom);
+// Return the root of a guide.
+static inline hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide)
+{
+    HAIR_ASSERT(guide < groom->info.guide_count);
+    return hair_load3(groom->roots + 3 * (size_t)guide);
+}
+
 // Compute the reach and length of each patch from its followers.
 void hair_measure_patches(struct hair_groom* groom);
-// Return the sphere inside the head from the roots of guides, xyz each. xyz is its centre, w its
-// radius, m. The radius is 0 if none fits.
-hair_vec4 hair_find_head_sphere(const float* roots, uint32_t count);
+// Return the sphere inside the head: xyz is its centre, w its radius, m. The radius is 0 if none
+// fits.
+hair_vec4 hair_find_head_sphere(const struct hair_groom* groom);
 
 #endif

@@ -38,7 +38,6 @@ struct hair_groom_builder {
     float* map_lengths; // fraction of each strand's length by maps. NULL without such maps.
 
     uint32_t* chosen; // strand of each guide
-    float* roots; // xyz of the root of each guide
     bool has_given_guides; // The application or a file names the guides of HAIR_STRAND_SET_FULL.
     uint32_t* owner; // a nearby guide of each strand, only with HAIR_STRAND_SET_FULL
     // First guide of each group, and the number of guides, only with HAIR_STRAND_SET_FULL.
@@ -164,7 +163,6 @@ void hair_number_candidates(struct hair_groom_builder* builder);
 
 // Return the root of a candidate. Not valid for the candidates of scalp.c.
 hair_vec3 hair_candidate_root(const struct hair_groom_builder* builder, uint32_t bin, uint32_t candidate);
-hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide);
 hair_vec3 hair_scalp_corner(const struct hair_groom_builder* builder, uint32_t triangle, uint32_t corner);
 
 // Return the number of a candidate before attributes removed some.

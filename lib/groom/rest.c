@@ -139,7 +139,6 @@ static void write_rest_guide(struct hair_groom_builder* builder, uint32_t number
                   builder->strands.vertices[strand], p, guide->count);
     hair_quat frame = find_root_frame(mean, segment_vector(p, 0));
     guide->root_frame = (hair_vec4){frame.x, frame.y, frame.z, frame.w};
-    hair_store3(builder->roots + 3 * (size_t)number, vertex(p, 0));
     write_rest(p, guide->count, guide, builder->groom->rest + guide->first);
 }
 
@@ -156,8 +155,7 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
     struct hair_groom* groom = builder->groom;
     hair_groom_info* info = &groom->info;
     groom->guides = hair_alloc_undefined(builder->host, info->guide_count, sizeof *groom->guides);
-    builder->roots = hair_alloc_undefined(builder->host, info->guide_count, 3 * sizeof *builder->roots);
-    if (!groom->guides || !builder->roots) return hair_fail_memory(builder->host, "guides");
+    if (!groom->guides) return hair_fail_memory(builder->host, "guides");
     for (uint32_t i = 0; i < info->guide_count; ++i) {
         uint32_t count = count_guide_vertices(builder, i);
         groom->guides[i] = (struct hair_guide){.first = info->guide_vertex_count,
@@ -172,5 +170,50 @@ hair_result hair_build_rest(struct hair_groom_builder* builder)
                              .division = hair_divide(info->guide_count, HAIR_MIN_TASK_STRANDS),
                              .mean = mean_direction(builder)};
     hair_run_tasks(&groom->tasks, write_rest_guides, &work, work.division.tasks);
+    return hair_measure_rest(groom);
+}
+
+struct rest_bounds {
+    struct hair_groom* groom;
+    struct hair_division division; // of the guides
+    hair_vec3 lower[HAIR_MAX_TASKS], upper[HAIR_MAX_TASKS]; // of each task
+};
+
+static void measure_rest_guides(uint32_t index, void* data)
+{
+    struct rest_bounds* bounds = data;
+    const struct hair_groom* groom = bounds->groom;
+    uint32_t first = index * bounds->division.each, end = hair_division_end(&bounds->division, index);
+    hair_vec3 lower = {INFINITY, INFINITY, INFINITY}, upper = {-INFINITY, -INFINITY, -INFINITY};
+    for (uint32_t i = first; i < end; ++i) {
+        const struct hair_guide* guide = &groom->guides[i];
+        const struct hair_rest* rest = groom->rest + guide->first;
+        memcpy(groom->roots + 3 * (size_t)i, &rest->position, 3 * sizeof *groom->roots);
+        for (uint32_t k = 0; k < guide->count; ++k) {
+            const hair_vec4 at = rest[k].position;
+            lower = hair_v3(fminf(lower.x, at.x), fminf(lower.y, at.y), fminf(lower.z, at.z));
+            upper = hair_v3(fmaxf(upper.x, at.x), fmaxf(upper.y, at.y), fmaxf(upper.z, at.z));
+        }
+    }
+    bounds->lower[index] = lower;
+    bounds->upper[index] = upper;
+}
+
+hair_result hair_measure_rest(struct hair_groom* groom)
+{
+    uint32_t count = groom->info.guide_count;
+    struct rest_bounds bounds = {.groom = groom, .division = hair_divide(count, HAIR_MIN_TASK_STRANDS)};
+    HAIR_ASSERT(count > 0 && !groom->roots);
+    groom->roots = hair_alloc_undefined(&groom->host, count, 3 * sizeof *groom->roots);
+    if (!groom->roots) return hair_fail_memory(&groom->host, "guides");
+    hair_run_tasks(&groom->tasks, measure_rest_guides, &bounds, bounds.division.tasks);
+    groom->lower = bounds.lower[0], groom->upper = bounds.upper[0];
+    for (uint32_t i = 1; i < bounds.division.tasks; ++i) {
+        const hair_vec3 lower = bounds.lower[i], upper = bounds.upper[i];
+        groom->lower = hair_v3(fminf(groom->lower.x, lower.x), fminf(groom->lower.y, lower.y),
+                               fminf(groom->lower.z, lower.z));
+        groom->upper = hair_v3(fmaxf(groom->upper.x, upper.x), fmaxf(groom->upper.y, upper.y),
+                               fmaxf(groom->upper.z, upper.z));
+    }
     return HAIR_OK;
 }

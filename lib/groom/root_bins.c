@@ -18,7 +18,7 @@ hair_result hair_guide_bins(struct hair_groom_builder* builder)
 {
     uint32_t guides = builder->groom->info.guide_count;
     HAIR_TRY(reserve_bins(builder, guides));
-    memcpy(builder->bin_centres, builder->roots, 3 * (size_t)guides * sizeof *builder->roots);
+    memcpy(builder->bin_centres, builder->groom->roots, 3 * (size_t)guides * sizeof(float));
     return HAIR_OK;
 }
 
@@ -42,13 +42,6 @@ void hair_number_candidates(struct hair_groom_builder* builder)
         builder->bin_first[i] = builder->candidate_count;
         builder->candidate_count += builder->bin_candidates[i];
     }
-}
-
-hair_vec3 hair_guide_root(const struct hair_groom* groom, uint32_t guide)
-{
-    HAIR_ASSERT(guide < groom->info.guide_count);
-    hair_vec4 p = groom->rest[groom->guides[guide].first].position;
-    return hair_v3(p.x, p.y, p.z);
 }
 
 hair_vec3 hair_scalp_corner(const struct hair_groom_builder* builder, uint32_t triangle, uint32_t corner)

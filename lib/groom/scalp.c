@@ -336,7 +336,7 @@ static void grow_some_candidates(uint32_t index, void* data)
 static hair_result grow_all(struct scalp* scalp)
 {
     const struct hair_groom_builder* builder = scalp->builder;
-    HAIR_TRY(hair_kd_tree_build(builder->host, (struct hair_point_set){builder->roots, 3},
+    HAIR_TRY(hair_kd_tree_build(builder->host, (struct hair_point_set){builder->groom->roots, 3},
                                 builder->groom->info.guide_count, &scalp->roots));
     for (uint32_t i = 0; i < builder->desc->scalp_vertex_count; ++i)
         scalp->guide_at[i] = find_guide_at(scalp, i);

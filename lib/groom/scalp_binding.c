@@ -84,7 +84,7 @@ static void bind_some_guides(uint32_t index, void* data)
     const struct guide_binding* binding = data;
     uint32_t end = hair_division_end(&binding->division, index);
     for (uint32_t i = index * binding->division.each; i < end; ++i) {
-        hair_vec3 root = hair_load3(binding->builder->roots + 3 * (size_t)i);
+        hair_vec3 root = hair_guide_root(binding->builder->groom, i);
         struct hair_scalp_point scalp_point = hair_surface_find_point(&binding->surface, root);
         binding->root_binding[i] = find_root_binding(binding->builder, &scalp_point, root);
     }

@@ -25,9 +25,7 @@ static void set_up(struct hair_sim* sim, const struct hair_sim_desc* desc)
 static void find_reach(struct hair_sim* sim, const struct hair_groom* groom)
 {
     for (uint32_t i = 0; i < sim->guides; ++i) {
-        const struct hair_guide* guide = &groom->guides[i];
-        hair_vec4 root = groom->rest[guide->first].position;
-        float reach = hair_length(hair_v3(root.x, root.y, root.z)) + guide->arc_length;
+        float reach = hair_length(hair_guide_root(groom, i)) + groom->guides[i].arc_length;
         sim->reach = fmaxf(sim->reach, reach);
     }
 }

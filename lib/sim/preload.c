@@ -80,10 +80,12 @@ hair_result hair_sim_preload(struct hair_sim* sim)
     const bool keeps = rods->borne && rods->borne_for_groups == sim->groups.version &&
                        !hair_rods_differ(&rods->borne_for, &sim->physics);
     struct new_preload made = {0};
+    struct hair_rods_report report;
     if (keeps && rods->borne_for_lengths == sim->lengths.version) return HAIR_OK;
     if (p && !hair_sim_groups(sim) && !sim->lengths.guides && !hair_rods_differ(&p->physics, &sim->physics)) {
         use_preload(sim, &made);
         rods->borne = p->borne, rods->sags = p->sags;
+        report = p->report;
     } else {
         hair_result result = compute_preload(sim, keeps, &made);
         if (result) {
@@ -92,11 +94,11 @@ hair_result hair_sim_preload(struct hair_sim* sim)
         }
         use_preload(sim, &made);
         rods->borne = rods->own_borne, rods->sags = rods->own_sags;
+        report = hair_rods_report_of(rods->groom->guides, sim->guides, rods->borne, rods->sags);
     }
     free_preload(&sim->gl->host, &made);
-    const struct hair_rods_softened softened = rods->report.softened;
-    rods->report = hair_rods_report_of(rods->groom->guides, sim->guides, rods->borne, rods->sags);
-    rods->report.softened = softened;
+    report.softened = rods->report.softened;
+    rods->report = report;
     rods->borne_for = sim->physics;
     rods->borne_for_groups = sim->groups.version;
     rods->borne_for_lengths = sim->lengths.version;

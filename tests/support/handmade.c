@@ -158,14 +158,9 @@ hair_groom* hair_test_groom(const hair_host* host, struct hair_test_handmade wan
     groom->info.guide_vertex_count = vertices;
     groom->info.patch_count = patches;
     measure_guides(groom);
+    if (hair_measure_rest(groom)) abort();
     hair_measure_patches(groom);
-    float* roots = take(host, 3 * (size_t)wanted.guides, sizeof *roots);
-    for (uint32_t i = 0; i < wanted.guides; ++i) {
-        hair_vec4 root = groom->rest[groom->guides[i].first].position;
-        hair_store3(roots + 3 * (size_t)i, hair_v3(root.x, root.y, root.z));
-    }
-    groom->head_sphere = hair_find_head_sphere(roots, wanted.guides);
-    hair_free(host, roots);
+    groom->head_sphere = hair_find_head_sphere(groom);
     return groom;
 }
 
