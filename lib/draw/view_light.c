@@ -29,6 +29,7 @@ hair_result hair_draw_ensure_self_shadow(struct hair_renderer* renderer, struct 
         hair_view whole = *plan->view;
         whole.lod = NULL; // All views of a step share the grid.
         write_shadow_params(renderer, plan, &whole, &all);
+        drawn.origin.w = all.origin.w; // The size of the cells in the shared grid.
     }
     return hair_lighting_update_self_shadow(renderer->lighting, renderer->geometry, plan->view, &all, &drawn,
                                             part);

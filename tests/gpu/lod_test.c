@@ -321,6 +321,41 @@ static void hair_behind_the_head_is_not_drawn(void** state)
     hair_test_scene_free(&f);
 }
 
+// Return the mean light of the hair in a view. `before` is drawn first in the same step.
+static double light_of(struct hair_test_scene* f, const hair_view* view, const hair_view* before)
+{
+    static struct picture picture;
+    double light = 0, alpha = 0;
+    hair_test_ok(f->test, hair_step(f->hair, 1e-4f)); // Discards what earlier views have computed.
+    draw(f, view, before, &picture);
+    for (int i = 0; i < 4 * PIXELS; i += 4)
+        light += (double)picture.pixels[i + 1], alpha += (double)picture.pixels[i + 3];
+    assert_true(alpha > 20);
+    return light / alpha;
+}
+
+// Draw hair far away with levels of detail, alone and after a view of all of it, which shares the
+// density grid.
+static void light_of_a_level_is_the_same_after_a_full_view(void** state)
+{
+    struct hair_test_scene f = start(state, HAIR_STYLE_LONG, 6000, 2e-4f);
+    hair_lod lod = hair_lod_default();
+    hair_light light = hair_light_default();
+    hair_look look = hair_look_default();
+    hair_view full = view_from(6, 0.5f);
+    hair_test_ok(f.test, hair_get_look(f.hair, &look));
+    look.self_shadow.method = HAIR_SELF_SHADOW_STRANDS;
+    hair_test_ok(f.test, hair_set_look(f.hair, &look));
+    full.lights = &light;
+    full.light_count = 1;
+    hair_view level = full;
+    level.lod = &lod;
+    double alone = light_of(&f, &level, NULL), after = light_of(&f, &level, &full);
+    print_message("    mean light %.4f, %.4f after a full view\n", alone, after);
+    hair_test_near("light", 0, after / alone, 1, 0.3); // The shared grid has smaller cells.
+    hair_test_scene_free(&f);
+}
+
 int main(void)
 {
     if (hair_test_skips()) return 0;
@@ -331,6 +366,7 @@ int main(void)
         HAIR_TEST(push_out_fades_without_popping),
         HAIR_TEST(only_patches_out_of_view_are_missing),
         HAIR_TEST(hair_behind_the_head_is_not_drawn),
+        HAIR_TEST(light_of_a_level_is_the_same_after_a_full_view),
     };
     return cmocka_run_group_tests(tests, hair_test_start, hair_test_finish);
 }
