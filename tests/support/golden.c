@@ -18,7 +18,7 @@ void hair_test_read_png(const char* path, uint8_t* pixels, uint32_t width, uint3
 {
     png_image image = {.version = PNG_IMAGE_VERSION};
     if (!png_image_begin_read_from_file(&image, path))
-        fail_msg("%s is not there: make it with HAIR_BLESS=1 and look at it", path);
+        fail_msg("%s cannot be read; HAIR_BLESS=1 makes a golden picture, which you then look at", path);
     assert_int_equal(image.width, width);
     assert_int_equal(image.height, height);
     image.format = PNG_FORMAT_RGB;

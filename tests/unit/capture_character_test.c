@@ -9,10 +9,11 @@
 #include <stdio.h>
 #include <cmocka.h>
 
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "tests/support/golden.h"
 
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
 #define SIZE 64
@@ -34,12 +35,8 @@ static void write_scene(const char* name, const char* character, const char* mor
 static void read_picture(const char* name, uint8_t pixels[3 * SIZE * SIZE])
 {
     char path[512];
-    png_image image = {.version = PNG_IMAGE_VERSION};
     snprintf(path, sizeof path, "%s/%s", hair_test_folder(), name);
-    assert_true(png_image_begin_read_from_file(&image, path));
-    image.format = PNG_FORMAT_RGB;
-    assert_true(image.width == SIZE && image.height == SIZE);
-    assert_true(png_image_finish_read(&image, NULL, pixels, 0, NULL));
+    hair_test_read_png(path, pixels, SIZE, SIZE);
 }
 
 // Return the mean difference of two pictures, in levels of 255.

@@ -10,9 +10,10 @@
 #include <stdio.h>
 #include <cmocka.h>
 
-#include <png.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "tests/support/golden.h"
 
 #define TOOL HAIR_BUILD_DIR "/hair-capture"
 // Black hair, so that only skin is visible.
@@ -56,13 +57,10 @@ static double brightness(const char* name)
 {
     static uint8_t pixels[3 * WIDTH * HEIGHT];
     char command[512], path[512];
-    png_image image = {.version = PNG_IMAGE_VERSION};
     snprintf(command, sizeof command, "$T $D/%s.json --samples 1 --quiet " BLACK " -o $D/%s.png", name, name);
     hair_test_shell_expect(0, command, "");
     snprintf(path, sizeof path, "%s/%s.png", hair_test_folder(), name);
-    assert_true(png_image_begin_read_from_file(&image, path));
-    image.format = PNG_FORMAT_RGB;
-    assert_true(png_image_finish_read(&image, NULL, pixels, 0, NULL));
+    hair_test_read_png(path, pixels, WIDTH, HEIGHT);
     double sum = 0;
     for (int i = 0; i < WIDTH * HEIGHT; ++i) sum += pixels[3 * i];
     return sum / (WIDTH * HEIGHT);
