@@ -264,7 +264,7 @@ $(B)/examples/%: $(B)/tools/examples/%.c.o $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CC) $(opt.$(config)) $(LINK_FLAGS) $^ $(EXAMPLE_LIBS) -o $@
 
-SUPPORT := $(call objects,tests/support/*.c)
+SUPPORT := $(call objects,tests/support/*.c tools/common/flip.c)
 $(B)/tests/%_test: $(B)/tests/%_test.c.o $(SUPPORT) $(REF) $(B)/libhair_egl.a $(B)/libhair.a
 	$(call say,$@)
 	$(Q)$(CXX) $(opt.$(config)) $^ $(TEST_LIBS) -o $@

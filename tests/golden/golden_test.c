@@ -1,8 +1,8 @@
 // golden_test.c - pictures of the built-in scenes equal the previous ones, and are not black.
 //
-// A golden belongs to the renderer that made it: golden/<renderer>/<scene>.png. Other renderers
-// check only the range of lit pixels. HAIR_BLESS=1 writes the goldens again. Look at them before
-// committing.
+// Goldens are those of llvmpipe: golden/llvmpipe/<scene>.png. FLIP compares zink with them. Other
+// renderers check only the range of lit pixels. HAIR_BLESS=1 writes the goldens again. Look at them
+// before committing.
 #include "tests/support/golden.h"
 #include "tests/support/support.h"
 

@@ -10,7 +10,6 @@
 #include "tests/support/tessellated.h"
 
 // Tools are not linked into tests.
-#include "tools/common/flip.c"
 #include "tools/common/image_error.c"
 
 enum { SIDE = 128, PIXELS = SIDE * SIDE, TURNS = 3 };

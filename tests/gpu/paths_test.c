@@ -9,7 +9,6 @@
 #include "tests/support/render_paths.h"
 
 // Tools are not linked into tests.
-#include "tools/common/flip.c"
 #include "tools/common/image_error.c"
 
 enum { SIDE = 192, PIXELS = SIDE * SIDE, PATHS = HAIR_TEST_PATHS };

@@ -14,8 +14,8 @@ double hair_test_color_distance(const uint8_t* a, const uint8_t* b);
 // Return the number of different colours, at five bits a channel.
 size_t hair_test_distinct_colors(const uint8_t* pixels, uint32_t width, uint32_t height);
 
-// Check that a picture equals tests/golden/<renderer>/<name>.png within a tolerance. Nothing is
-// checked on a renderer without a folder. HAIR_BLESS in the environment writes the file first.
+// Check that a picture equals tests/golden/llvmpipe/<name>.png within a tolerance, which is wider
+// on zink. Other renderers check nothing. HAIR_BLESS in the environment writes the file first.
 void hair_test_golden(const char* name, const uint8_t* pixels, uint32_t width, uint32_t height);
 
 #endif

@@ -9,7 +9,7 @@
 #include <string.h>
 
 // Tools are not linked into tests.
-#include "tools/common/flip.c"
+#include "tools/common/flip.h"
 #include "tools/common/image_error.c"
 
 enum { WIDTH = 64, HEIGHT = 48, PIXELS = WIDTH * HEIGHT };
