@@ -41,7 +41,8 @@ override VIEW   := 0
 WARN  += -Wno-float-conversion
 FLAGS := $(filter-out -fstack-% -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2,$(FLAGS)) -D__USE_MINGW_ANSI_STDIO=1
 endif
-LINK_FLAGS := -Wl,-z,relro,-z,now -Wl,-z,noexecstack $(LDFLAGS)
+# Programs need only the libraries that they use, also with sanitizers, for which GCC links all that are named.
+LINK_FLAGS := -Wl,-z,relro,-z,now -Wl,-z,noexecstack -Wl,--as-needed $(LDFLAGS)
 C     := $(CC) -std=c17 $(WARN) -Wmissing-prototypes $(FLAGS) $(CFLAGS)
 CPP   := $(CXX) -std=c++17 -Wall -Wextra -Werror -fno-exceptions -fno-rtti $(FLAGS) $(CXXFLAGS)
 
