@@ -58,6 +58,17 @@ void hair_test_shell_expect(int code, const char* command, const char* words)
                  words);
 }
 
+const char* hair_test_shell_limit(unsigned kib)
+{
+    static char text[32];
+#if !defined __SANITIZE_ADDRESS__ && !defined __SANITIZE_THREAD__
+    snprintf(text, sizeof text, "ulimit -v %u; ", kib);
+#else
+    (void)kib;
+#endif
+    return text;
+}
+
 json_t* hair_test_shell_json(const char* name)
 {
     char path[256];

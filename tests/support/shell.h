@@ -20,6 +20,10 @@ int hair_test_shell(const char* command);
 // Run a command that must exit with `code` and print `words`.
 void hair_test_shell_expect(int code, const char* command, const char* words);
 
+// Return shell text that limits the memory of the commands after it to that many KiB. The text is
+// empty with a sanitizer, which reserves terabytes of addresses. The next call overwrites the text.
+const char* hair_test_shell_limit(unsigned kib);
+
 // Load a JSON file from the folder, or fail. The caller releases it.
 json_t* hair_test_shell_json(const char* name);
 // Return the number that an object has under a key, or 0 without one.

@@ -80,7 +80,7 @@ static void haircuts_are_read_from_pipes_and_written_to_them(void** state)
 static void inputs_without_an_end_are_read_as_far_as_their_format_goes(void** state)
 {
     (void)state;
-    const char* few = "ulimit -v 400000; ";
+    const char* few = hair_test_shell_limit(400000);
     char command[256];
     snprintf(command, sizeof command, "%s timeout 20 $T info /dev/zero", few);
     expect(4, command, "at byte 0 stands none of");
@@ -110,8 +110,8 @@ static void inputs_that_claim_too_much_are_refused_by_their_beginning(void** sta
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
         char command[512];
-        snprintf(command, sizeof command, "ulimit -v %d; %s | timeout 20 $T info -",
-                 i + 1 < sizeof wrong / sizeof *wrong ? 100000 : 500000, wrong[i][0]);
+        snprintf(command, sizeof command, "%s %s | timeout 20 $T info -",
+                 hair_test_shell_limit(i + 1 < sizeof wrong / sizeof *wrong ? 100000 : 500000), wrong[i][0]);
         expect(i == 1 ? 0 : 4, command, wrong[i][1]);
     }
 }
