@@ -39,8 +39,11 @@ static void APIENTRY listen(GLenum source, GLenum type, GLuint id, GLenum severi
     if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP || type == GL_DEBUG_TYPE_OTHER ||
         f->planting)
         return;
-    // A driver compiles a program again for the state in which a draw first finds it.
-    if (type == GL_DEBUG_TYPE_PERFORMANCE && strstr(message, "recompiled based on GL state")) return;
+    // A driver compiles a program again for the state in which a draw first finds it. The first
+    // sentence is NVIDIA's, the second Mesa's.
+    if (type == GL_DEBUG_TYPE_PERFORMANCE &&
+        (strstr(message, "recompiled based on GL state") || strstr(message, " shader variant (")))
+        return;
     snprintf(f->message, sizeof f->message, "%s", message);
 }
 
@@ -393,6 +396,9 @@ static void compatibility_context_keeps_fixed_function_state(void** state)
 {
     struct fixture* f = *state;
     assert_true(hair_test_glstate_is_legacy());
+    // Zink of Mesa 22.3 makes 1 of 64 isolines in this profile while a clip distance is enabled,
+    // also in a program without this library. Without clip distances, zink makes no pipeline.
+    if (strncmp((const char*)glGetString(GL_RENDERER), "zink", 4) == 0) skip();
     check_all_calls(f, HAIR_GL_STATE_RESTORE);
 }
 
