@@ -9,7 +9,7 @@ ANALYZED = $(filter-out $(if $(filter 1,$(hosts)),,tools/examples/vulkan_host.c)
 ANALYZE_FLAGS = -std=c17 -Iinclude -I. -I$(B)/tools/examples $(TOOL_CFLAGS) $(call packages,--cflags,sdl2)
 analyze: $(if $(filter 1,$(hosts)),$(VULKAN_SHADERS)) analyze-gcc analyze-amalgam analyze-tidy analyze-cppcheck ## Static analysis of lib/ and tools/ by gcc, clang-tidy and cppcheck
 analyze-gcc:
-	@printf '%s\n' $(ANALYZED) | xargs -P $(JOBS) -I{} gcc $(ANALYZE_FLAGS) -O1 -Werror -fanalyzer \
+	@printf '%s\n' $(ANALYZED) | xargs -P $(JOBS) -I{} gcc $(ANALYZE_FLAGS) -O1 -Werror -Wno-psabi -fanalyzer \
 	  -Wno-analyzer-use-of-uninitialized-value -c {} -o /dev/null
 # Other checks of the compilers work only with optimization.
 analyze-amalgam: amalgam

@@ -36,7 +36,7 @@ static const struct row {
 } rows[] = {
     {"json", JSON, "FILE", "write the rows as JSON"},
     {"csv", CSV, "FILE", "write the rows as CSV, with the same keys"},
-    {"quick", QUICK, NULL, "fewer and smaller cases: a minute at most"},
+    {"quick", QUICK, NULL, "fewer and smaller cases"},
     {"case", CASE, "NAME", "only this case of the suite; a name that ends with * is any that begins so"},
     {"method", METHOD, "NAME",
      "only this solver: direct, accurate, follow or redblack; of collision, only\n"
