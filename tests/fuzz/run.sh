@@ -9,7 +9,7 @@ shift 2
 [ $# -gt 0 ] || set -- hairfile groomfile tfx tfx_text obj save members groom_arguments bench_arguments scene capture_arguments gltf
 status=0
 for parser; do
-    case $parser in save) max=4096 ;; scene) max=2048 ;; *_arguments) max=256 ;; *) max=1024 ;; esac
+    case $parser in save | gltf) max=4096 ;; scene) max=2048 ;; groomfile) max=1536 ;; *_arguments) max=256 ;; *) max=1024 ;; esac
     start=$(date +%s) running=
     mkdir -p work/$parser logs found && rm -f logs/$parser-*
     for core in $(seq "$cores"); do
