@@ -202,6 +202,7 @@ void hair_encode_groomfile(const hair_asset* asset, unsigned char* bytes)
         at += HAIR_GROOMFILE_CHUNK + size;
         ++chunks;
     }
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(bytes, HAIR_GROOMFILE_MAGIC, 8);
     hair_write_u32(bytes + 8, HAIR_GROOMFILE_VERSION);
     hair_write_u32(bytes + 12, chunks);

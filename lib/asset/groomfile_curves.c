@@ -34,6 +34,7 @@ static float place_on_strand(float root, int step, int32_t point)
 static bool is_near(const float* a, const float* b, uint32_t count, double max)
 {
     for (uint32_t i = 0; i < count; ++i, a += 3, b += 3) {
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): `a` is filled.
         double x = (double)a[0] - b[0], y = (double)a[1] - b[1], z = (double)a[2] - b[2];
         double far = (double)a[0] * a[0] + (double)a[1] * a[1] + (double)a[2] * a[2];
         if (!(x * x + y * y + z * z <= max * max && far <= FARTHEST * FARTHEST)) return false;

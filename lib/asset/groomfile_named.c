@@ -49,6 +49,7 @@ static unsigned char* write_name(unsigned char* at, const char* name)
 {
     HAIR_ASSERT(strlen(name) < NAME);
     memset(at, 0, NAME);
+    // NOLINTNEXTLINE(bugprone-not-null-terminated-result): the bytes are no string.
     memcpy(at, name, strlen(name));
     return at + NAME;
 }
