@@ -200,7 +200,7 @@ static hair_result copy_roots(const struct hair_piece_source* source, const stru
     for (uint32_t i = 0; i < groom->info.follower_count; ++i) {
         uint32_t follower = source->pieces[origin->follower[i]].follower;
         groom->followers[i].seed = from->followers[follower].seed;
-        for (size_t k = 0; groom->root_uvs && k < 2; ++k)
+        for (size_t k = 0; from->root_uvs && k < 2; ++k)
             groom->root_uvs[2 * (size_t)i + k] = from->root_uvs[2 * (size_t)follower + k];
     }
     return HAIR_OK;

@@ -192,10 +192,12 @@ static void serialize_fractions(struct hair_serializer* s, const char* name, uin
     if (s->read && !s->result) {
         if (count <= (s->end - s->at) / sizeof *fraction)
             fraction = *loaded = hair_alloc(s->host, count, sizeof *fraction);
-        if (!*loaded)
+        if (!*loaded) {
             s->result = hair_fail(s->host, HAIR_ERROR_FILE,
                                   "the %u numbers \"%s\" from byte %zu of the saved state on do not fit",
                                   count, name, s->at);
+            return;
+        }
     }
     for (uint32_t i = 0; i < count && !s->result; ++i) {
         hair_serialize_float(s, name, &fraction[i], 1);
